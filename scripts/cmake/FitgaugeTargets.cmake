@@ -1,0 +1,66 @@
+# How every target of fitgauge is built: the language, the warnings, the sanitizers, and one
+# function per kind of target.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+find_program(FITGAUGE_CCACHE ccache)
+if(FITGAUGE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${FITGAUGE_CCACHE}")
+  set(CMAKE_C_COMPILER_LAUNCHER "${FITGAUGE_CCACHE}")
+endif()
+
+add_library(fitgauge_options INTERFACE)
+target_compile_options(fitgauge_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Werror
+  # Objects and error texts carry no path of the machine that built them.
+  "-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=" "-ffile-prefix-map=${CMAKE_BINARY_DIR}/include/=")
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  target_compile_definitions(fitgauge_options INTERFACE _FORTIFY_SOURCE=2)
+  target_compile_options(fitgauge_options INTERFACE -fstack-protector-strong)
+  target_link_options(fitgauge_options INTERFACE -Wl,-z,relro,-z,now)
+endif()
+if(FITGAUGE_SANITIZE)
+  target_compile_options(fitgauge_options INTERFACE
+    "-fsanitize=${FITGAUGE_SANITIZE}" -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(fitgauge_options INTERFACE "-fsanitize=${FITGAUGE_SANITIZE}")
+endif()
+if(FITGAUGE_COVERAGE)
+  target_compile_options(fitgauge_options INTERFACE --coverage)
+  target_link_options(fitgauge_options INTERFACE --coverage)
+endif()
+if(FITGAUGE_FUZZ)
+  target_compile_options(fitgauge_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# fitgauge_library(<name> [PUBLIC <targets>] [PRIVATE <targets>])
+# The layer <name> from every *.cpp of the current folder. Its include root holds this folder alone,
+# so `#include "<layer>/<file>.hpp"` compiles only where that layer is linked.
+function(fitgauge_library name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  set(root "${CMAKE_BINARY_DIR}/include/${name}")
+  file(MAKE_DIRECTORY "${root}")
+  file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${root}/${name}" SYMBOLIC)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  add_library(${name} STATIC ${sources})
+  target_include_directories(${name} PUBLIC "${root}")
+  target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} fitgauge_options)
+endfunction()
+
+# fitgauge_doctest(<kind> <name> [LINKS <targets>])
+# One doctest executable <kind>_<name> from every *.cpp below the folder <name>, and one ctest of the
+# same name, which also fails when the number of cases that ran differs from --count.
+function(fitgauge_doctest kind name)
+  cmake_parse_arguments(arg "" "" "LINKS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
+  set(target "${kind}_${name}")
+  add_executable(${target} ${sources})
+  target_link_libraries(${target} PRIVATE ${arg_LINKS} test_support fitgauge_options)
+  add_test(NAME "${kind}.${name}"
+    COMMAND "${CMAKE_SOURCE_DIR}/tests/support/run_doctest" "$<TARGET_FILE:${target}>"
+    WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
+endfunction()

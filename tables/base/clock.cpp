@@ -1,0 +1,164 @@
+#include "base/clock.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <iterator>
+
+namespace fitgauge {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+/// Walks over a fixed-form text; once a part did not match, `ok` stays false.
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : text_(text) {}
+
+  int digits(int count) {
+    int value = 0;
+    for (int i = 0; i < count; ++i) {
+      if (!at_digit()) return fail();
+      value = value * 10 + (take() - '0');
+    }
+    return value;
+  }
+
+  void literal(char expected) {
+    if (text_.empty() || text_.front() != expected) {
+      fail();
+    } else {
+      take();
+    }
+  }
+
+  char one_of(std::string_view choices) {
+    if (text_.empty() || choices.find(text_.front()) == std::string_view::npos) {
+      fail();
+      return '\0';
+    }
+    return take();
+  }
+
+  /// The fraction of a second after its point, in nanoseconds.
+  std::int64_t fraction() {
+    if (!at_digit()) return fail();
+    std::int64_t value = 0;
+    std::int64_t unit = kSecond / 10;
+    while (at_digit()) {
+      const int digit = take() - '0';
+      if (unit == 0 && digit != 0) return fail();
+      value += unit * digit;
+      unit /= 10;
+    }
+    return value;
+  }
+
+  bool at(char c) const { return !text_.empty() && text_.front() == c; }
+  bool done() const { return ok_ && text_.empty(); }
+
+ private:
+  bool at_digit() const { return !text_.empty() && text_.front() >= '0' && text_.front() <= '9'; }
+  char take() {
+    const char c = text_.front();
+    text_.remove_prefix(1);
+    return c;
+  }
+  int fail() {
+    ok_ = false;
+    return 0;
+  }
+
+  std::string_view text_;
+  bool ok_ = true;
+};
+
+std::chrono::sys_days date_of(int year, int month, int day, bool& valid) {
+  const std::chrono::year_month_day date{std::chrono::year(year),
+                                         std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  valid = date.ok() && year >= 1678 && year <= 2261;
+  return valid ? std::chrono::sys_days(date) : std::chrono::sys_days();
+}
+
+}  // namespace
+
+Result<Timestamp> parse_rfc3339(std::string_view text) {
+  Reader reader(text);
+  const int year = reader.digits(4);
+  reader.literal('-');
+  const int month = reader.digits(2);
+  reader.literal('-');
+  const int day = reader.digits(2);
+  reader.one_of("Tt ");
+  const int hour = reader.digits(2);
+  reader.literal(':');
+  const int minute = reader.digits(2);
+  reader.literal(':');
+  const int second = reader.digits(2);
+  std::int64_t fraction = 0;
+  if (reader.at('.')) {
+    reader.literal('.');
+    fraction = reader.fraction();
+  }
+  std::int64_t offset_minutes = 0;
+  const char zone = reader.one_of("Zz+-");
+  if (zone == '+' || zone == '-') {
+    const int offset_hour = reader.digits(2);
+    reader.literal(':');
+    const int offset_minute = reader.digits(2);
+    if (offset_hour > 23 || offset_minute > 59) reader.literal('\0');
+    offset_minutes = (zone == '-' ? -1 : 1) * (offset_hour * 60 + offset_minute);
+  }
+
+  bool valid_date = false;
+  const auto days = date_of(year, month, day, valid_date);
+  const bool leap_second = second == 60;
+  const std::int64_t minute_of_day = hour * 60 + minute - offset_minutes;
+  const bool ends_utc_day = (minute_of_day % 1440 + 1440) % 1440 == 1439;
+  if (!reader.done() || !valid_date || hour > 23 || minute > 59 || second > 60 ||
+      (leap_second && !ends_utc_day)) {
+    return Error{ErrorCode::TimeMalformed,
+                 "'" + std::string(text.substr(0, 40)) +
+                     "' is not an RFC 3339 time such as 2026-11-20T08:00:00+01:00, with at most 9 "
+                     "digits of the second, between 1678 and 2261"};
+  }
+  const std::int64_t seconds =
+      days.time_since_epoch().count() * std::int64_t{86'400} + minute_of_day * 60 + second;
+  return Timestamp{seconds * kSecond + fraction};
+}
+
+CivilTime civil_time(Timestamp time) {
+  using namespace std::chrono;
+  const sys_time<nanoseconds> instant{nanoseconds(time.nanoseconds)};
+  const sys_days day = floor<days>(instant);
+  const year_month_day date(day);
+  const hh_mm_ss clock(instant - day);
+  return {.year = static_cast<int>(date.year()),
+          .month = static_cast<int>(static_cast<unsigned>(date.month())),
+          .day = static_cast<int>(static_cast<unsigned>(date.day())),
+          .hour = static_cast<int>(clock.hours().count()),
+          .minute = static_cast<int>(clock.minutes().count()),
+          .second = static_cast<int>(clock.seconds().count()),
+          .nanosecond = static_cast<int>(clock.subseconds().count()),
+          .weekday = static_cast<int>(weekday(day).c_encoding())};
+}
+
+std::string format_rfc3339(Timestamp time) {
+  const CivilTime civil = civil_time(time);
+  std::string out = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", civil.year, civil.month,
+                                civil.day, civil.hour, civil.minute, civil.second);
+  if (civil.nanosecond != 0) {
+    fmt::format_to(std::back_inserter(out), ".{:09}", civil.nanosecond);
+    out.erase(out.find_last_not_of('0') + 1);
+  }
+  return out += 'Z';
+}
+
+Timestamp SystemClock::now() const {
+  using namespace std::chrono;
+  const auto now = time_point_cast<microseconds>(system_clock::now());
+  return {duration_cast<nanoseconds>(now.time_since_epoch()).count()};
+}
+
+}  // namespace fitgauge

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/result.hpp"
+
+namespace fitgauge {
+
+/// A length, or a difference of lengths, in whole nanometres: exact in every sum and comparison.
+/// As doubles, 25 % of all `size + deviation / 1000` differ from the exact decimal. Doubles cross
+/// at `nearest_mm` and `to_mm` only.
+class Length {
+ public:
+  constexpr Length() = default;
+
+  static constexpr Length nanometres(std::int64_t count) { return Length(count); }
+  static constexpr Length micrometres(std::int64_t count) { return Length(count * 1'000); }
+  static constexpr Length millimetres(std::int64_t count) { return Length(count * 1'000'000); }
+
+  /// The nearest nanometre to a floating-point value in mm, half away from zero.
+  /// @errors LengthOutOfRange when it is not finite or beyond 1e12 mm.
+  static Result<Length> nearest_mm(double millimetres);
+
+  constexpr std::int64_t count() const { return nanometres_; }
+
+  /// The nearest double, in mm: not exact.
+  constexpr double to_mm() const { return static_cast<double>(nanometres_) / 1e6; }
+
+  constexpr Length operator-() const { return Length(-nanometres_); }
+  constexpr Length& operator+=(Length other) { return *this = *this + other; }
+  constexpr Length& operator-=(Length other) { return *this = *this - other; }
+  friend constexpr Length operator+(Length a, Length b) {
+    return Length(a.nanometres_ + b.nanometres_);
+  }
+  friend constexpr Length operator-(Length a, Length b) {
+    return Length(a.nanometres_ - b.nanometres_);
+  }
+  friend constexpr Length operator*(Length a, std::int64_t factor) {
+    return Length(a.nanometres_ * factor);
+  }
+  friend constexpr auto operator<=>(Length, Length) = default;
+
+ private:
+  explicit constexpr Length(std::int64_t count) : nanometres_(count) {}
+
+  std::int64_t nanometres_ = 0;
+};
+
+/// The largest magnitude read from text: 1e9 mm. Sums of a few such lengths still fit 64 bits.
+inline constexpr Length kLongest = Length::millimetres(1'000'000'000);
+
+/// Which texts are a length.
+struct LengthSyntax {
+  bool decimal_comma = false;     ///< `25,5`: paths, queries, designations, CSV
+  bool exponent = false;          ///< `2.5e1`: JSON numbers only
+  bool round_to_nearest = false;  ///< measured values: to the nearest nanometre instead of refused
+};
+
+/// Reads a length in millimetres.
+/// @errors LengthMalformed, LengthTooFine, LengthOutOfRange (beyond ±kLongest).
+Result<Length> parse_length_mm(std::string_view text, LengthSyntax syntax = {});
+
+/// Reads a length in micrometres; errors as parse_length_mm.
+Result<Length> parse_length_um(std::string_view text, LengthSyntax syntax = {});
+
+/// The shortest exact decimal in mm (`25.021`) or µm (`-0.75`).
+void append_mm(std::string& out, Length length);
+void append_um(std::string& out, Length length);
+std::string format_mm(Length length);
+std::string format_um(Length length);
+
+}  // namespace fitgauge

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace fitgauge {
+
+/// The offset of the first byte that is not valid UTF-8 (RFC 3629: no surrogates, no overlong
+/// forms), or npos.
+std::size_t find_invalid_utf8(std::string_view text);
+
+inline bool is_utf8(std::string_view text) {
+  return find_invalid_utf8(text) == std::string_view::npos;
+}
+
+/// Windows-1252 as UTF-8; the five bytes it does not define become the C1 controls of the same
+/// number.
+std::string utf8_from_windows1252(std::string_view bytes);
+
+constexpr char ascii_upper(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+constexpr char ascii_lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+std::string ascii_upper(std::string_view text);
+std::string ascii_lower(std::string_view text);
+bool ascii_iequals(std::string_view a, std::string_view b);
+
+/// Without leading and trailing blanks and tabs.
+std::string_view trim(std::string_view text);
+
+}  // namespace fitgauge
