@@ -1,0 +1,107 @@
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/length.hpp"
+#include "http/method.hpp"
+
+namespace fitgauge::http {
+
+struct Route;
+
+/// The value of a parameter after parsing: text and words as text, decimals as the integer
+/// value times 10^scale.
+using ArgumentValue = std::variant<std::string_view, std::int64_t, Length, bool, Timestamp>;
+
+/// One request whose route is found and whose parameters are checked. The views stay valid until it
+/// is answered: for an asynchronous handler, as long as its Responder. Filled in by the engine;
+/// read by one thread at a time.
+class Request {
+ public:
+  Method method() const { return method_; }
+  /// The path as sent, not decoded: `/v1/limits/25%20H7`.
+  std::string_view path() const { return path_; }
+  /// What follows the `?` as sent, without it; empty when there is none.
+  std::string_view query() const { return query_; }
+
+  /// The value of the first field of that name, case-insensitive.
+  std::optional<std::string_view> header(std::string_view name) const;
+  /// All fields of that name joined with ", ", as RFC 9110 section 5.3 allows for lists.
+  std::optional<std::string> header_list(std::string_view name) const;
+
+  /// The arguments of the route's parameters by name (path, query and header parameters together):
+  /// empty when an optional one is absent. Reading a parameter the route does not declare, or as
+  /// another type than declared, is a bug: std::logic_error.
+  std::optional<std::string_view> text(std::string_view name) const;
+  std::optional<std::int64_t> integer(std::string_view name) const;  ///< Integer and Decimal
+  std::optional<Length> length(std::string_view name) const;
+  std::optional<bool> boolean(std::string_view name) const;
+  std::optional<Timestamp> time(std::string_view name) const;
+
+  /// The decoded body; empty when there is none. kBodyPadding bytes after its end are readable.
+  std::string_view body() const { return body_; }
+  static constexpr std::size_t kBodyPadding = 64;
+  /// The body's media type in lower case without parameters; empty when the request names none.
+  std::string_view media_type() const { return media_type_; }
+  /// The one of the route's response media types that the client prefers.
+  std::string_view response_type() const { return response_type_; }
+
+  /// Unique in this process and unlikely elsewhere; 16 hexadecimal digits as text.
+  std::uint64_t id() const { return id_; }
+  std::string id_text() const;
+
+  std::string_view peer_address() const { return peer_address_; }  ///< `127.0.0.1`, `::1`
+  /// From this machine itself: a loopback peer and no proxy's field (Forwarded, X-Forwarded-*).
+  bool is_local() const;
+  bool is_tls() const { return tls_; }
+  /// The subject of the client's certificate (RFC 2253), verified against the client CA; or empty.
+  std::string_view client_certificate() const { return client_certificate_; }
+  /// `https://host:port` or `http://…` as the client addressed it, for comparing Origin.
+  std::string own_origin() const;
+
+  /// The route found, or null where the request was refused before one was.
+  const Route* route() const { return route_; }
+
+  /// Who sent it: whatever the guard stored, or null.
+  template <class T>
+  const T* caller() const {
+    return std::any_cast<T>(&caller_);
+  }
+  void set_caller(std::any caller) { caller_ = std::move(caller); }
+
+ private:
+  friend class Exchange;
+
+  struct Field {
+    std::string_view name;
+    std::string_view value;
+  };
+
+  const std::optional<ArgumentValue>& argument(std::string_view name) const;
+
+  Method method_ = Method::Other;
+  bool tls_ = false;
+  bool loopback_ = false;
+  std::uint64_t id_ = 0;
+  const Route* route_ = nullptr;
+  std::string_view path_;
+  std::string_view query_;
+  std::string_view host_;
+  std::string_view body_;
+  std::string_view response_type_;
+  std::string_view peer_address_;
+  std::string_view client_certificate_;
+  std::string media_type_;
+  std::vector<Field> fields_;
+  std::vector<std::optional<ArgumentValue>> arguments_;  ///< parallel to the route's parameters
+  std::any caller_;
+};
+
+}  // namespace fitgauge::http

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/result.hpp"
+#include "http/method.hpp"
+#include "http/request.hpp"
+#include "http/responder.hpp"
+#include "http/response.hpp"
+
+namespace fitgauge::http {
+
+// What a parameter's text may be. Every kind is checked before the handler runs; a refused path or
+// query value names the parameter and what it takes.
+
+struct Text {
+  std::size_t max_length = 1024;  ///< bytes after decoding; may be empty in a query
+};
+struct Integer {
+  std::int64_t min = std::numeric_limits<std::int64_t>::min();
+  std::int64_t max = std::numeric_limits<std::int64_t>::max();
+};
+/// A decimal number, read as value times 10^scale; a decimal comma is accepted. The range counts in
+/// the same scaled integers.
+struct Decimal {
+  int scale = 6;
+  std::int64_t min = std::numeric_limits<std::int64_t>::min();
+  std::int64_t max = std::numeric_limits<std::int64_t>::max();
+};
+enum class LengthUnit : std::uint8_t { Millimetre, Micrometre };
+/// A length; a decimal comma is accepted. Refused with the codes of base/length.hpp.
+struct LengthIn {
+  LengthUnit unit = LengthUnit::Millimetre;
+  bool round_to_nearest = false;  ///< measured values: to the nearest nanometre instead of refused
+};
+struct Words {
+  std::vector<std::string> words;
+};
+/// `true`, `false`, `1` or `0`.
+struct Boolean {};
+/// RFC 3339.
+struct Time {};
+
+using ParameterType = std::variant<Text, Integer, Decimal, LengthIn, Words, Boolean, Time>;
+
+enum class ParameterPlace : std::uint8_t { Path, Query, Header };
+
+struct Parameter {
+  std::string name;
+  ParameterPlace place = ParameterPlace::Query;
+  ParameterType type = Text{};
+  bool required = false;  ///< a path parameter always is
+  std::string description{};
+};
+
+enum class BodyUse : std::uint8_t {
+  None,      ///< a body is read and thrown away
+  Optional,  ///< may be absent; its media type is checked when there is one
+  Required,  ///< 411 without a length, 415 without one of the route's media types
+};
+
+struct BodyRules {
+  BodyUse use = BodyUse::None;
+  /// Lower case, without parameters; empty takes any or none. Charset may only be UTF-8.
+  std::vector<std::string> media_types{};
+  std::size_t limit = std::size_t{1} << 20;  ///< bytes, after decompression
+};
+
+/// An expected failure is returned; the error formatter makes the answer of it.
+using SyncHandler = std::function<Result<Response>(const Request&)>;
+using AsyncHandler = std::function<void(const Request&, Responder)>;
+/// Called on an I/O thread: neither blocks. What takes long goes to a worker with its Responder.
+using Handler = std::variant<SyncHandler, AsyncHandler>;
+
+/// One operation as data: dispatch, validation, error texts and the API's description come from it.
+/// GET answers HEAD too; OPTIONS and 405 are derived.
+struct Route {
+  Method method = Method::Get;
+  /// `/v1/fits/{hole}/{shaft}`; the last segment may be `{path*}`: the rest of the path, at least
+  /// one character. A literal segment goes before a parameter.
+  std::string pattern;
+  Handler handler;
+  std::string summary{};
+  std::string description{};
+  /// Path parameters may be left out: they are then required text.
+  std::vector<Parameter> parameters{};
+  BodyRules body{};
+  /// For Accept: the first is the default; none of them acceptable is 406. Empty skips the check.
+  std::vector<std::string> response_types{"application/json"};
+  std::string access{};  ///< what the guard asks for; the engine does not read it
+};
+
+/// The routes and their index. Immutable after construction; read by every I/O thread.
+class RouteTable {
+ public:
+  /// @throws std::logic_error for a malformed pattern, two routes of one method and shape, or a
+  /// path
+  ///   parameter that the pattern does not have.
+  explicit RouteTable(std::vector<Route> routes);
+  RouteTable(RouteTable&&) noexcept;
+  RouteTable& operator=(RouteTable&&) noexcept;
+  ~RouteTable();
+
+  const std::vector<Route>& routes() const { return routes_; }
+
+ private:
+  friend class Exchange;
+  struct Node;
+
+  std::vector<Route> routes_;
+  std::unique_ptr<Node> root_;
+};
+
+}  // namespace fitgauge::http

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "http/request.hpp"
+#include "http/response.hpp"
+#include "http/route.hpp"
+
+namespace fitgauge::http {
+
+struct ListenAddress {
+  std::string host;  ///< a numeric address: `127.0.0.1`, `::1`, `0.0.0.0`
+  std::uint16_t port = 0;
+
+  bool is_loopback() const;
+};
+
+/// Reads `127.0.0.1:8286`, `[::1]:8286` or `localhost:8286` (127.0.0.1).
+/// @errors ConfigInvalid
+Result<ListenAddress> parse_listen_address(std::string_view text);
+
+struct TlsOptions {
+  std::string certificate_file;  ///< PEM, the chain
+  std::string key_file;          ///< PEM
+  std::string client_ca_file{};  ///< PEM; empty: clients are not asked for a certificate
+  bool require_client_certificate = false;
+};
+
+struct ServerOptions {
+  std::vector<ListenAddress> listen;
+  unsigned io_threads = 1;
+  /// Beyond it a connection is answered 503 and closed.
+  std::size_t max_connections = 1024;
+  /// Bytes of large bodies in memory at once, all connections together. A body waits for its share;
+  /// under pressure a sender that has stopped loses its own.
+  std::size_t body_budget = std::size_t{64} << 20;
+  std::chrono::milliseconds header_timeout = std::chrono::seconds(10);
+  std::chrono::milliseconds request_timeout = std::chrono::seconds(30);  ///< header and body
+  std::chrono::milliseconds idle_timeout = std::chrono::seconds(30);
+  std::chrono::milliseconds write_timeout = std::chrono::seconds(30);  ///< a reader takes nothing
+  /// How long stop() waits for requests in flight.
+  std::chrono::milliseconds drain_timeout = std::chrono::seconds(10);
+  std::optional<TlsOptions> tls{};
+};
+
+/// One answered request, for logs and metrics.
+struct FinishedRequest {
+  std::uint64_t id = 0;
+  std::string_view route;  ///< the pattern, or empty when none was found
+  std::string_view method;
+  int status = 0;
+  std::int64_t microseconds = 0;  ///< from its first byte to the answer's last byte
+  std::uint64_t bytes_received = 0;
+  std::uint64_t bytes_sent = 0;
+  std::string_view peer_address;
+};
+
+struct ServerHooks {
+  /// Makes the document of an error. `status` is set where the engine itself refuses; otherwise the
+  /// error came from a handler or guard and its code decides. Without this hook: plain text.
+  std::function<Response(const Error& error, std::optional<int> status, const Request& request)>
+      format_error{};
+  /// Runs on the head before the body is read; a returned response or error is the answer.
+  std::function<Result<std::optional<Response>>(Request& request, const Route& route)> guard{};
+  std::function<void(const FinishedRequest&)> finished{};
+  /// A handler threw: `what` is the exception's text. The client got 500 with the request's id.
+  std::function<void(const Request&, std::string_view what)> handler_threw{};
+};
+
+struct ServerCounters {
+  std::uint64_t connections_accepted = 0;
+  std::uint64_t connections_open = 0;
+  std::uint64_t connections_refused = 0;  ///< beyond max_connections
+  std::uint64_t requests = 0;
+  std::uint64_t body_bytes_in_flight = 0;
+};
+
+/// Owns the listening sockets, the I/O threads and every connection. Hooks and handlers are called
+/// on the I/O threads; the functions below from any thread.
+class Server {
+ public:
+  /// Binds, listens and starts the threads.
+  /// @errors ListenFailed with the address and the reason, ConfigInvalid for unusable certificates.
+  static Result<std::unique_ptr<Server>> start(ServerOptions options, RouteTable routes,
+                                               ServerHooks hooks);
+  /// Stops; every Responder must be gone.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// The ports in the order of ServerOptions::listen: the actual ones where 0 was asked for.
+  const std::vector<std::uint16_t>& ports() const;
+
+  ServerCounters counters() const;
+
+  /// Reads the certificate files again; connections that stand keep theirs.
+  /// @errors ConfigInvalid: the old ones stay in use.
+  Result<void> reload_tls();
+
+  /// Stops accepting, closes idle connections, waits for requests in flight (at most
+  /// drain_timeout; streams are cut), closes the rest. Answers that come later are dropped.
+  void stop();
+
+ private:
+  class Impl;
+  explicit Server(std::unique_ptr<Impl> impl);
+
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fitgauge::http
