@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/length.hpp"
+#include "base/result.hpp"
+
+namespace fitgauge::gauging {
+
+/// The factor k that widens a standard uncertainty (JCGM 100, 6.2), an exact decimal > 0 with up to
+/// six digits after the point.
+class CoverageFactor {
+ public:
+  /// k = 2.
+  constexpr CoverageFactor() = default;
+
+  /// @errors RuleInvalid.
+  static Result<CoverageFactor> parse(std::string_view text, bool exponent = false);
+  static Result<CoverageFactor> from_millionths(std::int64_t millionths);
+
+  constexpr std::int64_t millionths() const { return millionths_; }
+
+  friend constexpr auto operator<=>(CoverageFactor, CoverageFactor) = default;
+
+ private:
+  explicit constexpr CoverageFactor(std::int64_t millionths) : millionths_(millionths) {}
+
+  std::int64_t millionths_ = 2'000'000;
+};
+
+/// `2`, `1.96`.
+std::string format(CoverageFactor factor);
+
+/// How a measured value is compared with the limits (ISO 14253-1).
+class DecisionRule {
+ public:
+  enum class Kind : std::uint8_t { Simple, GuardBand };
+
+  /// Against the limits themselves.
+  constexpr DecisionRule() = default;
+
+  /// Against limits moved inwards and outwards by g = k·u.
+  /// @errors RuleInvalid when the uncertainty is negative.
+  static Result<DecisionRule> guard_band(Length standard_uncertainty, CoverageFactor factor = {});
+
+  constexpr Kind kind() const { return kind_; }
+  constexpr Length standard_uncertainty() const { return standard_uncertainty_; }
+  constexpr CoverageFactor coverage_factor() const { return coverage_factor_; }
+
+  friend constexpr bool operator==(const DecisionRule&, const DecisionRule&) = default;
+
+ private:
+  Kind kind_ = Kind::Simple;
+  Length standard_uncertainty_;
+  CoverageFactor coverage_factor_;
+};
+
+/// `simple` or `guard_band`.
+std::string_view word(DecisionRule::Kind kind);
+std::optional<DecisionRule::Kind> rule_from_word(std::string_view text);
+
+}  // namespace fitgauge::gauging

@@ -1,0 +1,47 @@
+#include "gauging/gauge.hpp"
+
+#include <cassert>
+
+namespace fitgauge::gauging {
+namespace {
+
+using iso286::Feature;
+
+/// A guard band k·u in millionths of a nanometre needs more than 64 bits.
+__extension__ using Wide = __int128;
+
+constexpr Verdict above(Feature feature) {
+  return feature == Feature::Hole ? Verdict::Reject : Verdict::Rework;
+}
+
+constexpr Verdict below(Feature feature) {
+  return feature == Feature::Hole ? Verdict::Rework : Verdict::Reject;
+}
+
+/// Lengths and guard band in millionths of a nanometre.
+Verdict verdict(Feature feature, Wide upper, Wide lower, Wide measured, Wide guard) {
+  if (measured >= lower + guard && measured <= upper - guard) return Verdict::Good;
+  if (measured > upper + guard) return above(feature);
+  if (measured < lower - guard) return below(feature);
+  return Verdict::Indeterminate;
+}
+
+}  // namespace
+
+GaugingResult gauge(Feature feature, Length upper_limit, Length lower_limit, Length measured,
+                    const DecisionRule& rule) {
+  assert(lower_limit <= upper_limit);
+  constexpr Wide kMillion = 1'000'000;
+  const bool guarded = rule.kind() == DecisionRule::Kind::GuardBand;
+  const Wide guard =
+      guarded ? Wide{rule.standard_uncertainty().count()} * rule.coverage_factor().millionths()
+              : Wide{0};
+  GaugingResult result;
+  result.verdict = verdict(feature, upper_limit.count() * kMillion, lower_limit.count() * kMillion,
+                           measured.count() * kMillion, guard);
+  if (measured > upper_limit) result.excess = measured - upper_limit;
+  if (measured < lower_limit) result.excess = measured - lower_limit;
+  return result;
+}
+
+}  // namespace fitgauge::gauging

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "iso286/limit_deviations.hpp"
+#include "iso286/nominal_size.hpp"
+#include "iso286/tolerance_class.hpp"
+
+namespace fitgauge::iso286 {
+
+/// Where limits come from: the standard, or a column of the shop's own.
+enum class Basis : std::uint8_t { Iso286, Custom };
+
+/// `iso286` or `custom`.
+constexpr std::string_view word(Basis basis) {
+  return basis == Basis::Iso286 ? "iso286" : "custom";
+}
+
+/// The limits of size of one nominal size and class (ISO 286-1, 3.2.3), exact in nanometres.
+struct LimitsOfSize {
+  NominalSize nominal_size;
+  ClassId class_id;
+  Feature feature;
+  Basis basis;
+  LimitDeviations deviations;
+  NominalSizeRange size_range;  ///< the step of the standard tolerance, or the custom column's row
+
+  constexpr Length upper_limit() const { return nominal_size.length() + deviations.upper; }
+  constexpr Length lower_limit() const { return nominal_size.length() + deviations.lower; }
+  constexpr Length tolerance() const { return deviations.upper - deviations.lower; }
+};
+
+}  // namespace fitgauge::iso286

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "iso286/feature.hpp"
+#include "iso286/limit_deviations.hpp"
+#include "iso286/nominal_size.hpp"
+
+namespace fitgauge::iso286 {
+
+/// The three tables of the standard, as they are stored.
+enum class TableId : std::uint8_t {
+  ItGrades,                    ///< ISO 286-1, Table 1: 21 steps
+  HoleFundamentalDeviations,   ///< Tables 2 and 3: 41 steps, with the deltas
+  ShaftFundamentalDeviations,  ///< Tables 4 and 5: 41 steps
+};
+inline constexpr std::array kTableIds = {TableId::ItGrades, TableId::HoleFundamentalDeviations,
+                                         TableId::ShaftFundamentalDeviations};
+
+/// `it_grades`, `hole_fundamental_deviations`, `shaft_fundamental_deviations`: the files' names.
+std::string_view name(TableId table);
+std::optional<TableId> table_from_name(std::string_view name);
+
+/// One cell; without a value the standard defines nothing there. Columns are named as in the CSV:
+/// `IT7`, `EI_A`, `ES_K_le_IT8_base`, `delta_IT3`. JS and js have no column: they are ±IT/2.
+struct TableCell {
+  TableId table;
+  NominalSizeRange range;
+  std::string column;
+  std::optional<Length> value;
+
+  friend bool operator==(const TableCell&, const TableCell&) = default;
+};
+
+/// A row of a shop's own column.
+struct CustomRow {
+  NominalSizeRange range;
+  LimitDeviations deviations;
+
+  friend bool operator==(const CustomRow&, const CustomRow&) = default;
+};
+
+/// A shop's own column: from then on it answers for its name, also where the standard has a class
+/// of that name, and no size it does not cover is answered.
+struct CustomColumn {
+  Feature feature = Feature::Hole;
+  std::string name;
+  std::vector<CustomRow> rows;  ///< ascending and contiguous
+
+  friend bool operator==(const CustomColumn&, const CustomColumn&) = default;
+};
+
+/// The plain content of one table revision, as it is stored and digested; not yet checked.
+struct TableData {
+  std::vector<TableCell> cells;
+  std::vector<CustomColumn> custom_columns;
+};
+
+/// The content as text, independent of the order of cells and columns: what a digest is taken of.
+std::string canonical_text(const TableData& data);
+
+/// The tables of ISO 286-1:2010 from tables/data, without custom columns.
+const TableData& compiled_in_tables();
+
+}  // namespace fitgauge::iso286

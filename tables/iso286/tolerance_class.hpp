@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "iso286/feature.hpp"
+
+namespace fitgauge::iso286 {
+
+/// The standard tolerance grades IT01 to IT18, finest first (ISO 286-1, 3.2.8.2).
+enum class StandardToleranceGrade : std::uint8_t {
+  IT01,
+  IT0,
+  IT1,
+  IT2,
+  IT3,
+  IT4,
+  IT5,
+  IT6,
+  IT7,
+  IT8,
+  IT9,
+  IT10,
+  IT11,
+  IT12,
+  IT13,
+  IT14,
+  IT15,
+  IT16,
+  IT17,
+  IT18,
+};
+inline constexpr std::size_t kGradeCount = 20;
+
+/// The fundamental deviation identifiers in alphabetical order, upper case for holes and lower case
+/// for shafts (ISO 286-1, 4.1.4).
+enum class DeviationLetter : std::uint8_t {
+  A,
+  B,
+  C,
+  CD,
+  D,
+  E,
+  EF,
+  F,
+  FG,
+  G,
+  H,
+  J,
+  JS,
+  K,
+  M,
+  N,
+  P,
+  R,
+  S,
+  T,
+  U,
+  V,
+  X,
+  Y,
+  Z,
+  ZA,
+  ZB,
+  ZC,
+};
+inline constexpr std::size_t kLetterCount = 28;
+
+/// The number of a grade as it is written in a class: `7`, `01`.
+std::string_view text(StandardToleranceGrade grade);
+
+/// `H` for holes, `h` for shafts.
+std::string_view text(DeviationLetter letter, Feature feature);
+
+/// A tolerance class of the standard (ISO 286-1, 3.2.8.5): H7, js01.
+struct ToleranceClass {
+  Feature feature = Feature::Hole;
+  DeviationLetter letter = DeviationLetter::H;
+  StandardToleranceGrade grade = StandardToleranceGrade::IT7;
+
+  friend constexpr auto operator<=>(const ToleranceClass&, const ToleranceClass&) = default;
+};
+
+std::string name(const ToleranceClass& tolerance_class);
+
+/// The class of the standard that has this name, defined for some size or not; none for `H19`,
+/// `I7`, `h7x` and the names of custom columns.
+std::optional<ToleranceClass> class_from_name(std::string_view name);
+
+/// Whether `name` may name a column: `[A-Za-z][A-Za-z0-9_]{0,15}`.
+bool is_class_name(std::string_view name);
+
+/// A name with an upper-case first letter belongs to holes.
+/// @pre is_class_name(name)
+Feature feature_of_name(std::string_view name);
+
+/// A class as an index. Classes of the standard have the same id in every table; ids of custom
+/// columns follow and belong to the ToleranceTables that gave them.
+struct ClassId {
+  std::uint16_t index = 0;
+
+  friend constexpr auto operator<=>(ClassId, ClassId) = default;
+};
+
+/// Ids below are classes of the standard.
+inline constexpr std::size_t kStandardClassCount = 2 * kLetterCount * kGradeCount;
+
+constexpr ClassId class_id(const ToleranceClass& c) {
+  const auto feature = static_cast<std::size_t>(c.feature);
+  const auto letter = static_cast<std::size_t>(c.letter);
+  const auto grade = static_cast<std::size_t>(c.grade);
+  return {static_cast<std::uint16_t>((feature * kLetterCount + letter) * kGradeCount + grade)};
+}
+
+/// @pre id.index < kStandardClassCount
+constexpr ToleranceClass standard_class(ClassId id) {
+  const std::size_t letter = id.index / kGradeCount;
+  return {static_cast<Feature>(letter / kLetterCount),
+          static_cast<DeviationLetter>(letter % kLetterCount),
+          static_cast<StandardToleranceGrade>(id.index % kGradeCount)};
+}
+
+}  // namespace fitgauge::iso286

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "iso286/fit.hpp"
+#include "iso286/limits_of_size.hpp"
+#include "iso286/table_data.hpp"
+
+namespace fitgauge::iso286 {
+
+/// The id of the stored revision that tables were made from; opaque.
+struct TableRevision {
+  std::string id;
+
+  friend bool operator==(const TableRevision&, const TableRevision&) = default;
+};
+
+/// All limit deviations of the standard and of a shop's own columns, ready to be read: an array
+/// indexed by class and size range. Owns all it answers from. Immutable, so any thread may read it.
+class ToleranceTables {
+ public:
+  /// @errors TablesInconsistent with one entry in `details` for each finding of table_rules.
+  static Result<ToleranceTables> make(const TableData& data, TableRevision revision);
+
+  const TableRevision& revision() const { return revision_; }
+
+  /// The 41 steps of the fundamental deviations, ascending.
+  std::span<const NominalSizeRange> ranges() const { return ranges_; }
+
+  /// Every class that is defined for some size, by letter, then grade; custom columns that are not
+  /// named like a class of the standard come last, by name.
+  std::span<const ClassId> classes(Feature feature) const {
+    return classes_[static_cast<std::size_t>(feature)];
+  }
+
+  /// @errors DesignationMalformed for what cannot name a class (`7H`, and `H` unless a custom
+  /// column
+  ///   has that name); ClassUnknown for what names none (`H19`, `I7`, `h7x`, and `J9`, which the
+  ///   standard has for no size).
+  Result<ClassId> find_class(std::string_view name) const;
+
+  /// @pre the id is one of these tables, here and below.
+  std::string_view class_name(ClassId id) const { return classes_info_[id.index].name; }
+  Feature feature(ClassId id) const { return classes_info_[id.index].feature; }
+  Basis basis(ClassId id) const {
+    return classes_info_[id.index].custom_rows.empty() ? Basis::Iso286 : Basis::Custom;
+  }
+
+  /// The deviations, or nothing where the class is not defined for the size (or the lower limit of
+  /// size would be 0 or less). A few nanoseconds.
+  std::optional<LimitDeviations> limit_deviations(NominalSize size, ClassId id) const {
+    const Cell& cell = cells_[id.index * kSlots + slot(size)];
+    if (cell.upper == kElsewhere) [[unlikely]]
+      return custom_deviations(size, id);
+    if (size.length().count() + cell.lower <= 0) return std::nullopt;
+    return LimitDeviations{Length::nanometres(cell.upper), Length::nanometres(cell.lower)};
+  }
+
+  /// @errors ClassUndefinedForSize with the reason and the nearest class that is defined.
+  Result<LimitsOfSize> limits_of_size(NominalSize size, ClassId id) const;
+
+  /// Reads the class by its name: errors of find_class and of the above.
+  Result<LimitsOfSize> limits_of_size(NominalSize size, std::string_view class_name) const;
+
+  /// @errors FitMalformed unless the classes are of a hole and a shaft; those of limits_of_size.
+  Result<Fit> fit(NominalSize size, ClassId hole, ClassId shaft) const;
+
+  /// The class to use instead: of the same letter the nearest grade, else of the nearest letter the
+  /// same grade; the finer grade and the earlier letter where two are equally near.
+  std::optional<ClassId> nearest_defined(NominalSize size, ClassId id) const;
+
+ private:
+  // The first step, 0 to 3 mm, is two slots: some classes are not used up to 1 mm.
+  static constexpr std::size_t kSlots = 42;
+  static constexpr std::int32_t kElsewhere = std::numeric_limits<std::int32_t>::min();
+
+  /// In nanometres; `upper` is kElsewhere for an undefined class and for every custom column.
+  struct Cell {
+    std::int32_t upper = kElsewhere;
+    std::int32_t lower = kElsewhere;
+  };
+  struct ClassInfo {
+    std::string name;
+    Feature feature = Feature::Hole;
+    std::vector<CustomRow> custom_rows;
+  };
+
+  ToleranceTables() = default;
+
+  std::size_t slot(NominalSize size) const {
+    constexpr std::int64_t kMillimetre = 1'000'000;
+    return slot_by_ceil_mm_[static_cast<std::size_t>((size.length().count() + kMillimetre - 1) /
+                                                     kMillimetre)];
+  }
+  std::optional<LimitDeviations> custom_deviations(NominalSize size, ClassId id) const;
+
+  TableRevision revision_;
+  std::vector<NominalSizeRange> ranges_;
+  std::vector<NominalSizeRange> tolerance_steps_;  ///< the 21 steps of the standard tolerances
+  std::array<std::uint8_t, 3151> slot_by_ceil_mm_{};
+  std::vector<Cell> cells_;
+  std::vector<ClassInfo> classes_info_;
+  std::array<std::vector<ClassId>, 2> classes_;
+  std::map<std::string, ClassId, std::less<>> ids_by_name_;
+};
+
+}  // namespace fitgauge::iso286
