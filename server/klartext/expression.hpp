@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+/// Expressions as values: leaves are held in place, inner nodes and texts lie in pools of the
+/// Program, so that an expression costs no allocation of its own and can be copied freely.
+namespace fitgauge::klartext {
+
+/// A run of elements in one of the Program's pools; `Program::view` gives the elements.
+template <class T>
+struct Slice {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+
+  friend bool operator==(Slice, Slice) = default;
+};
+
+/// A decoded text in the Program's pool (no quotes, no `~`); `Program::text` gives its characters.
+struct Text {
+  std::uint32_t first = 0;
+  std::uint32_t size = 0;
+
+  bool empty() const { return size == 0; }
+  friend bool operator==(Text, Text) = default;
+};
+
+/// The parameter spaces of the control and their first invalid numbers.
+enum class QSpace : std::uint8_t {
+  Q,   ///< global numbers, 0 to 1999
+  Ql,  ///< local to the program, 0 to 499
+  Qr,  ///< remanent, 0 to 499
+  Qs   ///< strings, 0 to 1999
+};
+
+constexpr std::uint16_t parameter_count(QSpace space) {
+  return space == QSpace::Q || space == QSpace::Qs ? 2000 : 500;
+}
+
+/// A parameter as named in the program: `Q5`, `QL3`, `QR12`, `QS1`. The number is in range.
+struct QRef {
+  QSpace space = QSpace::Q;
+  std::uint16_t number = 0;
+
+  bool is_string() const { return space == QSpace::Qs; }
+  friend bool operator==(QRef, QRef) = default;
+};
+
+/// The index of a Node in the Program's pool.
+struct NodeIndex {
+  std::uint32_t value = 0;
+
+  friend bool operator==(NodeIndex, NodeIndex) = default;
+};
+
+using Absent = std::monostate;
+
+/// A value that is computed when its block runs. Absent where the block leaves an optional value
+/// out. A literal's sign is part of its number; `-Q5` is a Node.
+using Expr = std::variant<Absent, double, QRef, Text, NodeIndex>;
+
+inline bool is_absent(const Expr& expr) { return std::holds_alternative<Absent>(expr); }
+
+/// What a Node does with its operands, in the order written. Angles are in degrees.
+enum class Operator : std::uint8_t {
+  // two numbers; FN 1 to 4, FN 8 and FN 13 are lowered to these too
+  Add,
+  Subtract,
+  Multiply,
+  Divide,
+  Modulo,
+  Power,
+  Length,  ///< FN 8 LEN: the root of the sum of both squares
+  Angle,   ///< FN 13 ANG: of `opposite ANG adjacent`, 0 to 360
+  // one number
+  Minus,  ///< the algebraic sign of a parameter or a parenthesis
+  Sq,
+  Sqrt,
+  Sin,
+  Cos,
+  Tan,
+  Asin,
+  Acos,
+  Atan,
+  Ln,
+  Log,
+  Exp,
+  Neg,
+  Abs,
+  Int,
+  Frac,
+  Sgn,
+  // no operand
+  Pi,
+  // strings; an operand that is not written is Absent
+  Concat,         ///< two strings
+  ToChar,         ///< DAT (number), DECIMALS (number)
+  SubString,      ///< SRC (string), BEG, LEN (numbers)
+  ToNumber,       ///< SRC
+  InString,       ///< SRC, SEA (strings), BEG (number)
+  StringLength,   ///< SRC
+  StringCompare,  ///< SRC, SEA
+  SystemString,   ///< ID, NR (numbers)
+  // system data and tables
+  SystemRead,     ///< FN 18: ID, NR, IDX (numbers)
+  SystemAddress,  ///< FN 17: ID, NR, IDX; not a value, the place written to
+  TableCell,      ///< FN 27 and 28: row (number), column names (string: "X,Y")
+  // conditions of FN 9 to 12
+  Equal,
+  NotEqual,
+  Greater,
+  Less,
+  IsDefined,   ///< one parameter
+  IsUndefined  ///< one parameter
+};
+
+/// The deepest tree the parser builds; a recursive walk is safe.
+inline constexpr std::uint16_t kDeepestExpression = 200;
+
+/// An inner node of an expression tree. Its operands were parsed before it: their indices are
+/// smaller.
+struct Node {
+  Operator op = Operator::Pi;
+  std::uint16_t height = 1;  ///< of the tree below it, at most kDeepestExpression
+  Slice<Expr> operands;
+
+  friend bool operator==(const Node&, const Node&) = default;
+};
+
+}  // namespace fitgauge::klartext

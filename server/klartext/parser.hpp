@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "klartext/diagnostic.hpp"
+#include "klartext/syntax.hpp"
+
+namespace fitgauge::klartext {
+
+/// Beyond these the text is refused with ProgramTooLarge; they bound the memory of a parse.
+inline constexpr std::size_t kLargestSource = 64 * 1024 * 1024;
+inline constexpr std::size_t kMostBlocks = 2'000'000;
+/// Findings beyond this number are counted, not kept.
+inline constexpr std::size_t kMostDiagnostics = 200;
+
+struct ParsedProgram {
+  Program program;
+  std::vector<Diagnostic> diagnostics;  ///< in the order of the source
+
+  bool has_errors() const;
+};
+
+/// Reads a Klartext program: UTF-8 with or without byte order mark, or Windows-1252 when it is not
+/// valid UTF-8; lines end with CRLF, LF or CR. Goes on at the next block after an error, so that
+/// all findings of a file are reported at once. Never throws on bad input.
+/// @param name the file's name, for diagnostics.
+ParsedProgram parse_program(std::string bytes, std::string name);
+
+}  // namespace fitgauge::klartext

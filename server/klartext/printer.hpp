@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "klartext/syntax.hpp"
+
+namespace fitgauge::klartext {
+
+/// The program as Klartext, one blank between words, lines ending with LF. Reading it back gives an
+/// equal program. Numbers are printed with the fewest digits that give the same value.
+std::string print_program(const Program& program);
+
+/// One block without its number, skip mark and comment, for traces and messages.
+std::string print_statement(const Program& program, const Block& block);
+
+}  // namespace fitgauge::klartext
