@@ -1,0 +1,73 @@
+#include "store/digest.hpp"
+
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+
+#include <stdexcept>
+
+namespace fitgauge::store {
+namespace {
+
+void require(bool succeeded) {
+  if (!succeeded) throw std::runtime_error("OpenSSL cannot compute SHA-256");
+}
+
+}  // namespace
+
+/// The algorithm is fetched once: a fetch for every digest costs as much as hashing a row.
+struct Sha256::Context {
+  Context() : algorithm(EVP_MD_fetch(nullptr, "SHA256", nullptr)), state(EVP_MD_CTX_new()) {
+    require(algorithm != nullptr && state != nullptr);
+    begin();
+  }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  ~Context() {
+    EVP_MD_CTX_free(state);
+    EVP_MD_free(algorithm);
+  }
+
+  void begin() const { require(EVP_DigestInit_ex2(state, algorithm, nullptr) == 1); }
+
+  EVP_MD* algorithm;
+  EVP_MD_CTX* state;
+};
+
+Sha256::Sha256() : context_(std::make_unique<Context>()) {}
+Sha256::~Sha256() = default;
+
+Sha256& Sha256::update(std::span<const std::uint8_t> bytes) {
+  require(EVP_DigestUpdate(context_->state, bytes.data(), bytes.size()) == 1);
+  return *this;
+}
+
+Sha256& Sha256::update(std::string_view text) {
+  require(EVP_DigestUpdate(context_->state, text.data(), text.size()) == 1);
+  return *this;
+}
+
+Digest Sha256::finish() {
+  Digest digest;
+  require(EVP_DigestFinal_ex(context_->state, digest.data(), nullptr) == 1);
+  context_->begin();
+  return digest;
+}
+
+Digest sha256(std::string_view text) { return Sha256().update(text).finish(); }
+
+std::string to_hex(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string out;
+  out.reserve(bytes.size() * 2);
+  for (const std::uint8_t byte : bytes) {
+    out += kDigits[byte >> 4U];
+    out += kDigits[byte & 0xFU];
+  }
+  return out;
+}
+
+bool equal_in_constant_time(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/result.hpp"
+#include "store/digest.hpp"
+
+namespace fitgauge::store {
+
+namespace sqlite {
+class Connection;
+}
+
+/// A request that carries an Idempotency-Key. Caller, method and path are the key's scope.
+struct IdempotentRequest {
+  std::string caller;
+  std::string method;
+  std::string path;
+  std::string key;
+  Digest body{};  ///< of the raw body
+};
+
+/// An answer as it is kept and replayed.
+struct StoredAnswer {
+  int status = 200;
+  std::string content_type;
+  std::string location;  ///< empty: no Location
+  std::string body;
+  bool replayed = false;  ///< set on an answer that came from the store
+};
+
+/// The answers of requests with an Idempotency-Key. Expired ones are as if never kept; the writer
+/// purges them when it is idle.
+class IdempotencyStore {
+ public:
+  explicit IdempotencyStore(sqlite::Connection& connection);
+  IdempotencyStore(IdempotencyStore&&) noexcept;
+  ~IdempotencyStore();
+
+  /// The kept answer, none when the key is new. Looked at before the body is parsed: what was once
+  /// answered is answered so again, whatever the body would give now.
+  /// @errors IdempotencyKeyReused when the key was used with another body.
+  Result<std::optional<StoredAnswer>> find(const IdempotentRequest& request) const;
+
+  /// The kept answer, or that of `work`, which is kept when its status is 2xx.
+  /// @errors IdempotencyKeyReused; those of `work`.
+  Result<StoredAnswer> once(const IdempotentRequest& request,
+                            const std::function<Result<StoredAnswer>()>& work);
+
+  /// Deletes up to `limit` expired answers. @returns how many.
+  std::int64_t purge(std::int64_t limit);
+
+ private:
+  struct Statements;
+  std::unique_ptr<Statements> statements_;
+};
+
+}  // namespace fitgauge::store

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <future>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "base/result.hpp"
+
+namespace fitgauge::store {
+
+/// Work on the stores of one connection together with what is to happen with its result. `run` is
+/// called at most once, then exactly one of `deliver` and `refuse`.
+template <class Stores>
+class Job {
+ public:
+  Job() = default;
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+  virtual ~Job() = default;
+
+  /// @returns whether the work succeeded; its changes are kept only then.
+  virtual bool run(Stores& stores) = 0;
+  virtual void deliver() = 0;
+  virtual void refuse(Error error) = 0;
+};
+
+/// A job made of two callables: Result<T> work(Stores&) and void done(Result<T>).
+template <class Stores, class Work, class Done>
+class CallableJob final : public Job<Stores> {
+ public:
+  using Outcome = std::invoke_result_t<Work&, Stores&>;
+
+  CallableJob(Work work, Done done) : work_(std::move(work)), done_(std::move(done)) {}
+
+  bool run(Stores& stores) override {
+    outcome_.emplace(work_(stores));
+    return outcome_->has_value();
+  }
+  void deliver() override { done_(*std::move(outcome_)); }
+  void refuse(Error error) override { done_(Outcome(std::move(error))); }
+
+ private:
+  Work work_;
+  Done done_;
+  std::optional<Outcome> outcome_;
+};
+
+/// Submits `work` to `queue` and waits for its outcome. Not for I/O threads, nor for the queue's
+/// own.
+template <class Queue, class Stores, class Work>
+auto wait_for(Queue& queue, Work work) {
+  using Outcome = std::invoke_result_t<Work&, Stores&>;
+  std::promise<Outcome> promise;
+  auto future = promise.get_future();
+  queue.submit(std::move(work),
+               [&promise](Outcome outcome) { promise.set_value(std::move(outcome)); });
+  return future.get();
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "store/digest.hpp"
+
+namespace fitgauge::store {
+
+// The codes are stored: never change one, never use one again.
+enum class Source : std::uint8_t { Gauge = 1, Simulation = 2 };
+enum class Feature : std::uint8_t { Hole = 1, Shaft = 2 };
+enum class Basis : std::uint8_t { Iso286 = 1, Custom = 2, Explicit = 3 };
+enum class Verdict : std::uint8_t { Good = 1, Rework = 2, Reject = 3, Indeterminate = 4 };
+enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2 };
+
+/// One measurement as it is stored. Lengths in nm, times in ns since 1970 (UTC), scaled numbers in
+/// millionths. Texts are views: of the caller's memory until the job that appends them is done, or
+/// of the database's own while a visitor runs.
+struct MeasurementRow {
+  std::int64_t id = 0;  ///< assigned by `append`, rising; what is given is ignored
+  Source source = Source::Gauge;
+  std::int64_t measured_at_ns = 0;
+  std::int64_t received_at_ns = 0;
+
+  std::int64_t nominal_nm = 0;
+  std::optional<std::string_view> tolerance_class;  ///< none when the basis is Explicit
+  Feature feature = Feature::Hole;
+  std::int64_t upper_deviation_nm = 0;
+  std::int64_t lower_deviation_nm = 0;
+  std::optional<std::int64_t> size_over_nm;   ///< the step of the standard tolerance
+  std::optional<std::int64_t> size_up_to_nm;  ///< both or neither
+  Basis basis = Basis::Iso286;
+  std::optional<std::int64_t> table_revision;  ///< TableRevision::number; none for Explicit
+
+  std::int64_t measured_nm = 0;
+  Verdict verdict = Verdict::Good;
+  Rule rule = Rule::Simple;
+  std::optional<std::int64_t> uncertainty_nm;   ///< standard uncertainty u
+  std::optional<std::int64_t> coverage_factor;  ///< k in millionths: 2'000'000 is k = 2
+
+  std::optional<std::string_view> part_id;
+  std::optional<std::string_view> characteristic;
+  std::optional<std::string_view> order;
+  std::optional<std::string_view> operation;
+  std::optional<std::string_view> machine;
+  std::optional<std::string_view> operator_id;
+  std::optional<std::string_view> gauge;
+  std::optional<std::int64_t> temperature;  ///< in millionths of a degree Celsius
+  std::optional<std::string_view> unit;
+  std::optional<std::string_view> comment;
+
+  std::optional<std::string_view> caller;  ///< name of the API key that wrote it
+  std::optional<std::int64_t> run_id;      ///< the run of a simulated measurement
+  std::optional<std::int64_t> cycle;       ///< number of its measuring cycle
+
+  std::optional<std::int64_t> correction_of;  ///< id of the row this one replaces
+  std::optional<std::string_view> correction_reason;
+
+  Digest hash{};  ///< computed by `append`
+
+  std::int64_t upper_limit_nm() const { return nominal_nm + upper_deviation_nm; }
+  std::int64_t lower_limit_nm() const { return nominal_nm + lower_deviation_nm; }
+};
+
+}  // namespace fitgauge::store

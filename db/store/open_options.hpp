@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+
+namespace fitgauge::store {
+
+/// Whether a commit waits until the disk has it. Only Full survives a power cut.
+enum class Synchronous { Off, Normal, Full };
+
+/// Who opens the data directory.
+enum class Access {
+  Serve,   ///< the one daemon: creates and upgrades the database, holds the directory's lock
+  Attach,  ///< a command beside a running daemon (backup, verify, keys): nothing is created or
+           ///< upgraded
+};
+
+struct OpenOptions {
+  std::filesystem::path directory;
+  Access access = Access::Serve;
+  Synchronous synchronous =
+      Synchronous::Full;  ///< less than Full only as a test's negative control
+
+  bool commit_each = false;  ///< every job its own commit: the benchmark's peer
+  std::size_t queue_limit =
+      1024;              ///< write jobs and read jobs waiting, each; one more is StorageBusy
+  unsigned readers = 2;  ///< reader threads, each with a connection of its own
+
+  std::uintmax_t check_at_open_limit = std::uintmax_t{256} << 20;  ///< bytes; larger: in background
+  std::chrono::hours idempotency_retention{30 * 24};
+  std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
+  std::int64_t event_retention = 100'000;     ///< events kept for replay
+};
+
+}  // namespace fitgauge::store

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace fitgauge::store {
+
+namespace sqlite {
+class Connection;
+}
+
+// The codes are stored: never change one, never use one again.
+enum class RunStatus : std::uint8_t {
+  Queued = 1,
+  Running = 2,
+  Completed = 3,
+  Stopped = 4,
+  Failed = 5,
+  LimitExceeded = 6,
+  Cancelled = 7,
+};
+
+constexpr bool is_finished(RunStatus status) { return status >= RunStatus::Completed; }
+
+struct Run {
+  std::int64_t id = 0;
+  RunStatus status = RunStatus::Queued;
+  std::string program;
+  std::string request;  ///< opaque here
+  std::string result;   ///< opaque here; empty until finished
+  std::int64_t created_at_ns = 0;
+  std::optional<std::int64_t> finished_at_ns;
+  std::optional<std::string> caller;
+};
+
+/// A file a run has written.
+struct RunFile {
+  std::string path;  ///< on the control's disk
+  std::string content;
+};
+
+/// What a run leaves.
+struct RunOutcome {
+  RunStatus status = RunStatus::Completed;
+  std::string_view result;
+  std::string_view trace;
+  std::span<const RunFile> files;
+};
+
+struct RunFilter {
+  std::optional<RunStatus> status;
+  std::optional<std::string> program;  ///< the whole path, without regard to ASCII case
+};
+
+/// Runs with their files and traces.
+class RunsStore {
+ public:
+  explicit RunsStore(sqlite::Connection& connection);
+  RunsStore(RunsStore&&) noexcept;
+  ~RunsStore();
+
+  /// Stores a run that is queued, running or, with `finish` in the same job, already over.
+  /// `run.id` is ignored. @returns the id, rising.
+  std::int64_t create(const Run& run);
+
+  /// @errors RunUnknown; RunFinished when it is over.
+  Result<void> start(std::int64_t id);
+  Result<void> finish(std::int64_t id, const RunOutcome& outcome, std::int64_t now_ns);
+
+  std::optional<Run> find(std::int64_t id) const;
+  std::optional<std::string> trace(std::int64_t id) const;
+  /// The file of a run by its name (the last part of its path), without regard to ASCII case.
+  std::optional<RunFile> file(std::int64_t id, std::string_view name) const;
+
+  struct Page {
+    std::vector<Run> runs;
+    std::optional<std::int64_t> next;  ///< cursor of the next page
+  };
+  /// Newest first, those before the cursor.
+  Page list(const RunFilter& filter, std::optional<std::int64_t> after, std::size_t limit) const;
+
+  /// Deletes up to `limit` runs that finished before `before_ns`, with files and traces.
+  /// @returns how many.
+  std::int64_t purge(std::int64_t before_ns, std::int64_t limit);
+
+ private:
+  struct Statements;
+  std::unique_ptr<Statements> statements_;
+};
+
+}  // namespace fitgauge::store

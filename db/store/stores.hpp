@@ -1,0 +1,34 @@
+#pragma once
+
+#include "store/events_store.hpp"
+#include "store/files_store.hpp"
+#include "store/idempotency_store.hpp"
+#include "store/keys_store.hpp"
+#include "store/measurements_store.hpp"
+#include "store/runs_store.hpp"
+#include "store/setups_store.hpp"
+#include "store/tables_store.hpp"
+
+namespace fitgauge::store {
+
+namespace sqlite {
+class Connection;
+}
+
+/// The stores of one connection. Const is reading: a read job sees `const Stores&`, a write job
+/// `Stores&`. Used by the connection's thread alone. Every function throws StorageFailure when the
+/// storage fails; the writer and the read pool turn that into an Error.
+struct Stores {
+  explicit Stores(sqlite::Connection& connection);
+
+  TablesStore tables;
+  MeasurementsStore measurements;
+  IdempotencyStore idempotency;
+  KeysStore keys;
+  FilesStore files;
+  SetupsStore setups;
+  RunsStore runs;
+  EventsStore events;
+};
+
+}  // namespace fitgauge::store

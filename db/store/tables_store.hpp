@@ -1,0 +1,101 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "store/digest.hpp"
+
+namespace fitgauge::store {
+
+namespace sqlite {
+class Connection;
+}
+
+/// One cell of a table of the standard. `table` and `column` are the caller's names.
+struct TableCell {
+  std::string table;
+  std::string column;
+  std::int64_t over_nm = 0;
+  std::int64_t up_to_nm = 0;
+  std::optional<std::int64_t> value_nm;  ///< none: the standard defines nothing there
+
+  friend auto operator<=>(const TableCell&, const TableCell&) = default;
+};
+
+/// One size range of a shop's own column.
+struct CustomCell {
+  std::string table;
+  std::string column;
+  std::int64_t over_nm = 0;
+  std::int64_t up_to_nm = 0;
+  std::int64_t upper_nm = 0;
+  std::int64_t lower_nm = 0;
+
+  friend auto operator<=>(const CustomCell&, const CustomCell&) = default;
+};
+
+/// All of a revision's numbers, each list sorted by table, column and range.
+struct TableContent {
+  std::vector<TableCell> cells;
+  std::vector<CustomCell> custom;
+};
+
+/// SHA-256 over the sorted content: each list its count, then for each cell table, column and
+/// numbers. Counts, text lengths and numbers are 8 bytes, big-endian; an absent number is one byte
+/// 0, a present one is preceded by one byte 1.
+Digest digest_of(TableContent content);
+
+struct TableRevision {
+  std::int64_t number = 0;  ///< 1, 2, …: what a measurement refers to
+  std::string id;           ///< number and the first eight digits of the digest, `1-3f9a0c21`
+  Digest digest{};          ///< as stored at import
+  std::string source;
+  std::int64_t created_at_ns = 0;
+  std::optional<std::int64_t> parent;  ///< number of the revision this one was made from
+  std::optional<std::string> caller;
+};
+
+struct LoadedTables {
+  TableRevision revision;
+  TableContent content;
+  Digest
+      computed{};  ///< of the content as loaded: differs from revision.digest when a cell changed
+};
+
+/// What an import needs.
+struct TableImport {
+  TableContent content;
+  std::string source;
+  std::optional<std::int64_t> parent;
+  std::optional<std::string> caller;
+};
+
+/// The immutable revisions of the tolerance tables. The newest one is in force. Cells of the
+/// standard that a revision shares with an older one are stored once.
+class TablesStore {
+ public:
+  explicit TablesStore(sqlite::Connection& connection);
+  TablesStore(TablesStore&&) noexcept;
+  ~TablesStore();
+
+  /// @errors PreconditionFailed when `parent` is not the newest revision (another import came
+  ///   first); TableRowsInvalid when two cells are the same or a range is empty.
+  Result<TableRevision> import(const TableImport& tables, std::int64_t now_ns);
+
+  std::optional<LoadedTables> load_latest() const;
+  std::optional<LoadedTables> load(std::string_view id) const;
+  std::optional<LoadedTables> load(std::int64_t number) const;
+  std::vector<TableRevision> list() const;  ///< oldest first
+
+ private:
+  struct Statements;
+  std::unique_ptr<Statements> statements_;
+};
+
+}  // namespace fitgauge::store
