@@ -1,0 +1,54 @@
+#pragma once
+
+#include <boost/system/result.hpp>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace fitgauge::machine {
+
+enum class FaultKind : std::uint8_t {
+  NoContact,          ///< 1014: nothing touched within the probing distance
+  StylusDeflected,    ///< the stylus touches before the probing move begins
+  Collision,          ///< the probe touched outside a probing move
+  AxisLimit,          ///< the spindle nose or a rotary axis would leave its range
+  AxisMissing,        ///< the machine has no such axis
+  HirthGrid,          ///< a rotary axis with a Hirth grid would stop between two teeth
+  ToolAxisMissing,    ///< 1001: no TOOL CALL has defined the tool axis
+  NoTool,             ///< 1092: the command needs a tool in the spindle
+  ToolUnknown,        ///< 1092: the tool table has no such tool
+  ToolLocked,         ///< the tool table marks the tool as locked (TL = L)
+  NotAProbe,          ///< 1093: the tool in the spindle has no touch probe
+  FeedMissing,        ///< 1010: a feed move with a feed that is not positive
+  PresetUnknown,      ///< the preset table has no such row
+  PresetLocked,       ///< 1085: the row of the preset table is write-protected
+  ValueInvalid,       ///< 1011: a coordinate, direction or time is not a finite number in range
+  ScriptExhausted,    ///< a scripted machine has no contact left
+  ScriptedDifferent,  ///< a scripted machine met a command its log does not have
+};
+
+/// Why the machine could not do what it was told. A value of the run, never an exception.
+/// The enum class stays first: see fitgauge::Error.
+struct MachineFault {
+  FaultKind kind{};
+  int number = 0;    ///< the control's error number (1001 to 1199), 0 where it shows only text
+  std::string text;  ///< the control's text, then what happened and where, in mm
+
+  friend bool operator==(const MachineFault&, const MachineFault&) = default;
+};
+
+/// The number and the control's text of a kind: 1014 "Touch point inaccessible".
+MachineFault make_fault(FaultKind kind, std::string_view detail = {});
+
+[[noreturn]] void throw_bad_machine_result(const MachineFault& fault);
+
+/// Boost's hook: reading the value of a failed result is a bug.
+[[noreturn]] inline void throw_exception_from_error(const MachineFault& fault,
+                                                    const boost::source_location&) {
+  throw_bad_machine_result(fault);
+}
+
+template <class T>
+using MachineResult = boost::system::result<T, MachineFault>;
+
+}  // namespace fitgauge::machine

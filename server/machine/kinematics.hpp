@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "machine/axis.hpp"
+#include "machine/geometry.hpp"
+
+namespace fitgauge::machine {
+
+enum class AxisMount : std::uint8_t { Table, Head };
+
+/// A rotary axis as the control's kinematic model knows it.
+/// A positive angle turns the tool right-handed around `direction` relative to the workpiece
+/// (ISO 841): a head turns that way, a table the other way.
+struct RotaryAxis {
+  Axis axis = Axis::C;
+  AxisMount mount = AxisMount::Table;
+  Vec3 centre;              ///< a point of the axis in machine coordinates, in mm; unused in a head
+  Vec3 direction{0, 0, 1};  ///< unit vector
+
+  friend bool operator==(const RotaryAxis&, const RotaryAxis&) = default;
+};
+
+/// The rotary axes and their order: a table is stacked A, B, C from the bed to the workpiece, a
+/// head C, B, A from the column to the tool. The spindle nose is the pivot of a head. A value type
+/// without interior state.
+class Kinematics {
+ public:
+  Kinematics() = default;
+  /// At most one axis of each letter; directions are normalised. @pre no direction is zero.
+  explicit Kinematics(std::vector<RotaryAxis> axes);
+
+  const std::vector<RotaryAxis>& axes() const { return axes_; }
+  const RotaryAxis* find(Axis axis) const;
+
+  /// Table-fixed coordinates to machine coordinates, with the axes at `rotary` (degrees).
+  Transform table(const Vec3& rotary) const;
+
+  /// The unit vector from the tool tip to the spindle nose, in machine coordinates.
+  Vec3 tool_direction(const Vec3& rotary, Axis tool_axis) const;
+
+  /// The rotary positions at which the tool stands along `normal`, a unit vector fixed to the
+  /// table: none, one or two solutions for the one or two axes that the machine has (axes that do
+  /// not matter keep their position of `current`), the one nearest to `current` first. Angles are
+  /// in -180 < angle <= 180.
+  std::vector<Vec3> orientations(const Vec3& normal, const Vec3& current, Axis tool_axis) const;
+
+  friend bool operator==(const Kinematics&, const Kinematics&) = default;
+
+ private:
+  std::vector<RotaryAxis> axes_;  ///< table axes first, each group in its order
+};
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/result.hpp"
+#include "machine/axis.hpp"
+#include "machine/kinematics.hpp"
+#include "machine/preset_table.hpp"
+#include "machine/probe_table.hpp"
+#include "machine/tool_table.hpp"
+
+namespace fitgauge::machine {
+
+/// What a run is simulated on: machine, workpiece, seed. Plain values with the defaults of the HTTP
+/// contract; `validate` says whether they make sense together.
+
+/// An axis, and of a rotary one its kinematics as drawn and as really built.
+struct AxisSetup {
+  double min = -500;                   ///< min_mm, min_deg
+  double max = 500;                    ///< max_mm, max_deg
+  double hirth_grid_deg = 0;           ///< 0: any angle
+  AxisMount mount = AxisMount::Table;  ///< on
+  Vec3 centre{0, 0, -100};             ///< center_mm
+  Vec3 direction{0, 0, 1};  ///< any length; the tool turns around it relative to the workpiece
+  Vec3 centre_error;        ///< center_error_mm: real centre minus modelled centre
+  Vec3 tilt_error_deg;      ///< spatial angles by which the real direction differs
+  double backlash_deg = 0;  ///< lost motion when the direction of turning changes
+  double scatter_um = 0;    ///< standard deviation, in X, Y and Z, of where the table comes to rest
+
+  /// X, Y, Z: -500 to 500 mm. A, B: -120 to 120 degrees, C: -360 to 360, each around its own axis.
+  static AxisSetup of(Axis axis);
+};
+
+/// A row of tool.t together with the real tool, where that is not what the table says.
+struct ToolSetup {
+  Tool row;
+  std::optional<double> actual_length;  ///< actual_length_mm: nose to tip; default L + DL
+  std::optional<double> actual_radius;  ///< actual_radius_mm: default R + DR
+};
+
+/// A row of tchprobe.tp together with the real probe.
+struct ProbeSetup {
+  ProbeRow row;
+  double repeatability_um = 0;  ///< standard deviation of a contact along the probing direction
+  double pretravel_um = 0;      ///< travel from touching to the trigger
+  std::array<double, 2> centre_offset{};  ///< center_offset_mm: real ball centre to spindle axis
+};
+
+/// The tool touch probe: a disc whose upper side is at `centre.z`, in machine coordinates.
+struct ToolTouchProbe {
+  Vec3 centre{300, 0, 50};
+  double radius = 20;
+};
+
+struct MachineSetup {
+  /// X, Y and Z exist always, A, B and C when the setup names them.
+  std::array<std::optional<AxisSetup>, kAxes> axes{AxisSetup::of(Axis::X), AxisSetup::of(Axis::Y),
+                                                   AxisSetup::of(Axis::Z)};
+  /// start_mm of the spindle nose: without a value 0, in Z (the tool axis) the upper end of the
+  /// range.
+  AxisWords start;
+  double rapid_mm_min = 15000;
+  std::vector<ToolSetup> tools{default_probe_tool()};
+  std::vector<ProbeSetup> probes{ProbeSetup{}};
+  ToolTouchProbe tt;
+  std::vector<Preset> presets{default_preset()};
+  int active_preset = 1;
+
+  static ToolSetup default_probe_tool();  ///< 30, PROBE, 120 mm, ball radius 2 mm, probe 1
+  static Preset default_preset();         ///< row 1, zero
+};
+
+/// Material from `min` to `max`.
+struct Block {
+  Vec3 min;
+  Vec3 max;
+};
+
+/// Removes material: a hole of flat bottom that is open upwards.
+/// At the angle t and the depth h its radius is diameter/2 + h taper/2 + a cos(n (t - phase)).
+struct Bore {
+  std::array<double, 2> centre{};  ///< of the opening
+  double top = 0;
+  double depth = 0;
+  double diameter = 0;
+  int lobes = 0;                 ///< n; 0 or amplitude 0 is a circle
+  double lobe_amplitude_um = 0;  ///< a
+  double lobe_phase_deg = 0;
+  double taper_um_per_mm = 0;        ///< change of the diameter per mm of depth (ISO 3040)
+  std::array<double, 2> tilt_deg{};  ///< around X, then around Y, at the centre of the opening
+};
+
+/// Material: an upright cylinder down from `top`.
+struct Boss {
+  std::array<double, 2> centre{};
+  double top = 0;
+  double height = 0;
+  double diameter = 0;
+};
+
+/// Material everywhere behind the plane.
+struct Plane {
+  Vec3 point;
+  Vec3 normal{0, 0, 1};  ///< away from the material, any length
+};
+
+struct Sphere {
+  Vec3 centre;
+  double diameter = 0;
+};
+
+/// Material below measured points: linear between them (Delaunay triangles in X and Y), nothing
+/// outside their hull.
+struct Surface {
+  std::vector<Vec3> points;
+};
+
+using Feature = std::variant<Block, Bore, Boss, Plane, Sphere, Surface>;
+
+struct Setup {
+  MachineSetup machine;
+  std::vector<Feature> features;  ///< joined in order; coordinates fixed to the table
+  std::uint64_t seed = 1;
+};
+
+/// Everything that is wrong with a setup, as details with JSON pointers
+/// (`/machine/axes/A/min_deg`, `/workpiece/features/3/diameter_mm`).
+/// @errors SetupInvalid with one detail (FieldInvalid, FieldConflict) for each bad field.
+Result<void> validate(const Setup& setup);
+
+}  // namespace fitgauge::machine
