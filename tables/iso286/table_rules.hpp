@@ -21,8 +21,7 @@ std::vector<Error> table_rules(const TableData& data);
 std::vector<Error> compare_with_compiled_in(const TableData& data);
 
 /// What a shop's own column must be: a name of the grammar whose case is the feature's, at least
-/// one row, contiguous ascending ranges within 0 to 3150 mm, upper >= lower, and a lower limit of
-/// size above 0.
+/// one row, contiguous ascending ranges within 0 to 3150 mm, and upper >= lower.
 /// @errors TableRowsInvalid; `details` has one entry a finding, `where` its JSON pointer.
 Result<void> check_custom_column(const CustomColumn& column);
 

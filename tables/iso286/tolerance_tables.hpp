@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -17,6 +18,8 @@
 #include "iso286/table_data.hpp"
 
 namespace fitgauge::iso286 {
+
+struct StandardTables;
 
 /// The id of the stored revision that tables were made from; opaque.
 struct TableRevision {
@@ -102,16 +105,26 @@ class ToleranceTables {
     return slot_by_ceil_mm_[static_cast<std::size_t>((size.length().count() + kMillimetre - 1) /
                                                      kMillimetre)];
   }
+
+  void add_standard_classes(const StandardTables& standard);
+  void add_custom_column(const CustomColumn& column);
+  void list_classes();
+
+  /// Where the class is defined, ranges that touch joined.
+  std::vector<NominalSizeRange> defined_ranges(ClassId id) const;
+  const CustomRow* custom_row(NominalSize size, ClassId id) const;
   std::optional<LimitDeviations> custom_deviations(NominalSize size, ClassId id) const;
+  Error undefined(NominalSize size, ClassId id) const;
 
   TableRevision revision_;
   std::vector<NominalSizeRange> ranges_;
-  std::vector<NominalSizeRange> tolerance_steps_;  ///< the 21 steps of the standard tolerances
+  std::vector<NominalSizeRange> slots_;
+  std::vector<NominalSizeRange> tolerance_steps_;  ///< of each slot
   std::array<std::uint8_t, 3151> slot_by_ceil_mm_{};
   std::vector<Cell> cells_;
   std::vector<ClassInfo> classes_info_;
   std::array<std::vector<ClassId>, 2> classes_;
-  std::map<std::string, ClassId, std::less<>> ids_by_name_;
+  std::map<std::string, ClassId, std::less<>> custom_ids_;  ///< names the standard has not
 };
 
 }  // namespace fitgauge::iso286

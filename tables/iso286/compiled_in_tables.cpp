@@ -1,0 +1,59 @@
+#include <stdexcept>
+
+#include "iso286/compiled_in_csv.hpp"
+#include "iso286/table_data.hpp"
+
+namespace fitgauge::iso286 {
+namespace {
+
+constexpr std::string_view kSymmetric = "+-IT/2";
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// The files are our own: what cannot be read there is a bug, so value() may throw.
+void append_cells(TableData& data, TableId table, std::string_view csv) {
+  constexpr std::size_t kFirstColumn = 2;  // after over_mm, to_mm
+  std::vector<std::string_view> header;
+  for (const std::string_view line : split(csv, '\n')) {
+    if (line.empty()) continue;
+    const auto fields = split(line, ',');
+    if (header.empty()) {
+      header = fields;
+      continue;
+    }
+    if (fields.size() != header.size()) {
+      throw std::logic_error(std::string(name(table)) + ".csv: a row has too few or many fields");
+    }
+    const NominalSizeRange range{parse_length_mm(fields[0]).value(),
+                                 parse_length_mm(fields[1]).value()};
+    for (std::size_t i = kFirstColumn; i < fields.size(); ++i) {
+      if (fields[i] == kSymmetric) continue;
+      std::optional<Length> value;
+      if (!fields[i].empty()) value = parse_length_um(fields[i]).value();
+      data.cells.push_back({table, range, std::string(header[i]), value});
+    }
+  }
+}
+
+}  // namespace
+
+const TableData& compiled_in_tables() {
+  static const TableData kData = [] {
+    TableData data;
+    append_cells(data, TableId::ItGrades, kItGradesCsv);
+    append_cells(data, TableId::HoleFundamentalDeviations, kHoleFundamentalDeviationsCsv);
+    append_cells(data, TableId::ShaftFundamentalDeviations, kShaftFundamentalDeviationsCsv);
+    return data;
+  }();
+  return kData;
+}
+
+}  // namespace fitgauge::iso286

@@ -1,0 +1,140 @@
+#include "iso286/derivation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace fitgauge::iso286 {
+namespace {
+
+using Grade = StandardToleranceGrade;
+using Letter = DeviationLetter;
+
+constexpr Length kOneMillimetre = Length::millimetres(1);
+constexpr NominalSizeRange kUpToOneMillimetre{Length(), kOneMillimetre};
+
+/// The fundamental deviation of a class (ISO 286-1, 3.2.7): the limit deviation nearer to the
+/// nominal size, from which the other one follows by the tolerance.
+struct FundamentalDeviation {
+  enum class Limit { Upper, Lower, Symmetric };
+
+  Limit limit = Limit::Symmetric;
+  std::string column{};         ///< where it stands; empty for JS and js
+  bool delta_is_added = false;  ///< the finer hole classes K to ZC (ISO 286-1, 4.3.2.5)
+};
+
+using Limit = FundamentalDeviation::Limit;
+
+/// The classes of holes below the nominal size. Up to a last grade the deviation is that of the
+/// shaft with the opposite sign and a delta added, so that H and the hole class give the same fits.
+FundamentalDeviation hole_below(const ToleranceClass& c) {
+  const std::string column = "ES_" + std::string(text(c.letter, c.feature));
+  if (c.letter >= Letter::P) return {Limit::Upper, column + "_gt_IT7", c.grade <= Grade::IT7};
+  if (c.grade > Grade::IT8) return {Limit::Upper, column + "_gt_IT8"};
+  return {Limit::Upper, column + "_le_IT8_base", true};
+}
+
+/// k has one column for IT4 to IT7 and one for all other grades.
+std::string k_column(Grade grade) {
+  return grade >= Grade::IT4 && grade <= Grade::IT7 ? "ei_k_IT4_to_IT7" : "ei_k_le_IT3_or_gt_IT7";
+}
+
+/// J and j have a column for each grade that exists: J6 to J8, j5 to j8.
+FundamentalDeviation fundamental_deviation(const ToleranceClass& c) {
+  const bool hole = c.feature == Feature::Hole;
+  const std::string letter(text(c.letter, c.feature));
+  if (c.letter == Letter::JS) return {};
+  if (c.letter <= Letter::H) {
+    return hole ? FundamentalDeviation{Limit::Lower, "EI_" + letter}
+                : FundamentalDeviation{Limit::Upper, "es_" + letter};
+  }
+  if (c.letter == Letter::J) {
+    return {hole ? Limit::Upper : Limit::Lower,
+            (hole ? "ES_J" : "ei_j") + std::string(text(c.grade))};
+  }
+  if (hole) return hole_below(c);
+  return {Limit::Lower, c.letter == Letter::K ? k_column(c.grade) : "ei_" + letter};
+}
+
+/// What the notes to the tables leave out up to 1 mm: A, B, a, b; N above IT8; IT14 to IT18.
+bool is_used_up_to_1_mm(const ToleranceClass& c) {
+  if (c.letter == Letter::A || c.letter == Letter::B) return false;
+  if (c.grade >= Grade::IT14) return false;
+  return !(c.feature == Feature::Hole && c.letter == Letter::N && c.grade > Grade::IT8);
+}
+
+/// M6 from 250 to 315 mm is -9 µm, where base and delta give -11 (note to Table 2).
+bool is_m6_exception(const ToleranceClass& c, const NominalSizeRange& range) {
+  constexpr NominalSizeRange kStep{Length::millimetres(250), Length::millimetres(315)};
+  return c == ToleranceClass{Feature::Hole, Letter::M, Grade::IT6} && kStep.contains(range);
+}
+constexpr Length kM6Exception = Length::micrometres(-9);
+
+/// Deltas exist for IT3 to IT8. Finer grades need none where all deltas are 0, up to 3 mm and above
+/// 500 mm; between, their classes are not defined.
+std::optional<Length> delta(const StandardTables& tables, Grade grade,
+                            const NominalSizeRange& range) {
+  if (grade >= Grade::IT3) {
+    return tables.holes.column("delta_IT" + std::string(text(grade)))[tables.holes.index_of(range)];
+  }
+  const bool none_needed =
+      range.up_to <= Length::millimetres(3) || range.over >= Length::millimetres(500);
+  return none_needed ? std::optional(Length()) : std::nullopt;
+}
+
+LimitDeviations complete(Limit limit, Length deviation, Length tolerance) {
+  if (limit == Limit::Lower) return {deviation + tolerance, deviation};
+  return {deviation, deviation - tolerance};
+}
+
+std::optional<LimitDeviations> derive(const StandardTables& tables, const ToleranceClass& c,
+                                      const FundamentalDeviation& fundamental,
+                                      const NominalSizeRange& range) {
+  if (kUpToOneMillimetre.contains(range) && !is_used_up_to_1_mm(c)) return std::nullopt;
+  const auto tolerance = standard_tolerance(tables, c.grade, range);
+  if (!tolerance) return std::nullopt;
+  if (fundamental.limit == Limit::Symmetric) {
+    return complete(Limit::Upper, Length::nanometres(tolerance->count() / 2), *tolerance);
+  }
+  const IndexedTable& table = tables.deviations(c.feature);
+  const auto column = table.column(fundamental.column);
+  if (column.empty()) return std::nullopt;  // J9, j4: no such column
+  auto deviation = column[table.index_of(range)];
+  if (!deviation) return std::nullopt;
+  if (fundamental.delta_is_added) {
+    const auto added = delta(tables, c.grade, range);
+    if (!added) return std::nullopt;
+    *deviation += *added;
+  }
+  if (is_m6_exception(c, range)) deviation = kM6Exception;
+  return complete(fundamental.limit, *deviation, *tolerance);
+}
+
+}  // namespace
+
+std::vector<NominalSizeRange> derivation_ranges(const StandardTables& tables) {
+  std::vector<NominalSizeRange> ranges = tables.holes.ranges();
+  ranges.front().over = kOneMillimetre;
+  ranges.insert(ranges.begin(), kUpToOneMillimetre);
+  return ranges;
+}
+
+std::optional<Length> standard_tolerance(const StandardTables& tables, StandardToleranceGrade grade,
+                                         const NominalSizeRange& range) {
+  const auto column = tables.tolerances.column("IT" + std::string(text(grade)));
+  return column[tables.tolerances.index_of(range)];
+}
+
+std::vector<std::optional<LimitDeviations>> derive(const StandardTables& tables,
+                                                   const ToleranceClass& tolerance_class,
+                                                   std::span<const NominalSizeRange> ranges) {
+  const FundamentalDeviation fundamental = fundamental_deviation(tolerance_class);
+  std::vector<std::optional<LimitDeviations>> deviations;
+  deviations.reserve(ranges.size());
+  for (const NominalSizeRange& range : ranges) {
+    deviations.push_back(derive(tables, tolerance_class, fundamental, range));
+  }
+  return deviations;
+}
+
+}  // namespace fitgauge::iso286

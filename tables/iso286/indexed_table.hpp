@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "iso286/table_data.hpp"
+
+namespace fitgauge::iso286 {
+
+/// The cells of one table by range and column. Immutable.
+class IndexedTable {
+ public:
+  /// @pre every range has every column once, as table_rules checks first
+  IndexedTable(std::span<const TableCell> cells, TableId table);
+
+  /// Ascending.
+  const std::vector<NominalSizeRange>& ranges() const { return ranges_; }
+
+  /// The values of a column, one for each range; empty when there is no such column.
+  std::span<const std::optional<Length>> column(std::string_view name) const;
+
+  /// The index of the range that holds all of `range`.
+  /// @pre there is one
+  std::size_t index_of(const NominalSizeRange& range) const;
+
+ private:
+  std::vector<NominalSizeRange> ranges_;
+  std::map<std::string, std::vector<std::optional<Length>>, std::less<>> columns_;
+};
+
+/// The three tables of the standard.
+struct StandardTables {
+  explicit StandardTables(std::span<const TableCell> cells)
+      : tolerances(cells, TableId::ItGrades),
+        holes(cells, TableId::HoleFundamentalDeviations),
+        shafts(cells, TableId::ShaftFundamentalDeviations) {}
+
+  const IndexedTable& deviations(Feature feature) const {
+    return feature == Feature::Hole ? holes : shafts;
+  }
+
+  IndexedTable tolerances;
+  IndexedTable holes;
+  IndexedTable shafts;
+};
+
+}  // namespace fitgauge::iso286

@@ -1,0 +1,149 @@
+#include "iso286/table_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+
+#include "base/text.hpp"
+#include "iso286/derivation.hpp"
+#include "iso286/table_comparison.hpp"
+
+namespace fitgauge::iso286 {
+namespace {
+
+using Findings = std::vector<Error>;
+using Column = std::span<const std::optional<Length>>;
+
+constexpr TableId kGrades = TableId::ItGrades;
+constexpr TableId kHoles = TableId::HoleFundamentalDeviations;
+
+std::string grade_column(std::size_t grade) {
+  return "IT" + std::string(text(static_cast<StandardToleranceGrade>(grade)));
+}
+
+/// In each step every grade is coarser than the one before; only the finest may be missing.
+void check_grades_increase(const IndexedTable& table, Findings& findings) {
+  for (std::size_t grade = 1; grade < kGradeCount; ++grade) {
+    const Column finer = table.column(grade_column(grade - 1));
+    const Column coarser = table.column(grade_column(grade));
+    for (std::size_t i = 0; i < table.ranges().size(); ++i) {
+      if (!finer[i] || (coarser[i] && *coarser[i] > *finer[i])) continue;
+      findings.push_back(finding(kGrades, table.ranges()[i], grade_column(grade),
+                                 "is not greater than " + grade_column(grade - 1)));
+    }
+  }
+}
+
+void check_tolerances_grow_with_size(const IndexedTable& table, Findings& findings) {
+  for (std::size_t grade = 0; grade < kGradeCount; ++grade) {
+    const Column column = table.column(grade_column(grade));
+    for (std::size_t i = 1; i < column.size(); ++i) {
+      if (!column[i] || (column[i - 1] && *column[i] >= *column[i - 1])) continue;
+      findings.push_back(finding(kGrades, table.ranges()[i], grade_column(grade),
+                                 "is less than in the step of smaller sizes"));
+    }
+  }
+}
+
+/// delta_ITn = IT(n) - IT(n-1) from 3 to 500 mm, otherwise 0 (ISO 286-1, 4.3.2.5).
+void check_deltas(const StandardTables& tables, Findings& findings) {
+  constexpr NominalSizeRange kWithDelta{Length::millimetres(3), Length::millimetres(500)};
+  constexpr auto kFirst = static_cast<std::size_t>(StandardToleranceGrade::IT3);
+  constexpr auto kLast = static_cast<std::size_t>(StandardToleranceGrade::IT8);
+  const auto& ranges = tables.holes.ranges();
+  for (std::size_t grade = kFirst; grade <= kLast; ++grade) {
+    const std::string name = "delta_" + grade_column(grade);
+    const Column deltas = tables.holes.column(name);
+    const Column coarser = tables.tolerances.column(grade_column(grade));
+    const Column finer = tables.tolerances.column(grade_column(grade - 1));
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const std::size_t step = tables.tolerances.index_of(ranges[i]);
+      if (!coarser[step] || !finer[step]) continue;  // found above
+      const Length expected =
+          kWithDelta.contains(ranges[i]) ? *coarser[step] - *finer[step] : Length();
+      if (deltas[i] == expected) continue;
+      findings.push_back(finding(kHoles, ranges[i], name, "is not " + format_um(expected) + " µm"));
+    }
+  }
+}
+
+/// Columns of holes and shafts with opposite signs: A to H, P to ZC, and the bases of K, M and N.
+std::vector<std::pair<std::string, std::string>> mirrored_columns() {
+  std::vector<std::pair<std::string, std::string>> pairs = {{"ES_K_le_IT8_base", "ei_k_IT4_to_IT7"},
+                                                            {"ES_M_le_IT8_base", "ei_m"},
+                                                            {"ES_M_gt_IT8", "ei_m"},
+                                                            {"ES_N_le_IT8_base", "ei_n"}};
+  for (std::size_t i = 0; i < kLetterCount; ++i) {
+    const auto letter = static_cast<DeviationLetter>(i);
+    const std::string hole(text(letter, Feature::Hole));
+    const std::string shaft(text(letter, Feature::Shaft));
+    if (letter <= DeviationLetter::H) pairs.emplace_back("EI_" + hole, "es_" + shaft);
+    if (letter >= DeviationLetter::P) pairs.emplace_back("ES_" + hole + "_gt_IT7", "ei_" + shaft);
+  }
+  return pairs;
+}
+
+void check_mirror(const StandardTables& tables, Findings& findings) {
+  for (const auto& [hole, shaft] : mirrored_columns()) {
+    const Column holes = tables.holes.column(hole);
+    const Column shafts = tables.shafts.column(shaft);
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+      const auto mirrored = shafts[i] ? std::optional(-*shafts[i]) : std::nullopt;
+      if (holes[i] == mirrored) continue;
+      findings.push_back(
+          finding(kHoles, tables.holes.ranges()[i], hole, "does not mirror " + shaft));
+    }
+  }
+}
+
+/// Of every class: upper - lower = IT; JS and js lie symmetrically about the nominal size.
+void check_classes(const StandardTables& tables, Findings& findings) {
+  const auto ranges = derivation_ranges(tables);
+  for (std::uint16_t id = 0; id < kStandardClassCount; ++id) {
+    const ToleranceClass c = standard_class(ClassId{id});
+    const auto deviations = derive(tables, c, ranges);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      if (!deviations[i]) continue;
+      const auto& [upper, lower] = *deviations[i];
+      if (upper - lower != standard_tolerance(tables, c.grade, ranges[i])) {
+        findings.push_back(finding(kGrades, ranges[i], name(c), "upper - lower is not IT"));
+      }
+      if (c.letter == DeviationLetter::JS && upper != -lower) {
+        findings.push_back(finding(kGrades, ranges[i], name(c), "is not symmetric"));
+      }
+    }
+  }
+}
+
+void check_custom_columns(const TableData& data, Findings& findings) {
+  std::set<std::string_view> names;
+  for (const CustomColumn& column : data.custom_columns) {
+    const std::string where = std::string(word(column.feature)) + "/" + column.name;
+    if (auto checked = check_custom_column(column); !checked) {
+      findings.push_back({ErrorCode::TablesInconsistent, checked.error().message, where});
+    }
+    if (!names.insert(column.name).second) {
+      findings.push_back(
+          {ErrorCode::TablesInconsistent, "column '" + column.name + "' is there twice", where});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Error> table_rules(const TableData& data) {
+  Findings findings = compare_structure(data);
+  if (findings.empty()) {  // the values of incomplete tables cannot be compared
+    const StandardTables tables(data.cells);
+    check_grades_increase(tables.tolerances, findings);
+    check_tolerances_grow_with_size(tables.tolerances, findings);
+    check_deltas(tables, findings);
+    check_mirror(tables, findings);
+    check_classes(tables, findings);
+  }
+  check_custom_columns(data, findings);
+  return findings;
+}
+
+}  // namespace fitgauge::iso286

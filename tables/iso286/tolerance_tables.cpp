@@ -1,0 +1,212 @@
+#include "iso286/tolerance_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "iso286/derivation.hpp"
+#include "iso286/table_rules.hpp"
+
+namespace fitgauge::iso286 {
+namespace {
+
+Error inconsistent(std::vector<Error> findings) {
+  return {ErrorCode::TablesInconsistent,
+          fmt::format("the tolerance tables fail their audit in {} place(s), first {}",
+                      findings.size(), findings.front().message),
+          findings.front().where, std::move(findings)};
+}
+
+std::int32_t cell_value(Length deviation) { return static_cast<std::int32_t>(deviation.count()); }
+
+/// Joins ranges that touch.
+void append_range(std::vector<NominalSizeRange>& ranges, const NominalSizeRange& range) {
+  if (!ranges.empty() && ranges.back().up_to == range.over) {
+    ranges.back().up_to = range.up_to;
+  } else {
+    ranges.push_back(range);
+  }
+}
+
+}  // namespace
+
+Result<ToleranceTables> ToleranceTables::make(const TableData& data, TableRevision revision) {
+  if (auto findings = table_rules(data); !findings.empty())
+    return inconsistent(std::move(findings));
+  ToleranceTables tables;
+  tables.revision_ = std::move(revision);
+  tables.add_standard_classes(StandardTables(data.cells));
+  for (const CustomColumn& column : data.custom_columns) tables.add_custom_column(column);
+  tables.list_classes();
+  return tables;
+}
+
+void ToleranceTables::add_standard_classes(const StandardTables& standard) {
+  ranges_ = standard.holes.ranges();
+  slots_ = derivation_ranges(standard);
+  for (const NominalSizeRange& slot : slots_) {
+    tolerance_steps_.push_back(standard.tolerances.ranges()[standard.tolerances.index_of(slot)]);
+  }
+  std::size_t slot = 0;
+  for (std::size_t mm = 1; mm < slot_by_ceil_mm_.size(); ++mm) {
+    if (Length::millimetres(static_cast<std::int64_t>(mm)) > slots_[slot].up_to) ++slot;
+    slot_by_ceil_mm_[mm] = static_cast<std::uint8_t>(slot);
+  }
+  cells_.resize(kStandardClassCount * kSlots);
+  for (std::uint16_t index = 0; index < kStandardClassCount; ++index) {
+    const ToleranceClass tolerance_class = standard_class(ClassId{index});
+    const auto deviations = derive(standard, tolerance_class, slots_);
+    for (std::size_t i = 0; i < kSlots; ++i) {
+      if (!deviations[i]) continue;
+      cells_[index * kSlots + i] = {cell_value(deviations[i]->upper),
+                                    cell_value(deviations[i]->lower)};
+    }
+    classes_info_.push_back({name(tolerance_class), tolerance_class.feature, {}});
+  }
+}
+
+void ToleranceTables::add_custom_column(const CustomColumn& column) {
+  if (const auto overridden = class_from_name(column.name)) {
+    const ClassId id = class_id(*overridden);
+    const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(id.index * kSlots);
+    std::fill_n(first, kSlots, Cell{});
+    classes_info_[id.index].custom_rows = column.rows;
+    return;
+  }
+  custom_ids_.emplace(column.name, ClassId{static_cast<std::uint16_t>(classes_info_.size())});
+  classes_info_.push_back({column.name, column.feature, column.rows});
+  cells_.resize(cells_.size() + kSlots);
+}
+
+void ToleranceTables::list_classes() {
+  for (std::uint16_t index = 0; index < kStandardClassCount; ++index) {
+    const ClassId id{index};
+    if (!defined_ranges(id).empty()) classes_[static_cast<std::size_t>(feature(id))].push_back(id);
+  }
+  for (const auto& [name, id] : custom_ids_) {
+    classes_[static_cast<std::size_t>(feature(id))].push_back(id);
+  }
+}
+
+std::vector<NominalSizeRange> ToleranceTables::defined_ranges(ClassId id) const {
+  std::vector<NominalSizeRange> ranges;
+  for (const CustomRow& row : classes_info_[id.index].custom_rows) append_range(ranges, row.range);
+  for (std::size_t i = 0; i < kSlots; ++i) {
+    if (cells_[id.index * kSlots + i].upper != kElsewhere) append_range(ranges, slots_[i]);
+  }
+  return ranges;
+}
+
+const CustomRow* ToleranceTables::custom_row(NominalSize size, ClassId id) const {
+  const auto& rows = classes_info_[id.index].custom_rows;
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const CustomRow& candidate) {
+    return candidate.range.contains(size);
+  });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+std::optional<LimitDeviations> ToleranceTables::custom_deviations(NominalSize size,
+                                                                  ClassId id) const {
+  const CustomRow* row = custom_row(size, id);
+  if (row == nullptr || size.length() + row->deviations.lower <= Length()) return std::nullopt;
+  return row->deviations;
+}
+
+Result<ClassId> ToleranceTables::find_class(std::string_view name) const {
+  if (const auto found = custom_ids_.find(name); found != custom_ids_.end()) return found->second;
+  const auto standard = class_from_name(name);
+  if (standard) {
+    const ClassId id = class_id(*standard);
+    const auto& listed = classes(standard->feature);
+    if (std::binary_search(listed.begin(), listed.end(), id)) return id;
+    return Error{ErrorCode::ClassUnknown, fmt::format("ISO 286 defines {} for no size", name)};
+  }
+  const bool has_digit = name.find_first_of("0123456789") != std::string_view::npos;
+  if (!is_class_name(name) || !has_digit) {
+    return Error{ErrorCode::DesignationMalformed,
+                 "a tolerance class is letters and a grade such as H7, or the name of a custom "
+                 "column"};
+  }
+  return Error{ErrorCode::ClassUnknown,
+               fmt::format("'{}' is no class of ISO 286 (letters A to ZC without I, L, O, Q and W, "
+                           "or the same in lower case, grades 01 to 18) and no custom column",
+                           name)};
+}
+
+Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size, ClassId id) const {
+  const auto deviations = limit_deviations(size, id);
+  if (!deviations) return undefined(size, id);
+  const Basis class_basis = basis(id);
+  return LimitsOfSize{
+      size,
+      id,
+      feature(id),
+      class_basis,
+      *deviations,
+      class_basis == Basis::Custom ? custom_row(size, id)->range : tolerance_steps_[slot(size)]};
+}
+
+Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size,
+                                                     std::string_view class_name) const {
+  const auto id = find_class(class_name);
+  if (!id) return id.error();
+  return limits_of_size(size, *id);
+}
+
+Result<Fit> ToleranceTables::fit(NominalSize size, ClassId hole, ClassId shaft) const {
+  if (feature(hole) != Feature::Hole || feature(shaft) != Feature::Shaft) {
+    return Error{ErrorCode::FitMalformed, "a fit is the class of a hole, then of a shaft: H7/g6"};
+  }
+  const auto hole_limits = limits_of_size(size, hole);
+  if (!hole_limits) return hole_limits.error();
+  const auto shaft_limits = limits_of_size(size, shaft);
+  if (!shaft_limits) return shaft_limits.error();
+  return Fit{*hole_limits, *shaft_limits};
+}
+
+std::optional<ClassId> ToleranceTables::nearest_defined(NominalSize size, ClassId id) const {
+  const auto asked = class_from_name(class_name(id));
+  if (!asked) return std::nullopt;
+  const auto letter = static_cast<int>(asked->letter);
+  const auto grade = static_cast<int>(asked->grade);
+  const auto defined = [&](int other_letter, int other_grade) -> std::optional<ClassId> {
+    if (other_letter < 0 || other_letter >= static_cast<int>(kLetterCount)) return std::nullopt;
+    if (other_grade < 0 || other_grade >= static_cast<int>(kGradeCount)) return std::nullopt;
+    const ClassId other = class_id({asked->feature, static_cast<DeviationLetter>(other_letter),
+                                    static_cast<StandardToleranceGrade>(other_grade)});
+    return limit_deviations(size, other) ? std::optional(other) : std::nullopt;
+  };
+  for (int distance = 1; distance < static_cast<int>(kGradeCount); ++distance) {
+    if (const auto finer = defined(letter, grade - distance)) return finer;
+    if (const auto coarser = defined(letter, grade + distance)) return coarser;
+  }
+  for (int distance = 1; distance < static_cast<int>(kLetterCount); ++distance) {
+    if (const auto before = defined(letter - distance, grade)) return before;
+    if (const auto after = defined(letter + distance, grade)) return after;
+  }
+  return std::nullopt;
+}
+
+Error ToleranceTables::undefined(NominalSize size, ClassId id) const {
+  const auto ranges = defined_ranges(id);
+  const bool covered =
+      std::any_of(ranges.begin(), ranges.end(),
+                  [&](const NominalSizeRange& range) { return range.contains(size); });
+  std::string message =
+      fmt::format("{} is not defined for {} mm: ", class_name(id), format_mm(size.length()));
+  if (covered) {
+    message += "its lower limit of size would be 0 or less";
+  } else {
+    message += basis(id) == Basis::Custom ? "the custom column covers sizes " : "ISO 286 has it ";
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      if (i > 0) message += ", and ";
+      message += format_range(ranges[i]);
+    }
+  }
+  if (const auto nearest = nearest_defined(size, id)) {
+    message += fmt::format(". The nearest class defined there is {}", class_name(*nearest));
+  }
+  return {ErrorCode::ClassUndefinedForSize, std::move(message)};
+}
+
+}  // namespace fitgauge::iso286
