@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/length.hpp"
+#include "gauging/verdict.hpp"
+#include "iso286/feature.hpp"
+
+namespace fitgauge::probing {
+
+/// Limits of a measured value; both belong to the good values.
+struct Limits {
+  Length upper;
+  Length lower;
+
+  friend bool operator==(const Limits&, const Limits&) = default;
+};
+
+/// One size, coordinate or position a cycle has measured.
+struct MeasuredSize {
+  std::string_view characteristic{};  ///< "diameter", "centre main axis": constant text
+  iso286::Feature feature = iso286::Feature::Hole;
+  Length nominal{};
+  Length measured{};
+  std::optional<Limits> limits{};  ///< nothing when the block switches the check off
+  gauging::Verdict verdict = gauging::Verdict::Good;
+};
+
+/// What the number of points lets one say about the form of a circular feature.
+struct Form {
+  bool assessable = false;
+  std::string reason{};                 ///< which deviations stay invisible
+  std::optional<double> residual_mm{};  ///< largest distance of a point from the fitted circle
+};
+
+/// The outcome of a measuring cycle, kept with the run.
+struct MeasuringRecord {
+  std::uint16_t cycle = 0;
+  std::vector<MeasuredSize> sizes{};          ///< the leading one first; none for 0, 1, 420, 431
+  std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without status
+  std::optional<Form> form{};                 ///< of circular features
+};
+
+}  // namespace fitgauge::probing
