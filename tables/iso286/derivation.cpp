@@ -72,14 +72,8 @@ constexpr Length kM6Exception = Length::micrometres(-9);
 
 /// Deltas exist for IT3 to IT8. Finer grades need none where all deltas are 0, up to 3 mm and above
 /// 500 mm; between, their classes are not defined.
-std::optional<Length> delta(const StandardTables& tables, Grade grade,
-                            const NominalSizeRange& range) {
-  if (grade >= Grade::IT3) {
-    return tables.holes.column("delta_IT" + std::string(text(grade)))[tables.holes.index_of(range)];
-  }
-  const bool none_needed =
-      range.up_to <= Length::millimetres(3) || range.over >= Length::millimetres(500);
-  return none_needed ? std::optional(Length()) : std::nullopt;
+bool needs_no_delta(const NominalSizeRange& range) {
+  return range.up_to <= Length::millimetres(3) || range.over >= Length::millimetres(500);
 }
 
 LimitDeviations complete(Limit limit, Length deviation, Length tolerance) {
@@ -87,27 +81,42 @@ LimitDeviations complete(Limit limit, Length deviation, Length tolerance) {
   return {deviation, deviation - tolerance};
 }
 
-std::optional<LimitDeviations> derive(const StandardTables& tables, const ToleranceClass& c,
-                                      const FundamentalDeviation& fundamental,
-                                      const NominalSizeRange& range) {
-  if (kUpToOneMillimetre.contains(range) && !is_used_up_to_1_mm(c)) return std::nullopt;
-  const auto tolerance = standard_tolerance(tables, c.grade, range);
+/// What the limits of one class are computed from.
+struct ClassColumns {
+  ClassColumns(const StandardTables& tables, const ToleranceClass& c)
+      : tolerance_class(c),
+        fundamental(fundamental_deviation(c)),
+        tolerances(tables.tolerances.column("IT" + std::string(text(c.grade)))),
+        deviations(tables.deviations(c.feature).column(fundamental.column)),
+        deltas(tables.holes.column("delta_IT" + std::string(text(c.grade)))) {}
+
+  ToleranceClass tolerance_class;
+  FundamentalDeviation fundamental;
+  IndexedTable::Column tolerances;
+  IndexedTable::Column deviations;  ///< empty for JS and js, and for what does not exist: J9, j4
+  IndexedTable::Column deltas;      ///< empty but for IT3 to IT8
+};
+
+/// `row` is the index of the range among the steps of the fundamental deviations, `step` among
+/// those of the standard tolerances.
+std::optional<LimitDeviations> derive(const ClassColumns& columns, const NominalSizeRange& range,
+                                      std::size_t row, std::size_t step) {
+  const ToleranceClass& c = columns.tolerance_class;
+  const Limit limit = columns.fundamental.limit;
+  const auto tolerance = columns.tolerances[step];
   if (!tolerance) return std::nullopt;
-  if (fundamental.limit == Limit::Symmetric) {
+  if (kUpToOneMillimetre.contains(range) && !is_used_up_to_1_mm(c)) return std::nullopt;
+  if (limit == Limit::Symmetric) {
     return complete(Limit::Upper, Length::nanometres(tolerance->count() / 2), *tolerance);
   }
-  const IndexedTable& table = tables.deviations(c.feature);
-  const auto column = table.column(fundamental.column);
-  if (column.empty()) return std::nullopt;  // J9, j4: no such column
-  auto deviation = column[table.index_of(range)];
-  if (!deviation) return std::nullopt;
-  if (fundamental.delta_is_added) {
-    const auto added = delta(tables, c.grade, range);
-    if (!added) return std::nullopt;
-    *deviation += *added;
+  if (columns.deviations.empty() || !columns.deviations[row]) return std::nullopt;
+  if (is_m6_exception(c, range)) return complete(limit, kM6Exception, *tolerance);
+  Length deviation = *columns.deviations[row];
+  if (columns.fundamental.delta_is_added && !needs_no_delta(range)) {
+    if (columns.deltas.empty() || !columns.deltas[row]) return std::nullopt;
+    deviation += *columns.deltas[row];
   }
-  if (is_m6_exception(c, range)) deviation = kM6Exception;
-  return complete(fundamental.limit, *deviation, *tolerance);
+  return complete(limit, deviation, *tolerance);
 }
 
 }  // namespace
@@ -128,11 +137,12 @@ std::optional<Length> standard_tolerance(const StandardTables& tables, StandardT
 std::vector<std::optional<LimitDeviations>> derive(const StandardTables& tables,
                                                    const ToleranceClass& tolerance_class,
                                                    std::span<const NominalSizeRange> ranges) {
-  const FundamentalDeviation fundamental = fundamental_deviation(tolerance_class);
+  const ClassColumns columns(tables, tolerance_class);
   std::vector<std::optional<LimitDeviations>> deviations;
   deviations.reserve(ranges.size());
   for (const NominalSizeRange& range : ranges) {
-    deviations.push_back(derive(tables, tolerance_class, fundamental, range));
+    deviations.push_back(
+        derive(columns, range, tables.holes.index_of(range), tables.tolerances.index_of(range)));
   }
   return deviations;
 }

@@ -20,17 +20,17 @@ IndexedTable::IndexedTable(std::span<const TableCell> cells, TableId table) {
   }
 }
 
-std::span<const std::optional<Length>> IndexedTable::column(std::string_view name) const {
+IndexedTable::Column IndexedTable::column(std::string_view name) const {
   const auto found = columns_.find(name);
   if (found == columns_.end()) return {};
   return found->second;
 }
 
 std::size_t IndexedTable::index_of(const NominalSizeRange& range) const {
-  const auto found =
-      std::find_if(ranges_.begin(), ranges_.end(),
-                   [&](const NominalSizeRange& candidate) { return candidate.contains(range); });
-  assert(found != ranges_.end());
+  const auto found = std::lower_bound(
+      ranges_.begin(), ranges_.end(), range.up_to,
+      [](const NominalSizeRange& candidate, Length up_to) { return candidate.up_to < up_to; });
+  assert(found != ranges_.end() && found->contains(range));
   return static_cast<std::size_t>(found - ranges_.begin());
 }
 

@@ -14,14 +14,17 @@ namespace fitgauge::iso286 {
 /// The cells of one table by range and column. Immutable.
 class IndexedTable {
  public:
+  /// One value for each range.
+  using Column = std::span<const std::optional<Length>>;
+
   /// @pre every range has every column once, as table_rules checks first
   IndexedTable(std::span<const TableCell> cells, TableId table);
 
   /// Ascending.
   const std::vector<NominalSizeRange>& ranges() const { return ranges_; }
 
-  /// The values of a column, one for each range; empty when there is no such column.
-  std::span<const std::optional<Length>> column(std::string_view name) const;
+  /// Empty when there is no such column.
+  Column column(std::string_view name) const;
 
   /// The index of the range that holds all of `range`.
   /// @pre there is one

@@ -13,7 +13,7 @@ namespace fitgauge::iso286 {
 namespace {
 
 using Findings = std::vector<Error>;
-using Column = std::span<const std::optional<Length>>;
+using Column = IndexedTable::Column;
 
 constexpr TableId kGrades = TableId::ItGrades;
 constexpr TableId kHoles = TableId::HoleFundamentalDeviations;
