@@ -37,6 +37,9 @@ Result<void> check_custom_column(const CustomColumn& column) {
                         "names of hole columns start with an upper-case letter, those of shaft "
                         "columns with a lower-case one",
                         "/name"});
+  } else if (column.name == "NR" || column.name == "BEREICH") {
+    findings.push_back({ErrorCode::TableRowsInvalid,
+                        "NR and BEREICH are columns of the control's table already", "/name"});
   }
   if (column.rows.empty()) {
     findings.push_back({ErrorCode::TableRowsInvalid, "a column needs at least one row", "/rows"});

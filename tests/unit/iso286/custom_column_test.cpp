@@ -72,6 +72,8 @@ TEST_CASE("columns that are no columns are refused with their place") {
   CHECK(where(Feature::Hole, "h7", {row(18, 30, 15, -3)}) == "/name");
   CHECK(where(Feature::Shaft, "H7", {row(18, 30, 15, -3)}) == "/name");
   CHECK(where(Feature::Hole, "7H", {row(18, 30, 15, -3)}) == "/name");
+  CHECK(where(Feature::Hole, "NR", {row(18, 30, 15, -3)}) == "/name");
+  CHECK(where(Feature::Hole, "BEREICH", {row(18, 30, 15, -3)}) == "/name");
   CHECK(where(Feature::Hole, "H7", {}) == "/rows");
   CHECK(where(Feature::Hole, "H7", {row(18, 30, -3, 15)}) == "/rows/0/upper_um");
   CHECK(where(Feature::Hole, "H7", {row(30, 30, 15, -3)}) == "/rows/0/up_to_mm");

@@ -1,0 +1,125 @@
+#include "tabfile/column_description.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "base/text.hpp"
+
+namespace fitgauge::tabfile {
+namespace {
+
+/// A width or count of decimals; 0 for what is no small number: the column line decides anyway.
+template <class Number>
+Number small_number(std::string_view text) {
+  constexpr Number kLargest = 999;
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && value <= kLargest ? value : 0;
+}
+
+std::string_view unquoted(std::string_view text) {
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    return text.substr(1, text.size() - 2);
+  }
+  return text;
+}
+
+/// The end of a value of TableDescription: a quoted text, or up to a comma or parenthesis.
+std::size_t value_end(std::string_view text) {
+  if (text.starts_with('"')) {
+    const std::size_t quote = text.find('"', 1);
+    return quote == std::string_view::npos ? text.size() : quote + 1;
+  }
+  return std::min(text.find_first_of(",)]\n"), text.size());
+}
+
+bool is_key_character(char c) { return ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z'; }
+
+/// The word that ends before `end`.
+std::string_view key_before(std::string_view text, std::size_t end) {
+  std::size_t begin = end;
+  while (begin > 0 && is_key_character(text[begin - 1])) --begin;
+  return text.substr(begin, end - begin);
+}
+
+}  // namespace
+
+ColumnDescriptions read_struct_block(const std::vector<std::string_view>& lines) {
+  ColumnDescriptions columns;
+  TabColumn* column = nullptr;
+  for (const std::string_view line : lines) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    const std::string_view key = trim(line.substr(0, equals));
+    const std::string_view value = trim(line.substr(equals + 1));
+    if (key == "NAME") {
+      column = &columns[std::string(value)];
+      column->name = value;
+    } else if (column == nullptr) {
+      continue;
+    } else if (key == "TYPE") {
+      column->type = value;
+    } else if (key == "WIDTH") {
+      column->width = small_number<std::size_t>(value);
+    } else if (key == "DEC") {
+      column->decimals = small_number<int>(value);
+    }
+  }
+  return columns;
+}
+
+ColumnDescriptions read_table_description(std::string_view text) {
+  constexpr std::string_view kAssign = ":=";
+  ColumnDescriptions columns;
+  TabColumn* column = nullptr;
+  while (true) {
+    const std::size_t assign = text.find(kAssign);
+    if (assign == std::string_view::npos) return columns;
+    const std::string_view key = key_before(text, assign);
+    text = trim(text.substr(assign + kAssign.size()));
+    const std::size_t end = value_end(text);
+    const std::string_view value = unquoted(trim(text.substr(0, end)));
+    if (key == "columns") continue;  // the list, not a value
+    text.remove_prefix(end);
+    if (key == "key") {
+      column = &columns[std::string(value)];
+      column->name = value;
+      column->type = "FLOAT";
+    } else if (column == nullptr) {
+      continue;
+    } else if (key == "width") {
+      column->width = small_number<std::size_t>(value);
+    } else if (key == "decimals") {
+      column->decimals = small_number<int>(value);
+    } else if (key == "unit") {
+      column->type = value;
+    }
+  }
+}
+
+std::string write_description(const TabTable& table) {
+  std::string out;
+  if (table.header().form == HeaderForm::StructBlock) {
+    out += "#STRUCTBEGIN\n";
+    for (const TabColumn& column : table.columns()) {
+      if (column.type.empty()) continue;
+      out += fmt::format("   NAME = {}\n     TYPE = {}\n     WIDTH = {}\n     DEC = {}\n",
+                         column.name, column.type, column.width, column.decimals);
+    }
+    out += "#STRUCTEND\n";
+  }
+  if (table.header().form == HeaderForm::TableDescription) {
+    out += "TableDescription (\n  columns:=[\n";
+    for (const TabColumn& column : table.columns()) {
+      if (column.type.empty()) continue;
+      out += fmt::format(
+          "    CfgColumnDescription ( key:=\"{}\", width:={}, decimals:={}, unit:=\"{}\" ),\n",
+          column.name, column.width, column.decimals, column.type);
+    }
+    out += "  ]\n)\n";
+  }
+  return out;
+}
+
+}  // namespace fitgauge::tabfile

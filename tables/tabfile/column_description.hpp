@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tabfile/tab_table.hpp"
+
+namespace fitgauge::tabfile {
+
+/// What a file says of its columns, by name, before the line of their names.
+using ColumnDescriptions = std::map<std::string, TabColumn, std::less<>>;
+
+/// Reads the lines between #STRUCTBEGIN and #STRUCTEND; texts for dialogs are passed over.
+ColumnDescriptions read_struct_block(const std::vector<std::string_view>& lines);
+
+/// Reads what stands in the parentheses of TableDescription.
+ColumnDescriptions read_table_description(std::string_view text);
+
+/// The description of all columns that have a type, as the lines of their form.
+std::string write_description(const TabTable& table);
+
+}  // namespace fitgauge::tabfile

@@ -1,0 +1,221 @@
+#include "tabfile/tab_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "base/text.hpp"
+#include "tabfile/characters.hpp"
+#include "tabfile/column_description.hpp"
+
+namespace fitgauge::tabfile {
+namespace {
+
+constexpr std::size_t kMostColumns = 4096;
+constexpr std::size_t kMostCells = 1'000'000;
+constexpr std::string_view kBegin = "BEGIN";
+constexpr std::string_view kEnd = "[END]";
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    lines.push_back(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+/// The next word of `text`, which is shortened by it.
+std::string_view take_word(std::string_view& text) {
+  text = trim(text);
+  const std::size_t end = std::min(text.find(' '), text.size());
+  const std::string_view word = text.substr(0, end);
+  text = trim(text.substr(end));
+  return word;
+}
+
+/// What follows BEGIN: name, suffix (a blank may stand before its dot), unit, version.
+TabHeader read_begin_line(std::string_view text) {
+  TabHeader header;
+  header.name = take_word(text);
+  if (text.starts_with('.')) header.name += " " + std::string(take_word(text));
+  std::string_view rest = text;
+  const std::string_view unit = take_word(rest);
+  if (unit == "MM" || unit == "INCH") {
+    header.unit = unit;
+    text = rest;
+  }
+  header.version = text;
+  return header;
+}
+
+/// A column of the column line: where its cells begin and where the next column's do.
+struct ColumnPlace {
+  std::size_t begin;  ///< in characters
+  std::size_t width;  ///< in characters, with the blank between columns; npos for the last one
+};
+
+/// Reads one file, line by line.
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : lines_(lines_of(text)) {}
+
+  Result<TabTable> read() {
+    if (lines_.empty() || !lines_[0].starts_with(kBegin)) {
+      return malformed(0, "a table file begins with BEGIN and its name");
+    }
+    TabHeader header = read_begin_line(lines_[0].substr(kBegin.size()));
+    if (header.name.empty()) return malformed(0, "BEGIN is not followed by the table's name");
+    next_ = 1;
+    auto descriptions = read_descriptions(header);
+    if (!descriptions) return descriptions.error();
+    auto columns = read_column_line(*descriptions);
+    if (!columns) return columns.error();
+    TabTable table(std::move(header), std::move(*columns));
+    auto end = read_rows(table);
+    if (!end) return end.error();
+    return table;
+  }
+
+ private:
+  Error malformed(std::size_t line, std::string_view what) const {
+    return {ErrorCode::TableFileMalformed, fmt::format("line {}: {}", line + 1, what),
+            fmt::format("line {}", line + 1)};
+  }
+
+  void skip_comments() {
+    while (next_ < lines_.size() &&
+           (trim(lines_[next_]).empty() || trim(lines_[next_]).starts_with(';'))) {
+      ++next_;
+    }
+  }
+
+  Result<ColumnDescriptions> read_descriptions(TabHeader& header) {
+    skip_comments();
+    const std::size_t first = next_;
+    const std::string_view line = first < lines_.size() ? trim(lines_[first]) : std::string_view();
+    header.form = HeaderForm::None;
+    if (line.starts_with("#STRUCTBEGIN")) {
+      header.form = HeaderForm::StructBlock;
+      const auto end = take_until([](std::string_view l) { return l.starts_with("#STRUCTEND"); });
+      if (!end) return malformed(first, "#STRUCTBEGIN has no #STRUCTEND");
+      return read_struct_block({lines_.begin() + offset(first + 1), lines_.begin() + offset(*end)});
+    }
+    if (line.starts_with("TableDescription")) {
+      header.form = HeaderForm::TableDescription;
+      // Its own line ends with "(", every inner parenthesis stands with its closing one or deeper.
+      int depth = 0;
+      const auto end = take_until([&](std::string_view l) {
+        depth += static_cast<int>(std::count(l.begin(), l.end(), '('));
+        depth -= static_cast<int>(std::count(l.begin(), l.end(), ')'));
+        return depth == 0;
+      });
+      if (!end) return malformed(first, "TableDescription is not closed");
+      const char* const begin = lines_[first].data();
+      const char* const last = lines_[*end].data() + lines_[*end].size();
+      return read_table_description({begin, static_cast<std::size_t>(last - begin)});
+    }
+    return ColumnDescriptions();
+  }
+
+  /// Takes lines up to and including the first that `is_last`, and gives its index.
+  template <class Predicate>
+  std::optional<std::size_t> take_until(Predicate is_last) {
+    while (next_ < lines_.size()) {
+      if (is_last(trim(lines_[next_++]))) return next_ - 1;
+    }
+    return std::nullopt;
+  }
+
+  Result<std::vector<TabColumn>> read_column_line(const ColumnDescriptions& descriptions) {
+    skip_comments();
+    if (next_ >= lines_.size() || trim(lines_[next_]) == kEnd) {
+      return malformed(next_, "the line with the names of the columns is missing");
+    }
+    const std::string_view line = lines_[next_];
+    std::vector<TabColumn> columns;
+    std::size_t at = line.find_first_not_of(' ');
+    while (at != std::string_view::npos) {
+      const std::size_t end = std::min(line.find(' ', at), line.size());
+      const std::string name(line.substr(at, end - at));
+      const auto described = descriptions.find(name);
+      columns.push_back(described == descriptions.end() ? TabColumn{.name = name}
+                                                        : described->second);
+      if (!names_.insert(name).second)
+        return malformed(next_, "column " + name + " is there twice");
+      places_.push_back({count_characters(line.substr(0, at)), std::string_view::npos});
+      at = line.find_first_not_of(' ', end);
+    }
+    if (columns.size() > kMostColumns) return malformed(next_, "a table has at most 4096 columns");
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+      places_[i].width = places_[i + 1].begin - places_[i].begin;
+      columns[i].width = places_[i].width - 1;
+    }
+    columns.back().width = std::max(columns.back().width, count_characters(columns.back().name));
+    ++next_;
+    return columns;
+  }
+
+  Result<void> read_rows(TabTable& table) {
+    std::size_t cells = 0;
+    for (; next_ < lines_.size(); ++next_) {
+      const std::string_view line = lines_[next_];
+      if (trim(line) == kEnd) return read_nothing_more();
+      if (trim(line).empty()) continue;
+      auto row = cut(line);
+      if (!row) return row.error();
+      cells += row->size();
+      if (cells > kMostCells) return malformed(next_, "a table has at most a million cells");
+      if (auto appended = table.append_row(std::move(*row)); !appended) {
+        return malformed(next_, appended.error().message);
+      }
+    }
+    return malformed(lines_.size() - 1, "the file ends without [END]: it may be cut off");
+  }
+
+  Result<void> read_nothing_more() const {
+    for (std::size_t i = next_ + 1; i < lines_.size(); ++i) {
+      if (!trim(lines_[i]).empty()) return malformed(i, "text after [END]");
+    }
+    return {};
+  }
+
+  Result<std::vector<std::string>> cut(std::string_view line) const {
+    std::vector<std::string> cells;
+    std::size_t begin = skip_characters(line, 0, places_.front().begin);
+    if (!trim(line.substr(0, begin)).empty()) {
+      return malformed(next_, "text before the first column");
+    }
+    for (std::size_t i = 0; i < places_.size() && begin < line.size(); ++i) {
+      const std::size_t end = places_[i].width == std::string_view::npos
+                                  ? line.size()
+                                  : skip_characters(line, begin, places_[i].width);
+      if (end < line.size() && line[end - 1] != ' ' && line[end] != ' ') {
+        return malformed(next_, fmt::format("the cell of column {} runs into the next one", i + 1));
+      }
+      cells.emplace_back(trim(line.substr(begin, end - begin)));
+      begin = end;
+    }
+    return cells;
+  }
+
+  static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+
+  std::vector<std::string_view> lines_;
+  std::size_t next_ = 0;
+  std::vector<ColumnPlace> places_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+Result<TabTable> read_tab(std::string_view text) { return Reader(text).read(); }
+
+}  // namespace fitgauge::tabfile

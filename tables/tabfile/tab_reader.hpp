@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+#include "base/result.hpp"
+#include "tabfile/tab_table.hpp"
+
+namespace fitgauge::tabfile {
+
+/// Reads a table file in any form of the controls: columns described by #STRUCTBEGIN, by
+/// TableDescription or not at all, comment lines before the column names, LF or CRLF. The names in
+/// the column line stand where their columns begin; every row is cut there. A file may hold up to
+/// 4096 columns and a million cells.
+/// @param text valid UTF-8, a byte order mark allowed
+/// @errors TableFileMalformed, `where` names the line: no BEGIN, an unfinished description, no
+///   column line, a name twice, a cell that runs into the next, a row number twice, no [END], text
+///   after [END].
+Result<TabTable> read_tab(std::string_view text);
+
+}  // namespace fitgauge::tabfile

@@ -1,0 +1,140 @@
+#include "tabfile/tab_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "base/text.hpp"
+#include "tabfile/characters.hpp"
+
+namespace fitgauge::tabfile {
+namespace {
+
+/// Columns of these types are read into string parameters.
+constexpr std::array<std::string_view, 5> kTextTypes = {"C", "TEXT", "UPTEXT", "PATHNAME",
+                                                        "TSTAMP"};
+
+/// The whole of `text` as a number, a leading plus sign allowed.
+template <class Number>
+std::optional<Number> to_number(std::string_view text) {
+  if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string place_of(std::int64_t row, std::string_view column) {
+  return fmt::format("row {}, column {}", row, column);
+}
+
+}  // namespace
+
+bool TabColumn::is_text() const {
+  return std::find(kTextTypes.begin(), kTextTypes.end(), type) != kTextTypes.end();
+}
+
+TabTable::TabTable(TabHeader header, std::vector<TabColumn> columns)
+    : header_(std::move(header)), columns_(std::move(columns)) {
+  assert(!columns_.empty());
+  for (std::size_t i = 0; i < columns_.size(); ++i) columns_by_name_.emplace(columns_[i].name, i);
+}
+
+std::string_view TabTable::cell(std::size_t row, std::size_t column) const {
+  const auto& cells = rows_[row];
+  return column < cells.size() ? std::string_view(cells[column]) : std::string_view();
+}
+
+Result<void> TabTable::append_row(std::vector<std::string> cells) {
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  if (cells.size() > columns_.size()) {
+    return Error{ErrorCode::TableFileMalformed, "a row has more cells than the table has columns"};
+  }
+  const auto number = cells.empty() ? std::nullopt : to_number<std::int64_t>(cells.front());
+  if (number && !rows_by_number_.emplace(*number, rows_.size()).second) {
+    return Error{ErrorCode::TableFileMalformed, fmt::format("row {} is there twice", *number)};
+  }
+  rows_.push_back(std::move(cells));
+  return {};
+}
+
+Result<std::size_t> TabTable::find_column(std::string_view name) const {
+  const auto found = columns_by_name_.find(name);
+  if (found != columns_by_name_.end()) return found->second;
+  return Error{ErrorCode::TableColumnMissing,
+               fmt::format("table {} has no column '{}'", header_.name, name)};
+}
+
+Result<std::size_t> TabTable::find_row(std::int64_t number) const {
+  const auto found = rows_by_number_.find(number);
+  if (found != rows_by_number_.end()) return found->second;
+  return Error{ErrorCode::TableRowMissing,
+               fmt::format("table {} has no row {} in its column {}", header_.name, number,
+                           columns_.front().name)};
+}
+
+Result<TabTable::Place> TabTable::find(std::int64_t row, std::string_view column) const {
+  const auto row_index = find_row(row);
+  if (!row_index) return row_index.error();
+  const auto column_index = find_column(column);
+  if (!column_index) return column_index.error();
+  return Place{*row_index, *column_index};
+}
+
+Result<double> TabTable::number(std::int64_t row, std::string_view column) const {
+  const auto place = find(row, column);
+  if (!place) return place.error();
+  const std::string_view written = cell(place->row, place->column);
+  if (written.empty()) {
+    return Error{ErrorCode::TableCellEmpty,
+                 fmt::format("table {} is blank in {}", header_.name, place_of(row, column))};
+  }
+  const auto value = to_number<double>(written);
+  if (value && std::isfinite(*value)) return *value;
+  return Error{ErrorCode::NumberMalformed,
+               fmt::format("table {} has no number in {}: '{}'", header_.name,
+                           place_of(row, column), written)};
+}
+
+Result<std::string_view> TabTable::text(std::int64_t row, std::string_view column) const {
+  const auto place = find(row, column);
+  if (!place) return place.error();
+  return cell(place->row, place->column);
+}
+
+Result<void> TabTable::set_number(std::int64_t row, std::string_view column, double value) {
+  const auto place = find(row, column);
+  if (!place) return place.error();
+  if (!std::isfinite(value)) {
+    return Error{ErrorCode::NumberOutOfRange,
+                 fmt::format("{} takes finite numbers only", place_of(row, column))};
+  }
+  const TabColumn& target = columns_[place->column];
+  return set_text(row, column,
+                  target.type.empty() ? fmt::format("{}", value)
+                                      : fmt::format("{:.{}f}", value, target.decimals));
+}
+
+Result<void> TabTable::set_text(std::int64_t row, std::string_view column, std::string_view value) {
+  const auto place = find(row, column);
+  if (!place) return place.error();
+  const TabColumn& target = columns_[place->column];
+  const std::string_view written = trim(value);
+  if (count_characters(written) > std::max(target.width, count_characters(target.name))) {
+    return Error{ErrorCode::TableCellTooLong,
+                 fmt::format("'{}' is longer than the {} characters of {} in table {}", written,
+                             target.width, place_of(row, column), header_.name)};
+  }
+  auto& cells = rows_[place->row];
+  if (cells.size() <= place->column) cells.resize(place->column + 1);
+  cells[place->column] = written;
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  return {};
+}
+
+}  // namespace fitgauge::tabfile
