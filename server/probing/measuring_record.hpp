@@ -24,6 +24,7 @@ struct Limits {
 struct MeasuredSize {
   std::string_view characteristic{};  ///< "diameter", "centre main axis": constant text
   iso286::Feature feature = iso286::Feature::Hole;
+  bool is_position = false;  ///< of a centre: without feature of size, out of tolerance is reject
   Length nominal{};
   Length measured{};
   std::optional<Limits> limits{};  ///< nothing when the block switches the check off
@@ -40,7 +41,7 @@ struct Form {
 /// The outcome of a measuring cycle, kept with the run.
 struct MeasuringRecord {
   std::uint16_t cycle = 0;
-  std::vector<MeasuredSize> sizes{};          ///< the leading one first; none for 0, 1, 420, 431
+  std::vector<MeasuredSize> sizes{};          ///< sizes, then positions; none for 0, 1, 420, 431
   std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without status
   std::optional<Form> form{};                 ///< of circular features
 };

@@ -1,0 +1,123 @@
+#include <array>
+
+#include "probing/circle_probing.hpp"
+#include "probing/cycles.hpp"
+#include "probing/measurement.hpp"
+#include "probing/parameters.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr auto parameters(int max_q, std::string_view max, int min_q, std::string_view min) {
+  return std::array{coordinate(273, "Nominal centre, main axis"),
+                    coordinate(274, "Nominal centre, secondary axis"),
+                    length(262, "Nominal diameter"),
+                    angle(325, "Starting angle", 360, 0),
+                    angle(247, "Stepping angle", 120),
+                    kMeasuringHeight,
+                    kSetUpClearance,
+                    kClearanceHeight,
+                    kMoveToClearance,
+                    length(max_q, max, 0),
+                    length(min_q, min, 0),
+                    length(279, "Tolerance of the centre, main axis", 0),
+                    length(280, "Tolerance of the centre, secondary axis", 0),
+                    kMeasuringLog,
+                    kStopOnTolerance,
+                    kMonitoringTool,
+                    newer(choice(423, "Number of touches", 3, 4, 4)),
+                    newer(choice(365, "Traverse: 0 line, 1 arc", 0, 1, 1)),
+                    kReverseTool,
+                    kAngleOfIncidence};
+}
+
+constexpr auto k421Parameters =
+    parameters(275, "Maximum size of the hole", 276, "Minimum size of the hole");
+constexpr auto k422Parameters =
+    parameters(277, "Maximum size of the stud", 278, "Minimum size of the stud");
+
+constexpr std::array<CycleOutput, 9> kResults{
+    {{151, "Centre, main axis", Unit::Length},
+     {152, "Centre, secondary axis", Unit::Length},
+     {153, "Diameter", Unit::Length},
+     {161, "Deviation of the centre, main axis", Unit::Length},
+     {162, "Deviation of the centre, secondary axis", Unit::Length},
+     {163, "Deviation of the diameter", Unit::Length},
+     {180, "Good", Unit::None},
+     {181, "Rework", Unit::None},
+     {182, "Reject", Unit::None}}};
+
+constexpr std::string_view kSimulated =
+    "All parameters; Q498 and Q531 concern turning tools and change nothing.";
+
+MeasuredValue centre_value(const Arguments& arguments, bool main, double measured) {
+  const Length nominal = to_length(arguments.number(main ? 273 : 274));
+  const int error = main ? 1044 : 1045;
+  return {.characteristic = main ? "Centre, main axis" : "Centre, secondary axis",
+          .role = ValueRole::Position,
+          .nominal = nominal,
+          .measured = to_length(measured),
+          .limits = position_limits(nominal, to_length(arguments.number(main ? 279 : 280))),
+          .result_q = static_cast<std::uint16_t>(main ? 151 : 152),
+          .deviation_q = static_cast<std::uint16_t>(main ? 161 : 162),
+          .error_too_large = error,
+          .error_too_small = error};
+}
+
+CycleResult<void> measure(const CycleContext& context, Side side) {
+  const Arguments& arguments = context.arguments;
+  const bool inside = side == Side::Inside;
+  const auto limits = inside ? size_limits(arguments, 275, 276) : size_limits(arguments, 277, 278);
+  if (!limits) return limits.error();
+  if (auto prepared = prepare_measurement(context); !prepared) return prepared;
+  auto motion = ProbingMotion::begin(context);
+  if (!motion) return motion.error();
+  const auto plan =
+      circle_plan(arguments, *motion, side, {arguments.number(273), arguments.number(274)},
+                  arguments.number(262));
+  if (!plan) return plan.error();
+  const auto contacts = motion->touch_all(circle_touches(*plan), arguments.number(260));
+  if (!contacts) return contacts.error();
+  const auto circle = circle_through(*contacts, side, motion->ball_radius());
+  if (!circle) return circle.error();
+
+  const MeasuredValue diameter{.characteristic = "Diameter",
+                               .role = inside ? ValueRole::HoleSize : ValueRole::ShaftSize,
+                               .nominal = to_length(arguments.number(262)),
+                               .measured = to_length(2 * circle->radius),
+                               .limits = *limits,
+                               .result_q = 153,
+                               .deviation_q = 163,
+                               .error_too_large = inside ? 1047 : 1049,
+                               .error_too_small = inside ? 1046 : 1048};
+  return finish_measurement(context,
+                            {.values = {centre_value(arguments, true, circle->centre.x),
+                                        centre_value(arguments, false, circle->centre.y), diameter},
+                             .measuring_height = to_length(arguments.number(261)),
+                             .correction = radius_correction(diameter),
+                             .form = circle_form(contacts->size(), circle->residual)});
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle421{
+    {.number = 421,
+     .name = "MEASURE HOLE",
+     .kind = CycleKind::Measuring,
+     .parameters = k421Parameters,
+     .results = kResults,
+     .simulated = kSimulated},
+    [](const CycleContext& context) { return measure(context, Side::Inside); }};
+
+constinit const TouchProbeCycle kCycle422{
+    {.number = 422,
+     .name = "MEAS. CIRCLE OUTSIDE",
+     .kind = CycleKind::Measuring,
+     .parameters = k422Parameters,
+     .results = kResults,
+     .simulated = kSimulated},
+    [](const CycleContext& context) { return measure(context, Side::Outside); }};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "probing/measured_value.hpp"
+#include "probing/touch_probe_cycle.hpp"
+
+namespace fitgauge::probing {
+
+/// The text log of Q281: header with date, time, program and unit, then sections separated by
+/// dashed lines, each a list of named numbers with four decimals in the unit of the main program.
+class MeasuringLog {
+ public:
+  MeasuringLog(const CycleDescriptor& cycle, const CycleHost& host);
+
+  /// Opens a section: "Nominal values".
+  void section(std::string_view title);
+  void length(std::string_view label, Length value);
+  void angle(std::string_view label, double degrees);
+
+  /// The closing line and the whole text.
+  std::string finish() &&;
+
+  /// `TCHPR421.TXT`
+  static std::string file_name(const CycleDescriptor& cycle);
+
+ private:
+  void number(std::string_view label, double value);
+
+  bool inch_;
+  std::string text_;
+};
+
+/// The sections of measured values: nominal, limits, actual, deviations.
+void add_values(MeasuringLog& log, std::span<const MeasuredValue> values);
+
+/// What Q281 says: 0 nothing, 1 the file beside the program, 2 the screen and a stop, unless cycle
+/// 441 has switched that off.
+CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log);
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "probing/cycle_descriptor.hpp"
+
+/// The parameters that cycles share, with the input ranges of the control's manuals: coordinates
+/// ±99999.9999, lengths and clearances 0 to 99999.9999, angles ±360.
+namespace fitgauge::probing::parameter {
+
+inline constexpr double kLongest = 99999.9999;
+
+constexpr CycleParameter coordinate(int number, std::string_view meaning) {
+  return {
+      .id = q(number), .meaning = meaning, .unit = Unit::Length, .range = {-kLongest, kLongest}};
+}
+
+constexpr CycleParameter coordinate(int number, std::string_view meaning, double by_default) {
+  CycleParameter made = coordinate(number, meaning);
+  made.default_value = by_default;
+  return made;
+}
+
+constexpr CycleParameter length(int number, std::string_view meaning) {
+  return {.id = q(number), .meaning = meaning, .unit = Unit::Length, .range = {0, kLongest}};
+}
+
+constexpr CycleParameter length(int number, std::string_view meaning, double by_default) {
+  CycleParameter made = length(number, meaning);
+  made.default_value = by_default;
+  return made;
+}
+
+constexpr CycleParameter angle(int number, std::string_view meaning, double limit = 360) {
+  return {.id = q(number), .meaning = meaning, .unit = Unit::Angle, .range = {-limit, limit}};
+}
+
+constexpr CycleParameter angle(int number, std::string_view meaning, double limit,
+                               double by_default) {
+  CycleParameter made = angle(number, meaning, limit);
+  made.default_value = by_default;
+  return made;
+}
+
+/// A whole number of a few; without a default it must be given.
+constexpr CycleParameter choice(int number, std::string_view meaning, double first, double last,
+                                std::optional<double> by_default = {}) {
+  return {.id = q(number),
+          .meaning = meaning,
+          .kind = ValueKind::Whole,
+          .range = {first, last},
+          .default_value = by_default};
+}
+
+/// Blocks of older controls do not have it.
+constexpr CycleParameter newer(CycleParameter parameter) {
+  parameter.newer = true;
+  return parameter;
+}
+
+inline constexpr CycleParameter kMeasuringHeight = coordinate(261, "Measuring height");
+inline constexpr CycleParameter kSetUpClearance = length(320, "Set-up clearance", 0);
+inline constexpr CycleParameter kClearanceHeight = coordinate(260, "Clearance height");
+inline constexpr CycleParameter kMoveToClearance =
+    choice(301, "Move to clearance height: 0 no, 1 yes", 0, 1, 0);
+inline constexpr CycleParameter kMeasuringAxisInPlane =
+    choice(272, "Measuring axis: 1 main, 2 secondary", 1, 2);
+inline constexpr CycleParameter kMeasuringAxis =
+    choice(272, "Measuring axis: 1 main, 2 secondary, 3 probe axis", 1, 3);
+inline constexpr CycleParameter kDirection = choice(267, "Traverse direction: -1 or +1", -1, 1);
+inline constexpr CycleParameter kMeasuringLog =
+    choice(281, "Measuring log: 0 none, 1 file, 2 stop and show", 0, 2, 1);
+inline constexpr CycleParameter kStopOnTolerance =
+    choice(309, "Stop out of tolerance: 0 no, 1 yes", 0, 1, 0);
+inline constexpr CycleParameter kMonitoringTool = {
+    .id = q(330),
+    .meaning = "Tool to be corrected, number or name, 0 none",
+    .kind = ValueKind::NumberOrText,
+    .range = {0, 32767.9},
+    .default_value = 0};
+inline constexpr CycleParameter kReverseTool =
+    newer(choice(498, "Reverse tool: 0 no, 1 yes", 0, 1, 0));
+inline constexpr CycleParameter kAngleOfIncidence = newer(angle(531, "Angle of incidence", 180, 0));
+
+inline constexpr CycleParameter kTableRow =
+    choice(305, "Row of the preset or datum table, 0: active at once", 0, 65535, 0);
+inline constexpr CycleParameter kTransfer = choice(
+    303, "Measured value transfer: 0 datum table, 1 preset table, -1 of old programs", -1, 1, 1);
+
+}  // namespace fitgauge::probing::parameter
