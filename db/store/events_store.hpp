@@ -15,8 +15,8 @@ class Connection;
 
 struct Event {
   std::int64_t id = 0;
-  std::string type;
-  std::string payload;  ///< opaque here
+  std::string type{};
+  std::string payload{};  ///< opaque here
   std::int64_t created_at_ns = 0;
 };
 
@@ -24,7 +24,6 @@ struct Event {
 class EventsStore {
  public:
   explicit EventsStore(sqlite::Connection& connection);
-  EventsStore(EventsStore&&) noexcept;
   ~EventsStore();
 
   std::int64_t append(std::string_view type, std::string_view payload, std::int64_t now_ns);

@@ -15,25 +15,25 @@ class Connection;
 
 /// A file of the control's disk without its content.
 struct FileEntry {
-  std::string path;           ///< as it was last written, upper and lower case kept
+  std::string path{};         ///< as it was last written, upper and lower case kept
   std::int64_t revision = 0;  ///< rises with every write and delete of any file
   std::int64_t size = 0;      ///< bytes
   std::int64_t modified_at_ns = 0;
-  std::optional<std::string> caller;
+  std::optional<std::string> caller{};
   bool deleted = false;  ///< in a history: the file was deleted here
 };
 
 struct FileContent {
-  FileEntry entry;
-  std::string content;
+  FileEntry entry{};
+  std::string content{};
 };
 
 /// What `put` gets.
 struct FileWrite {
-  std::string_view path;
-  std::string_view content;
+  std::string_view path{};
+  std::string_view content{};
   std::int64_t modified_at_ns = 0;
-  std::optional<std::string_view> caller;
+  std::optional<std::string_view> caller{};
 };
 
 /// The files of the control's disk with every revision. Paths are opaque texts that compare without
@@ -41,7 +41,6 @@ struct FileWrite {
 class FilesStore {
  public:
   explicit FilesStore(sqlite::Connection& connection);
-  FilesStore(FilesStore&&) noexcept;
   ~FilesStore();
 
   struct PutOutcome {

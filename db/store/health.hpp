@@ -15,7 +15,7 @@ enum class HealthState {
 
 struct Health {
   HealthState state = HealthState::Ok;
-  std::string reason;  ///< what is wrong, one sentence; empty when Ok
+  std::string reason{};  ///< what is wrong, one sentence; empty when Ok
 };
 
 }  // namespace fitgauge::store

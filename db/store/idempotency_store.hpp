@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "base/clock.hpp"
 #include "base/result.hpp"
 #include "store/digest.hpp"
 
@@ -18,19 +19,19 @@ class Connection;
 
 /// A request that carries an Idempotency-Key. Caller, method and path are the key's scope.
 struct IdempotentRequest {
-  std::string caller;
-  std::string method;
-  std::string path;
-  std::string key;
+  std::string caller{};
+  std::string method{};
+  std::string path{};
+  std::string key{};
   Digest body{};  ///< of the raw body
 };
 
 /// An answer as it is kept and replayed.
 struct StoredAnswer {
   int status = 200;
-  std::string content_type;
-  std::string location;  ///< empty: no Location
-  std::string body;
+  std::string content_type{};
+  std::string location{};  ///< empty: no Location
+  std::string body{};
   bool replayed = false;  ///< set on an answer that came from the store
 };
 
@@ -38,8 +39,8 @@ struct StoredAnswer {
 /// purges them when it is idle.
 class IdempotencyStore {
  public:
-  explicit IdempotencyStore(sqlite::Connection& connection);
-  IdempotencyStore(IdempotencyStore&&) noexcept;
+  IdempotencyStore(sqlite::Connection& connection, const Clock& clock,
+                   std::chrono::hours retention);
   ~IdempotencyStore();
 
   /// The kept answer, none when the key is new. Looked at before the body is parsed: what was once

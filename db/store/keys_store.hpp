@@ -22,11 +22,11 @@ enum class Role : std::uint8_t { Viewer = 1, Operator = 2, Admin = 3 };
 
 struct ApiKey {
   std::int64_t id = 0;
-  std::string name;  ///< unique among the keys that are not revoked
+  std::string name{};  ///< unique among the keys that are not revoked
   Role role = Role::Viewer;
   Digest token_hash{};  ///< SHA-256: the token is 256 random bits, so no salt is needed
   std::int64_t created_at_ns = 0;
-  std::optional<std::int64_t> revoked_at_ns;
+  std::optional<std::int64_t> revoked_at_ns{};
 };
 
 /// `fg_` and 256 random bits in hexadecimal. Shown once, never stored.
@@ -50,7 +50,6 @@ class KeyRing {
 class KeysStore {
  public:
   explicit KeysStore(sqlite::Connection& connection);
-  KeysStore(KeysStore&&) noexcept;
   ~KeysStore();
 
   /// Stores the hash of `token` (new_token, or an administrator's own of at least 16 characters).

@@ -25,38 +25,38 @@ struct MeasurementRow {
   std::int64_t received_at_ns = 0;
 
   std::int64_t nominal_nm = 0;
-  std::optional<std::string_view> tolerance_class;  ///< none when the basis is Explicit
+  std::optional<std::string_view> tolerance_class{};  ///< none when the basis is Explicit
   Feature feature = Feature::Hole;
   std::int64_t upper_deviation_nm = 0;
   std::int64_t lower_deviation_nm = 0;
-  std::optional<std::int64_t> size_over_nm;   ///< the step of the standard tolerance
-  std::optional<std::int64_t> size_up_to_nm;  ///< both or neither
+  std::optional<std::int64_t> size_over_nm{};   ///< the step of the standard tolerance
+  std::optional<std::int64_t> size_up_to_nm{};  ///< both or neither
   Basis basis = Basis::Iso286;
-  std::optional<std::int64_t> table_revision;  ///< TableRevision::number; none for Explicit
+  std::optional<std::int64_t> table_revision{};  ///< TableRevision::number; none for Explicit
 
   std::int64_t measured_nm = 0;
   Verdict verdict = Verdict::Good;
   Rule rule = Rule::Simple;
-  std::optional<std::int64_t> uncertainty_nm;   ///< standard uncertainty u
-  std::optional<std::int64_t> coverage_factor;  ///< k in millionths: 2'000'000 is k = 2
+  std::optional<std::int64_t> uncertainty_nm{};   ///< standard uncertainty u
+  std::optional<std::int64_t> coverage_factor{};  ///< k in millionths: 2'000'000 is k = 2
 
-  std::optional<std::string_view> part_id;
-  std::optional<std::string_view> characteristic;
-  std::optional<std::string_view> order;
-  std::optional<std::string_view> operation;
-  std::optional<std::string_view> machine;
-  std::optional<std::string_view> operator_id;
-  std::optional<std::string_view> gauge;
-  std::optional<std::int64_t> temperature;  ///< in millionths of a degree Celsius
-  std::optional<std::string_view> unit;
-  std::optional<std::string_view> comment;
+  std::optional<std::string_view> part_id{};
+  std::optional<std::string_view> characteristic{};
+  std::optional<std::string_view> order{};
+  std::optional<std::string_view> operation{};
+  std::optional<std::string_view> machine{};
+  std::optional<std::string_view> operator_id{};
+  std::optional<std::string_view> gauge{};
+  std::optional<std::int64_t> temperature{};  ///< in millionths of a degree Celsius
+  std::optional<std::string_view> unit{};
+  std::optional<std::string_view> comment{};
 
-  std::optional<std::string_view> caller;  ///< name of the API key that wrote it
-  std::optional<std::int64_t> run_id;      ///< the run of a simulated measurement
-  std::optional<std::int64_t> cycle;       ///< number of its measuring cycle
+  std::optional<std::string_view> caller{};  ///< name of the API key that wrote it
+  std::optional<std::int64_t> run_id{};      ///< the run of a simulated measurement
+  std::optional<std::int64_t> cycle{};       ///< number of its measuring cycle
 
-  std::optional<std::int64_t> correction_of;  ///< id of the row this one replaces
-  std::optional<std::string_view> correction_reason;
+  std::optional<std::int64_t> correction_of{};  ///< id of the row this one replaces
+  std::optional<std::string_view> correction_reason{};
 
   Digest hash{};  ///< computed by `append`
 

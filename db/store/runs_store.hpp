@@ -33,38 +33,37 @@ constexpr bool is_finished(RunStatus status) { return status >= RunStatus::Compl
 struct Run {
   std::int64_t id = 0;
   RunStatus status = RunStatus::Queued;
-  std::string program;
-  std::string request;  ///< opaque here
-  std::string result;   ///< opaque here; empty until finished
+  std::string program{};
+  std::string request{};  ///< opaque here
+  std::string result{};   ///< opaque here; empty until finished
   std::int64_t created_at_ns = 0;
-  std::optional<std::int64_t> finished_at_ns;
-  std::optional<std::string> caller;
+  std::optional<std::int64_t> finished_at_ns{};
+  std::optional<std::string> caller{};
 };
 
 /// A file a run has written.
 struct RunFile {
-  std::string path;  ///< on the control's disk
-  std::string content;
+  std::string path{};  ///< on the control's disk
+  std::string content{};
 };
 
 /// What a run leaves.
 struct RunOutcome {
   RunStatus status = RunStatus::Completed;
-  std::string_view result;
-  std::string_view trace;
-  std::span<const RunFile> files;
+  std::string_view result{};
+  std::string_view trace{};
+  std::span<const RunFile> files{};
 };
 
 struct RunFilter {
-  std::optional<RunStatus> status;
-  std::optional<std::string> program;  ///< the whole path, without regard to ASCII case
+  std::optional<RunStatus> status{};
+  std::optional<std::string> program{};  ///< the whole path, without regard to ASCII case
 };
 
 /// Runs with their files and traces.
 class RunsStore {
  public:
   explicit RunsStore(sqlite::Connection& connection);
-  RunsStore(RunsStore&&) noexcept;
   ~RunsStore();
 
   /// Stores a run that is queued, running or, with `finish` in the same job, already over.

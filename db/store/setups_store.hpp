@@ -14,17 +14,16 @@ class Connection;
 }
 
 struct Setup {
-  std::string name;
-  std::string text;  ///< opaque here
+  std::string name{};
+  std::string text{};  ///< opaque here
   std::int64_t modified_at_ns = 0;
-  std::optional<std::string> caller;
+  std::optional<std::string> caller{};
 };
 
 /// Named machine setups.
 class SetupsStore {
  public:
   explicit SetupsStore(sqlite::Connection& connection);
-  SetupsStore(SetupsStore&&) noexcept;
   ~SetupsStore();
 
   bool put(const Setup& setup);  ///< @returns whether it is new

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <chrono>
+
+#include "base/clock.hpp"
 #include "store/events_store.hpp"
 #include "store/files_store.hpp"
 #include "store/idempotency_store.hpp"
@@ -19,7 +22,8 @@ class Connection;
 /// `Stores&`. Used by the connection's thread alone. Every function throws StorageFailure when the
 /// storage fails; the writer and the read pool turn that into an Error.
 struct Stores {
-  explicit Stores(sqlite::Connection& connection);
+  Stores(sqlite::Connection& connection, const Clock& clock,
+         std::chrono::hours idempotency_retention);
 
   TablesStore tables;
   MeasurementsStore measurements;

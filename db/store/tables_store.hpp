@@ -19,19 +19,19 @@ class Connection;
 
 /// One cell of a table of the standard. `table` and `column` are the caller's names.
 struct TableCell {
-  std::string table;
-  std::string column;
+  std::string table{};
+  std::string column{};
   std::int64_t over_nm = 0;
   std::int64_t up_to_nm = 0;
-  std::optional<std::int64_t> value_nm;  ///< none: the standard defines nothing there
+  std::optional<std::int64_t> value_nm{};  ///< none: the standard defines nothing there
 
   friend auto operator<=>(const TableCell&, const TableCell&) = default;
 };
 
 /// One size range of a shop's own column.
 struct CustomCell {
-  std::string table;
-  std::string column;
+  std::string table{};
+  std::string column{};
   std::int64_t over_nm = 0;
   std::int64_t up_to_nm = 0;
   std::int64_t upper_nm = 0;
@@ -42,38 +42,37 @@ struct CustomCell {
 
 /// All of a revision's numbers, each list sorted by table, column and range.
 struct TableContent {
-  std::vector<TableCell> cells;
-  std::vector<CustomCell> custom;
+  std::vector<TableCell> cells{};
+  std::vector<CustomCell> custom{};
 };
 
-/// SHA-256 over the sorted content: each list its count, then for each cell table, column and
-/// numbers. Counts, text lengths and numbers are 8 bytes, big-endian; an absent number is one byte
-/// 0, a present one is preceded by one byte 1.
+/// Of the content in sorted order, whatever the order given (canonical_digest.hpp): the number of
+/// cells, each cell's members in order, then the same for the custom cells.
 Digest digest_of(TableContent content);
 
 struct TableRevision {
   std::int64_t number = 0;  ///< 1, 2, …: what a measurement refers to
-  std::string id;           ///< number and the first eight digits of the digest, `1-3f9a0c21`
+  std::string id{};         ///< number and the first eight digits of the digest, `1-3f9a0c21`
   Digest digest{};          ///< as stored at import
-  std::string source;
+  std::string source{};
   std::int64_t created_at_ns = 0;
-  std::optional<std::int64_t> parent;  ///< number of the revision this one was made from
-  std::optional<std::string> caller;
+  std::optional<std::int64_t> parent{};  ///< number of the revision this one was made from
+  std::optional<std::string> caller{};
 };
 
 struct LoadedTables {
-  TableRevision revision;
-  TableContent content;
+  TableRevision revision{};
+  TableContent content{};
   Digest
       computed{};  ///< of the content as loaded: differs from revision.digest when a cell changed
 };
 
 /// What an import needs.
 struct TableImport {
-  TableContent content;
-  std::string source;
-  std::optional<std::int64_t> parent;
-  std::optional<std::string> caller;
+  TableContent content{};
+  std::string source{};
+  std::optional<std::int64_t> parent{};
+  std::optional<std::string> caller{};
 };
 
 /// The immutable revisions of the tolerance tables. The newest one is in force. Cells of the
@@ -81,7 +80,6 @@ struct TableImport {
 class TablesStore {
  public:
   explicit TablesStore(sqlite::Connection& connection);
-  TablesStore(TablesStore&&) noexcept;
   ~TablesStore();
 
   /// @errors PreconditionFailed when `parent` is not the newest revision (another import came

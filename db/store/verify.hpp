@@ -17,7 +17,7 @@ struct VerifyReport {
   std::int64_t measurements = 0;  ///< rows whose hash and check were computed
   /// One sentence each, the first altered measurement by its id; empty when all is well. After 100
   /// findings the rest is left out.
-  std::vector<std::string> findings;
+  std::vector<std::string> findings{};
 };
 
 }  // namespace fitgauge::store

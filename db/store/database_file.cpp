@@ -1,0 +1,152 @@
+#include "store/database_file.hpp"
+
+#include <SQLiteCpp/Backup.h>
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "store/data_directory.hpp"
+#include "store/file_check.hpp"
+#include "store/session.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path with_suffix(fs::path path, std::string_view suffix) { return path += suffix; }
+
+Error unavailable(std::string message) {
+  return {ErrorCode::StorageUnavailable, std::move(message)};
+}
+
+/// Gives a finished file its name unless that is taken, durably.
+Result<void> publish(const fs::path& finished, const fs::path& name) {
+  if (const Result<void> synced = sync_file(finished); !synced) return synced;
+  std::error_code failure;
+  fs::create_hard_link(finished, name, failure);
+  if (failure) {
+    return unavailable(fmt::format("cannot create {}: {}", name.string(), failure.message()));
+  }
+  fs::remove(finished, failure);
+  return sync_file(name);
+}
+
+/// What an earlier attempt left under a temporary name.
+void remove_leftover(const fs::path& file) {
+  std::error_code ignored;
+  for (const std::string_view suffix : {"", "-journal", "-wal", "-shm"}) {
+    fs::remove(with_suffix(file, suffix), ignored);
+  }
+}
+
+Result<void> create_file(const fs::path& file, std::span<const sqlite::Migration> known,
+                         std::int64_t now_ns) {
+  if (fs::exists(with_suffix(file, "-wal"))) {
+    return Error{ErrorCode::DatabaseForeign,
+                 fmt::format("{0} is missing, but its log {0}-wal is there; restore a backup, or "
+                             "move the log away to start with a new database",
+                             file.string())};
+  }
+  const fs::path draft = with_suffix(file, ".new");
+  remove_leftover(draft);
+  {
+    sqlite::Connection connection(draft, sqlite::Mode::Create);
+    sqlite::migrate(connection, known, now_ns);
+  }
+  return publish(draft, file);
+}
+
+Result<void> upgrade_file(const fs::path& file, std::span<const sqlite::Migration> known,
+                          int version, std::int64_t now_ns) {
+  const fs::path backup = with_suffix(file, fmt::format(".schema-{}.backup", version));
+  remove_leftover(backup);
+  if (const Result<void> copied = copy_database(file, backup); !copied) return copied;
+  sqlite::Connection connection(file, sqlite::Mode::Write);
+  sqlite::migrate(connection, known, now_ns);
+  return {};
+}
+
+/// Opens the existing file read-only, so that whatever is refused is also left untouched.
+Result<int> checked_version(const OpenOptions& options, const fs::path& file,
+                            std::span<const sqlite::Migration> known) {
+  try {
+    sqlite::Connection connection(file, sqlite::Mode::Read);
+    const int version = sqlite::schema_version(connection);
+    std::optional<Error> foreign;
+    if (const Result<void> history = sqlite::check_history(connection, known); !history) {
+      foreign = history.error();
+      foreign->message.insert(0, file.string() + ": ");
+      if (foreign->code == ErrorCode::DatabaseNewer) return *foreign;
+    }
+    if (options.access == Access::Serve && fs::file_size(file) <= options.check_at_open_limit) {
+      if (const Result<void> sound = check_file(file); !sound) return sound.error();
+    }
+    if (foreign) return *foreign;
+    return version;
+  } catch (const StorageFailure& failure) {
+    if (failure.error().code != ErrorCode::StorageCorrupt) throw;
+    return Error{ErrorCode::StorageCorrupt,
+                 fmt::format("{} is damaged: {}. Restore a backup in its place", file.string(),
+                             failure.error().message)};
+  }
+}
+
+Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite::Migration> known,
+                              std::int64_t now_ns) {
+  const fs::path file = options.directory / kDatabaseFile;
+  if (!fs::exists(file)) {
+    if (options.access == Access::Serve) return create_file(file, known, now_ns);
+    return unavailable(fmt::format("{} does not exist; start fitgauged once", file.string()));
+  }
+  if (const Result<void> ours = inspect_file(file); !ours) return ours;
+  const Result<int> version = checked_version(options, file, known);
+  if (!version) return version.error();
+  if (*version == static_cast<int>(known.size())) return {};
+  if (options.access == Access::Serve) return upgrade_file(file, known, *version, now_ns);
+  return unavailable(
+      fmt::format("{} has an older schema; start fitgauged once to upgrade it", file.string()));
+}
+
+}  // namespace
+
+Result<void> prepare_file(const OpenOptions& options, std::span<const sqlite::Migration> known,
+                          std::int64_t now_ns) {
+  try {
+    return prepare_or_throw(options, known, now_ns);
+  } catch (const StorageFailure& failure) {
+    return failure.error();
+  } catch (const fs::filesystem_error& failure) {
+    return unavailable(failure.what());
+  }
+}
+
+Result<void> copy_database(const fs::path& source, const fs::path& target) {
+  if (fs::exists(target)) {
+    return unavailable(fmt::format("{} exists; a backup overwrites nothing", target.string()));
+  }
+  const fs::path draft = with_suffix(target, ".partial");
+  remove_leftover(draft);
+  try {
+    sqlite::Connection from(source, sqlite::Mode::Read);
+    sqlite::Connection to(draft, sqlite::Mode::Create);
+    SQLite::Backup copy(to.database(), from.database());
+    copy.executeStep();
+    // One file without a log beside it, readable from a read-only medium too.
+    to.execute("PRAGMA journal_mode = DELETE");
+  } catch (const StorageFailure& failure) {
+    remove_leftover(draft);
+    return failure.error();
+  } catch (const SQLite::Exception& failure) {
+    remove_leftover(draft);
+    return unavailable(fmt::format("cannot write {}: {}", target.string(), failure.what()));
+  }
+  return publish(draft, target);
+}
+
+}  // namespace fitgauge::store

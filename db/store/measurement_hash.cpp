@@ -1,0 +1,14 @@
+#include "store/measurement_hash.hpp"
+
+#include "store/measurement_fields.hpp"
+
+namespace fitgauge::store {
+
+Digest MeasurementHasher::operator()(const Digest& before, std::int64_t id,
+                                     const MeasurementRow& row) {
+  digest_.add(id);
+  for_each_field(row, [this](const char*, const auto& value) { digest_.add(value); });
+  return digest_.finish({reinterpret_cast<const char*>(before.data()), before.size()});
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,213 @@
+#include "store/measurements_store.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <map>
+
+#include "store/measurement_fields.hpp"
+#include "store/measurement_insert.hpp"
+#include "store/measurement_statistics.hpp"
+#include "store/sqlite/statement.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sqlite::Rows;
+using sqlite::Statement;
+
+/// The parameters of a filter in the order kMatches names them.
+template <class Use>
+auto with_parameters(const MeasurementFilter& filter, Use&& use) {
+  return use(filter.as_of_id.value_or(std::numeric_limits<std::int64_t>::max()), filter.part_id,
+             filter.characteristic, filter.order, filter.machine, filter.verdict, filter.source,
+             filter.from_ns, filter.to_ns, filter.history);
+}
+
+constexpr std::string_view kMatches =
+    "m.id <= ?1 AND (?2 IS NULL OR m.part_id = ?2) AND (?3 IS NULL OR m.characteristic = ?3) "
+    "AND (?4 IS NULL OR m.work_order = ?4) AND (?5 IS NULL OR m.machine = ?5) "
+    "AND (?6 IS NULL OR m.verdict = ?6) AND (?7 IS NULL OR m.source = ?7) "
+    "AND (?8 IS NULL OR m.measured_at >= ?8) AND (?9 IS NULL OR m.measured_at < ?9) "
+    "AND (?10 OR NOT EXISTS (SELECT 1 FROM measurements c "
+    "WHERE c.correction_of = m.id AND c.id <= ?1))";
+
+MeasurementRow read_row(const Rows& rows) {
+  MeasurementRow row;
+  int column = 0;
+  row.id = rows.get<std::int64_t>(column);
+  for_each_field(row, [&](const char*, auto& value) {
+    value = rows.get<std::remove_reference_t<decltype(value)>>(++column);
+  });
+  row.hash = rows.get<Digest>(++column);
+  return row;
+}
+
+constexpr std::string_view column_of(GroupBy group_by) {
+  switch (group_by) {
+    case GroupBy::PartId:
+      return "part_id";
+    case GroupBy::Characteristic:
+      return "characteristic";
+    case GroupBy::Order:
+      return "work_order";
+    case GroupBy::Operation:
+      return "operation";
+    case GroupBy::Machine:
+      return "machine";
+    case GroupBy::Operator:
+      return "operator";
+    case GroupBy::Gauge:
+      return "gauge";
+    case GroupBy::Unit:
+      return "unit";
+    case GroupBy::ToleranceClass:
+      return "tolerance_class";
+    case GroupBy::Caller:
+      return "caller";
+  }
+  return "characteristic";
+}
+
+/// What is gathered of a group while its rows pass.
+struct Gathered {
+  ExactStatistics statistics;
+  SummaryGroup group;
+
+  void add(Verdict verdict, std::int64_t measured_nm) {
+    statistics.add(measured_nm);
+    const bool first = group.count++ == 0;
+    if (first || measured_nm < group.min_nm) group.min_nm = measured_nm;
+    if (first || measured_nm > group.max_nm) group.max_nm = measured_nm;
+    ++group.verdicts.at(static_cast<std::size_t>(verdict) - 1);
+  }
+
+  SummaryGroup finish(std::optional<std::string> value) {
+    group.value = std::move(value);
+    group.mean_mm = statistics.mean_mm();
+    if (group.count > 1) group.standard_deviation_mm = statistics.standard_deviation_mm();
+    return std::move(group);
+  }
+};
+
+}  // namespace
+
+struct MeasurementsStore::Statements {
+  explicit Statements(sqlite::Connection& c)
+      : connection(c),
+        insert(c),
+        newest(c, "SELECT id, hash FROM measurements ORDER BY id DESC LIMIT 1"),
+        by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
+        correction(c, "SELECT id FROM measurements WHERE correction_of = ?"),
+        page(c, fmt::format("SELECT {} FROM measurements m WHERE {} AND m.id > ?11 "
+                            "ORDER BY m.id LIMIT ?12",
+                            measurement_columns(), kMatches)) {}
+
+  MeasurementInsert::Place last() {
+    Rows rows = newest.query();
+    if (!rows.next()) return {};
+    return {rows.get<std::int64_t>(0), rows.get<Digest>(1)};
+  }
+
+  std::optional<std::int64_t> corrected_by(std::int64_t id) {
+    Rows rows = correction.query(id);
+    return rows.next() ? std::optional(rows.get<std::int64_t>(0)) : std::nullopt;
+  }
+
+  /// Prepared at the first summary by this field.
+  Statement& values_by(GroupBy group_by) {
+    const auto found = values.find(group_by);
+    if (found != values.end()) return found->second;
+    std::string sql =
+        fmt::format("SELECT m.{}, m.verdict, m.measured_nm FROM measurements m WHERE {}",
+                    column_of(group_by), kMatches);
+    return values.emplace(group_by, Statement(connection, std::move(sql))).first->second;
+  }
+
+  sqlite::Connection& connection;
+  MeasurementInsert insert;
+  Statement newest;
+  Statement by_id;
+  Statement correction;
+  Statement page;
+  std::map<GroupBy, Statement> values;
+};
+
+MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
+    : statements_(std::make_unique<Statements>(connection)) {}
+MeasurementsStore::~MeasurementsStore() = default;
+
+Result<IdRange> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
+  const MeasurementInsert::Place last = statements_->last();
+  for (const MeasurementRow& row : rows) {
+    if (!row.correction_of) continue;
+    if (!find(*row.correction_of, [](const MeasurementRow&) {})) {
+      return Error{ErrorCode::MeasurementUnknown,
+                   fmt::format("there is no measurement {} to correct", *row.correction_of)};
+    }
+    if (const auto newer = corrected_by(*row.correction_of)) {
+      return Error{ErrorCode::FieldConflict,
+                   fmt::format("measurement {} was corrected before; correct the current one",
+                               *row.correction_of)};
+    }
+  }
+  const MeasurementInsert::Place end = statements_->insert.append(last, rows);
+  return IdRange{last.id + 1, end.id};
+}
+
+bool MeasurementsStore::find(std::int64_t id, const Visitor& visit) const {
+  Rows rows = statements_->by_id.query(id);
+  if (!rows.next()) return false;
+  visit(read_row(rows));
+  return true;
+}
+
+std::optional<std::int64_t> MeasurementsStore::corrected_by(std::int64_t id) const {
+  return statements_->corrected_by(id);
+}
+
+std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& filter,
+                                                    std::int64_t after, std::size_t limit,
+                                                    const Visitor& visit) const {
+  // One row more than the page tells whether there is a next one.
+  Rows rows = with_parameters(filter, [&](const auto&... parameters) {
+    return statements_->page.query(parameters..., after, limit + 1);
+  });
+  std::int64_t last = after;
+  for (std::size_t count = 0; rows.next(); ++count) {
+    if (count == limit) return last;
+    const MeasurementRow row = read_row(rows);
+    visit(row);
+    last = row.id;
+  }
+  return std::nullopt;
+}
+
+std::int64_t MeasurementsStore::last_id() const { return statements_->last().id; }
+
+Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFilter& filter,
+                                                             GroupBy group_by,
+                                                             std::size_t max_groups) const {
+  std::map<std::optional<std::string>, Gathered, std::less<>> groups;
+  Rows rows = with_parameters(filter, [&](const auto&... parameters) {
+    return statements_->values_by(group_by).query(parameters...);
+  });
+  while (rows.next()) {
+    const auto value = rows.get<std::optional<std::string_view>>(0);
+    auto group = groups.find(value);
+    if (group == groups.end()) {
+      if (groups.size() == max_groups) {
+        return Error{ErrorCode::QueryInvalid,
+                     fmt::format("there are more than {} groups; narrow the filter", max_groups)};
+      }
+      group = groups.try_emplace(value ? std::optional(std::string(*value)) : std::nullopt).first;
+    }
+    group->second.add(rows.get<Verdict>(1), rows.get<std::int64_t>(2));
+  }
+  std::vector<SummaryGroup> summary;
+  summary.reserve(groups.size());
+  for (auto& [value, gathered] : groups) summary.push_back(gathered.finish(value));
+  return summary;
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,16 @@
+#include "store/stores.hpp"
+
+namespace fitgauge::store {
+
+Stores::Stores(sqlite::Connection& connection, const Clock& clock,
+               std::chrono::hours idempotency_retention)
+    : tables(connection),
+      measurements(connection),
+      idempotency(connection, clock, idempotency_retention),
+      keys(connection),
+      files(connection),
+      setups(connection),
+      runs(connection),
+      events(connection) {}
+
+}  // namespace fitgauge::store

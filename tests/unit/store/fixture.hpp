@@ -1,0 +1,105 @@
+#pragma once
+
+#include <stdlib.h>
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "store/database.hpp"
+
+namespace fitgauge::store::test {
+
+/// An empty directory that goes with the test.
+class TempDirectory {
+ public:
+  TempDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "fitgauge-store-XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  TempDirectory(const TempDirectory&) = delete;
+  TempDirectory& operator=(const TempDirectory&) = delete;
+  ~TempDirectory() { std::filesystem::remove_all(path_); }
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path file() const { return path_ / "fitgauge.db"; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A clock that stands still until it is moved.
+class ManualClock final : public Clock {
+ public:
+  Timestamp now() const override { return {now_.load()}; }
+  void advance(std::chrono::nanoseconds by) { now_ += by.count(); }
+
+ private:
+  std::atomic<std::int64_t> now_ = 1'795'000'000'000'000'000;
+};
+
+inline std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write_file(const std::filesystem::path& file, std::string_view content) {
+  std::ofstream(file, std::ios::binary)
+      .write(content.data(), static_cast<std::streamsize>(content.size()));
+}
+
+/// A good part: a hole of 25 H7 with 25.013 mm.
+inline MeasurementRow sample_row() {
+  MeasurementRow row;
+  row.measured_at_ns = 1'795'000'000'000'000'000;
+  row.received_at_ns = row.measured_at_ns;
+  row.nominal_nm = 25'000'000;
+  row.upper_deviation_nm = 21'000;
+  row.basis = Basis::Explicit;
+  row.measured_nm = 25'013'000;
+  return row;
+}
+
+/// An open database in a directory of its own.
+struct Fixture {
+  Fixture() { open(); }
+
+  void open() {
+    options.directory = directory.path();
+    auto opened = Database::open(options, clock);
+    REQUIRE_MESSAGE(opened.has_value(), (opened ? "" : opened.error().message));
+    database = *std::move(opened);
+  }
+
+  /// Runs a write job and waits.
+  template <class Work>
+  auto write(Work work) {
+    return database->writer().wait(std::move(work));
+  }
+  template <class Work>
+  auto read(Work work) {
+    return database->readers().wait(std::move(work));
+  }
+
+  Result<IdRange> append(std::span<const MeasurementRow> rows) {
+    return write([rows](Stores& stores) { return stores.measurements.append(rows); });
+  }
+  Result<IdRange> append(const MeasurementRow& row) { return append(std::span(&row, 1)); }
+
+  std::int64_t last_id() {
+    return *read(
+        [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.last_id(); });
+  }
+
+  TempDirectory directory;
+  ManualClock clock;
+  OpenOptions options;
+  std::unique_ptr<Database> database;
+};
+
+}  // namespace fitgauge::store::test
