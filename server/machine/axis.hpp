@@ -51,7 +51,8 @@ struct AxisWords {
 enum class CoordinateSystem : std::uint8_t {
   Input,      ///< the active one, which NC programs and cycles use: all of Frames; the tool tip
   Workpiece,  ///< the active preset with its basic rotation, nothing else; the tool tip
-  Machine,    ///< the machine datum; the tool tip (a preset row is given in it)
+  Basic,    ///< the machine datum with the table at zero; the tool tip. Preset rows are given in it
+  Machine,  ///< the machine datum; the tool tip. Basic is the same unless a tilt turned the table
   Reference,  ///< the machine datum; the spindle nose: M91, REF, axis limits, FN 18 ID 240
 };
 

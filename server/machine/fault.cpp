@@ -34,6 +34,7 @@ FaultText text_of(FaultKind kind) {
       return {1092, "Tool not defined"};
     case FaultKind::ToolLocked:
       return {0, "Tool locked"};
+      return {1093, "Tool number not permitted"};
     case FaultKind::NotAProbe:
       return {1093, "Tool number not permitted"};
     case FaultKind::FeedMissing:

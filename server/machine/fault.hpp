@@ -18,7 +18,7 @@ enum class FaultKind : std::uint8_t {
   NoTool,             ///< 1092: the command needs a tool in the spindle
   ToolUnknown,        ///< 1092: the tool table has no such tool
   ToolLocked,         ///< the tool table marks the tool as locked (TL = L)
-  NotAProbe,          ///< 1093: the tool in the spindle has no touch probe
+  NotAProbe,          ///< 1093: a probing cycle needs a touch probe in the spindle
   FeedMissing,        ///< 1010: a feed move with a feed that is not positive
   PresetUnknown,      ///< the preset table has no such row
   PresetLocked,       ///< 1085: the row of the preset table is write-protected

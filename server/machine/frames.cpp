@@ -6,6 +6,7 @@ Frames::Frames() { compose(); }
 
 void Frames::set_table(const Transform& table) {
   table_ = table;
+  table_inverse_ = table.inverse();
   compose();
 }
 
@@ -47,6 +48,13 @@ void Frames::reset_transformations() {
   compose();
 }
 
+bool Frames::is_valid() const {
+  const Vec3& factor = scaling_.factor;
+  return input_.is_finite() && input_inverse_.is_finite() &&
+         machine::is_finite(rotary_zero(CoordinateSystem::Input)) && factor.x != 0 &&
+         factor.y != 0 && factor.z != 0;
+}
+
 void Frames::compose() {
   workpiece_ = table_ * Transform::translation(preset_.origin) *
                Transform::orthogonal(Matrix3::spatial(preset_.basic_rotation_deg));
@@ -71,6 +79,8 @@ const Transform& Frames::transform(CoordinateSystem system) const {
       return input_;
     case CoordinateSystem::Workpiece:
       return workpiece_;
+    case CoordinateSystem::Basic:
+      return table_;
     case CoordinateSystem::Machine:
     case CoordinateSystem::Reference:
       break;
@@ -84,6 +94,8 @@ const Transform& Frames::inverse(CoordinateSystem system) const {
       return input_inverse_;
     case CoordinateSystem::Workpiece:
       return workpiece_inverse_;
+    case CoordinateSystem::Basic:
+      return table_inverse_;
     case CoordinateSystem::Machine:
     case CoordinateSystem::Reference:
       break;
@@ -113,6 +125,7 @@ Vec3 Frames::rotary_zero(CoordinateSystem system) const {
       return preset_.rotary_offsets_deg + shift_.rotary;
     case CoordinateSystem::Workpiece:
       return preset_.rotary_offsets_deg;
+    case CoordinateSystem::Basic:
     case CoordinateSystem::Machine:
     case CoordinateSystem::Reference:
       break;

@@ -10,7 +10,7 @@ namespace fitgauge::machine {
 
 /// The part of a preset row that moves coordinates.
 struct PresetFrame {
-  Vec3 origin;              ///< machine coordinates of the workpiece zero, in mm
+  Vec3 origin;              ///< Basic coordinates of the workpiece zero, in mm
   Vec3 basic_rotation_deg;  ///< SPA, SPB, SPC: spatial angles; SPC is the plain basic rotation
   Vec3 rotary_offsets_deg;  ///< A_OFFS, B_OFFS, C_OFFS: machine position that reads 0
 
@@ -69,6 +69,8 @@ class Frames {
   const PlaneRotation& rotation() const { return rotation_; }
   const Scaling& scaling() const { return scaling_; }
 
+  /// All values are finite and no scaling factor is 0.
+  bool is_valid() const;
   bool is_mirrored() const { return mirror_[0] || mirror_[1] || mirror_[2]; }
   bool is_scaled() const { return scaling_.factor != Vec3{1, 1, 1}; }
   bool is_rotated() const { return rotation_.angle_deg != 0; }
@@ -84,6 +86,9 @@ class Frames {
                             CoordinateSystem system = CoordinateSystem::Input) const;
   Vec3 direction_from_machine(const Vec3& direction,
                               CoordinateSystem system = CoordinateSystem::Input) const;
+
+  /// From input to Machine coordinates.
+  const Transform& input() const { return input_; }
 
   /// Rotary positions A, B, C in degrees: offsets of the preset and the datum shift.
   Vec3 rotary_to_machine(const Vec3& rotary, CoordinateSystem system) const;
@@ -106,6 +111,7 @@ class Frames {
   Transform machine_;    ///< the identity
   Transform workpiece_;  ///< workpiece system to machine
   Transform input_;      ///< input system to machine
+  Transform table_inverse_;
   Transform workpiece_inverse_;
   Transform input_inverse_;
 };

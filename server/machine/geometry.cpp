@@ -84,6 +84,12 @@ Transform Transform::scaling(const Vec3& centre, const Vec3& factor) {
   return translation(centre) * scale * translation(-centre);
 }
 
+bool Transform::is_finite() const {
+  const auto& [x, y, z] = linear_.rows;
+  return machine::is_finite(x) && machine::is_finite(y) && machine::is_finite(z) &&
+         machine::is_finite(offset_);
+}
+
 Transform Transform::inverse() const {
   Transform t;
   t.linear_ = inverse_linear_;

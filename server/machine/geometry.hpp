@@ -101,6 +101,7 @@ class Transform {
   Vec3 direction(const Vec3& d) const { return linear_ * d; }
   const Matrix3& linear() const { return linear_; }
 
+  bool is_finite() const;
   Transform inverse() const;
   /// (outer * inner).point(p) is outer.point(inner.point(p)).
   friend Transform operator*(const Transform& outer, const Transform& inner);

@@ -11,6 +11,57 @@ bool stands_before(const RotaryAxis& a, const RotaryAxis& b) {
   return a.mount == AxisMount::Table ? a.axis < b.axis : a.axis > b.axis;
 }
 
+/// The part of `v` across the unit vector `axis`.
+Vec3 across(const Vec3& v, const Vec3& axis) { return v - axis * dot(v, axis); }
+
+/// The angle in degrees that turns `from` to `to` around `axis`, or `free` where none matters
+/// because `from` lies along the axis.
+double angle_between(const Vec3& from, const Vec3& to, const Vec3& axis, double free) {
+  constexpr double kAlong = 1e-9;
+  const Vec3 a = across(from, axis);
+  const Vec3 b = across(to, axis);
+  if (norm(a) < kAlong || norm(b) < kAlong) return free;
+  return degrees(std::atan2(dot(axis, cross(a, b)), dot(a, b)));
+}
+
+/// Rotary axes of the chain normal = turn(first) turn(second) ... tool.
+struct Joint {
+  Vec3 direction;
+  std::size_t letter;  ///< 0 to 2 for A, B, C
+};
+
+/// Solves normal = turn(outer) turn(inner) tool: the middle vector has the tool's component along
+/// the inner axis and the normal's along the outer one, and length 1 (Paden and Kahan).
+std::vector<Vec3> solve_pair(const Joint& outer, const Joint& inner, const Vec3& tool,
+                             const Vec3& normal, const Vec3& current) {
+  const Vec3& u = outer.direction;
+  const Vec3& v = inner.direction;
+  const double cosine = dot(u, v);
+  const double determinant = 1 - cosine * cosine;
+  constexpr double kParallel = 1e-12;
+  if (determinant < kParallel) return {};
+  const double along_u = (dot(u, normal) - cosine * dot(v, tool)) / determinant;
+  const double along_v = (dot(v, tool) - cosine * dot(u, normal)) / determinant;
+  const double rest =
+      (1 - along_u * along_u - along_v * along_v - 2 * along_u * along_v * cosine) / determinant;
+  constexpr double kOutOfReach = -1e-9;
+  if (rest < kOutOfReach) return {};
+  const double side = std::sqrt(std::max(rest, 0.0));
+  std::vector<Vec3> solutions;
+  for (const double sign : {1.0, -1.0}) {
+    const Vec3 middle = u * along_u + v * along_v + cross(u, v) * (sign * side);
+    Vec3 rotary = current;
+    rotary[inner.letter] = angle_between(tool, middle, v, current[inner.letter]);
+    rotary[outer.letter] = angle_between(middle, normal, u, current[outer.letter]);
+    solutions.push_back(rotary);
+  }
+  return solutions;
+}
+
+double way(const Vec3& from, const Vec3& to) {
+  return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z);
+}
+
 }  // namespace
 
 Kinematics::Kinematics(std::vector<RotaryAxis> axes) : axes_(std::move(axes)) {
@@ -41,6 +92,46 @@ Vec3 Kinematics::tool_direction(const Vec3& rotary, Axis tool_axis) const {
     head = head * Matrix3::rotation(axis.direction, rotary[index(axis.axis) - 3]);
   }
   return head * unit_vector(tool_axis);
+}
+
+std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& current,
+                                           Axis tool_axis) const {
+  // A table turns the normal to the tool, which is the tool the other way round: from the workpiece
+  // to the bed, then from the column to the tool, all turn the same way.
+  std::vector<Joint> joints;
+  for (const RotaryAxis& axis : axes_) {
+    const Joint joint{axis.direction, index(axis.axis) - 3};
+    const bool is_table = axis.mount == AxisMount::Table;
+    joints.insert(is_table ? joints.begin() : joints.end(), joint);
+  }
+  const Vec3 tool = unit_vector(tool_axis);
+  std::vector<Vec3> found;
+  const auto keep = [&](const Vec3& rotary) {
+    constexpr double kMisaligned = 1e-9;
+    Vec3 reached = tool;
+    for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
+      reached = Matrix3::rotation(joint->direction, rotary[joint->letter]) * reached;
+    }
+    if (norm(reached - normal) > kMisaligned) return;
+    const auto same = [&](const Vec3& other) { return way(rotary, other) < kMisaligned; };
+    if (std::none_of(found.begin(), found.end(), same)) found.push_back(rotary);
+  };
+
+  keep(current);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    Vec3 rotary = current;
+    rotary[joints[k].letter] =
+        angle_between(tool, normal, joints[k].direction, current[joints[k].letter]);
+    keep(rotary);
+    for (std::size_t other = k + 1; other < joints.size(); ++other) {
+      for (const Vec3& pair : solve_pair(joints[k], joints[other], tool, normal, current)) {
+        keep(pair);
+      }
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const Vec3& a, const Vec3& b) { return way(current, a) < way(current, b); });
+  return found;
 }
 
 }  // namespace fitgauge::machine

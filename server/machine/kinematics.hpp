@@ -41,9 +41,9 @@ class Kinematics {
   Vec3 tool_direction(const Vec3& rotary, Axis tool_axis) const;
 
   /// The rotary positions at which the tool stands along `normal`, a unit vector fixed to the
-  /// table: none, one or two solutions for the one or two axes that the machine has (axes that do
-  /// not matter keep their position of `current`), the one nearest to `current` first. Angles are
-  /// in -180 < angle <= 180.
+  /// table: `current` if it does already, else turning one axis, else two; axes that need not turn
+  /// keep their position. Angles that turn are in -180 < angle <= 180; ranges are not looked at.
+  /// The nearest to `current` comes first; none when the machine cannot stand so.
   std::vector<Vec3> orientations(const Vec3& normal, const Vec3& current, Axis tool_axis) const;
 
   friend bool operator==(const Kinematics&, const Kinematics&) = default;

@@ -98,17 +98,18 @@ class Machine {
   virtual MachineResult<void> move_arc(const ArcMove& arc) = 0;
 
   /// Moves a touch probe towards the workpiece, or another tool towards the tool touch probe TT.
-  /// @faults ToolAxisMissing, NoTool, FeedMissing, ValueInvalid, AxisLimit (nothing has moved);
-  ///   StylusDeflected (touches at the start); NoContact (stands at the end of the travel);
-  ///   NotAProbe (a cutter on a machine without TT).
+  /// @faults ToolAxisMissing, NoTool, FeedMissing, ValueInvalid (nothing has moved);
+  /// StylusDeflected
+  ///   (touches at the start); NoContact (stands at the end of the travel); AxisLimit (stands at
+  ///   the limit, without contact); Collision (on the way back beyond the start).
   virtual MachineResult<ContactPoint> probe(const ProbeMove& move) = 0;
 
   /// Changes the tool where the spindle stands: the nose does not move.
   /// @faults ToolUnknown, ToolLocked, ToolAxisMissing (no axis now or before).
   virtual MachineResult<void> call_tool(const ToolCall& call) = 0;
 
-  /// Writes a row of tool.t, tchprobe.tp, or preset.pr, new or replaced. A tool or probe in the
-  /// spindle changes at once, the active preset with the next activation.
+  /// Writes a row of tool.t, tchprobe.tp or preset.pr, new or replaced. A tool or probe in the
+  /// spindle changes at once (the nose stays), the active preset with the next activation.
   /// @faults PresetLocked, ValueInvalid.
   virtual MachineResult<void> write_tool(const Tool& tool) = 0;
   virtual MachineResult<void> write_probe(const ProbeRow& row) = 0;

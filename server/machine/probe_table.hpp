@@ -3,6 +3,8 @@
 #include <map>
 #include <string>
 
+#include "machine/axis.hpp"
+
 namespace fitgauge::machine {
 
 enum class PrePositioning : std::uint8_t { ProbeRapid, MachineRapid };
@@ -42,6 +44,10 @@ struct ProbeSystem {
   ProbeRow data;
   double length = 0;  ///< effective, spindle nose to the ball's south pole, in mm (L + DL)
   double radius = 0;  ///< effective ball radius, in mm (R + DR): FN 18 ID 350 NR 11
+
+  /// CAL_OF1 and CAL_OF2 as a vector from the spindle axis to the ball centre, machine coordinates:
+  /// main and secondary axis are X Y, Y Z or Z X for the tool axis Z, X or Y.
+  Vec3 centre_offset(Axis tool_axis) const;
 };
 
 }  // namespace fitgauge::machine

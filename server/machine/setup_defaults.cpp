@@ -1,0 +1,31 @@
+#include "machine/machine_setup.hpp"
+
+namespace fitgauge::machine {
+
+AxisSetup AxisSetup::of(Axis axis) {
+  AxisSetup setup;
+  setup.direction = unit_vector(axis);
+  if (is_rotary(axis)) {
+    setup.max = axis == Axis::C ? 360 : 120;
+    setup.min = -setup.max;
+  }
+  return setup;
+}
+
+ToolSetup MachineSetup::default_probe_tool() {
+  ToolSetup tool;
+  tool.row.number = 30;
+  tool.row.name = "PROBE";
+  tool.row.l = 120;
+  tool.row.r = 2;
+  tool.row.probe = 1;
+  return tool;
+}
+
+Preset MachineSetup::default_preset() {
+  Preset preset;
+  preset.number = 1;
+  return preset;
+}
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,147 @@
+#include "machine/simulated_machine.hpp"
+
+#include <algorithm>
+
+#include "machine/sphere_tracing.hpp"
+
+namespace fitgauge::machine {
+namespace {
+
+constexpr double kMillimetresPerMicrometre = 1e-3;
+/// mm: a ball that overlaps the material by less only touches it.
+constexpr double kTouching = 1e-6;
+
+Kinematics as_built(const MachineSetup& setup) {
+  std::vector<RotaryAxis> axes;
+  for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
+    const auto& known = setup.axes[index(axis)];
+    if (!known) continue;
+    axes.push_back({axis, known->mount, known->centre + known->centre_error,
+                    Matrix3::spatial(known->tilt_error_deg) * known->direction});
+  }
+  return Kinematics(std::move(axes));
+}
+
+}  // namespace
+
+SimulatedMachine::SimulatedMachine(const Setup& setup)
+    : ModelledMachine(setup.machine),
+      setup_(setup.machine),
+      workpiece_(setup.features),
+      kinematics_(as_built(setup.machine)),
+      rest_{},
+      random_(setup.seed) {}
+
+void SimulatedMachine::on_turn(const Vec3& rotary) {
+  const Vec3 turn = rotary - state().nose.rotary;
+  for (std::size_t letter = 0; letter < 3; ++letter) {
+    const auto& axis = setup_.axes[letter + 3];
+    if (!axis || turn[letter] == 0) continue;
+    slack_deg_[letter] = turn[letter] > 0 ? 0 : axis->backlash_deg;
+    if (axis->scatter_um == 0) continue;
+    const double scatter = axis->scatter_um * kMillimetresPerMicrometre;
+    for (std::size_t k = 0; k < 3; ++k) rest_[letter][k] = scatter * random_.normal();
+  }
+}
+
+SimulatedMachine::RealTool SimulatedMachine::real_tool() const {
+  RealTool real{state().tool_length(), state().tool_radius(), {}, nullptr};
+  const int number = state().tool.number;
+  const auto tool = std::find_if(setup_.tools.begin(), setup_.tools.end(),
+                                 [=](const ToolSetup& t) { return t.row.number == number; });
+  if (tool == setup_.tools.end()) return real;
+  real.length = tool->actual_length.value_or(tool->row.l + tool->row.dl);
+  real.radius = tool->actual_radius.value_or(tool->row.r + tool->row.dr);
+  const int row = tool->row.probe;
+  const auto probe = std::find_if(setup_.probes.begin(), setup_.probes.end(),
+                                  [=](const ProbeSetup& p) { return p.row.number == row; });
+  if (probe == setup_.probes.end()) return real;
+  real.probe = &*probe;
+  const std::size_t up = index(state().tool_axis());
+  real.offset[(up + 1) % 3] = probe->centre_offset[0];
+  real.offset[(up + 2) % 3] = probe->centre_offset[1];
+  return real;
+}
+
+Transform SimulatedMachine::real_table(const Vec3& rotary) const {
+  return Transform::translation(rest_[0] + rest_[1] + rest_[2]) *
+         kinematics_.table(rotary + slack_deg_);
+}
+
+Vec3 SimulatedMachine::ball_on_table(const Position& nose, const RealTool& tool) const {
+  const Vec3 direction = kinematics_.tool_direction(nose.rotary + slack_deg_, state().tool_axis());
+  const Vec3 centre = nose.linear - direction * (tool.length - tool.radius) + tool.offset;
+  return real_table(nose.rotary).inverse().point(centre);
+}
+
+double SimulatedMachine::free_part(const Path& path) {
+  const Tool* row = state().active_tool();
+  if (row == nullptr || !row->is_probe() || workpiece_.is_empty()) return 1;
+  const RealTool tool = real_tool();
+  const double radius = tool.radius - kTouching;
+
+  if (path.is_straight) {
+    const Vec3 start = ball_on_table(path.start, tool);
+    const Vec3 way = ball_on_table(path.end, tool) - start;
+    const double length = norm(way);
+    if (length == 0) return 1;
+    const auto touched = workpiece_.contact(start, way * (1 / length), radius, length);
+    return touched ? std::min(*touched / length, 1 - 1e-15) : 1;
+  }
+  double lever = norm(path.start.linear) + path.nose_speed + tool.length + norm(tool.offset);
+  for (const RotaryAxis& axis : kinematics_.axes()) lever += norm(axis.centre);
+  const Vec3 turn = path.end.rotary - path.start.rotary;
+  const double speed =
+      path.nose_speed + radians(std::abs(turn.x) + std::abs(turn.y) + std::abs(turn.z)) * lever;
+  if (speed == 0) return 1;
+  const auto touched = first_zero(
+      [&](double way) {
+        return workpiece_.clearance(ball_on_table(path.nose(way / speed), tool), radius);
+      },
+      speed, least_step(radius));
+  return touched ? std::min(*touched / speed, 1 - 1e-15) : 1;
+}
+
+MachineResult<double> SimulatedMachine::contact(const Vec3& direction, double distance) {
+  const RealTool tool = real_tool();
+  return state().active_tool()->is_probe() ? probe_contact(direction, distance, tool)
+                                           : plate_contact(direction, distance, tool);
+}
+
+MachineResult<double> SimulatedMachine::probe_contact(const Vec3& direction, double distance,
+                                                      const RealTool& tool) {
+  const Vec3 start = ball_on_table(state().nose, tool);
+  if (workpiece_.clearance(start, tool.radius) < -kTouching) {
+    return make_fault(FaultKind::StylusDeflected);
+  }
+  const Vec3 on_table = real_table(state().nose.rotary).inverse().direction(direction);
+  const auto touched = workpiece_.contact(start, on_table, tool.radius, distance);
+  if (!touched) return make_fault(FaultKind::NoContact);
+  double way = *touched;
+  if (tool.probe != nullptr) {
+    way += tool.probe->pretravel_um * kMillimetresPerMicrometre;
+    if (tool.probe->repeatability_um != 0) {
+      way += tool.probe->repeatability_um * kMillimetresPerMicrometre * random_.normal();
+    }
+  }
+  if (way > distance) return make_fault(FaultKind::NoContact);
+  return std::max(way, 0.0);
+}
+
+/// A cutter against the tool touch probe: a cylinder against a disc, which is the tip's centre
+/// against a disc of both radii.
+MachineResult<double> SimulatedMachine::plate_contact(const Vec3& direction, double distance,
+                                                      const RealTool& tool) {
+  constexpr double kThickness = 10;  // mm
+  const ToolTouchProbe& tt = setup_.tt;
+  const Workpiece disc(
+      {Boss{{tt.centre.x, tt.centre.y}, tt.centre.z, kThickness, 2 * (tt.radius + tool.radius)}});
+  const Vec3 tip =
+      state().nose.linear - state().tool_direction(CoordinateSystem::Machine) * tool.length;
+  if (disc.clearance(tip, 0) < -kTouching) return make_fault(FaultKind::StylusDeflected);
+  const auto touched = disc.contact(tip, direction, 0, distance);
+  if (!touched) return make_fault(FaultKind::NoContact);
+  return *touched;
+}
+
+}  // namespace fitgauge::machine

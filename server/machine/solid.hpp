@@ -1,0 +1,77 @@
+#pragma once
+
+#include "machine/geometry.hpp"
+#include "machine/machine_setup.hpp"
+
+namespace fitgauge::machine {
+
+/// A signed distance to a boundary and its gradient, a unit vector away from the material: the
+/// nearest point of the boundary is `at - distance * gradient`.
+struct Field {
+  double distance = 0;  ///< in mm, negative inside the material
+  Vec3 gradient{0, 0, 1};
+
+  Vec3 foot(const Vec3& at) const { return at - gradient * distance; }
+};
+
+/// Material that a feature adds. The distance is exact outside; inside it is negative and exact
+/// wherever the nearest boundary is a face. Immutable: thread-safe.
+class Solid {
+ public:
+  Solid() = default;
+  Solid(const Solid&) = delete;
+  Solid& operator=(const Solid&) = delete;
+  virtual ~Solid() = default;
+
+  virtual Field field(const Vec3& at) const = 0;
+  /// The lowest z of the material, -infinity where it has no lower end.
+  virtual double bottom() const = 0;
+};
+
+class BlockSolid final : public Solid {
+ public:
+  explicit BlockSolid(const Block& block);
+  Field field(const Vec3& at) const override;
+  double bottom() const override { return centre_.z - half_.z; }
+
+ private:
+  Vec3 centre_;
+  Vec3 half_;
+};
+
+class BossSolid final : public Solid {
+ public:
+  explicit BossSolid(const Boss& boss);
+  Field field(const Vec3& at) const override;
+  double bottom() const override { return centre_.z - half_height_; }
+
+ private:
+  Vec3 centre_;
+  double radius_;
+  double half_height_;
+};
+
+class PlaneSolid final : public Solid {
+ public:
+  explicit PlaneSolid(const Plane& plane) : point_(plane.point), normal_(unit(plane.normal)) {}
+  Field field(const Vec3& at) const override { return {dot(at - point_, normal_), normal_}; }
+  double bottom() const override;
+
+ private:
+  Vec3 point_;
+  Vec3 normal_;
+};
+
+class SphereSolid final : public Solid {
+ public:
+  explicit SphereSolid(const Sphere& sphere)
+      : centre_(sphere.centre), radius_(sphere.diameter / 2) {}
+  Field field(const Vec3& at) const override;
+  double bottom() const override { return centre_.z - radius_; }
+
+ private:
+  Vec3 centre_;
+  double radius_;
+};
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace fitgauge::machine {
+
+/// The step for a ball of `radius` in mm: what it rounds off has at least its own radius, so a dip
+/// that is passed by a step of that length is shallower than 1e-9 mm.
+inline double least_step(double radius) {
+  constexpr double kDip = 1e-9;
+  constexpr double kSmallest = 0.1;
+  return std::sqrt(8 * std::max(radius, kSmallest) * kDip);
+}
+
+/// The first zero of `value` on [0, longest], to a value of 1e-11.
+/// `value` must not change faster than its argument (a distance along a path): then a step of the
+/// value's own length never passes a zero. Steps shorter than `step_at_least` are lengthened to it,
+/// so that a path beside a wall ends; a dip below zero narrower than that step may be passed.
+template <class Value>
+std::optional<double> first_zero(const Value& value, double longest, double step_at_least) {
+  constexpr double kZero = 1e-11;
+  double low = 0;
+  double at_low = value(low);
+  if (at_low <= kZero) return low;
+  while (low < longest) {
+    double high = std::min(low + std::max(at_low, step_at_least), longest);
+    double at_high = value(high);
+    if (at_high > kZero) {
+      low = high;
+      at_low = at_high;
+      continue;
+    }
+    // Regula falsi with halved ends (Illinois): the zero is within one least step.
+    constexpr int kSteps = 100;
+    for (int step = 0; step < kSteps && at_high < -kZero; ++step) {
+      const double next = high - at_high * (high - low) / (at_high - at_low);
+      const double at_next = value(next);
+      if (std::abs(at_next) <= kZero) return next;
+      if (at_next > 0) {
+        low = next;
+        at_low = at_next;
+        at_high /= 2;
+      } else {
+        high = next;
+        at_high = at_next;
+        at_low /= 2;
+      }
+      if (high - low < 1e-13) break;
+    }
+    return high;
+  }
+  return std::nullopt;
+}
+
+}  // namespace fitgauge::machine

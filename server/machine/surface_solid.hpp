@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "machine/solid.hpp"
+#include "machine/triangle_tree.hpp"
+
+namespace fitgauge::machine {
+
+/// The material below a measured surface: the triangles of its points and the walls that fall from
+/// their hull.
+class SurfaceSolid final : public Solid {
+ public:
+  /// @pre not all points are on one line in X and Y.
+  explicit SurfaceSolid(const Surface& surface);
+  Field field(const Vec3& at) const override;
+  double bottom() const override;
+
+ private:
+  SurfaceSolid(const Surface& surface, const struct Triangulation& mesh);
+
+  /// The nearest point of the walls, if it is nearer than `than`.
+  Vec3 nearest_with_walls(const Vec3& at, const Vec3& than) const;
+
+  TriangleTree top_;
+  std::vector<Vec3> hull_;  ///< counter-clockwise, closed: the first point is also the last
+};
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,199 @@
+#include "machine/workpiece.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "machine/bore_void.hpp"
+#include "machine/solid.hpp"
+#include "machine/sphere_tracing.hpp"
+#include "machine/surface_solid.hpp"
+
+namespace fitgauge::machine {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kOnBoundary = 1e-9;  ///< mm: what counts as lying on a face
+
+/// A bore as one of the solids before it sees it.
+struct Cut {
+  std::shared_ptr<const BoreVoid> bore;
+  bool is_through = false;  ///< no material of that solid lies below the bottom
+
+  /// Positive inside the void: how deep below the nearer of wall and bottom.
+  Field field(const Vec3& at) const {
+    const Field wall = bore->wall(at);
+    if (is_through) return wall;
+    const Field floor = bore->floor(at);
+    return floor.distance < wall.distance ? floor : wall;
+  }
+  double bound(const Vec3& at) const {
+    const double wall = bore->wall_bound(at);
+    return is_through ? wall : std::min(wall, bore->floor(at).distance);
+  }
+};
+
+/// The point nearest to `at` on the edge where two boundaries meet, searched from `from`: projects
+/// `at` onto the line in which the tangent planes meet, until that moves no more.
+/// Nothing when it does not settle or the edge is not the nearest place of its surroundings.
+template <class First, class Second>
+std::optional<Vec3> nearest_on_edge(const Vec3& at, Vec3 from, const First& first,
+                                    const Second& second) {
+  constexpr int kSteps = 60;
+  constexpr double kSettled = 1e-11;
+  for (int step = 0; step < kSteps; ++step) {
+    const Field a = first(from);
+    const Field b = second(from);
+    const double cosine = dot(a.gradient, b.gradient);
+    const double determinant = 1 - cosine * cosine;
+    constexpr double kParallel = 1e-6;
+    if (determinant < kParallel) return std::nullopt;
+    const double rest_a = dot(a.gradient, at - from) + a.distance;
+    const double rest_b = dot(b.gradient, at - from) + b.distance;
+    const double along_a = (rest_a - cosine * rest_b) / determinant;
+    const double along_b = (rest_b - cosine * rest_a) / determinant;
+    const Vec3 next = at - a.gradient * along_a - b.gradient * along_b;
+    const double moved = norm(next - from);
+    from = next;
+    if (moved > kSettled) continue;
+    if (along_a < -kOnBoundary || along_b < -kOnBoundary) return std::nullopt;
+    return next;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+/// One solid less the bores after it.
+struct Workpiece::Part {
+  std::unique_ptr<const Solid> solid;
+  std::vector<Cut> cuts;
+
+  /// The cut, other than `except`, that has `point` inside its void.
+  const Cut* cut_at(const Vec3& point, const Cut* except) const {
+    for (const Cut& cut : cuts) {
+      if (&cut == except || cut.bound(point) <= kOnBoundary - cut.bore->roughness()) continue;
+      if (cut.field(point).distance > kOnBoundary) return &cut;
+    }
+    return nullptr;
+  }
+
+  double distance(const Vec3& at, double radius, const Field& to_solid) const;
+  double exact_distance(const Vec3& at, const Field& to_solid) const;
+};
+
+/// The distance to solid less voids is at least that to the solid and that to the boundary of every
+/// void the point is in. It is the largest of them when the nearest point of that boundary is
+/// material; otherwise an edge is nearest.
+double Workpiece::Part::distance(const Vec3& at, double radius, const Field& to_solid) const {
+  double bound = to_solid.distance;
+  double roughness = 0;
+  for (const Cut& cut : cuts) {
+    bound = std::max(bound, cut.bound(at));
+    roughness = std::max(roughness, cut.bore->roughness());
+  }
+  constexpr double kNear = 0.01;  // mm: from here on the exact value is worth its price
+  return bound > radius + roughness + kNear ? bound : exact_distance(at, to_solid);
+}
+
+double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) const {
+  Field largest = to_solid;
+  const Cut* of = nullptr;
+  for (const Cut& cut : cuts) {
+    if (cut.bound(at) + cut.bore->roughness() < std::max(largest.distance, 0.0)) continue;
+    const Field field = cut.field(at);
+    if (field.distance > 0 && field.distance >= largest.distance) {
+      largest = field;
+      of = &cut;
+    }
+  }
+  if (largest.distance <= 0) return largest.distance;  // inside the material
+
+  const Vec3 foot = largest.foot(at);
+  const Cut* other = cut_at(foot, of);
+  const auto solid_field = [this](const Vec3& p) { return solid->field(p); };
+  std::optional<Vec3> edge;
+  if (of == nullptr) {
+    if (other == nullptr) return largest.distance;
+    edge = nearest_on_edge(at, foot, solid_field, [&](const Vec3& p) { return other->field(p); });
+  } else {
+    const auto cut_field = [&](const Vec3& p) { return of->field(p); };
+    if (solid->field(foot).distance > kOnBoundary) {
+      edge = nearest_on_edge(at, foot, solid_field, cut_field);
+      other = of;
+    } else if (other == nullptr) {
+      return largest.distance;
+    } else {
+      edge = nearest_on_edge(at, foot, cut_field, [&](const Vec3& p) { return other->field(p); });
+      if (edge && solid->field(*edge).distance > kOnBoundary) return largest.distance;
+    }
+  }
+  if (!edge) return largest.distance;
+  for (const Cut& cut : cuts) {
+    if (&cut != of && &cut != other && cut.field(*edge).distance > kOnBoundary) {
+      return largest.distance;
+    }
+  }
+  return std::max(largest.distance, norm(at - *edge));
+}
+
+namespace {
+
+std::unique_ptr<const Solid> solid_of(const Feature& feature) {
+  struct Make {
+    std::unique_ptr<const Solid> operator()(const Block& f) const {
+      return std::make_unique<BlockSolid>(f);
+    }
+    std::unique_ptr<const Solid> operator()(const Boss& f) const {
+      return std::make_unique<BossSolid>(f);
+    }
+    std::unique_ptr<const Solid> operator()(const Plane& f) const {
+      return std::make_unique<PlaneSolid>(f);
+    }
+    std::unique_ptr<const Solid> operator()(const Sphere& f) const {
+      return std::make_unique<SphereSolid>(f);
+    }
+    std::unique_ptr<const Solid> operator()(const Surface& f) const {
+      return std::make_unique<SurfaceSolid>(f);
+    }
+    std::unique_ptr<const Solid> operator()(const Bore&) const { return nullptr; }
+  };
+  return std::visit(Make{}, feature);
+}
+
+}  // namespace
+
+Workpiece::Workpiece(const std::vector<Feature>& features) {
+  for (const Feature& feature : features) {
+    if (const Bore* bore = std::get_if<Bore>(&feature)) {
+      const auto shared = std::make_shared<const BoreVoid>(*bore);
+      for (Part& part : parts_) {
+        part.cuts.push_back({shared, shared->floor_top() <= part.solid->bottom() + kOnBoundary});
+      }
+    } else {
+      parts_.push_back({solid_of(feature), {}});
+    }
+  }
+}
+
+Workpiece::Workpiece(Workpiece&&) noexcept = default;
+Workpiece& Workpiece::operator=(Workpiece&&) noexcept = default;
+Workpiece::~Workpiece() = default;
+
+double Workpiece::clearance(const Vec3& centre, double radius) const {
+  double least = kInfinity;
+  for (const Part& part : parts_) {
+    const Field to_solid = part.solid->field(centre);
+    if (to_solid.distance >= least) continue;
+    least = std::min(least, part.distance(centre, radius, to_solid));
+  }
+  return least - radius;
+}
+
+std::optional<double> Workpiece::contact(const Vec3& start, const Vec3& direction, double radius,
+                                         double longest) const {
+  if (parts_.empty()) return std::nullopt;
+  return first_zero([&](double way) { return clearance(start + direction * way, radius); }, longest,
+                    least_step(radius));
+}
+
+}  // namespace fitgauge::machine
