@@ -14,7 +14,16 @@
 
 namespace fitgauge::http {
 
+struct RequestHead;
 struct Route;
+
+/// The other end of a connection.
+struct Peer {
+  std::string address;  ///< `127.0.0.1`, `::1`
+  std::string client_certificate{};
+  bool loopback = false;
+  bool tls = false;
+};
 
 /// The value of a parameter after parsing: text and words as text, decimals as the integer
 /// value times 10^scale.
@@ -57,12 +66,12 @@ class Request {
   std::uint64_t id() const { return id_; }
   std::string id_text() const;
 
-  std::string_view peer_address() const { return peer_address_; }  ///< `127.0.0.1`, `::1`
+  std::string_view peer_address() const { return peer_->address; }  ///< `127.0.0.1`, `::1`
   /// From this machine itself: a loopback peer and no proxy's field (Forwarded, X-Forwarded-*).
   bool is_local() const;
-  bool is_tls() const { return tls_; }
+  bool is_tls() const { return peer_->tls; }
   /// The subject of the client's certificate (RFC 2253), verified against the client CA; or empty.
-  std::string_view client_certificate() const { return client_certificate_; }
+  std::string_view client_certificate() const { return peer_->client_certificate; }
   /// `https://host:port` or `http://…` as the client addressed it, for comparing Origin.
   std::string own_origin() const;
 
@@ -79,27 +88,20 @@ class Request {
  private:
   friend class Exchange;
 
-  struct Field {
-    std::string_view name;
-    std::string_view value;
-  };
-
   const std::optional<ArgumentValue>& argument(std::string_view name) const;
+  template <class T>
+  std::optional<T> argument_as(std::string_view name) const;
 
   Method method_ = Method::Other;
-  bool tls_ = false;
-  bool loopback_ = false;
   std::uint64_t id_ = 0;
+  const RequestHead* head_ = nullptr;
+  const Peer* peer_ = nullptr;
   const Route* route_ = nullptr;
   std::string_view path_;
   std::string_view query_;
-  std::string_view host_;
   std::string_view body_;
   std::string_view response_type_;
-  std::string_view peer_address_;
-  std::string_view client_certificate_;
   std::string media_type_;
-  std::vector<Field> fields_;
   std::vector<std::optional<ArgumentValue>> arguments_;  ///< parallel to the route's parameters
   std::any caller_;
 };

@@ -65,6 +65,6 @@ struct Response {
 /// in their cache and return it. The engine puts in the Date and handles HEAD, If-None-Match and
 /// closing connections.
 /// @pre the body is not a stream.
-std::shared_ptr<const PreparedResponse> prepare(Response response);
+std::shared_ptr<const PreparedResponse> prepare(const Response& response);
 
 }  // namespace fitgauge::http

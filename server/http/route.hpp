@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -17,6 +17,8 @@
 #include "http/response.hpp"
 
 namespace fitgauge::http {
+
+class RouteTree;
 
 // What a parameter's text may be. Every kind is checked before the handler runs; a refused path or
 // query value names the parameter and what it takes.
@@ -110,13 +112,11 @@ class RouteTable {
   ~RouteTable();
 
   const std::vector<Route>& routes() const { return routes_; }
+  const RouteTree& tree() const { return *tree_; }  ///< the engine's index
 
  private:
-  friend class Exchange;
-  struct Node;
-
   std::vector<Route> routes_;
-  std::unique_ptr<Node> root_;
+  std::unique_ptr<const RouteTree> tree_;
 };
 
 }  // namespace fitgauge::http

@@ -1,0 +1,32 @@
+#pragma once
+
+// What the engine uses of Asio, compiled once (asio_source.cpp); also its precompiled header.
+
+#include <boost/asio/basic_socket_acceptor.hpp>
+#include <boost/asio/basic_stream_socket.hpp>
+#include <boost/asio/basic_waitable_timer.hpp>
+#include <boost/asio/bind_executor.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/wait_traits.hpp>
+#include <boost/system/error_code.hpp>
+#include <chrono>
+
+namespace fitgauge::http {
+
+namespace asio = boost::asio;
+using boost::system::error_code;
+
+/// The executor is known at compile time: a type-erased one costs a virtual call and a copy for
+/// every operation.
+using IoExecutor = asio::io_context::executor_type;
+using Socket = asio::basic_stream_socket<asio::ip::tcp, IoExecutor>;
+using Acceptor = asio::basic_socket_acceptor<asio::ip::tcp, IoExecutor>;
+using Timer = asio::basic_waitable_timer<std::chrono::steady_clock,
+                                         asio::wait_traits<std::chrono::steady_clock>, IoExecutor>;
+
+}  // namespace fitgauge::http

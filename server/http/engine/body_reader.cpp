@@ -1,0 +1,94 @@
+#include "http/engine/body_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "http/request.hpp"
+
+namespace fitgauge::http {
+
+void BodyReader::start(const Plan& plan) {
+  clear();
+  plan_ = plan;
+  if (plan.gzip) gunzip_.emplace();
+}
+
+void BodyReader::clear() {
+  data_.reset();
+  gunzip_.reset();
+  if (taken_ > 0) budget_.give_back(taken_);
+  size_ = capacity_ = taken_ = discarded_ = 0;
+}
+
+BodyReader::Outcome BodyReader::reserve(std::size_t size) {
+  if (size > plan_.limit) return Outcome::TooLarge;
+  if (size <= capacity_) return Outcome::Ok;
+  const std::size_t needed = size > kFree ? size : 0;
+  if (needed > taken_) {
+    if (!budget_.try_take(needed - taken_)) return Outcome::NoBudget;
+    taken_ = needed;
+  }
+  // Not value-initialised: a page is touched when the bytes come that fill it.
+  std::unique_ptr<char[]> grown(new char[size + Request::kBodyPadding]);
+  if (size_ > 0) std::memcpy(grown.get(), data_.get(), size_);
+  data_ = std::move(grown);
+  capacity_ = size;
+  return Outcome::Ok;
+}
+
+BodyReader::Outcome BodyReader::add(std::string_view& piece) {
+  if (gunzip_) return add_decoded(piece);
+  if (plan_.discard) {
+    discarded_ += piece.size();
+    piece = {};
+    return discarded_ > plan_.limit ? Outcome::TooLarge : Outcome::Ok;
+  }
+  if (piece.size() > capacity_ - size_) {
+    const std::size_t needed = size_ + piece.size();
+    const std::size_t roomy = std::min(std::max(needed, 2 * capacity_), plan_.limit);
+    const Outcome outcome = reserve(std::max(needed, roomy));
+    if (outcome != Outcome::Ok) return outcome;
+  }
+  std::memcpy(data_.get() + size_, piece.data(), piece.size());
+  size_ += piece.size();
+  piece = {};
+  return Outcome::Ok;
+}
+
+BodyReader::Outcome BodyReader::add_decoded(std::string_view& piece) {
+  std::array<char, 4096> thrown_away;
+  while (!piece.empty() || gunzip_->has_more()) {
+    if (!plan_.discard && size_ == capacity_) {
+      if (capacity_ == plan_.limit) {
+        // Full: one more byte of output is too much, the end of the stream is not.
+        char one = 0;
+        const Gunzip::Step step = gunzip_->put(piece, {&one, 1});
+        if (step.produced > 0) return Outcome::TooLarge;
+        if (step.failed) return Outcome::Malformed;
+        piece.remove_prefix(step.consumed);
+        continue;
+      }
+      const Outcome outcome =
+          reserve(std::min(std::max<std::size_t>(4096, 2 * capacity_), plan_.limit));
+      if (outcome != Outcome::Ok) return outcome;
+    }
+    const Gunzip::Step step =
+        gunzip_->put(piece, plan_.discard ? std::span<char>(thrown_away) : room());
+    if (step.failed) return Outcome::Malformed;
+    piece.remove_prefix(step.consumed);
+    if (plan_.discard) {
+      discarded_ += step.produced;
+      if (discarded_ > plan_.limit) return Outcome::TooLarge;
+    } else {
+      size_ += step.produced;
+    }
+  }
+  return Outcome::Ok;
+}
+
+BodyReader::Outcome BodyReader::finish() const {
+  return gunzip_ && !gunzip_->is_complete() ? Outcome::Malformed : Outcome::Ok;
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "http/engine/byte_budget.hpp"
+#include "http/engine/gunzip.hpp"
+
+namespace fitgauge::http {
+
+/// Gathers one request's body in memory: decodes gzip, holds the limit after decompression and
+/// takes what is more than kFree from the budget. Used by one thread. After TooLarge or Malformed
+/// only clear() may follow.
+class BodyReader {
+ public:
+  /// What every body may use without asking: small requests never wait.
+  static constexpr std::size_t kFree = std::size_t{16} << 10;
+
+  enum class Outcome { Ok, NoBudget, TooLarge, Malformed };
+
+  explicit BodyReader(ByteBudget& budget) : budget_(budget) {}
+  ~BodyReader() { clear(); }
+  BodyReader(const BodyReader&) = delete;
+  BodyReader& operator=(const BodyReader&) = delete;
+
+  struct Plan {
+    std::size_t limit = 0;
+    bool gzip = false;
+    bool discard = false;  ///< count and decode only
+  };
+  void start(const Plan& plan);
+
+  /// Makes room for `size` bytes in all; NoBudget leaves everything as it was.
+  Outcome reserve(std::size_t size);
+
+  /// Takes bytes off the front of `piece`; NoBudget leaves the rest to be added later.
+  Outcome add(std::string_view& piece);
+
+  /// Room for bytes that need no decoding, to be filled and then announced by `added`.
+  std::span<char> room() const { return {data_.get() + size_, capacity_ - size_}; }
+  void added(std::size_t count) { size_ += count; }
+
+  /// The body has ended: Malformed when its coding has not.
+  Outcome finish() const;
+
+  std::string_view bytes() const { return {data_.get(), size_}; }
+  bool holds_budget() const { return taken_ > 0; }
+
+  void clear();
+
+ private:
+  Outcome add_decoded(std::string_view& piece);
+
+  ByteBudget& budget_;
+  Plan plan_;
+  std::unique_ptr<char[]> data_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+  std::size_t taken_ = 0;
+  std::size_t discarded_ = 0;
+  std::optional<Gunzip> gunzip_;
+};
+
+}  // namespace fitgauge::http

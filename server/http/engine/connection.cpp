@@ -1,0 +1,430 @@
+#include "http/engine/connection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <utility>
+#include <variant>
+
+namespace fitgauge::http {
+
+namespace {
+
+/// Answers wait for each other up to this size, then they are sent.
+constexpr std::size_t kBatch = std::size_t{64} << 10;
+/// A sender of a body that is silent for longer gives way when others wait for memory.
+constexpr auto kStalled = std::chrono::seconds(1);
+constexpr auto kLinger = std::chrono::seconds(2);
+constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+constexpr std::array<char, Request::kBodyPadding> kNoBody{};
+
+const Refusal kTimedOut{408, ErrorCode::RequestTimeout, "The request took too long to arrive."};
+
+}  // namespace
+
+Connection::Connection(IoThread& thread, Peer peer)
+    : thread_(thread),
+      peer_(std::move(peer)),
+      exchange_(thread.shared().routes, thread.shared().hooks, peer_),
+      body_(thread.shared().budget) {
+  thread_.add(*this);
+  deadline_ = thread_.now() + thread_.shared().options.header_timeout;
+}
+
+Connection::~Connection() {
+  if (phase_ != Phase::Closed) thread_.remove(*this);
+}
+
+template <class Function>
+void Connection::guarded(Function&& function) noexcept {
+  try {
+    function();
+  } catch (const std::exception&) {  // out of memory, or a hook that throws: this client alone
+    close();
+  }
+}
+
+void Connection::begin() {
+  if (phase_ != Phase::Opening) return;
+  phase_ = Phase::Head;
+  deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
+  guarded([&] { advance(); });
+}
+
+void Connection::on_read(const error_code& error, std::size_t count) noexcept {
+  reading_ = false;
+  if (phase_ == Phase::Closed) return;
+  if (error) return close();
+  guarded([&] {
+    if (phase_ == Phase::Lingering) return read_more();
+    if (close_after_ && !in_request_) return;  // refused while it was being read
+    if (phase_ == Phase::ReadingBody) last_body_byte_ = thread_.now();
+    if (phase_ == Phase::ReadingBody && reads_directly_) {
+      body_.added(count);
+      body_left_ -= count;
+      received_ += count;
+    } else {
+      input_.added(count);
+    }
+    advance();
+  });
+}
+
+void Connection::on_write(const error_code& error, std::size_t count) noexcept {
+  writing_ = false;
+  if (phase_ == Phase::Closed) return;
+  if (error) return close();
+  guarded([&] {
+    output_.consume(count);
+    advance();
+  });
+}
+
+void Connection::advance() {
+  while (phase_ != Phase::Closed && !writing_) {
+    while (step()) {
+    }
+    if (output_.empty()) break;
+    if (!send()) return;
+  }
+  if (phase_ == Phase::Closed || writing_) return;
+  if (phase_ == Phase::Head && close_after_ && !in_request_) return end();
+  if (phase_ == Phase::Head || phase_ == Phase::ReadingBody) read_more();
+}
+
+bool Connection::step() {
+  if (output_.has_long_body() || output_.queued_text() > kBatch) return false;
+  switch (phase_) {
+    case Phase::Head:
+      return step_head();
+    case Phase::ReadingBody:
+      return step_body();
+    case Phase::Stream:
+      return step_stream();
+    default:
+      return false;
+  }
+}
+
+bool Connection::step_head() {
+  if (!in_request_ && (close_after_ || !begin_request())) return false;
+  std::size_t used = 0;
+  const RequestParser::Step parsed = parser_->put(input_.unread(), used);
+  input_.advance(used);
+  received_ += used;
+  switch (parsed) {
+    case RequestParser::Step::NeedMore:
+      return false;
+    case RequestParser::Step::Head:
+      return open_exchange();
+    default:
+      refuse(parser_->refusal());
+      return true;
+  }
+}
+
+bool Connection::begin_request() {
+  // Empty lines before a request are skipped (RFC 9112 section 2.2).
+  while (input_.unread().starts_with("\r\n")) {
+    input_.advance(2);
+    input_.next_request();
+  }
+  if (input_.unread().empty() || input_.unread() == "\r") return false;
+  const ServerShared& shared = thread_.shared();
+  in_request_ = true;
+  received_ = 0;
+  parser_.emplace(head_);
+  deadline_ = thread_.now() + shared.options.header_timeout;
+  request_deadline_ = thread_.now() + shared.options.request_timeout;
+  if (shared.hooks.finished) started_ = std::chrono::steady_clock::now();
+  return true;
+}
+
+bool Connection::open_exchange() {
+  if (!head_.keep_alive || thread_.shared().stopping.load(std::memory_order_relaxed)) {
+    close_after_ = true;
+  }
+  head_size_ = input_.parsed_size();
+  if (auto early = exchange_.open(head_, thread_.next_request_id())) {
+    skip_buffered_body();
+    answer(std::move(*early));
+    return true;
+  }
+  if (head_.has_body()) return begin_body();
+  exchange_.set_body({kNoBody.data(), 0});
+  run_handler();
+  return true;
+}
+
+void Connection::skip_buffered_body() {
+  if (!head_.has_body()) return;
+  const auto length = head_.content_length.value_or(input_.unread().size() + 1);
+  if (length <= input_.unread().size()) {
+    input_.advance(static_cast<std::size_t>(length));
+  } else {
+    close_after_ = lingers_ = true;
+  }
+}
+
+bool Connection::begin_body() {
+  const BodyReader::Plan plan = exchange_.body_plan();
+  body_left_ = static_cast<std::size_t>(head_.content_length.value_or(0));
+  reads_directly_ = !head_.chunked && !plan.gzip && !plan.discard;
+  if (reads_directly_ && input_.unread().size() >= body_left_) {
+    exchange_.set_body(input_.unread().substr(0, body_left_));
+    input_.advance(body_left_);
+    received_ += body_left_;
+    run_handler();
+    return true;
+  }
+  body_.start(plan);
+  phase_ = Phase::ReadingBody;
+  last_body_byte_ = thread_.now();
+  if (reads_directly_) return take_body_outcome(body_.reserve(body_left_));
+  return admit_body();
+}
+
+bool Connection::admit_body() {
+  if (exchange_.wants_continue() && input_.unread().empty()) output_.text().append(kContinue);
+  if (reads_directly_) {
+    const std::string_view there = input_.unread();
+    std::memcpy(body_.room().data(), there.data(), there.size());
+    body_.added(there.size());
+    body_left_ -= there.size();
+    received_ += there.size();
+    input_.advance(there.size());
+  }
+  return true;
+}
+
+bool Connection::step_body() {
+  if (reads_directly_) return body_left_ == 0 && finish_body();
+  if (!pending_piece_.empty()) return take_body_outcome(body_.add(pending_piece_));
+  if (!head_.chunked) {
+    if (body_left_ == 0) return finish_body();
+    pending_piece_ = input_.unread().substr(0, body_left_);
+    input_.advance(pending_piece_.size());
+    received_ += pending_piece_.size();
+    body_left_ -= pending_piece_.size();
+    return !pending_piece_.empty();
+  }
+  if (input_.unread().empty()) return false;
+  std::size_t used = 0;
+  const RequestParser::Step parsed = parser_->put(input_.unread(), used);
+  input_.advance(used);
+  received_ += used;
+  switch (parsed) {
+    case RequestParser::Step::NeedMore:
+      return false;
+    case RequestParser::Step::Complete:
+      return finish_body();
+    case RequestParser::Step::Refused:
+      refuse(parser_->refusal());
+      return true;
+    default:
+      pending_piece_ = parser_->piece();
+      return true;
+  }
+}
+
+bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
+  switch (outcome) {
+    case BodyReader::Outcome::Ok:
+      return !reads_directly_ || admit_body();
+    case BodyReader::Outcome::NoBudget:
+      phase_ = Phase::Budget;
+      wait_begun_ = thread_.now();
+      thread_.shared().budget.begin_wait();
+      return false;
+    case BodyReader::Outcome::TooLarge:
+      refuse({413, ErrorCode::BodyTooLarge,
+              "The body is larger than this route takes, after decompression."});
+      return true;
+    case BodyReader::Outcome::Malformed:
+      refuse({400, ErrorCode::RequestMalformed, "The body is not a gzip stream."});
+      return true;
+  }
+  return false;
+}
+
+std::size_t Connection::bytes_waited_for() const {
+  if (phase_ != Phase::Budget) return 0;
+  return std::max(static_cast<std::size_t>(head_.content_length.value_or(0)),
+                  2 * body_.bytes().size());
+}
+
+void Connection::retry_budget() {
+  guarded([&] {
+    const BodyReader::Outcome outcome =
+        reads_directly_ ? body_.reserve(body_left_) : body_.add(pending_piece_);
+    if (outcome == BodyReader::Outcome::NoBudget) return;
+    thread_.shared().budget.end_wait();
+    phase_ = Phase::ReadingBody;
+    last_body_byte_ = thread_.now();
+    request_deadline_ += thread_.now() - wait_begun_;  // the wait was not the client's doing
+    take_body_outcome(outcome);
+    advance();
+  });
+}
+
+bool Connection::finish_body() {
+  if (body_.finish() != BodyReader::Outcome::Ok) {
+    refuse({400, ErrorCode::RequestMalformed, "The gzip stream of the body is incomplete."});
+    return true;
+  }
+  exchange_.set_body(body_.bytes().empty() ? std::string_view(kNoBody.data(), 0) : body_.bytes());
+  run_handler();
+  return true;
+}
+
+void Connection::run_handler() {
+  phase_ = Phase::InHandler;
+  if (exchange_.is_synchronous()) {
+    answer(exchange_.run());
+  } else {
+    exchange_.run(Responder(shared_from_this()));
+  }
+}
+
+void Connection::refuse(const Refusal& refusal) {
+  close_after_ = lingers_ = true;
+  answer(exchange_.refuse(head_, thread_.next_request_id(), refusal));
+}
+
+void Connection::answer(Response response) {
+  const std::size_t before = output_.queued_text();
+  sent_ = append_answer(output_, response, exchange_.form(!close_after_), thread_.date());
+  sent_bytes_ = output_.queued_text() - before + output_.long_body_size();
+  if (!sent_.keep_alive) close_after_ = true;
+  if (!sent_.streams) return finish_request();
+  stream_ = std::move(std::get<StreamedBody>(response.body));
+  phase_ = Phase::Stream;
+  piece_awaited_ = false;
+}
+
+void Connection::finish_request() {
+  thread_.count_request();
+  if (const auto& finished = thread_.shared().hooks.finished) {
+    using std::chrono::microseconds;
+    const Request& request = exchange_.request();
+    const auto spent = std::chrono::steady_clock::now() - started_;
+    finished({.id = request.id(),
+              .route = request.route() == nullptr ? std::string_view{} : request.route()->pattern,
+              .method = head_.method,
+              .status = sent_.status,
+              .microseconds = std::chrono::duration_cast<microseconds>(spent).count(),
+              .bytes_received = received_,
+              .bytes_sent = sent_bytes_,
+              .peer_address = peer_.address});
+  }
+  exchange_.clear();
+  head_.clear();
+  parser_.reset();
+  pending_piece_ = {};
+  if (!reading_) body_.clear();  // otherwise close() does, when nothing reads into it any more
+  input_.next_request();
+  in_request_ = false;
+  phase_ = Phase::Head;
+}
+
+bool Connection::send() {
+  while (!output_.empty()) {
+    const std::string_view bytes = output_.front();
+    bool broken = false;
+    const std::size_t count = write_now(bytes, broken);
+    if (broken) {
+      close();
+      return false;
+    }
+    output_.consume(count);
+    if (count == bytes.size()) continue;
+    writing_ = true;
+    write_deadline_ = thread_.now() + thread_.shared().options.write_timeout;
+    write_some(output_.front());
+    return false;
+  }
+  return true;
+}
+
+void Connection::read_more() {
+  if (reading_) return;
+  std::span<char> room;
+  if (phase_ == Phase::Lingering) {
+    room = input_.room_to_discard();
+  } else if (phase_ == Phase::ReadingBody) {
+    room = reads_directly_ ? body_.room() : input_.room_for_body(head_, head_size_, kMaxFraming);
+  } else {
+    if (!in_request_) deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
+    room = input_.room_for_head(head_);
+  }
+  reading_ = true;
+  read_some(room);
+}
+
+void Connection::end() {
+  if (reading_ || (!lingers_ && !peer_.tls)) return close();
+  phase_ = Phase::Lingering;
+  deadline_ = thread_.now() + kLinger;
+  end_gracefully();
+}
+
+void Connection::close() noexcept {
+  if (phase_ == Phase::Closed) return;
+  if (phase_ == Phase::Budget) thread_.shared().budget.end_wait();
+  phase_ = Phase::Closed;
+  close_socket();
+  thread_.remove(*this);
+  body_.clear();
+  if (const auto stream = std::exchange(stream_, std::nullopt)) stream->source->cancelled();
+}
+
+void Connection::drain() {
+  close_after_ = true;
+  const bool is_idle = phase_ == Phase::Head && !in_request_ && !writing_;
+  if (is_idle || phase_ == Phase::Opening || phase_ == Phase::Stream) close();
+}
+
+void Connection::check_deadline(Tick now) {
+  if (writing_) {
+    if (now >= write_deadline_) close();
+    return;
+  }
+  guarded([&] {
+    switch (phase_) {
+      case Phase::Head:
+        if (now < (in_request_ ? std::min(deadline_, request_deadline_) : deadline_)) {
+          if (!in_request_) output_.shrink();
+          return;
+        }
+        if (!in_request_) return close();
+        refuse(kTimedOut);
+        return advance();
+      case Phase::ReadingBody: {
+        const bool gives_way = body_.holds_budget() && thread_.shared().budget.is_short() &&
+                               now - last_body_byte_ >= kStalled;
+        if (now < request_deadline_ && !gives_way) return;
+        refuse(kTimedOut);
+        return advance();
+      }
+      case Phase::Budget: {
+        if (now - wait_begun_ < thread_.shared().options.request_timeout) return;
+        thread_.shared().budget.end_wait();
+        phase_ = Phase::ReadingBody;
+        refuse({503, ErrorCode::Overloaded, "Too many large bodies arrive at once; try again."});
+        return advance();
+      }
+      case Phase::Stream:
+        return beat(now);
+      case Phase::Opening:
+      case Phase::Lingering:
+        if (now >= deadline_) close();
+        return;
+      case Phase::InHandler:
+      case Phase::Closed:
+        return;
+    }
+  });
+}
+
+}  // namespace fitgauge::http

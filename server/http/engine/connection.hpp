@@ -1,0 +1,150 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "http/body_stream.hpp"
+#include "http/engine/body_reader.hpp"
+#include "http/engine/exchange.hpp"
+#include "http/engine/input_buffer.hpp"
+#include "http/engine/io_thread.hpp"
+#include "http/engine/output_queue.hpp"
+#include "http/engine/request_head.hpp"
+#include "http/engine/request_parser.hpp"
+
+namespace fitgauge::http {
+
+/// One client's connection: reads requests one after the other, answers every complete one that the
+/// buffer holds and sends the answers in one write. Owns its buffers; the socket belongs to the
+/// transport that derives from it. Runs on its I/O thread alone; post_*() may be called from any.
+/// After close() it only waits for its last owner (a Responder, a handler of the socket) to go.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(IoThread& thread, Peer peer);
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+  virtual ~Connection();
+
+  /// Begins to serve.
+  virtual void start() = 0;
+
+  void post_answer(Response response);
+  void post_error(Error error);
+  void post_unanswered();
+  void post_piece(std::string bytes, bool is_last);
+  void post_stream_failure();
+
+  // For the sweep of the I/O thread.
+
+  /// Acts on a deadline that has passed.
+  void check_deadline(Tick now);
+  /// The bytes a body waits for before it can be read on, or 0.
+  std::size_t bytes_waited_for() const;
+  std::uint64_t request_id() const { return exchange_.request().id(); }
+  void retry_budget();
+  /// The server stops: ends now or after the request in flight.
+  void drain();
+  void close() noexcept;
+
+  std::size_t index = 0;  ///< its place in the thread's list
+
+ protected:
+  void begin();  ///< the transport is ready for requests
+  void on_read(const error_code& error, std::size_t count) noexcept;
+  void on_write(const error_code& error, std::size_t count) noexcept;
+  void read_more();
+
+  IoThread& thread() { return thread_; }
+  Peer& peer() { return peer_; }
+
+  virtual void read_some(std::span<char> room) = 0;  ///< then on_read
+  /// What the socket takes at once; `broken` when it takes nothing any more.
+  virtual std::size_t write_now(std::string_view bytes, bool& broken) = 0;
+  virtual void write_some(std::string_view bytes) = 0;  ///< then on_write
+  /// Everything is sent, the client may still be sending: says so and closes in the end, at the
+  /// latest when the deadline has passed.
+  virtual void end_gracefully() = 0;
+  virtual void close_socket() noexcept = 0;
+
+ private:
+  enum class Phase : std::uint8_t {
+    Opening,  ///< the transport shakes hands
+    Head,     ///< between requests, or in the head of one
+    ReadingBody,
+    Budget,  ///< a body waits for its share of memory
+    InHandler,
+    Stream,     ///< a streamed body: its next piece is awaited or on its way
+    Lingering,  ///< answered and shut down; what still comes is thrown away, so that no reset
+                ///< overtakes the answer
+    Closed,
+  };
+
+  template <class Function>
+  void guarded(Function&& function) noexcept;
+  template <class Function>
+  void post(Function function);
+
+  /// Goes on as far as possible: steps, sends, reads.
+  void advance();
+  /// One step of the request in work. @returns false when it needs bytes, room or an answer.
+  bool step();
+  bool step_head();
+  bool step_body();
+  bool step_stream();
+
+  bool begin_request();
+  bool open_exchange();
+  void skip_buffered_body();
+  bool begin_body();
+  bool admit_body();
+  bool take_body_outcome(BodyReader::Outcome outcome);
+  bool finish_body();
+  void run_handler();
+  void refuse(const Refusal& refusal);
+  void answer(Response response);
+  void finish_request();
+  bool send();
+  void end();
+
+  void append_piece(std::string_view bytes);
+  void take_piece(std::string_view bytes, bool is_last);
+  void beat(Tick now);
+
+  IoThread& thread_;
+  Peer peer_;
+  Phase phase_ = Phase::Opening;
+  bool reading_ = false;
+  bool writing_ = false;
+  bool in_request_ = false;      ///< the first byte of a request has come
+  bool close_after_ = false;     ///< no further request on this connection
+  bool lingers_ = false;         ///< the client may still be sending what is not read any more
+  bool reads_directly_ = false;  ///< the body needs no decoding: the socket fills its memory
+  bool piece_awaited_ = false;   ///< the stream has been asked for a piece
+  Tick deadline_{};              ///< of the phase
+  Tick request_deadline_{};
+  Tick write_deadline_{};
+  Tick last_body_byte_{};
+  Tick wait_begun_{};
+  Tick started_{};
+
+  InputBuffer input_;
+  OutputQueue output_;
+  RequestHead head_;
+  std::size_t head_size_ = 0;
+  std::optional<RequestParser> parser_;
+  Exchange exchange_;
+  BodyReader body_;
+  std::size_t body_left_ = 0;       ///< still to come of a body with a length
+  std::string_view pending_piece_;  ///< read, and not yet taken by body_
+  std::optional<StreamedBody> stream_;
+  SentAnswer sent_{};
+  std::uint64_t received_ = 0;
+  std::uint64_t sent_bytes_ = 0;
+};
+
+}  // namespace fitgauge::http

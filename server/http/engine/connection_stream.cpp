@@ -1,0 +1,120 @@
+// The parts of a connection that other threads reach: answers of asynchronous handlers and the
+// pieces of streamed bodies.
+
+#include <utility>
+
+#include "http/engine/connection.hpp"
+
+namespace fitgauge::http {
+
+template <class Function>
+void Connection::post(Function function) {
+  thread_.post([self = shared_from_this(), function = std::move(function)]() mutable {
+    if (self->phase_ == Phase::Closed) return;
+    try {
+      function(*self);
+      self->advance();
+    } catch (const std::exception&) {
+      self->close();
+    }
+  });
+}
+
+void Connection::post_answer(Response response) {
+  post([response = std::move(response)](Connection& self) mutable {
+    if (self.phase_ == Phase::InHandler) self.answer(std::move(response));
+  });
+}
+
+void Connection::post_error(Error error) {
+  post([error = std::move(error)](Connection& self) {
+    if (self.phase_ == Phase::InHandler) self.answer(self.exchange_.error_response(error));
+  });
+}
+
+void Connection::post_unanswered() {
+  post([](Connection& self) {
+    if (self.phase_ == Phase::InHandler) self.answer(self.exchange_.unanswered());
+  });
+}
+
+void Connection::post_piece(std::string bytes, bool is_last) {
+  post([bytes = std::move(bytes), is_last](Connection& self) {
+    if (self.phase_ == Phase::Stream && self.piece_awaited_) self.take_piece(bytes, is_last);
+  });
+}
+
+void Connection::post_stream_failure() {
+  post([](Connection& self) {
+    if (self.phase_ == Phase::Stream && self.piece_awaited_) self.close();
+  });
+}
+
+bool Connection::step_stream() {
+  if (piece_awaited_ || !output_.empty()) return false;
+  piece_awaited_ = true;
+  deadline_ = thread_.now() + stream_->heartbeat_interval;
+  stream_->source->next(ChunkSink(shared_from_this()));
+  return false;
+}
+
+void Connection::append_piece(std::string_view bytes) {
+  const std::size_t before = output_.queued_text();
+  if (sent_.chunked) {
+    append_chunk(output_.text(), bytes);
+  } else {
+    output_.text().append(bytes);
+  }
+  sent_bytes_ += output_.queued_text() - before;
+}
+
+void Connection::take_piece(std::string_view bytes, bool is_last) {
+  piece_awaited_ = false;
+  append_piece(bytes);
+  if (!is_last) return;
+  if (sent_.chunked) output_.text().append(kLastChunk);
+  stream_.reset();
+  finish_request();
+}
+
+void Connection::beat(Tick now) {
+  if (now < deadline_ || !piece_awaited_ || stream_->heartbeat.empty()) return;
+  deadline_ = now + stream_->heartbeat_interval;
+  append_piece(stream_->heartbeat);
+  advance();
+}
+
+Responder::Responder(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
+Responder::Responder(Responder&&) noexcept = default;
+Responder& Responder::operator=(Responder&& other) noexcept {
+  std::swap(connection_, other.connection_);
+  return *this;
+}
+Responder::~Responder() {
+  if (connection_) std::exchange(connection_, nullptr)->post_unanswered();
+}
+void Responder::answer(Response response) {
+  if (connection_) std::exchange(connection_, nullptr)->post_answer(std::move(response));
+}
+void Responder::fail(Error error) {
+  if (connection_) std::exchange(connection_, nullptr)->post_error(std::move(error));
+}
+
+ChunkSink::ChunkSink(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
+ChunkSink::ChunkSink(ChunkSink&&) noexcept = default;
+ChunkSink& ChunkSink::operator=(ChunkSink&& other) noexcept {
+  std::swap(connection_, other.connection_);
+  return *this;
+}
+ChunkSink::~ChunkSink() { fail(); }
+void ChunkSink::put(std::string bytes) {
+  if (connection_) std::exchange(connection_, nullptr)->post_piece(std::move(bytes), false);
+}
+void ChunkSink::finish(std::string bytes) {
+  if (connection_) std::exchange(connection_, nullptr)->post_piece(std::move(bytes), true);
+}
+void ChunkSink::fail() {
+  if (connection_) std::exchange(connection_, nullptr)->post_stream_failure();
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,351 @@
+#include "http/engine/exchange.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "base/text.hpp"
+#include "http/engine/arguments.hpp"
+#include "http/engine/media_type.hpp"
+#include "http/engine/uri.hpp"
+
+namespace fitgauge::http {
+
+namespace {
+
+constexpr std::size_t kKeptCapacity = 512;
+constexpr std::string_view kAllMethods = "GET, HEAD, POST, PUT, DELETE, PATCH, OPTIONS";
+
+Response with_allow(Response response, std::string allow) {
+  response.prepared = nullptr;
+  return std::move(response).with("Allow", std::move(allow));
+}
+
+}  // namespace
+
+void Exchange::clear() {
+  head_ = nullptr;
+  request_.route_ = nullptr;
+  request_.head_ = nullptr;
+  request_.path_ = request_.query_ = request_.body_ = request_.response_type_ = {};
+  request_.media_type_.clear();
+  request_.arguments_.clear();
+  request_.caller_.reset();
+  decoded_.clear();
+  if (decoded_.capacity() > kKeptCapacity) decoded_ = {};
+  wants_continue_ = gzip_ = false;
+}
+
+void Exchange::take(RequestHead& head, std::uint64_t id) {
+  head_ = &head;
+  request_.head_ = &head;
+  request_.peer_ = &peer_;
+  request_.id_ = id;
+  request_.method_ = method_named(head.method);
+}
+
+Response Exchange::refuse(RequestHead& head, std::uint64_t id, const Refusal& refusal) {
+  if (head_ == nullptr) take(head, id);
+  return error_response(refusal);
+}
+
+std::optional<Response> Exchange::open(RequestHead& head, std::uint64_t id) {
+  take(head, id);
+  try {
+    return dispatch();
+  } catch (const std::exception& error) {
+    return internal_error(error.what());
+  }
+}
+
+std::optional<Response> Exchange::dispatch() {
+  if (head_->target == "*" && request_.method_ == Method::Options) {
+    return Response(204).with("Allow", std::string(kAllMethods));
+  }
+  if (auto refusal = take_target()) return error_response(*refusal);
+
+  decoded_.reserve(head_->target.size());
+  PathSegments segments;
+  if (!split_path(request_.path_, decoded_, segments)) {
+    return error_response(
+        {400, ErrorCode::PathMalformed,
+         "The path holds a % that two hexadecimal digits do not follow, a NUL, or "
+         "bytes that are not UTF-8."});
+  }
+  const RouteMatch match = routes_.tree().find(segments);
+  if (match.resource == nullptr) {
+    return error_response({404, ErrorCode::NotFound, "There is nothing at this path."});
+  }
+  const std::int16_t index = match.resource->route(request_.method_);
+  if (index == Resource::kNone) {
+    std::string allow = match.resource->allow();
+    if (request_.method_ == Method::Options) return Response(204).with("Allow", std::move(allow));
+    return with_allow(error_response({405, ErrorCode::MethodNotAllowed,
+                                      fmt::format("The methods here are {}.", allow)}),
+                      std::move(allow));
+  }
+  if (match.resource->takes_rest && segments.encoded_slash) {
+    return error_response({400, ErrorCode::PathMalformed, "The path holds an encoded slash."});
+  }
+  const auto route_index = static_cast<std::size_t>(index);
+  request_.route_ = &routes_.routes()[route_index];
+  if (hooks_.guard) {
+    auto answer = ask_guard();
+    if (answer) return answer;
+  }
+  if (const auto error = take_arguments(match, routes_.tree().plan(route_index))) {
+    const bool is_readable =
+        error->code == ErrorCode::LengthTooFine || error->code == ErrorCode::LengthOutOfRange;
+    return error_response(*error, is_readable ? 422 : 400);
+  }
+  return check_head();
+}
+
+std::optional<Refusal> Exchange::take_target() {
+  std::string_view target = head_->target;
+  if (!target.starts_with('/')) {  // absolute-form: its authority replaces the Host field
+    const std::size_t scheme = target.find("://");
+    if (scheme == std::string_view::npos || (!ascii_iequals(target.substr(0, scheme), "http") &&
+                                             !ascii_iequals(target.substr(0, scheme), "https"))) {
+      return Refusal{400, ErrorCode::RequestMalformed,
+                     "The request target is a path that begins with a slash, or a URI."};
+    }
+    target.remove_prefix(scheme + 3);
+    const std::string_view authority = target.substr(0, target.find_first_of("/?"));
+    if (!is_authority(authority)) {
+      return Refusal{400, ErrorCode::RequestMalformed, "The request target names no host."};
+    }
+    head_->host = authority;
+    target.remove_prefix(authority.size());
+  }
+  if (target.find('#') != std::string_view::npos) {
+    return Refusal{400, ErrorCode::PathMalformed, "The request target holds a fragment."};
+  }
+  const std::size_t mark = target.find('?');
+  request_.path_ = target.substr(0, mark);
+  if (request_.path_.empty()) request_.path_ = "/";
+  if (mark != std::string_view::npos) request_.query_ = target.substr(mark + 1);
+  return std::nullopt;
+}
+
+std::optional<Response> Exchange::ask_guard() {
+  auto verdict = hooks_.guard(request_, *request_.route_);
+  if (!verdict) return error_response(verdict.error());
+  return std::move(*verdict);
+}
+
+std::optional<Response> Exchange::check_head() {
+  for (const auto check :
+       {&Exchange::negotiate, &Exchange::check_body, &Exchange::check_expectation}) {
+    if (const auto refusal = (this->*check)()) return error_response(*refusal);
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> Exchange::take_arguments(const RouteMatch& match,
+                                              const RouteTree::Plan& plan) {
+  request_.arguments_.resize(request_.route_->parameters.size());
+  for (std::size_t i = 0; i < match.capture_count; ++i) {
+    const std::size_t parameter = plan.captured[i];
+    auto value = parse_argument(request_.route_->parameters[parameter], match.captures[i]);
+    if (!value) return std::move(value).error();
+    request_.arguments_[parameter] = *value;
+  }
+  if (plan.has_query) {
+    if (auto error = take_query()) return error;
+  }
+  if (plan.has_headers) return take_headers();
+  return std::nullopt;
+}
+
+std::optional<Error> Exchange::take_query() {
+  const std::vector<Parameter>& parameters = request_.route_->parameters;
+  std::string_view rest = request_.query_;
+  const auto decode = [&](std::string_view text) -> std::optional<std::string_view> {
+    if (is_plain(text)) return text;
+    const std::size_t start = decoded_.size();
+    if (!append_percent_decoded(decoded_, text, true)) return std::nullopt;
+    return std::string_view(decoded_).substr(start);
+  };
+  while (!rest.empty()) {
+    const std::string_view pair = rest.substr(0, rest.find('&'));
+    rest.remove_prefix(std::min(pair.size() + 1, rest.size()));
+    if (pair.empty()) continue;
+    const std::size_t equals = std::min(pair.find('='), pair.size());
+    const auto name = decode(pair.substr(0, equals));
+    const auto value = decode(pair.substr(std::min(equals + 1, pair.size())));
+    if (!name || !value) {
+      return Error{ErrorCode::QueryMalformed,
+                   "The query holds a % that two hexadecimal digits do not follow, a NUL, or bytes "
+                   "that are not UTF-8."};
+    }
+    const auto found =
+        std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& parameter) {
+          return parameter.place == ParameterPlace::Query && parameter.name == *name;
+        });
+    if (found == parameters.end()) {
+      return Error{ErrorCode::QueryUnknown, fmt::format("There is no parameter {}.", *name),
+                   std::string(*name)};
+    }
+    auto& slot = request_.arguments_[static_cast<std::size_t>(found - parameters.begin())];
+    if (slot) {
+      return Error{ErrorCode::QueryRepeated, fmt::format("Parameter {} is given twice.", *name),
+                   std::string(*name)};
+    }
+    auto parsed = parse_argument(*found, *value);
+    if (!parsed) return std::move(parsed).error();
+    slot = *parsed;
+  }
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].place == ParameterPlace::Query && parameters[i].required &&
+        !request_.arguments_[i]) {
+      return Error{ErrorCode::QueryMissing,
+                   fmt::format("Parameter {} is required.", parameters[i].name),
+                   parameters[i].name};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> Exchange::take_headers() {
+  const std::vector<Parameter>& parameters = request_.route_->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& parameter = parameters[i];
+    if (parameter.place != ParameterPlace::Header) continue;
+    const auto value = head_->find(parameter.name);
+    if (!value) {
+      if (!parameter.required) continue;
+      return Error{ErrorCode::RequestMalformed,
+                   fmt::format("Header field {} is required.", parameter.name), parameter.name};
+    }
+    auto parsed = parse_argument(parameter, *value);
+    if (!parsed) return std::move(parsed).error();
+    request_.arguments_[i] = *parsed;
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> Exchange::negotiate() {
+  const std::vector<std::string>& types = request_.route_->response_types;
+  if (types.empty()) return std::nullopt;
+  request_.response_type_ = types.front();
+  if (!head_->has_accept) return std::nullopt;
+  const std::string accept = head_->find_list("Accept").value_or("");
+  if (trim(accept).empty()) return std::nullopt;
+  const std::string* const best = preferred_type(accept, types);
+  if (best == nullptr) {
+    return Refusal{406, ErrorCode::NotAcceptable,
+                   fmt::format("This comes as {}.", fmt::join(types, ", "))};
+  }
+  request_.response_type_ = *best;
+  return std::nullopt;
+}
+
+std::optional<Refusal> Exchange::check_expectation() {
+  if (!head_->has_expect || head_->http_1_0) return std::nullopt;
+  const std::string expect = head_->find_list("Expect").value_or("");
+  if (!ascii_iequals(expect, "100-continue")) {
+    return Refusal{417, ErrorCode::ExpectationFailed, "The one expectation met is 100-continue."};
+  }
+  wants_continue_ = head_->has_body();
+  return std::nullopt;
+}
+
+std::optional<Refusal> Exchange::check_body() {
+  const BodyRules& rules = request_.route_->body;
+  if (rules.use == BodyUse::Required && !head_->chunked && !head_->content_length) {
+    return Refusal{411, ErrorCode::LengthRequired,
+                   "A body is required: send Content-Length or Transfer-Encoding: chunked."};
+  }
+  const auto content_type = head_->find("Content-Type");
+  const auto media = content_type ? parse_media_type(*content_type) : std::nullopt;
+  if (media) request_.media_type_ = media->type;
+  const bool is_expected =
+      rules.use == BodyUse::Required || (rules.use == BodyUse::Optional && head_->has_body());
+  if (is_expected && !rules.media_types.empty()) {
+    const auto& types = rules.media_types;
+    const bool is_known =
+        media && std::find(types.begin(), types.end(), media->type) != types.end();
+    if (!is_known) {
+      return Refusal{415, ErrorCode::MediaTypeUnsupported,
+                     fmt::format("The body's Content-Type must be {}.", fmt::join(types, ", "))};
+    }
+    if (!media->charset.empty() && media->charset != "utf-8") {
+      return Refusal{415, ErrorCode::MediaTypeUnsupported, "The body's charset must be UTF-8."};
+    }
+  }
+  if (!head_->has_body()) return std::nullopt;
+  const std::string coding = head_->find_list("Content-Encoding").value_or("identity");
+  gzip_ = ascii_iequals(coding, "gzip") || ascii_iequals(coding, "x-gzip");
+  if (!gzip_ && !ascii_iequals(coding, "identity")) {
+    return Refusal{415, ErrorCode::EncodingUnsupported, "The one Content-Encoding read is gzip."};
+  }
+  if (head_->content_length.value_or(0) > rules.limit) {
+    return Refusal{413, ErrorCode::BodyTooLarge,
+                   fmt::format("The body may have {} bytes.", rules.limit)};
+  }
+  return std::nullopt;
+}
+
+BodyReader::Plan Exchange::body_plan() const {
+  const BodyRules& rules = request_.route_->body;
+  return {.limit = rules.limit, .gzip = gzip_, .discard = rules.use == BodyUse::None};
+}
+
+AnswerForm Exchange::form(bool keep_alive) const {
+  AnswerForm form{.head_only = request_.method_ == Method::Head,
+                  .http_1_0 = head_ != nullptr && head_->http_1_0,
+                  .keep_alive = keep_alive};
+  if (head_ != nullptr && head_->has_if_none_match &&
+      (request_.method_ == Method::Get || request_.method_ == Method::Head)) {
+    form.conditional = true;
+    form.if_none_match = head_->find_list("If-None-Match").value_or("");
+  }
+  return form;
+}
+
+Response Exchange::run() {
+  try {
+    auto result = std::get<SyncHandler>(request_.route_->handler)(request_);
+    if (result) return std::move(*result);
+    return error_response(result.error());
+  } catch (const std::exception& error) {
+    return internal_error(error.what());
+  }
+}
+
+void Exchange::run(Responder responder) {
+  try {
+    std::get<AsyncHandler>(request_.route_->handler)(request_, std::move(responder));
+  } catch (const std::exception& error) {  // its Responder, destroyed, has answered 500
+    if (hooks_.handler_threw) hooks_.handler_threw(request_, error.what());
+  }
+}
+
+Response Exchange::internal_error(std::string_view what) const {
+  if (hooks_.handler_threw) hooks_.handler_threw(request_, what);
+  return error_response({500, ErrorCode::Internal,
+                         fmt::format("The request failed; its id is {}.", request_.id_text())});
+}
+
+Response Exchange::error_response(const Refusal& refusal) const {
+  Response response = error_response(Error{refusal.code, refusal.message}, refusal.status);
+  if (refusal.code == ErrorCode::EncodingUnsupported) response.with("Accept-Encoding", "gzip");
+  return response;
+}
+
+Response Exchange::error_response(const Error& error, std::optional<int> status) const {
+  if (hooks_.format_error) {
+    try {
+      return hooks_.format_error(error, status, request_);
+    } catch (const std::exception& failure) {
+      if (hooks_.handler_threw) hooks_.handler_threw(request_, failure.what());
+    }
+  }
+  return {status.value_or(500), "text/plain; charset=utf-8",
+          fmt::format("{}: {}\n", id(error.code), error.message)};
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "http/engine/answer.hpp"
+#include "http/engine/body_reader.hpp"
+#include "http/engine/request_head.hpp"
+#include "http/engine/route_tree.hpp"
+#include "http/request.hpp"
+#include "http/responder.hpp"
+#include "http/route.hpp"
+#include "http/server.hpp"
+
+namespace fitgauge::http {
+
+/// One request from its head to its handler: finds the route, asks the guard, checks parameters,
+/// media types and coding, and makes the answers of refusals. Knows nothing of sockets. One object
+/// serves the requests of a connection one after the other.
+class Exchange {
+ public:
+  Exchange(const RouteTable& routes, const ServerHooks& hooks, const Peer& peer)
+      : routes_(routes), hooks_(hooks), peer_(peer) {}
+
+  /// Takes the head, which must stay until the next open().
+  /// @returns the answer when there is one already; otherwise the body is wanted, then run().
+  std::optional<Response> open(RequestHead& head, std::uint64_t id);
+
+  /// The answer to a request that cannot be taken, as far as it was read.
+  Response refuse(RequestHead& head, std::uint64_t id, const Refusal& refusal);
+
+  BodyReader::Plan body_plan() const;
+  /// The client waits for 100 (Continue) before it sends the body.
+  bool wants_continue() const { return wants_continue_; }
+  void set_body(std::string_view body) { request_.body_ = body; }
+
+  bool is_synchronous() const {
+    return std::holds_alternative<SyncHandler>(request_.route()->handler);
+  }
+  Response run();
+  void run(Responder responder);
+
+  AnswerForm form(bool keep_alive) const;
+  Response error_response(const Error& error, std::optional<int> status = std::nullopt) const;
+  /// The answer when an asynchronous handler dropped its Responder.
+  Response unanswered() const { return internal_error("the handler dropped its Responder"); }
+  Response error_response(const Refusal& refusal) const;
+
+  const Request& request() const { return request_; }
+  void clear();
+
+ private:
+  void take(RequestHead& head, std::uint64_t id);
+  Response internal_error(std::string_view what) const;
+  std::optional<Response> dispatch();
+  std::optional<Refusal> take_target();
+  std::optional<Response> ask_guard();
+  std::optional<Response> check_head();
+  std::optional<Error> take_arguments(const RouteMatch& match, const RouteTree::Plan& plan);
+  std::optional<Error> take_query();
+  std::optional<Error> take_headers();
+  std::optional<Refusal> negotiate();
+  std::optional<Refusal> check_expectation();
+  std::optional<Refusal> check_body();
+
+  const RouteTable& routes_;
+  const ServerHooks& hooks_;
+  const Peer& peer_;
+  RequestHead* head_ = nullptr;
+  Request request_;
+  std::string decoded_;  ///< path and query where they were percent-encoded; does not move
+  bool wants_continue_ = false;
+  bool gzip_ = false;
+};
+
+}  // namespace fitgauge::http

@@ -1,0 +1,112 @@
+#include "http/engine/io_thread.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "http/engine/connection.hpp"
+
+namespace fitgauge::http {
+
+namespace {
+
+/// Deadlines are kept to a quarter of the shortest one, and to a quarter of a second, so that the
+/// Date is fresh too.
+std::chrono::milliseconds sweep_interval(const ServerOptions& options) {
+  using std::chrono::milliseconds;
+  const auto shortest = std::min({options.header_timeout, options.request_timeout,
+                                  options.idle_timeout, options.write_timeout});
+  return std::clamp(shortest / 4, milliseconds(5), milliseconds(250));
+}
+
+}  // namespace
+
+IoThread::IoThread(ServerShared& shared, std::uint64_t first_request_id)
+    : shared_(shared),
+      interval_(sweep_interval(shared.options)),
+      next_request_id_(first_request_id) {}
+
+IoThread::~IoThread() { join(); }
+
+void IoThread::start() {
+  update_clock();
+  schedule_sweep();
+  thread_ = std::thread([this] { context_.run(); });
+}
+
+void IoThread::join() {
+  if (!thread_.joinable()) return;
+  context_.stop();
+  thread_.join();
+  close_all();  // on this thread: the other one has ended
+}
+
+void IoThread::add(Connection& connection) {
+  connection.index = connections_.size();
+  connections_.push_back(&connection);
+  shared_.connections_open.fetch_add(1, std::memory_order_relaxed);
+}
+
+void IoThread::remove(Connection& connection) {
+  connections_.back()->index = connection.index;
+  connections_[connection.index] = connections_.back();
+  connections_.pop_back();
+  shared_.connections_open.fetch_sub(1, std::memory_order_relaxed);
+}
+
+template <class Function>
+void IoThread::for_each_connection(Function function) {
+  // From the back: one that closes is replaced by one that was visited.
+  for (std::size_t i = connections_.size(); i-- > 0;) {
+    const std::shared_ptr<Connection> connection = connections_[i]->weak_from_this().lock();
+    if (connection) function(*connection);
+  }
+}
+
+void IoThread::drain() {
+  for_each_connection([](Connection& connection) { connection.drain(); });
+}
+
+void IoThread::close_all() {
+  for_each_connection([](Connection& connection) { connection.close(); });
+}
+
+void IoThread::schedule_sweep() {
+  timer_.expires_after(interval_);
+  timer_.async_wait([this](const error_code& error) {
+    if (error) return;
+    sweep();
+    schedule_sweep();
+  });
+}
+
+void IoThread::update_clock() {
+  now_ = std::chrono::steady_clock::now();
+  const Timestamp wall = SystemClock().now();
+  const std::int64_t second = wall.nanoseconds / 1'000'000'000;
+  if (second == date_second_) return;
+  date_second_ = second;
+  date_ = format_http_date(wall);
+}
+
+void IoThread::sweep() {
+  update_clock();
+  for_each_connection([this](Connection& connection) { connection.check_deadline(now_); });
+  if (shared_.budget.is_short()) admit_waiting();
+}
+
+void IoThread::admit_waiting() {
+  std::vector<std::shared_ptr<Connection>> waiting;
+  for_each_connection([&](Connection& connection) {
+    if (connection.bytes_waited_for() > 0) waiting.push_back(connection.shared_from_this());
+  });
+  // The smallest first and of equals the newest: a crowd of senders that never finish cannot make
+  // one that does wait behind all of them.
+  std::sort(waiting.begin(), waiting.end(), [](const auto& a, const auto& b) {
+    return a->bytes_waited_for() != b->bytes_waited_for()
+               ? a->bytes_waited_for() < b->bytes_waited_for()
+               : a->request_id() > b->request_id();
+  });
+  for (const auto& connection : waiting) connection->retry_budget();
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "http/engine/asio.hpp"
+#include "http/engine/byte_budget.hpp"
+#include "http/engine/http_date.hpp"
+#include "http/route.hpp"
+#include "http/server.hpp"
+
+namespace fitgauge::http {
+
+class Connection;
+
+using Tick = std::chrono::steady_clock::time_point;
+
+/// What all I/O threads share: constants, and counters that are thread-safe.
+struct ServerShared {
+  ServerShared(ServerOptions given, RouteTable table, ServerHooks callbacks)
+      : options(std::move(given)),
+        routes(std::move(table)),
+        hooks(std::move(callbacks)),
+        budget(options.body_budget) {}
+
+  const ServerOptions options;
+  const RouteTable routes;
+  const ServerHooks hooks;
+  ByteBudget budget;
+  std::atomic<std::uint64_t> connections_open{0};
+  std::atomic<bool> stopping{false};
+};
+
+/// One thread with one io_context and the connections dealt to it. A coarse timer sweeps over them
+/// for deadlines, so that no operation needs a timer of its own. Everything but post() and the
+/// counters belongs to the thread itself.
+class IoThread {
+ public:
+  IoThread(ServerShared& shared, std::uint64_t first_request_id);
+  ~IoThread();
+  IoThread(const IoThread&) = delete;
+  IoThread& operator=(const IoThread&) = delete;
+
+  void start();
+  /// Ends the loop and the thread; what was posted and has not run is dropped.
+  void join();
+
+  asio::io_context& context() { return context_; }
+  ServerShared& shared() { return shared_; }
+
+  template <class Function>
+  void post(Function&& function) {
+    asio::post(context_, std::forward<Function>(function));
+  }
+
+  /// The time of the last sweep: good enough for deadlines.
+  Tick now() const { return now_; }
+  const HttpDate& date() const { return date_; }
+  std::uint64_t next_request_id() { return next_request_id_++; }
+
+  void add(Connection& connection);
+  void remove(Connection& connection);
+
+  void count_request() {  // one writer: no locked instruction
+    requests_.store(requests_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+  std::uint64_t requests() const { return requests_.load(std::memory_order_relaxed); }
+
+  /// Tells every connection that the server stops.
+  void drain();
+  void close_all();
+
+ private:
+  template <class Function>
+  void for_each_connection(Function function);
+  void update_clock();
+  void schedule_sweep();
+  void sweep();
+  void admit_waiting();
+
+  ServerShared& shared_;
+  asio::io_context context_{1};
+  Timer timer_{context_.get_executor()};
+  const std::chrono::milliseconds interval_;
+  Tick now_ = std::chrono::steady_clock::now();
+  std::int64_t date_second_ = 0;
+  HttpDate date_{};
+  std::uint64_t next_request_id_;
+  std::atomic<std::uint64_t> requests_{0};
+  std::vector<Connection*> connections_;
+  std::thread thread_;
+};
+
+}  // namespace fitgauge::http

@@ -1,0 +1,72 @@
+#include "http/engine/listener.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace fitgauge::http {
+
+namespace {
+/// Out of file descriptors, say: the clients wait in the kernel's queue meanwhile.
+constexpr auto kRetry = std::chrono::milliseconds(100);
+}  // namespace
+
+Listener::Listener(std::vector<IoThread*> threads, Deliver deliver)
+    : threads_(std::move(threads)),
+      deliver_(std::move(deliver)),
+      acceptor_(threads_.front()->context()),
+      retry_(threads_.front()->context()) {}
+
+Result<std::unique_ptr<Listener>> Listener::open(const ListenAddress& address,
+                                                 std::vector<IoThread*> threads, Deliver deliver) {
+  std::unique_ptr<Listener> listener(new Listener(std::move(threads), std::move(deliver)));
+  Acceptor& acceptor = listener->acceptor_;
+  error_code error;
+  const auto ip = asio::ip::make_address(address.host, error);
+  const asio::ip::tcp::endpoint endpoint(ip, address.port);
+  if (!error) acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(Acceptor::reuse_address(true), error);
+  if (!error && ip.is_v6()) acceptor.set_option(asio::ip::v6_only(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(Acceptor::max_listen_connections, error);
+  if (!error) listener->port_ = acceptor.local_endpoint(error).port();
+  if (error) {
+    return Error{ErrorCode::ListenFailed, fmt::format("Cannot listen on {} port {}: {}.",
+                                                      address.host, address.port, error.message())};
+  }
+  return listener;
+}
+
+void Listener::close() {
+  error_code ignored;
+  acceptor_.close(ignored);
+  retry_.cancel();
+}
+
+void Listener::accept() {
+  socket_.emplace(threads_[next_]->context());
+  acceptor_.async_accept(*socket_, [this](const error_code& error) {
+    if (!acceptor_.is_open()) return;
+    if (!error) {
+      deal();
+      return accept();
+    }
+    retry_.expires_after(kRetry);
+    retry_.async_wait([this](const error_code& cancelled) {
+      if (!cancelled && acceptor_.is_open()) accept();
+    });
+  });
+}
+
+void Listener::deal() {
+  IoThread& thread = *threads_[next_];
+  next_ = (next_ + 1) % threads_.size();
+  error_code gone;  // a client that has left already shows at the first read
+  socket_->set_option(asio::ip::tcp::no_delay(true), gone);
+  socket_->non_blocking(true, gone);
+  const asio::ip::address address = socket_->remote_endpoint(gone).address();
+  deliver_(thread, std::move(*socket_),
+           {.address = address.to_string(), .loopback = address.is_loopback()});
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,45 @@
+#include "http/engine/prepared_response.hpp"
+
+#include <memory>
+#include <stdexcept>
+#include <variant>
+
+#include "http/body_stream.hpp"
+#include "http/engine/answer.hpp"
+
+namespace fitgauge::http {
+
+namespace {
+
+std::string_view body_of(const Response& response) {
+  if (const auto* own = std::get_if<std::string>(&response.body)) return *own;
+  if (const auto* shared = std::get_if<std::shared_ptr<const std::string>>(&response.body)) {
+    return *shared ? std::string_view(**shared) : std::string_view{};
+  }
+  throw std::logic_error("a streamed body cannot be prepared");
+}
+
+}  // namespace
+
+PreparedResponse::PreparedResponse(const Response& response)
+    : status_(response.status), etag_(response.status == 200 ? response.etag : "") {
+  const HttpDate placeholder = format_http_date({});
+  const std::string_view body = body_of(response);
+  date_offset_ = append_status(bytes_, status_, placeholder);
+  append_fields(bytes_, response);
+  if (may_have_body(status_)) append_content_length(bytes_, body.size());
+  head_size_ = bytes_.size();
+  bytes_.append("\r\n");
+  if (may_have_body(status_)) bytes_.append(body);
+  if (!etag_.empty()) {
+    not_modified_date_offset_ = append_status(not_modified_head_, 304, placeholder);
+    append_not_modified_fields(not_modified_head_, response);
+  }
+}
+
+std::shared_ptr<const PreparedResponse> prepare(const Response& response) {
+  if (response.prepared) return response.prepared;
+  return std::make_shared<const PreparedResponse>(response);
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error_code.hpp"
+
+namespace fitgauge::http {
+
+/// Why a request is refused before its handler runs.
+struct Refusal {
+  int status = 400;
+  ErrorCode code = ErrorCode::RequestMalformed;
+  std::string message;
+};
+
+struct HeaderField {
+  std::string_view name;
+  std::string_view value;
+};
+
+/// The request line and the header fields, as views into the connection's buffer.
+struct RequestHead {
+  std::string_view method;
+  std::string_view target;
+  std::string_view host;
+  std::optional<std::uint64_t> content_length;
+  bool http_1_0 = false;
+  bool chunked = false;
+  bool keep_alive = false;
+  bool has_accept = false;
+  bool has_expect = false;
+  bool has_if_none_match = false;
+  std::vector<HeaderField> fields;
+
+  /// The value of the first field of that name.
+  std::optional<std::string_view> find(std::string_view name) const;
+  /// All fields of that name joined with ", ".
+  std::optional<std::string> find_list(std::string_view name) const;
+
+  bool has_body() const { return chunked || content_length.value_or(0) > 0; }
+
+  /// Empty again; the memory of `fields` stays.
+  void clear();
+
+  /// Moves every view by the distance between the two buffers.
+  void rebase(const char* from, const char* to);
+};
+
+}  // namespace fitgauge::http

@@ -1,0 +1,218 @@
+#include "http/engine/request_parser.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/beast/http/error.hpp>
+#include <exception>
+
+#include "base/text.hpp"
+#include "http/engine/uri.hpp"
+
+namespace fitgauge::http {
+
+namespace beast = boost::beast;
+
+namespace {
+
+constexpr std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// Between the colon and the value stand blanks only, unless the value was folded over lines (or,
+/// joined by the parser, lies outside the input).
+bool is_folded(std::string_view name, std::string_view value) {
+  const char* const after_colon = name.data() + name.size() + 1;
+  const auto gap = value.data() - after_colon;
+  if (gap < 0 || static_cast<std::size_t>(gap) > kMaxHeaderSection) return true;
+  for (const char* p = after_colon; p != value.data(); ++p) {
+    if (*p != ' ' && *p != '\t') return true;
+  }
+  return false;
+}
+
+bool is_digits(std::string_view text) {
+  for (const char c : text) {
+    if (c < '0' || c > '9') return false;
+  }
+  return !text.empty();
+}
+
+const char* describe(const beast::error_code& code) {
+  using beast::http::error;
+  switch (static_cast<error>(code.value())) {
+    case error::bad_method:
+      return "The request line does not begin with a method.";
+    case error::bad_target:
+      return "The request target holds a character that must be percent-encoded, or is missing.";
+    case error::bad_field:
+      return "A header field name is malformed.";
+    case error::bad_value:
+      return "A header field value is malformed; lines end with CR LF.";
+    case error::bad_line_ending:
+      return "Lines end with CR LF.";
+    case error::bad_content_length:
+    case error::multiple_content_length:
+      return "Content-Length is malformed, repeated or together with Transfer-Encoding.";
+    case error::bad_transfer_encoding:
+      return "Transfer-Encoding is repeated or together with Content-Length.";
+    case error::bad_chunk:
+    case error::bad_chunk_extension:
+      return "The chunked body is malformed.";
+    default:
+      return "The request is malformed.";
+  }
+}
+
+}  // namespace
+
+RequestParser::RequestParser(RequestHead& head) : head_(head) {
+  header_limit(2 * (kMaxTarget + kMaxHeaderSection));  // ours are checked before
+  body_limit(boost::none);
+}
+
+RequestParser::Step RequestParser::put(std::string_view input, std::size_t& used) {
+  try {
+    return parse(input, used);
+  } catch (const std::exception&) {  // Beast's containers throw std::length_error
+    return refuse(431, ErrorCode::HeaderTooLarge, "The header section is too large.");
+  }
+}
+
+RequestParser::Step RequestParser::parse(std::string_view input, std::size_t& used) {
+  piece_ = {};
+  const bool had_line = !head_.method.empty();
+  const bool had_head = head_done_;
+  beast::error_code error;
+  const std::size_t n = basic_parser::put({input.data(), input.size()}, error);
+  used += n;
+  if (refused_) return Step::Refused;
+
+  if (had_head) {
+    framing_run_ = piece_.empty() ? framing_run_ + n : 0;
+  } else if (!head_.method.empty()) {
+    const auto line_end = static_cast<std::size_t>(head_.target.end() - input.data());
+    head_bytes_ += had_line ? n : n - std::min(n, line_end);
+  }
+  if (error == beast::http::error::need_more) return need_more(input.size() - n);
+  if (error == beast::http::error::bad_version) {
+    return refuse(400, ErrorCode::VersionUnsupported, "This server speaks HTTP/1.0 and HTTP/1.1.");
+  }
+  if (error == beast::http::error::header_limit) {
+    return refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
+  }
+  if (error) return refuse(400, ErrorCode::RequestMalformed, describe(error));
+
+  if (!had_head) return check_head() ? Step::Head : Step::Refused;
+  if (is_done()) return Step::Complete;
+  return framing_run_ > kMaxFraming ? need_more(0) : Step::BodyPiece;
+}
+
+RequestParser::Step RequestParser::need_more(std::size_t pending) {
+  if (head_done_) {
+    if (framing_run_ + pending > kMaxFraming) {
+      return refuse(400, ErrorCode::RequestMalformed,
+                    "More than 16 KiB of chunk framing or trailer yield no byte of the body.");
+    }
+  } else if (head_.method.empty()) {
+    if (pending > kMaxTarget + 64) {
+      return refuse(414, ErrorCode::TargetTooLong, "The request target is longer than 8 KiB.");
+    }
+  } else if (head_bytes_ + pending > kMaxHeaderSection) {
+    return refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
+  }
+  return Step::NeedMore;
+}
+
+RequestParser::Step RequestParser::refuse(int status, ErrorCode code, const char* message) {
+  if (!refused_) refusal_ = {status, code, message};
+  refused_ = true;
+  return Step::Refused;
+}
+
+void RequestParser::on_request_impl(beast::http::verb, beast::string_view method,
+                                    beast::string_view target, int version, ErrorCodeOut& error) {
+  if (target.size() > kMaxTarget) {
+    refuse(414, ErrorCode::TargetTooLong, "The request target is longer than 8 KiB.");
+    error = beast::http::error::bad_target;
+    return;
+  }
+  head_.method = view(method);
+  head_.target = view(target);
+  head_.http_1_0 = version < 11;
+}
+
+void RequestParser::on_field_impl(beast::http::field field, beast::string_view name_in,
+                                  beast::string_view value_in, ErrorCodeOut& error) {
+  const std::string_view name = view(name_in);
+  const std::string_view value = view(value_in);
+  const auto once = [&](bool& seen) {
+    if (seen)
+      refuse(400, ErrorCode::RequestMalformed, "A header field that is single is repeated.");
+    seen = true;
+  };
+  if (is_folded(name, value)) {
+    refuse(400, ErrorCode::RequestMalformed, "A header field is folded over several lines.");
+  } else if (!head_done_) {  // trailer fields are read and thrown away
+    if (head_.fields.size() == kMaxFields) {
+      refuse(431, ErrorCode::HeaderTooLarge, "The header section has more than 100 fields.");
+    }
+    switch (field) {
+      case beast::http::field::host:
+        once(has_host_);
+        head_.host = value;
+        break;
+      case beast::http::field::transfer_encoding:
+        once(has_transfer_encoding_);
+        transfer_encoding_ = value;
+        break;
+      case beast::http::field::content_length:
+        once(has_content_length_);
+        if (!is_digits(value)) {
+          refuse(400, ErrorCode::RequestMalformed, "Content-Length is not a number.");
+        }
+        break;
+      case beast::http::field::content_type:
+        once(has_content_type_);
+        break;
+      case beast::http::field::accept:
+        head_.has_accept = true;
+        break;
+      case beast::http::field::expect:
+        head_.has_expect = true;
+        break;
+      case beast::http::field::if_none_match:
+        head_.has_if_none_match = true;
+        break;
+      default:
+        break;
+    }
+    head_.fields.push_back({name, value});
+  }
+  if (refused_) error = beast::http::error::bad_field;
+}
+
+bool RequestParser::check_head() {
+  const auto fail = [&](const char* message) {
+    refuse(400, ErrorCode::RequestMalformed, message);
+    return false;
+  };
+  if (head_bytes_ >
+      kMaxHeaderSection + 16) {  // the count begins at the version of the request line
+    refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
+    return false;
+  }
+  if (has_transfer_encoding_) {
+    if (head_.http_1_0) return fail("Transfer-Encoding does not exist in HTTP/1.0.");
+    if (has_content_length_) {
+      return fail("Transfer-Encoding and Content-Length exclude each other.");
+    }
+    if (!ascii_iequals(transfer_encoding_, "chunked")) {
+      return fail("The one Transfer-Encoding understood is chunked.");
+    }
+  }
+  if (!has_host_ && !head_.http_1_0) return fail("The Host field is missing.");
+  if (has_host_ && !is_authority(head_.host)) return fail("The Host field is not a host and port.");
+  head_.chunked = has_transfer_encoding_;
+  if (has_content_length_) head_.content_length = *content_length();
+  head_.keep_alive = keep_alive();
+  return true;
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,99 @@
+#include "http/engine/tls_connection.hpp"
+
+#include <fmt/format.h>
+#include <openssl/bio.h>
+#include <openssl/ssl.h>
+#include <openssl/x509.h>
+
+#include <string>
+#include <utility>
+
+namespace fitgauge::http {
+
+namespace {
+
+namespace ssl = asio::ssl;
+
+/// The subject of the verified client certificate as RFC 2253 writes it, or empty.
+std::string subject_of_client(SSL* session) {
+  const std::unique_ptr<X509, decltype(&X509_free)> certificate(SSL_get1_peer_certificate(session),
+                                                                &X509_free);
+  if (!certificate || SSL_get_verify_result(session) != X509_V_OK) return {};
+  const std::unique_ptr<BIO, decltype(&BIO_free)> text(BIO_new(BIO_s_mem()), &BIO_free);
+  if (!text || X509_NAME_print_ex(text.get(), X509_get_subject_name(certificate.get()), 0,
+                                  XN_FLAG_RFC2253) < 0) {
+    return {};
+  }
+  std::string subject(BIO_ctrl_pending(text.get()), '\0');
+  const int size = BIO_read(text.get(), subject.data(), static_cast<int>(subject.size()));
+  subject.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  return subject;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<ssl::context>> load_tls(const TlsOptions& options) {
+  auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
+  error_code error;
+  const auto fail = [&](std::string_view what, const std::string& file) {
+    return Error{ErrorCode::ConfigInvalid,
+                 fmt::format("The TLS {} {} cannot be used: {}.", what, file, error.message()),
+                 file};
+  };
+  SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
+  SSL_CTX_set_mode(context->native_handle(), SSL_MODE_RELEASE_BUFFERS);
+  SSL_CTX_set_options(context->native_handle(), SSL_OP_NO_RENEGOTIATION);
+  context->use_certificate_chain_file(options.certificate_file, error);
+  if (error) return fail("certificate", options.certificate_file);
+  context->use_private_key_file(options.key_file, ssl::context::pem, error);
+  if (error) return fail("key", options.key_file);
+  if (!options.client_ca_file.empty()) {
+    context->load_verify_file(options.client_ca_file, error);
+    if (error) return fail("client CA", options.client_ca_file);
+    SSL_CTX_set_client_CA_list(context->native_handle(),
+                               SSL_load_client_CA_file(options.client_ca_file.c_str()));
+    auto mode = ssl::verify_peer;
+    if (options.require_client_certificate) mode |= ssl::verify_fail_if_no_peer_cert;
+    context->set_verify_mode(mode);
+    // Sessions are not resumed: a resumed one would skip the client's certificate.
+    SSL_CTX_set_session_cache_mode(context->native_handle(), SSL_SESS_CACHE_OFF);
+    SSL_CTX_set_options(context->native_handle(), SSL_OP_NO_TICKET);
+  }
+  return context;
+}
+
+void TlsConnection::start() {
+  stream_.async_handshake(ssl::stream_base::server,
+                          [this, self = shared_from_this()](const error_code& error) {
+                            if (error) return close();
+                            peer().client_certificate = subject_of_client(stream_.native_handle());
+                            begin();
+                          });
+}
+
+void TlsConnection::read_some(std::span<char> room) {
+  stream_.async_read_some(
+      asio::buffer(room.data(), room.size()),
+      [this, self = shared_from_this()](const error_code& error, std::size_t count) {
+        on_read(error, count);
+      });
+}
+
+void TlsConnection::write_some(std::string_view bytes) {
+  stream_.async_write_some(
+      asio::buffer(bytes.data(), bytes.size()),
+      [this, self = shared_from_this()](const error_code& error, std::size_t count) {
+        on_write(error, count);
+      });
+}
+
+void TlsConnection::end_gracefully() {
+  stream_.async_shutdown([this, self = shared_from_this()](const error_code&) { close(); });
+}
+
+void TlsConnection::close_socket() noexcept {
+  error_code ignored;
+  stream_.lowest_layer().close(ignored);
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/ssl/stream.hpp>
+#include <memory>
+
+#include "base/result.hpp"
+#include "http/engine/asio.hpp"
+#include "http/engine/connection.hpp"
+#include "http/server.hpp"
+
+namespace fitgauge::http {
+
+/// A context with the certificate, the key and what is asked of clients.
+/// @errors ConfigInvalid naming the file that cannot be used.
+Result<std::shared_ptr<asio::ssl::context>> load_tls(const TlsOptions& options);
+
+/// A connection over TLS 1.2 or later.
+class TlsConnection final : public Connection {
+ public:
+  TlsConnection(IoThread& thread, Peer peer, Socket socket,
+                std::shared_ptr<asio::ssl::context> context)
+      : Connection(thread, std::move(peer)),
+        context_(std::move(context)),
+        stream_(std::move(socket), *context_) {}
+
+  void start() override;
+
+ private:
+  void read_some(std::span<char> room) override;
+  std::size_t write_now(std::string_view, bool&) override { return 0; }
+  void write_some(std::string_view bytes) override;
+  void end_gracefully() override;
+  void close_socket() noexcept override;
+
+  std::shared_ptr<asio::ssl::context> context_;
+  asio::ssl::stream<Socket> stream_;
+};
+
+}  // namespace fitgauge::http

@@ -1,0 +1,76 @@
+#include "http/engine/uri.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/text.hpp"
+
+namespace fitgauge::http {
+
+namespace {
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  const char lower = ascii_lower(c);
+  return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+bool is_alphanumeric(char c) {
+  return (c >= '0' && c <= '9') || (ascii_lower(c) >= 'a' && ascii_lower(c) <= 'z');
+}
+
+/// reg-name or IPv4address: unreserved, sub-delims and %XX.
+bool is_host_character(char c) {
+  return is_alphanumeric(c) ||
+         std::string_view("-._~%!$&'()*+,;=").find(c) != std::string_view::npos;
+}
+
+bool is_ip_literal_character(char c) { return is_alphanumeric(c) || c == ':' || c == '.'; }
+
+}  // namespace
+
+bool append_percent_decoded(std::string& out, std::string_view text, bool plus_is_blank) {
+  const std::size_t start = out.size();
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    char c = text[i];
+    if (c == '%') {
+      if (i + 2 >= text.size()) return false;
+      const int high = hex_digit(text[i + 1]);
+      const int low = hex_digit(text[i + 2]);
+      if (high < 0 || low < 0) return false;
+      c = static_cast<char>(high * 16 + low);
+      i += 2;
+    } else if (c == '+' && plus_is_blank) {
+      c = ' ';
+    }
+    if (c == '\0') return false;
+    out.push_back(c);
+  }
+  return is_utf8(std::string_view(out).substr(start));
+}
+
+bool is_plain(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c > ' ' && c < '\x7f' && c != '%' && c != '+'; });
+}
+
+bool is_authority(std::string_view text) {
+  std::string_view port;
+  if (text.starts_with('[')) {
+    const std::size_t end = text.find(']');
+    if (end == std::string_view::npos || end == 1) return false;
+    const std::string_view literal = text.substr(1, end - 1);
+    if (!std::all_of(literal.begin(), literal.end(), is_ip_literal_character)) return false;
+    port = text.substr(end + 1);
+  } else {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string_view host = text.substr(0, colon);
+    if (host.empty() || !std::all_of(host.begin(), host.end(), is_host_character)) return false;
+    port = text.substr(colon);
+  }
+  if (port.empty()) return true;
+  return port.front() == ':' && port.size() <= 6 &&
+         std::all_of(port.begin() + 1, port.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,70 @@
+#include "http/request.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "base/text.hpp"
+#include "http/engine/request_head.hpp"
+#include "http/route.hpp"
+
+namespace fitgauge::http {
+
+std::optional<std::string_view> Request::header(std::string_view name) const {
+  return head_->find(name);
+}
+
+std::optional<std::string> Request::header_list(std::string_view name) const {
+  return head_->find_list(name);
+}
+
+const std::optional<ArgumentValue>& Request::argument(std::string_view name) const {
+  for (std::size_t i = 0; i < arguments_.size(); ++i) {
+    if (route_->parameters[i].name == name) return arguments_[i];
+  }
+  throw std::logic_error(fmt::format("the route declares no parameter {}", name));
+}
+
+template <class T>
+std::optional<T> Request::argument_as(std::string_view name) const {
+  const std::optional<ArgumentValue>& value = argument(name);
+  if (!value) return std::nullopt;
+  if (const T* typed = std::get_if<T>(&*value)) return *typed;
+  throw std::logic_error(fmt::format("parameter {} is declared as another type", name));
+}
+
+std::optional<std::string_view> Request::text(std::string_view name) const {
+  return argument_as<std::string_view>(name);
+}
+std::optional<std::int64_t> Request::integer(std::string_view name) const {
+  return argument_as<std::int64_t>(name);
+}
+std::optional<Length> Request::length(std::string_view name) const {
+  return argument_as<Length>(name);
+}
+std::optional<bool> Request::boolean(std::string_view name) const {
+  return argument_as<bool>(name);
+}
+std::optional<Timestamp> Request::time(std::string_view name) const {
+  return argument_as<Timestamp>(name);
+}
+
+std::string Request::id_text() const { return fmt::format("{:016x}", id_); }
+
+bool Request::is_local() const {
+  if (!peer_->loopback) return false;
+  for (const HeaderField& field : head_->fields) {
+    constexpr std::string_view kPrefix = "x-forwarded-";
+    if (ascii_iequals(field.name, "forwarded") ||
+        ascii_iequals(field.name.substr(0, kPrefix.size()), kPrefix)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::string Request::own_origin() const {
+  return fmt::format("{}://{}", peer_->tls ? "https" : "http", ascii_lower(head_->host));
+}
+
+}  // namespace fitgauge::http

@@ -1,0 +1,174 @@
+#include "http/server.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include "http/engine/io_thread.hpp"
+#include "http/engine/listener.hpp"
+#include "http/engine/plain_connection.hpp"
+#include "http/engine/tls_connection.hpp"
+
+namespace fitgauge::http {
+
+namespace {
+
+constexpr std::string_view kFull =
+    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\n"
+    "Connection: close\r\n\r\n";
+constexpr auto kDrainStep = std::chrono::milliseconds(5);
+
+using TlsContext = std::shared_ptr<asio::ssl::context>;
+
+}  // namespace
+
+class Server::Impl {
+ public:
+  Impl(ServerOptions options, RouteTable routes, ServerHooks hooks)
+      : shared_(std::move(options), std::move(routes), std::move(hooks)) {}
+  ~Impl();
+
+  Result<void> open();
+  void stop();
+  Result<void> reload_tls();
+  ServerCounters counters() const;
+  const std::vector<std::uint16_t>& ports() const { return ports_; }
+
+ private:
+  void take(IoThread& thread, Socket socket, Peer peer);
+  void stop_threads();
+  bool wait_for_connections(std::chrono::milliseconds timeout) const;
+
+  ServerShared shared_;
+  std::vector<std::unique_ptr<IoThread>> threads_;
+  std::vector<std::unique_ptr<Listener>> listeners_;
+  std::vector<std::uint16_t> ports_;
+  std::mutex tls_mutex_;
+  TlsContext tls_;
+  std::atomic<std::uint64_t> accepted_{0};
+  std::atomic<std::uint64_t> refused_{0};
+};
+
+Server::Impl::~Impl() {
+  stop();
+  for (const auto& thread : threads_) thread->join();
+}
+
+Result<void> Server::Impl::open() {
+  if (shared_.options.tls) {
+    auto context = load_tls(*shared_.options.tls);
+    if (!context) return std::move(context).error();
+    tls_ = std::move(*context);
+  }
+  std::random_device random;
+  std::vector<IoThread*> threads;
+  for (unsigned i = 0; i < std::max(1U, shared_.options.io_threads); ++i) {
+    const std::uint64_t first_id = (std::uint64_t{random()} << 32) | random();
+    threads_.push_back(std::make_unique<IoThread>(shared_, first_id));
+    threads.push_back(threads_.back().get());
+  }
+  for (const ListenAddress& address : shared_.options.listen) {
+    auto listener =
+        Listener::open(address, threads, [this](IoThread& thread, Socket socket, Peer peer) {
+          take(thread, std::move(socket), std::move(peer));
+        });
+    if (!listener) return std::move(listener).error();
+    ports_.push_back((*listener)->port());
+    listeners_.push_back(std::move(*listener));
+  }
+  for (const auto& listener : listeners_) listener->start();
+  for (const auto& thread : threads_) thread->start();
+  return {};
+}
+
+void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
+  accepted_.fetch_add(1, std::memory_order_relaxed);
+  if (shared_.connections_open.load(std::memory_order_relaxed) >= shared_.options.max_connections) {
+    refused_.fetch_add(1, std::memory_order_relaxed);
+    error_code ignored;
+    if (!shared_.options.tls) socket.write_some(asio::buffer(kFull), ignored);
+    return;
+  }
+  TlsContext tls;
+  if (shared_.options.tls) {
+    peer.tls = true;
+    const std::lock_guard lock(tls_mutex_);
+    tls = tls_;
+  }
+  thread.post([&thread, socket = std::move(socket), peer = std::move(peer),
+               tls = std::move(tls)]() mutable {
+    if (thread.shared().stopping) return;
+    std::shared_ptr<Connection> connection;
+    if (tls) {
+      connection = std::make_shared<TlsConnection>(thread, std::move(peer), std::move(socket),
+                                                   std::move(tls));
+    } else {
+      connection = std::make_shared<PlainConnection>(thread, std::move(peer), std::move(socket));
+    }
+    connection->start();
+  });
+}
+
+Result<void> Server::Impl::reload_tls() {
+  if (!shared_.options.tls) return {};
+  auto context = load_tls(*shared_.options.tls);
+  if (!context) return std::move(context).error();
+  const std::lock_guard lock(tls_mutex_);
+  tls_ = std::move(*context);
+  return {};
+}
+
+ServerCounters Server::Impl::counters() const {
+  ServerCounters counters{
+      .connections_accepted = accepted_.load(std::memory_order_relaxed),
+      .connections_open = shared_.connections_open.load(std::memory_order_relaxed),
+      .connections_refused = refused_.load(std::memory_order_relaxed),
+      .body_bytes_in_flight = shared_.budget.used()};
+  for (const auto& thread : threads_) counters.requests += thread->requests();
+  return counters;
+}
+
+bool Server::Impl::wait_for_connections(std::chrono::milliseconds timeout) const {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  while (shared_.connections_open.load(std::memory_order_relaxed) > 0) {
+    if (std::chrono::steady_clock::now() >= deadline) return false;
+    std::this_thread::sleep_for(kDrainStep);
+  }
+  return true;
+}
+
+void Server::Impl::stop() {
+  if (shared_.stopping.exchange(true) || threads_.empty()) return;
+  threads_.front()->post([this] {
+    for (const auto& listener : listeners_) listener->close();
+    // Sockets accepted before are dealt already: what is posted now comes after them.
+    for (const auto& thread : threads_) {
+      thread->post([&each = *thread] { each.drain(); });
+    }
+  });
+  if (wait_for_connections(shared_.options.drain_timeout)) return;
+  for (const auto& thread : threads_) {
+    thread->post([&each = *thread] { each.close_all(); });
+  }
+  wait_for_connections(shared_.options.drain_timeout);
+}
+
+Result<std::unique_ptr<Server>> Server::start(ServerOptions options, RouteTable routes,
+                                              ServerHooks hooks) {
+  auto impl = std::make_unique<Impl>(std::move(options), std::move(routes), std::move(hooks));
+  const Result<void> opened = impl->open();
+  if (!opened) return opened.error();
+  return std::unique_ptr<Server>(new Server(std::move(impl)));
+}
+
+Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Server::~Server() = default;
+const std::vector<std::uint16_t>& Server::ports() const { return impl_->ports(); }
+ServerCounters Server::counters() const { return impl_->counters(); }
+Result<void> Server::reload_tls() { return impl_->reload_tls(); }
+void Server::stop() { impl_->stop(); }
+
+}  // namespace fitgauge::http
