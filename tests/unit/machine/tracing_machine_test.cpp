@@ -1,0 +1,113 @@
+#include "machine/tracing_machine.hpp"
+
+#include <doctest/doctest.h>
+
+#include "machine/simulated_machine.hpp"
+#include "unit/machine/machine_check.hpp"
+
+using namespace fitgauge::machine;
+
+namespace {
+
+Setup face_setup() {
+  Setup setup;
+  setup.features = {Block{{0, 0, -40}, {100, 80, 0}}};
+  setup.machine.presets[0].frame.origin = {10, 10, 0};
+  return setup;
+}
+
+LinearMove to(const Vec3& point, const Feed& feed) {
+  LinearMove move;
+  move.target = AxisWords::linear(point);
+  move.feed = feed;
+  return move;
+}
+
+void run(Machine& machine) {
+  CHECK(ok(machine.call_tool({30, Axis::Z, 50.0, 0, 0.25, 0})));
+  CHECK(ok(machine.move(to({20, 20, 10}, Feed::rapid()))));
+  CHECK(ok(machine.move(to({20, 20, 10}, Feed::rapid()))));  // stands there already
+  CHECK(ok(machine.move(to({26, 28, 10}, Feed::at(600)))));
+  CHECK(ok(machine.move_arc({{26, 28, 10}, {26, 20, 0}, -360, Axis::Z, Feed::at(1000)})));
+  CHECK(ok(machine.probe({{0, 0, -1}, 20, 120, CoordinateSystem::Input, std::nullopt, {}})));
+  CHECK_FALSE(machine.move(to({26, 28, -1}, Feed::at(600))).has_value());
+  CHECK(ok(machine.dwell(0.5)));
+  machine.message("GOOD");
+  machine.stop("M0");
+}
+
+}  // namespace
+
+TEST_CASE("a trace holds every move with its block, feed, time and contact") {
+  SimulatedMachine simulated(face_setup());
+  std::int64_t block = 10;
+  TracingMachine machine(simulated, {[&block] { return block++; }});
+  run(machine);
+  const auto& moves = machine.moves();
+  REQUIRE(moves.size() == 6);
+  CHECK(moves[0].kind == MoveKind::Rapid);
+  CHECK(moves[0].block == 10);
+  check_near(moves[0].start.linear, {-10, -10, 380});
+  check_near(moves[0].end.linear, {20, 20, 10});
+  CHECK(moves[0].feed_mm_min == 15000);
+  CHECK(near(moves[0].seconds, std::sqrt(30.0 * 30 * 2 + 370.0 * 370) / 15000 * 60));
+  CHECK(moves[1].kind == MoveKind::Feed);
+  CHECK(moves[1].block == 11);
+  CHECK(near(moves[1].seconds, 1));
+  CHECK(moves[2].kind == MoveKind::Arc);
+  check_near(moves[2].end.linear, moves[2].start.linear);
+  CHECK(near(moves[2].seconds, 16 * kPi / 1000 * 60));
+  CHECK(moves[3].kind == MoveKind::Probe);
+  CHECK(moves[3].feed_mm_min == 120);
+  CHECK(near(moves[3].seconds, 5));
+  check_near(moves[3].end.linear, {26, 28, 0}, 1e-8);
+  REQUIRE(moves[3].contact);
+  // DR makes the ball larger for the control than it is; the tip that touches stays the same.
+  check_near(*moves[3].contact, {26, 28, 0});
+  CHECK(moves[4].kind == MoveKind::Rapid);
+  check_near(moves[4].start.linear, moves[3].end.linear);
+  check_near(moves[4].end.linear, {26, 28, 10});
+  CHECK(moves[5].kind == MoveKind::Feed);  // as far as the collision
+  check_near(moves[5].end.linear, {26, 28, 0}, 2e-6);
+  double seconds = 0.5;
+  for (const TracedMove& move : moves) seconds += move.seconds;
+  CHECK(near(seconds, machine.state().elapsed_s));
+}
+
+TEST_CASE("each command writes a line") {
+  SimulatedMachine simulated(face_setup());
+  TracingMachine machine(simulated, {{}, 1000, true});
+  run(machine);
+  Preset preset;
+  preset.number = 4;
+  preset.frame.origin = {1, 2, 3};
+  CHECK(ok(machine.write_preset(preset)));
+  CHECK(ok(machine.activate_preset(4)));
+  CHECK_FALSE(machine.activate_preset(5).has_value());
+  const std::vector<std::string> expected{
+      "TOOL CALL 30 Z S50 DL+0.0000 DR+0.2500",
+      "L X+20.0000 Y+20.0000 Z+10.0000 FMAX",
+      "L X+20.0000 Y+20.0000 Z+10.0000 FMAX",
+      "L X+26.0000 Y+28.0000 Z+10.0000 F600",
+      "ARC X+26.0000 Y+28.0000 Z+10.0000 CC X+26.0000 Y+20.0000 Z+0.0000 -360.0000 F1000",
+      "PROBE X+0.0000 Y+0.0000 Z-1.0000 F120 TOUCHED X+26.0000 Y+28.0000 Z+0.0000",
+      "L X+26.0000 Y+28.0000 Z+0.0000 F600 ! Touch probe collision: the ball stands at "
+      "X+26.0000 Y+28.0000 Z+2.2500",
+      "DWELL 0.5",
+      "MESSAGE GOOD",
+      "STOP M0",
+      "PRESET ROW 4 X+1.0000 Y+2.0000 Z+3.0000 SPA+0.0000 SPB+0.0000 SPC+0.0000",
+      "PRESET 4",
+      "PRESET 5 ! Preset not found: row 5"};
+  REQUIRE(machine.lines().size() == expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(machine.lines()[k] == expected[k]);
+}
+
+TEST_CASE("a full trace counts what it drops") {
+  SimulatedMachine simulated(face_setup());
+  TracingMachine machine(simulated, {{}, 2, true});
+  run(machine);
+  CHECK(machine.moves().size() == 2);
+  CHECK(machine.lines().size() == 2);
+  CHECK(machine.dropped() == 4);
+}
