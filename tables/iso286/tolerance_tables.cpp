@@ -136,14 +136,10 @@ Result<ClassId> ToleranceTables::find_class(std::string_view name) const {
 Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size, ClassId id) const {
   const auto deviations = limit_deviations(size, id);
   if (!deviations) return undefined(size, id);
-  const Basis class_basis = basis(id);
-  return LimitsOfSize{
-      size,
-      id,
-      feature(id),
-      class_basis,
-      *deviations,
-      class_basis == Basis::Custom ? custom_row(size, id)->range : tolerance_steps_[slot(size)]};
+  const CustomRow* row = custom_row(size, id);  // none of a class of the standard
+  return LimitsOfSize{size,        id,
+                      feature(id), basis(id),
+                      *deviations, row != nullptr ? row->range : tolerance_steps_[slot(size)]};
 }
 
 Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size,

@@ -110,11 +110,13 @@ TabTable project(const ToleranceTables& tables, Feature feature) {
     filled_columns.push_back(deviations_of(tables, id));
   }
   std::vector<TabColumn> columns;
+  columns.reserve(filled_columns.size());
   for (const FilledColumn& column : filled_columns) columns.push_back(column.column);
   const std::string name = feature == Feature::Hole ? "82553_HOLE .TAB" : "82553_SHAFT .TAB";
   TabTable table({.name = name, .unit = "MM"}, std::move(columns));
   for (std::size_t row = 0; row < rows; ++row) {
     std::vector<std::string> cells;
+    cells.reserve(filled_columns.size());
     for (const FilledColumn& column : filled_columns) cells.push_back(column.cells[row]);
     table.append_row(std::move(cells)).value();
   }
