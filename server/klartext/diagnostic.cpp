@@ -13,17 +13,21 @@ constexpr std::string_view kIds[] = {
 #undef KLARTEXT_DIAGNOSTIC
 };
 
-/// As wide as the columns before `column`; tabs stay tabs, so that the caret lines up.
-std::string margin(std::string_view line, std::uint32_t column) {
-  std::string out;
-  for (const char c : line) {
+/// The line below the source line: carets under the place, tabs kept so that they line up. Without
+/// one when the place lies beyond a line that was cut.
+std::string caret_line(const Diagnostic& diagnostic) {
+  const auto& [begin, end] = diagnostic.range;
+  std::string margin = "\n";
+  std::uint32_t column = 1;
+  for (const char c : diagnostic.source) {
+    if (column >= begin.column) break;
     const bool continues_character = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
     if (continues_character) continue;
-    if (out.size() + 1 >= column) break;
-    out += c == '\t' ? '\t' : ' ';
+    margin += c == '\t' ? '\t' : ' ';
+    ++column;
   }
-  out.resize(column - 1, ' ');
-  return out;
+  if (column < begin.column) return {};
+  return margin.append(std::max(end.column, begin.column + 1) - begin.column, '^');
 }
 
 }  // namespace
@@ -31,13 +35,10 @@ std::string margin(std::string_view line, std::uint32_t column) {
 std::string_view id(DiagnosticCode code) { return kIds[static_cast<std::size_t>(code)]; }
 
 std::string render(const Diagnostic& diagnostic) {
-  const auto& [begin, end] = diagnostic.range;
-  const std::uint32_t length =
-      end.line == begin.line && end.column > begin.column ? end.column - begin.column : 1;
-  return fmt::format("{}:{}:{}: {}: {} [{}]\n{}\n{}{}", diagnostic.program, begin.line,
-                     begin.column, diagnostic.severity == Severity::Error ? "error" : "warning",
-                     diagnostic.message, id(diagnostic.code), diagnostic.source,
-                     margin(diagnostic.source, begin.column), std::string(length, '^'));
+  return fmt::format(
+      "{}:{}:{}: {}: {} [{}]\n{}{}", diagnostic.program, diagnostic.range.begin.line,
+      diagnostic.range.begin.column, diagnostic.severity == Severity::Error ? "error" : "warning",
+      diagnostic.message, id(diagnostic.code), diagnostic.source, caret_line(diagnostic));
 }
 
 }  // namespace fitgauge::klartext

@@ -28,11 +28,11 @@ std::string_view id(DiagnosticCode code);
 struct Diagnostic {
   Severity severity = Severity::Error;
   DiagnosticCode code = DiagnosticCode::SyntaxError;
-  std::string message;                 ///< what is wrong and how to put it right
-  std::string program;                 ///< the file's name
-  SourceRange range;                   ///< columns in characters; within one physical line
-  std::optional<std::uint32_t> block;  ///< its number as written
-  std::string source;                  ///< the physical line
+  std::string message{};                 ///< what is wrong and how to put it right
+  std::string program{};                 ///< the file's name
+  SourceRange range{};                   ///< columns in characters; within one physical line
+  std::optional<std::uint32_t> block{};  ///< its number as written
+  std::string source{};                  ///< the physical line
 };
 
 /// The finding as text of three lines:

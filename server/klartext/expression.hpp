@@ -122,7 +122,7 @@ inline constexpr std::uint16_t kDeepestExpression = 200;
 struct Node {
   Operator op = Operator::Pi;
   std::uint16_t height = 1;  ///< of the tree below it, at most kDeepestExpression
-  Slice<Expr> operands;
+  Slice<Expr> operands{};
 
   friend bool operator==(const Node&, const Node&) = default;
 };

@@ -69,7 +69,7 @@ struct MaskPlaceholder {
   bool zero = false;  ///< `0`: filled with zeros
   int width = 0;      ///< characters including sign and point; 0 is as many as needed
   int decimals = -1;  ///< -1: not stated
-  MaskValue value;
+  MaskValue value{};
 
   friend bool operator==(const MaskPlaceholder&, const MaskPlaceholder&) = default;
 };
@@ -79,7 +79,7 @@ using MaskPiece = std::variant<std::string, MaskPlaceholder>;
 
 /// `"text %9.4LF", Q1;`: one line of output.
 struct MaskFormat {
-  std::vector<MaskPiece> pieces;
+  std::vector<MaskPiece> pieces{};
   friend bool operator==(const MaskFormat&, const MaskFormat&) = default;
 };
 
@@ -101,19 +101,19 @@ struct MaskControl {
 
 struct MaskLine {
   std::uint32_t line = 1;  ///< in the file
-  std::variant<MaskFormat, MaskControl, MaskLanguage> content;
+  std::variant<MaskFormat, MaskControl, MaskLanguage> content{};
   friend bool operator==(const MaskLine&, const MaskLine&) = default;
 };
 
 /// A mask of FN 16: F-PRINT. Immutable once parsed.
 struct MaskFile {
-  std::string file_name;
-  std::vector<MaskLine> lines;
+  std::string file_name{};
+  std::vector<MaskLine> lines{};
 };
 
 struct ParsedMask {
   MaskFile mask;
-  std::vector<Diagnostic> diagnostics;  ///< lines with an error are not in the mask
+  std::vector<Diagnostic> diagnostics{};  ///< lines with an error are not in the mask
 
   bool has_errors() const;
 };

@@ -12,12 +12,10 @@ namespace fitgauge::klartext {
 /// Beyond these the text is refused with ProgramTooLarge; they bound the memory of a parse.
 inline constexpr std::size_t kLargestSource = 64 * 1024 * 1024;
 inline constexpr std::size_t kMostBlocks = 2'000'000;
-/// Findings beyond this number are counted, not kept.
-inline constexpr std::size_t kMostDiagnostics = 200;
 
 struct ParsedProgram {
   Program program;
-  std::vector<Diagnostic> diagnostics;  ///< in the order of the source
+  std::vector<Diagnostic> diagnostics{};  ///< in the order of the source
 
   bool has_errors() const;
 };

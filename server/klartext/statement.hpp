@@ -17,14 +17,14 @@ enum class Unit : std::uint8_t { Millimetre, Inch };
 
 /// `BEGIN PGM name MM`.
 struct BeginProgram {
-  Text name;
+  Text name{};
   Unit unit = Unit::Millimetre;
   friend bool operator==(const BeginProgram&, const BeginProgram&) = default;
 };
 
 /// `END PGM name MM`; the last block.
 struct EndProgram {
-  Text name;
+  Text name{};
   Unit unit = Unit::Millimetre;
   friend bool operator==(const EndProgram&, const EndProgram&) = default;
 };
@@ -36,7 +36,7 @@ struct Empty {
 
 /// `* - text`: an outline entry; level 0 is the outermost.
 struct Structure {
-  Text text;
+  Text text{};
   std::uint8_t level = 0;
   friend bool operator==(const Structure&, const Structure&) = default;
 };
@@ -44,14 +44,14 @@ struct Structure {
 /// `ERROR = raw text`: what the control stores for a line it could not read. The parser makes one
 /// of every block it reports an error in.
 struct ErrorBlock {
-  Text text;
+  Text text{};
   friend bool operator==(const ErrorBlock&, const ErrorBlock&) = default;
 };
 
 /// Something real controls can do and this one cannot: fails when it is reached.
 struct Unsupported {
-  Text feature;  ///< its name for the message: "FK contour programming", "SQL"
-  Text text;     ///< the block as written, without number and comment
+  Text feature{};  ///< its name for the message: "FK contour programming", "SQL"
+  Text text{};     ///< the block as written, without number and comment
   friend bool operator==(const Unsupported&, const Unsupported&) = default;
 };
 
@@ -60,9 +60,9 @@ enum class BlankKind : std::uint8_t { Minimum, Maximum, Cylinder, Rotation, File
 /// `BLK FORM 0.1 Z X+0 Y+0 Z-20`, `0.2`, `CYLINDER`, `ROTATION`, `FILE`.
 struct BlankForm {
   BlankKind kind = BlankKind::Minimum;
-  std::optional<Axis> tool_axis;
-  Slice<Word> words;
-  Expr file;  ///< Text or QS of FILE, otherwise Absent
+  std::optional<Axis> tool_axis{};
+  Slice<Word> words{};
+  Expr file{};  ///< Text or QS of FILE, otherwise Absent
   friend bool operator==(const BlankForm&, const BlankForm&) = default;
 };
 
@@ -70,16 +70,16 @@ struct BlankForm {
 
 /// `TOOL CALL n|"name"|QSn axis S F DL DR DR2`. Words: S, F, FU, FZ, FMAX, FAUTO, DL, DR, DR2.
 struct ToolCall {
-  Expr tool;  ///< a number, a Text name or a parameter; Absent when only speed or axis change
-  std::optional<Axis> axis;
-  Slice<Word> words;
+  Expr tool{};  ///< a number, a Text name or a parameter; Absent when only speed or axis change
+  std::optional<Axis> axis{};
+  Slice<Word> words{};
   friend bool operator==(const ToolCall&, const ToolCall&) = default;
 };
 
 /// `TOOL DEF n`: preselection, or the old definition `TOOL DEF 1 L+0 R+5`.
 struct ToolDefinition {
-  Expr tool;
-  Slice<Word> words;
+  Expr tool{};
+  Slice<Word> words{};
   friend bool operator==(const ToolDefinition&, const ToolDefinition&) = default;
 };
 
@@ -119,19 +119,19 @@ struct Motion {
   Path path = Path::L;
   RadiusCompensation compensation = RadiusCompensation::Unchanged;
   Rotation rotation = Rotation::Unspecified;
-  Slice<Word> words;
+  Slice<Word> words{};
   friend bool operator==(const Motion&, const Motion&) = default;
 };
 
 /// A block of M functions alone: `M3`, `M140 MB MAX`.
 struct MFunctions {
-  Slice<Word> words;
+  Slice<Word> words{};
   friend bool operator==(const MFunctions&, const MFunctions&) = default;
 };
 
 /// `STOP` with optional M functions.
 struct Stop {
-  Slice<Word> words;
+  Slice<Word> words{};
   friend bool operator==(const Stop&, const Stop&) = default;
 };
 
@@ -151,11 +151,11 @@ enum class CycleValue : std::uint8_t {
 
 /// One line `Q262=+25 ;NOMINAL DIAMETER` of a cycle.
 struct CycleParameter {
-  QRef parameter;
+  QRef parameter{};
   CycleValue kind = CycleValue::Expression;
-  Expr value;
-  Text comment;         ///< the dialog text, as written
-  Slice<char> written;  ///< its place in the source, without the comment
+  Expr value{};
+  Text comment{};         ///< the dialog text, as written
+  Slice<char> written{};  ///< its place in the source, without the comment
 
   /// The place does not count.
   friend bool operator==(const CycleParameter& a, const CycleParameter& b) {
@@ -168,8 +168,8 @@ struct CycleParameter {
 struct Cycle {
   CycleFamily family = CycleFamily::CyclDef;
   std::uint16_t number = 0;
-  Text dialog;  ///< the free text after the number
-  Slice<CycleParameter> parameters;
+  Text dialog{};  ///< the free text after the number
+  Slice<CycleParameter> parameters{};
   friend bool operator==(const Cycle&, const Cycle&) = default;
 };
 
@@ -179,9 +179,9 @@ struct CyclePart {
   CycleFamily family = CycleFamily::CyclDef;
   std::uint16_t number = 0;
   std::uint8_t part = 0;
-  Text text;  ///< all after the number as written: the title of part 0, dialog text and words
+  Text text{};  ///< all after the number as written: the title of part 0, dialog text and words
   /// What was understood of the text; of a part 0 that is empty but for TCH PROBE 0.0.
-  Slice<Word> words;
+  Slice<Word> words{};
   friend bool operator==(const CyclePart&, const CyclePart&) = default;
 };
 
@@ -190,7 +190,7 @@ enum class CycleCallKind : std::uint8_t { Here, Pattern, Position };
 /// `CYCL CALL [M..]`, `CYCL CALL PAT F..`, `CYCL CALL POS X Y Z F..`.
 struct CycleCall {
   CycleCallKind kind = CycleCallKind::Here;
-  Slice<Word> words;
+  Slice<Word> words{};
   friend bool operator==(const CycleCall&, const CycleCall&) = default;
 };
 
@@ -202,33 +202,33 @@ using Label = std::variant<std::uint32_t, Text, QRef>;
 
 /// `LBL n`; a Text or a number, never a parameter. Number 0 ends a subprogram.
 struct LabelDefinition {
-  Label label;
+  Label label{};
   friend bool operator==(const LabelDefinition&, const LabelDefinition&) = default;
 };
 
 /// `CALL LBL n [REP r]`.
 struct LabelCall {
-  Label label;
-  Expr repeat;  ///< Absent: a subprogram call
+  Label label{};
+  Expr repeat{};  ///< Absent: a subprogram call
   friend bool operator==(const LabelCall&, const LabelCall&) = default;
 };
 
 /// FN 9 to 12: `IF a EQU b GOTO LBL x`, `IF Q1 IS UNDEFINED GOTO LBL x`.
 struct ConditionalJump {
-  Expr condition;  ///< always a Node: Equal, NotEqual, Greater, Less, IsDefined or IsUndefined
-  Label target;
+  Expr condition{};  ///< always a Node: Equal, NotEqual, Greater, Less, IsDefined or IsUndefined
+  Label target{};
   friend bool operator==(const ConditionalJump&, const ConditionalJump&) = default;
 };
 
 /// In the next three, a path is a Text, a QS parameter or a Concat of both (`TNC:\:'QS1'.H`).
 struct CallProgram {
-  Expr path;
+  Expr path{};
   friend bool operator==(const CallProgram&, const CallProgram&) = default;
 };
 
 /// `SEL PGM path`.
 struct SelectProgram {
-  Expr path;
+  Expr path{};
   friend bool operator==(const SelectProgram&, const SelectProgram&) = default;
 };
 
@@ -239,7 +239,7 @@ struct CallSelectedProgram {
 
 /// `SEL TABLE path`: the datum table.
 struct SelectTable {
-  Expr path;
+  Expr path{};
   friend bool operator==(const SelectTable&, const SelectTable&) = default;
 };
 
@@ -251,50 +251,50 @@ enum class AssignmentForm : std::uint8_t { Formula, Fn, DeclareString };
 /// `Q5 = ...`, FN 0 to 8, 13 and 18, `DECLARE STRING QS1 = ...`. A QS target has a string value,
 /// any other a number.
 struct Assignment {
-  QRef target;
+  QRef target{};
   AssignmentForm form = AssignmentForm::Formula;
   std::uint8_t fn = 0;  ///< of form Fn
-  Expr value;
+  Expr value{};
   friend bool operator==(const Assignment&, const Assignment&) = default;
 };
 
 /// `FN 0: Q5 SET UNDEFINED`.
 struct SetUndefined {
-  QRef target;
+  QRef target{};
   friend bool operator==(const SetUndefined&, const SetUndefined&) = default;
 };
 
 /// FN 23 (3 points) and FN 24 (4 points): `Q20 = CDATA Q30`.
 struct CircleData {
-  QRef target;
-  QRef first_point;
+  QRef target{};
+  QRef first_point{};
   std::uint8_t points = 3;
   friend bool operator==(const CircleData&, const CircleData&) = default;
 };
 
 /// FN 14.
 struct ErrorStop {
-  Expr number;
+  Expr number{};
   friend bool operator==(const ErrorStop&, const ErrorStop&) = default;
 };
 
 /// FN 15: `PRINT Q1/Q2/"text"`.
 struct Print {
-  Slice<Expr> items;
+  Slice<Expr> items{};
   friend bool operator==(const Print&, const Print&) = default;
 };
 
 /// FN 16: `F-PRINT mask / target`; paths as of CallProgram, or a device such as `SCREEN:`, `SCLR:`.
 struct FormattedPrint {
-  Expr mask;
-  Expr target;
+  Expr mask{};
+  Expr target{};
   friend bool operator==(const FormattedPrint&, const FormattedPrint&) = default;
 };
 
 /// FN 17: `SYSWRITE ID50 NR4 IDXQ2 = Q1604`.
 struct SystemWrite {
-  Expr address;  ///< a Node SystemAddress
-  Expr value;
+  Expr address{};  ///< a Node SystemAddress
+  Expr value{};
   friend bool operator==(const SystemWrite&, const SystemWrite&) = default;
 };
 
@@ -302,33 +302,33 @@ struct SystemWrite {
 /// for the log.
 struct ExternalFunction {
   std::uint8_t fn = 0;
-  Slice<Expr> operands;
+  Slice<Expr> operands{};
   friend bool operator==(const ExternalFunction&, const ExternalFunction&) = default;
 };
 
 /// FN 20: `WAIT FOR SYNC`, or for a condition of the PLC that is kept as written.
 struct WaitFor {
-  Text condition;
+  Text condition{};
   friend bool operator==(const WaitFor&, const WaitFor&) = default;
 };
 
 /// FN 26: path as of CallProgram.
 struct TableOpen {
-  Expr path;
+  Expr path{};
   friend bool operator==(const TableOpen&, const TableOpen&) = default;
 };
 
 /// FN 27: `TABWRITE row/"A,B" = Q5`, Q6, ...
 struct TableWrite {
-  QRef first;
-  Expr cell;  ///< a Node TableCell
+  QRef first{};
+  Expr cell{};  ///< a Node TableCell
   friend bool operator==(const TableWrite&, const TableWrite&) = default;
 };
 
 /// FN 28: `TABREAD Q10 = row/"A,B"` into Q10, Q11, ...
 struct TableRead {
-  QRef first;
-  Expr cell;  ///< a Node TableCell
+  QRef first{};
+  Expr cell{};  ///< a Node TableCell
   friend bool operator==(const TableRead&, const TableRead&) = default;
 };
 
@@ -340,8 +340,8 @@ enum class Transformation : std::uint8_t { Datum, DatumTable, Mirror, Rotation, 
 struct Trans {
   Transformation kind = Transformation::Datum;
   bool reset = false;
-  Slice<Word> words;  ///< axes; Row; Rot; Scl
-  Expr table;         ///< path of TRANS DATUM TABLE when given
+  Slice<Word> words{};  ///< axes; Row; Rot; Scl
+  Expr table{};         ///< path of TRANS DATUM TABLE when given
   friend bool operator==(const Trans&, const Trans&) = default;
 };
 
@@ -361,7 +361,7 @@ enum class PlanePositioning : std::uint8_t { Unspecified, Turn, Move, Stay };
 struct Plane {
   PlaneKind kind = PlaneKind::Spatial;
   PlanePositioning positioning = PlanePositioning::Unspecified;
-  Slice<Word> words;
+  Slice<Word> words{};
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
@@ -370,14 +370,14 @@ enum class OperatingMode : std::uint8_t { Mill, Turn, Grind };
 /// `FUNCTION MODE MILL ["kinematics"]`.
 struct FunctionMode {
   OperatingMode mode = OperatingMode::Mill;
-  Text kinematics;
+  Text kinematics{};
   friend bool operator==(const FunctionMode&, const FunctionMode&) = default;
 };
 
 /// `FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS` and `FUNCTION RESET TCPM`.
 struct FunctionTcpm {
   bool active = true;
-  Text options;  ///< after TCPM, one blank between words
+  Text options{};  ///< after TCPM, one blank between words
   friend bool operator==(const FunctionTcpm&, const FunctionTcpm&) = default;
 };
 

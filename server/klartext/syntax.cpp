@@ -1,25 +1,9 @@
 #include "klartext/syntax.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include "klartext/source_text.hpp"
 
 namespace fitgauge::klartext {
 namespace {
-
-std::uint32_t characters(std::string_view utf8) {
-  return static_cast<std::uint32_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
-}
-
-SourcePosition position(const ProgramParts& parts, std::size_t offset) {
-  const auto& starts = parts.line_starts;
-  if (starts.empty()) return {};
-  const auto next = std::upper_bound(starts.begin() + 1, starts.end(), offset);
-  const std::uint32_t start = *std::prev(next);
-  return {.line = static_cast<std::uint32_t>(next - starts.begin()),
-          .column = characters(std::string_view(parts.source).substr(start, offset - start)) + 1};
-}
 
 /// Comments may stand before BEGIN PGM.
 const BeginProgram* begin_of(const std::vector<Block>& blocks) {
@@ -33,14 +17,12 @@ const BeginProgram* begin_of(const std::vector<Block>& blocks) {
 }  // namespace
 
 SourceRange Program::range(Slice<char> place) const {
-  return {position(parts_, place.first), position(parts_, std::size_t{place.first} + place.count)};
+  return {position_of(parts_.source, parts_.line_starts, place.first),
+          position_of(parts_.source, parts_.line_starts, std::size_t{place.first} + place.count)};
 }
 
 std::string_view Program::line(std::uint32_t number) const {
-  const auto& starts = parts_.line_starts;
-  if (number == 0 || number > starts.size()) return {};
-  const std::string_view rest = source().substr(starts[number - 1]);
-  return rest.substr(0, rest.find('\n'));
+  return line_of(parts_.source, parts_.line_starts, number);
 }
 
 Unit Program::unit() const {

@@ -19,12 +19,12 @@ namespace fitgauge::klartext {
 struct Block {
   static constexpr std::uint32_t kNoNumber = UINT32_MAX;
 
-  Slice<char> written;  ///< its place in the source, all physical lines of it
-  Text comment;         ///< after `;` as written; of a cycle, that of its first line
+  Slice<char> written{};  ///< its place in the source, all physical lines of it
+  Text comment{};         ///< after `;` as written; of a cycle, that of its first line
   std::uint32_t number_or_none = kNoNumber;
   bool skip = false;          ///< `/`: passed over while the operator's block skip is on
   bool comment_mark = false;  ///< a `;` is there, perhaps with an empty comment
-  Statement statement;
+  Statement statement{};
 
   /// The number as written: cosmetic, may repeat or be missing.
   std::optional<std::uint32_t> number() const {
@@ -43,15 +43,15 @@ static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) <= 64,
 
 /// What the parser fills and a Program freezes. The pools are filled in the order of the source.
 struct ProgramParts {
-  std::string file_name;  ///< as given by the caller
-  std::string source;     ///< UTF-8, lines end with LF, no byte order mark
-  std::vector<std::uint32_t> line_starts;
-  std::vector<Block> blocks;
-  std::vector<Word> words;
-  std::vector<CycleParameter> cycle_parameters;
-  std::vector<Node> nodes;
-  std::vector<Expr> operands;
-  std::string texts;
+  std::string file_name{};  ///< as given by the caller
+  std::string source{};     ///< UTF-8, lines end with LF, no byte order mark
+  std::vector<std::uint32_t> line_starts{};
+  std::vector<Block> blocks{};
+  std::vector<Word> words{};
+  std::vector<CycleParameter> cycle_parameters{};
+  std::vector<Node> nodes{};
+  std::vector<Expr> operands{};
+  std::string texts{};
 };
 
 /// A parsed program: immutable, so it may be read by any number of threads. Owns its source and all

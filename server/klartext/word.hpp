@@ -81,7 +81,6 @@ enum class Letter : std::uint8_t {
   Spc,
   ProPr,
   ProMin,
-  RotAngle,  ///< ROT of PLANE PROJECTED
   EulPr,
   EulNu,
   EulRot,
@@ -111,7 +110,7 @@ struct Word {
   bool argument = false;     ///< belongs to the M function before it: `M140 MB50`, `M128 F1000`
   /// Absent where the letter stands alone: `CYCL DEF 8.1 X Y`, `M118 X`. A probing direction `X-`
   /// of TCH PROBE 0.0 is +1 or -1.
-  Expr value;
+  Expr value{};
 
   friend bool operator==(const Word&, const Word&) = default;
 };

@@ -25,9 +25,13 @@ TEST_CASE("A rendered diagnostic has its place, its code, the line and carets be
         "            ^^^^^");
 }
 
-TEST_CASE("A caret counts characters, keeps tabs, and may stand behind the line") {
+TEST_CASE("A caret counts characters, keeps tabs, and may stand right behind the line") {
   CHECK(render(at(4, 4, "\tÄÖ X")).ends_with("\n\t  ^"));
-  CHECK(render(at(4, 4, "L")).ends_with("L\n   ^"));
+  CHECK(render(at(2, 2, "L")).ends_with("L\n ^"));
+}
+
+TEST_CASE("There is no caret beyond a line that was cut") {
+  CHECK(render(at(4, 5, "L")).ends_with("\nL"));
 }
 
 TEST_CASE("Codes of diagnostics are distinct") {

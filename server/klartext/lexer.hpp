@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "klartext/diagnostic.hpp"
+#include "klartext/expression.hpp"
+
+namespace fitgauge::klartext {
+
+inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+inline bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+
+/// What kept a block from being read.
+struct Failure {
+  enum class Kind : std::uint8_t {
+    Faulty,      ///< not Klartext: an error
+    Unsupported  ///< Klartext of real controls that this one cannot run
+  };
+  Kind kind = Kind::Faulty;
+  DiagnosticCode code = DiagnosticCode::SyntaxError;
+  Slice<char> place;
+  std::string message;  ///< of Unsupported: the feature's name
+};
+
+/// Reads the characters of one block at a time. Holds a reference to the source, which ends with a
+/// NUL as every std::string does.
+///
+/// After `fail` or `refuse` the lexer stands at the end of the block and reads nothing more, so
+/// callers need not check each step: loops end, and what they built is dropped with the block. Only
+/// the first failure of a block counts.
+class Lexer {
+ public:
+  explicit Lexer(const std::string& source) : source_(source) {}
+
+  /// Starts on the block of these offsets; its last line end is not part of it.
+  void open(std::size_t begin, std::size_t end);
+  /// The block goes on up to this offset.
+  void extend(std::size_t end) { end_ = source_.data() + end; }
+
+  const std::optional<Failure>& failure() const { return failure_; }
+  void fail(DiagnosticCode code, Slice<char> place, std::string message);
+  /// Fails at the next character: "expected <what>, found 'x'".
+  void fail_expected(std::string_view what);
+  /// The block uses a feature that only real controls have, named by the code since `begin`.
+  void refuse(const char* begin, std::string_view feature);
+
+  /// Passes blanks and wraps (`~` at the end of a physical line).
+  void skip_blanks() {
+    while (is_blank(*at_)) ++at_;
+    if (*at_ == '~') skip_wraps();
+  }
+  /// No more code in this block: its end, or a comment.
+  bool at_end() {
+    skip_blanks();
+    return at_ == end_ || *at_ == ';';
+  }
+
+  const char* at() const { return at_; }
+  const char* end() const { return end_; }
+  void move_to(const char* place) { at_ = place; }
+  char peek(std::size_t ahead = 0) const { return at_ + ahead < end_ ? at_[ahead] : '\0'; }
+  Slice<char> place(const char* begin, const char* end) const;
+  Slice<char> here() const { return place(at_, at_ < end_ ? at_ + 1 : at_); }
+
+  /// Each of these passes blanks first and stays in place when it does not match.
+  bool accept(char c);
+  /// A whole word without regard to case: not followed by a letter, a digit or `_`.
+  bool accept_word(std::string_view word);
+  /// The first characters of a word: `REP` of `REP2`, `DAT` of `DAT+Q50`, `SRC_` of `SRC_QS1`.
+  bool accept_prefix(std::string_view prefix);
+  void expect(char c);
+  void expect_word(std::string_view word);
+  void expect_prefix(std::string_view prefix);
+
+  /// The letters from here on, at most up to a parameter (`FQ5` gives `F`). Stays in place.
+  std::string_view letters();
+
+  /// A number without sign: `10`, `10.5`, `10,5`, `.5`, `10.`
+  bool at_number() const {
+    return is_digit(*at_) || ((*at_ == '.' || *at_ == ',') && is_digit(at_[1]));
+  }
+  double number();
+  /// Whole digits, for block, label, cycle and function numbers; fails above `largest`.
+  std::uint32_t digits(std::uint32_t largest, std::string_view what);
+
+  /// `Q5`, `QL3`, `QR1`, `QS2`: a parameter starts here.
+  bool at_parameter() const { return is_parameter(at_); }
+  QRef parameter();
+
+  /// The characters between double quotes, in one physical line.
+  std::string_view quoted();
+
+  /// The code from here to its end, without blanks at either side; the lexer stands at the end
+  /// then. May contain wraps.
+  std::string_view rest();
+
+  /// As rest(), but up to the first of `stop` (which is left) when there is one.
+  std::string_view rest_until(char stop);
+
+ private:
+  static bool is_parameter(const char* at) {
+    if ((*at | 0x20) != 'q') return false;
+    if (is_digit(at[1])) return true;
+    const char space = static_cast<char>(at[1] | 0x20);
+    return (space == 'l' || space == 'r' || space == 's') && is_digit(at[2]);
+  }
+  void skip_wraps();
+  bool matches(std::string_view text) const;
+  double long_number(const char* begin, const char* end);
+
+  const std::string& source_;
+  const char* at_ = nullptr;
+  const char* end_ = nullptr;
+  std::optional<Failure> failure_;
+};
+
+/// A text without its wraps: `a~`, line end, ` b` is `a b`.
+std::string unwrapped(std::string_view text);
+
+/// A text that ends its block, without its wraps and without blanks or `~` at its end, so that no
+/// wrap comes into being when it is printed.
+std::string free_text(std::string_view text);
+
+/// An excerpt for a message.
+std::string excerpt(std::string_view text);
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "klartext/parser_rules.hpp"
+
+namespace fitgauge::klartext {
+namespace {
+
+struct Keyword {
+  std::string_view name;
+  Statement (*parse)(BlockReader& in);
+};
+
+template <Path path>
+Statement motion(BlockReader& in) {
+  return parse_motion(in, path);
+}
+
+/// The first words of blocks, the most frequent ones first.
+constexpr Keyword kKeywords[] = {
+    {"L", motion<Path::L>},
+    {"FN", parse_fn},
+    {"C", motion<Path::C>},
+    {"CC", motion<Path::Cc>},
+    {"LBL", parse_label_definition},
+    {"CALL", parse_call},
+    {"TCH", parse_tch_probe},
+    {"CYCL", parse_cycl},
+    {"TOOL", parse_tool},
+    {"M", parse_m_functions},
+    {"STOP", parse_stop},
+    {"LP", motion<Path::Lp>},
+    {"LN", motion<Path::Ln>},
+    {"CP", motion<Path::Cp>},
+    {"CR", motion<Path::Cr>},
+    {"CT", motion<Path::Ct>},
+    {"CTP", motion<Path::Ctp>},
+    {"RND", motion<Path::Rnd>},
+    {"CHF", motion<Path::Chf>},
+    {"APPR", parse_approach},
+    {"DEP", parse_departure},
+    {"SEL", parse_select},
+    {"TRANS", parse_trans},
+    {"PLANE", parse_plane},
+    {"FUNCTION", parse_function},
+    {"DECLARE", parse_declare},
+    {"BLK", parse_blank_form},
+    {"BEGIN", parse_begin},
+    {"END", parse_end},
+};
+
+/// The first words of blocks that real controls run and this one does not.
+struct Feature {
+  std::string_view name;
+  std::string_view feature;
+};
+
+constexpr Feature kFeatures[] = {
+    {"FL", "FK contour programming"},
+    {"FLT", "FK contour programming"},
+    {"FC", "FK contour programming"},
+    {"FCT", "FK contour programming"},
+    {"FPOL", "FK contour programming"},
+    {"FSELECT", "FK contour programming"},
+    {"SQL", "SQL"},
+    {"GLOBAL", "GLOBAL DEF"},
+    {"PATTERN", "PATTERN DEF"},
+    {"CONTOUR", "CONTOUR DEF"},
+    {"PRESET", "PRESET"},
+    {"TABDATA", "TABDATA"},
+    {"POLARKIN", "POLARKIN"},
+    {"SECTION", "SECTION MONITORING"},
+    {"MONITORING", "MONITORING"},
+    {"OPEN", "OPEN"},
+    {"WMAT", "WMAT"},
+    {"X", "paraxial positioning"},
+    {"Y", "paraxial positioning"},
+    {"Z", "paraxial positioning"},
+};
+
+Statement parse_error_block(BlockReader& in) {
+  in.expect('=');
+  in.skip_blanks();
+  const char* begin = in.at();
+  in.move_to(in.end());
+  const std::string_view raw(begin, static_cast<std::size_t>(in.end() - begin));
+  return ErrorBlock{in.add_text(free_text(raw))};
+}
+
+}  // namespace
+
+void refuse_word(BlockReader& in, std::string_view first) {
+  const std::string_view word = in.letters();
+  if (word.empty()) {
+    in.fail_expected(fmt::format("a word behind {}", first));
+    return;
+  }
+  const char* begin = in.at();
+  in.move_to(begin + word.size());
+  in.refuse(begin, fmt::format("{} {}", first, excerpt(ascii_upper(word))));
+}
+
+Statement parse_statement(BlockReader& in) {
+  if (in.at_parameter()) return parse_assignment(in);
+  const char* begin = in.at();
+  const std::string_view name = in.letters();
+  in.move_to(begin + name.size());
+  for (const Keyword& keyword : kKeywords) {
+    if (ascii_iequals(keyword.name, name)) return keyword.parse(in);
+  }
+  if (ascii_iequals(name, "ERROR")) return parse_error_block(in);
+  for (const Feature& feature : kFeatures) {
+    if (ascii_iequals(feature.name, name)) {
+      in.refuse(begin, feature.feature);
+      return Empty{};
+    }
+  }
+  in.move_to(begin);
+  if (in.accept('*')) return parse_structure(in);
+  if (name.empty()) {
+    in.fail_expected("a block");
+  } else {
+    in.fail(DiagnosticCode::BlockUnknown, in.place(begin, begin + name.size()),
+            fmt::format("no block begins with '{}'", excerpt(name)));
+  }
+  return Empty{};
+}
+
+}  // namespace fitgauge::klartext
