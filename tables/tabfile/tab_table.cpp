@@ -123,6 +123,10 @@ Result<void> TabTable::set_number(std::int64_t row, std::string_view column, dou
 Result<void> TabTable::set_text(std::int64_t row, std::string_view column, std::string_view value) {
   const auto place = find(row, column);
   if (!place) return place.error();
+  if (place->column == 0) {
+    return Error{ErrorCode::FieldInvalid,
+                 fmt::format("column {} numbers the rows and cannot be written", column)};
+  }
   const TabColumn& target = columns_[place->column];
   const std::string_view written = trim(value);
   if (count_characters(written) > std::max(target.width, count_characters(target.name))) {

@@ -77,11 +77,11 @@ class TabTable {
   Result<std::string_view> text(std::int64_t row, std::string_view column) const;
 
   /// Writes a value with the decimals of the column, or shortest where the file describes none.
-  /// @errors TableRowMissing, TableColumnMissing, TableCellTooLong; NumberOutOfRange when it is not
-  ///   finite.
+  /// @errors as set_text; NumberOutOfRange when it is not finite.
   Result<void> set_number(std::int64_t row, std::string_view column, double value);
 
-  /// @errors TableRowMissing, TableColumnMissing, TableCellTooLong.
+  /// @errors TableRowMissing, TableColumnMissing, TableCellTooLong; FieldInvalid for the first
+  ///   column, which numbers the rows.
   Result<void> set_text(std::int64_t row, std::string_view column, std::string_view value);
 
   friend bool operator==(const TabTable&, const TabTable&) = default;
