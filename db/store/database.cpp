@@ -8,6 +8,7 @@
 #include "store/file_check.hpp"
 #include "store/read_pool_engine.hpp"
 #include "store/storage_failure.hpp"
+#include "store/verifier.hpp"
 #include "store/writer_engine.hpp"
 
 namespace fitgauge::store {
@@ -15,12 +16,13 @@ namespace fitgauge::store {
 /// Destroyed from the last member to the first: the writer closes after the readers, and so
 /// checkpoints; the lock goes last.
 struct Database::Parts {
-  Parts(std::optional<DirectoryLock> held, const OpenOptions& chosen, const Clock& clock)
+  Parts(std::optional<DirectoryLock> held, const OpenOptions& chosen, const Clock& time)
       : lock(std::move(held)),
         options(chosen),
+        clock(time),
         file(chosen.directory / kDatabaseFile),
-        writer_engine(chosen, clock, monitor),
-        reader_engine(chosen, clock, monitor),
+        writer_engine(chosen, time, monitor),
+        reader_engine(chosen, time, monitor),
         writer(writer_engine),
         readers(reader_engine) {
     const bool too_large_for_the_start =
@@ -30,6 +32,7 @@ struct Database::Parts {
 
   std::optional<DirectoryLock> lock;
   OpenOptions options;
+  const Clock& clock;
   std::filesystem::path file;
   HealthMonitor monitor;
   Writer::Engine writer_engine;
@@ -66,6 +69,15 @@ Health Database::health() const { return parts_->monitor.health(); }
 
 Result<void> Database::backup(const std::filesystem::path& file) const {
   return copy_database(parts_->file, file);
+}
+
+Result<VerifyReport> Database::verify(const MeasurementCheck& check) const {
+  try {
+    Session session(parts_->options, parts_->clock, sqlite::Mode::Read);
+    return Verifier(session, check).run();
+  } catch (const StorageFailure& failure) {
+    return failure.error();
+  }
 }
 
 }  // namespace fitgauge::store

@@ -14,12 +14,13 @@ bool tidy(Session& session, const OpenOptions& options, Timestamp now) {
   using std::chrono::nanoseconds;
   Stores& stores = session.stores;
   const std::int64_t runs_before = now.nanoseconds - nanoseconds(options.run_retention).count();
-  session.connection.execute("BEGIN IMMEDIATE");
+  session.begin_writing.run();
   const std::int64_t deleted = stores.idempotency.purge(kStep) +
                                stores.runs.purge(runs_before, kStep) +
                                stores.events.trim(options.event_retention, kStep);
-  session.connection.execute("COMMIT");
-  return deleted > 0;
+  const bool indexed = stores.measurements.index_block();
+  session.commit.run();
+  return deleted > 0 || indexed;
 }
 
 }  // namespace fitgauge::store

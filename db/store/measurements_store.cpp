@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <map>
 
 #include "store/measurement_fields.hpp"
 #include "store/measurement_insert.hpp"
+#include "store/measurement_query.hpp"
 #include "store/measurement_statistics.hpp"
 #include "store/sqlite/statement.hpp"
 
@@ -15,22 +15,6 @@ namespace {
 
 using sqlite::Rows;
 using sqlite::Statement;
-
-/// The parameters of a filter in the order kMatches names them.
-template <class Use>
-auto with_parameters(const MeasurementFilter& filter, Use&& use) {
-  return use(filter.as_of_id.value_or(std::numeric_limits<std::int64_t>::max()), filter.part_id,
-             filter.characteristic, filter.order, filter.machine, filter.verdict, filter.source,
-             filter.from_ns, filter.to_ns, filter.history);
-}
-
-constexpr std::string_view kMatches =
-    "m.id <= ?1 AND (?2 IS NULL OR m.part_id = ?2) AND (?3 IS NULL OR m.characteristic = ?3) "
-    "AND (?4 IS NULL OR m.work_order = ?4) AND (?5 IS NULL OR m.machine = ?5) "
-    "AND (?6 IS NULL OR m.verdict = ?6) AND (?7 IS NULL OR m.source = ?7) "
-    "AND (?8 IS NULL OR m.measured_at >= ?8) AND (?9 IS NULL OR m.measured_at < ?9) "
-    "AND (?10 OR NOT EXISTS (SELECT 1 FROM measurements c "
-    "WHERE c.correction_of = m.id AND c.id <= ?1))";
 
 MeasurementRow read_row(const Rows& rows) {
   MeasurementRow row;
@@ -99,9 +83,8 @@ struct MeasurementsStore::Statements {
         newest(c, "SELECT id, hash FROM measurements ORDER BY id DESC LIMIT 1"),
         by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
         correction(c, "SELECT id FROM measurements WHERE correction_of = ?"),
-        page(c, fmt::format("SELECT {} FROM measurements m WHERE {} AND m.id > ?11 "
-                            "ORDER BY m.id LIMIT ?12",
-                            measurement_columns(), kMatches)) {}
+        lookup(c),
+        whole_rows(c, measurement_columns()) {}
 
   MeasurementInsert::Place last() {
     Rows rows = newest.query();
@@ -114,14 +97,12 @@ struct MeasurementsStore::Statements {
     return rows.next() ? std::optional(rows.get<std::int64_t>(0)) : std::nullopt;
   }
 
-  /// Prepared at the first summary by this field.
-  Statement& values_by(GroupBy group_by) {
+  /// Made at the first summary by this field.
+  MeasurementQuery& values_by(GroupBy group_by) {
     const auto found = values.find(group_by);
     if (found != values.end()) return found->second;
-    std::string sql =
-        fmt::format("SELECT m.{}, m.verdict, m.measured_nm FROM measurements m WHERE {}",
-                    column_of(group_by), kMatches);
-    return values.emplace(group_by, Statement(connection, std::move(sql))).first->second;
+    const std::string columns = fmt::format("m.{}, m.verdict, m.measured_nm", column_of(group_by));
+    return values.emplace(group_by, MeasurementQuery(connection, columns)).first->second;
   }
 
   sqlite::Connection& connection;
@@ -129,8 +110,9 @@ struct MeasurementsStore::Statements {
   Statement newest;
   Statement by_id;
   Statement correction;
-  Statement page;
-  std::map<GroupBy, Statement> values;
+  MeasurementLookup lookup;
+  MeasurementQuery whole_rows;
+  std::map<GroupBy, MeasurementQuery> values;
 };
 
 MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
@@ -169,19 +151,22 @@ std::optional<std::int64_t> MeasurementsStore::corrected_by(std::int64_t id) con
 std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& filter,
                                                     std::int64_t after, std::size_t limit,
                                                     const Visitor& visit) const {
-  // One row more than the page tells whether there is a next one.
-  Rows rows = with_parameters(filter, [&](const auto&... parameters) {
-    return statements_->page.query(parameters..., after, limit + 1);
-  });
   std::int64_t last = after;
-  for (std::size_t count = 0; rows.next(); ++count) {
-    if (count == limit) return last;
+  std::size_t count = 0;
+  bool more = false;
+  statements_->whole_rows.run(filter, after, [&](const Rows& rows) {
+    // One row more than the page tells that there is a next one.
+    more = count++ == limit;
+    if (more) return false;
     const MeasurementRow row = read_row(rows);
     visit(row);
     last = row.id;
-  }
-  return std::nullopt;
+    return true;
+  });
+  return more ? std::optional(last) : std::nullopt;
 }
+
+bool MeasurementsStore::index_block() { return statements_->lookup.take_in_block(); }
 
 std::int64_t MeasurementsStore::last_id() const { return statements_->last().id; }
 
@@ -189,20 +174,21 @@ Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFi
                                                              GroupBy group_by,
                                                              std::size_t max_groups) const {
   std::map<std::optional<std::string>, Gathered, std::less<>> groups;
-  Rows rows = with_parameters(filter, [&](const auto&... parameters) {
-    return statements_->values_by(group_by).query(parameters...);
-  });
-  while (rows.next()) {
+  bool fits = true;
+  statements_->values_by(group_by).run(filter, 0, [&](const Rows& rows) {
     const auto value = rows.get<std::optional<std::string_view>>(0);
     auto group = groups.find(value);
     if (group == groups.end()) {
-      if (groups.size() == max_groups) {
-        return Error{ErrorCode::QueryInvalid,
-                     fmt::format("there are more than {} groups; narrow the filter", max_groups)};
-      }
+      fits = groups.size() < max_groups;
+      if (!fits) return false;
       group = groups.try_emplace(value ? std::optional(std::string(*value)) : std::nullopt).first;
     }
     group->second.add(rows.get<Verdict>(1), rows.get<std::int64_t>(2));
+    return true;
+  });
+  if (!fits) {
+    return Error{ErrorCode::QueryInvalid,
+                 fmt::format("there are more than {} groups; narrow the filter", max_groups)};
   }
   std::vector<SummaryGroup> summary;
   summary.reserve(groups.size());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "store/measurement_filter.hpp"
 #include "store/measurement_row.hpp"
 #include "store/measurement_summary.hpp"
 
@@ -18,21 +19,6 @@ namespace fitgauge::store {
 namespace sqlite {
 class Connection;
 }
-
-/// Which measurements a list or a summary shows. A text filter matches the whole text exactly.
-struct MeasurementFilter {
-  std::optional<std::string> part_id{};
-  std::optional<std::string> characteristic{};
-  std::optional<std::string> order{};
-  std::optional<std::string> machine{};
-  std::optional<Verdict> verdict{};
-  std::optional<Source> source = Source::Gauge;  ///< none: all
-  std::optional<std::int64_t> from_ns{};         ///< from <= measured_at
-  std::optional<std::int64_t> to_ns{};           ///< measured_at < to
-  bool history = false;                          ///< also rows that a later one corrects
-  /// The state when this was the newest id, so that a list read in pages is of one piece.
-  std::optional<std::int64_t> as_of_id{};
-};
 
 /// A run of ids: first to last, both included.
 struct IdRange {
@@ -72,6 +58,10 @@ class MeasurementsStore {
   /// @errors QueryInvalid when there are more than `max_groups` groups.
   Result<std::vector<SummaryGroup>> summary(const MeasurementFilter& filter, GroupBy group_by,
                                             std::size_t max_groups = 10'000) const;
+
+  /// Takes the next block of rows into the tables that make filters fast; for idle times.
+  /// @returns whether there was a whole block.
+  bool index_block();
 
  private:
   struct Statements;

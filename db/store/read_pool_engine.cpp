@@ -41,9 +41,9 @@ void ReadPool::Engine::run() {
 /// In a transaction, so that all statements of the job see the same state.
 void ReadPool::Engine::read(std::optional<Session>& session, ReadJob& job) {
   if (!session) session.emplace(options_, clock_, sqlite::Mode::Read);
-  session->connection.execute("BEGIN");
+  session->begin_reading.run();
   job.run(session->stores);
-  session->connection.execute("COMMIT");
+  session->commit.run();
 }
 
 void ReadPool::enqueue(std::unique_ptr<Job<const Stores>> job) { engine_.enqueue(std::move(job)); }

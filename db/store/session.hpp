@@ -1,8 +1,11 @@
 #pragma once
 
+#include <string_view>
+
 #include "base/clock.hpp"
 #include "store/open_options.hpp"
 #include "store/sqlite/connection.hpp"
+#include "store/sqlite/statement.hpp"
 #include "store/stores.hpp"
 
 namespace fitgauge::store {
@@ -10,7 +13,7 @@ namespace fitgauge::store {
 /// The name of the database in its directory.
 inline constexpr std::string_view kDatabaseFile = "fitgauge.db";
 
-/// A connection with its stores.
+/// A connection with its stores and the statements that delimit a transaction.
 struct Session {
   Session(const OpenOptions& options, const Clock& clock, sqlite::Mode mode)
       : connection(options.directory / kDatabaseFile, mode, options.synchronous),
@@ -18,6 +21,12 @@ struct Session {
 
   sqlite::Connection connection;
   Stores stores;
+  sqlite::Statement begin_reading{connection, "BEGIN"};
+  sqlite::Statement begin_writing{connection, "BEGIN IMMEDIATE"};
+  sqlite::Statement commit{connection, "COMMIT"};
+  sqlite::Statement savepoint{connection, "SAVEPOINT job"};
+  sqlite::Statement undo{connection, "ROLLBACK TO job"};
+  sqlite::Statement release{connection, "RELEASE job"};
 };
 
 }  // namespace fitgauge::store

@@ -1,8 +1,6 @@
 #include "store/writer_engine.hpp"
 
-#include <chrono>
 #include <exception>
-#include <vector>
 
 #include "store/maintenance.hpp"
 #include "store/storage_failure.hpp"
@@ -12,6 +10,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
+constexpr milliseconds kAtOnce{0};
 constexpr milliseconds kProbeInterval{1'000};
 constexpr milliseconds kQuiet{200};  ///< without a write: time to tidy up
 constexpr milliseconds kTidyInterval{60'000};
@@ -45,7 +44,7 @@ void Writer::Engine::end(const IdempotentRequest& request) {
 
 void Writer::Engine::run() {
   while (true) {
-    Jobs jobs = queue_.take_all(failing_ ? kProbeInterval : more_to_tidy_ ? kQuiet : kTidyInterval);
+    Jobs jobs = queue_.take_all(patience_);
     if (jobs.empty()) {
       if (queue_.closed()) break;
       idle();
@@ -65,72 +64,66 @@ void Writer::Engine::run() {
 /// One transaction for all jobs, then their outcomes.
 void Writer::Engine::commit(Jobs jobs) {
   std::vector<std::optional<Error>> errors(jobs.size());
-  const Health health = health_.health();
-  std::optional<Error> batch_error;
-  if (health.state == HealthState::Damaged) {
-    batch_error = Error{ErrorCode::StorageCorrupt, health.reason};
-  } else {
-    try {
-      commit_or_throw(jobs, errors);
-    } catch (const StorageFailure& failure) {
-      batch_error = failure.error();
-    } catch (const std::exception& bug) {
-      batch_error = internal_error(bug);
-    }
-    if (batch_error) {
-      fail(*batch_error);
-    } else {
-      failing_ = false;
-      more_to_tidy_ = true;
-      health_.writes_succeeded();
-    }
+  if (const std::optional<Error> error = try_commit(jobs, errors)) {
+    errors.assign(jobs.size(), error);
   }
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const std::optional<Error>& error = batch_error ? batch_error : errors[i];
-    if (error) {
-      jobs[i]->refuse(*error);
-    } else {
-      jobs[i]->deliver();
-    }
+    errors[i] ? jobs[i]->refuse(*std::move(errors[i])) : jobs[i]->deliver();
   }
 }
 
-void Writer::Engine::commit_or_throw(Jobs& jobs, std::vector<std::optional<Error>>& errors) {
-  sqlite::Connection& connection = session().connection;
-  connection.execute("BEGIN IMMEDIATE");
-  for (std::size_t i = 0; i < jobs.size(); ++i) errors[i] = run_in_savepoint(*jobs[i]);
-  connection.execute("COMMIT");
+/// @returns what concerns the whole batch; `errors` gets what concerns one job.
+std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
+                                                std::vector<std::optional<Error>>& errors) {
+  const Health health = health_.health();
+  if (health.state == HealthState::Damaged) return Error{ErrorCode::StorageCorrupt, health.reason};
+  std::optional<Error> error;
+  try {
+    session().begin_writing.run();
+    for (std::size_t i = 0; i < jobs.size(); ++i) errors[i] = run_in_savepoint(*jobs[i]);
+    session().commit.run();
+    succeed();
+    patience_ = kQuiet;
+  } catch (const StorageFailure& failure) {
+    error = failure.error();
+  } catch (const std::exception& bug) {
+    error = internal_error(bug);
+  }
+  if (error) fail(*error);
+  return error;
 }
 
 /// @returns the job's bug, if it threw. Broken storage concerns the whole batch and is thrown.
 std::optional<Error> Writer::Engine::run_in_savepoint(WriteJob& job) {
-  sqlite::Connection& connection = session_->connection;
-  connection.execute("SAVEPOINT job");
+  Session& session = *session_;
+  session.savepoint.run();
   std::optional<Error> bug;
   bool keep = false;
   try {
-    keep = job.run(session_->stores);
+    keep = job.run(session.stores);
   } catch (const StorageFailure&) {
     throw;
   } catch (const std::exception& thrown) {
     bug = internal_error(thrown);
   }
-  connection.execute(keep ? "RELEASE job" : "ROLLBACK TO job; RELEASE job");
+  if (!keep) session.undo.run();
+  session.release.run();
   return bug;
 }
 
 /// Nothing to write: find out whether commits work again, or tidy up.
 void Writer::Engine::idle() {
   if (health_.health().state == HealthState::Damaged) {
-    more_to_tidy_ = false;
+    patience_ = kTidyInterval;
     return;
   }
   try {
     if (failing_) {
-      probe();
-    } else {
-      more_to_tidy_ = tidy(session(), options_, clock_.now());
+      session().connection.execute("UPDATE storage_probe SET probed_at = probed_at + 1");
+      succeed();
     }
+    const bool more = tidy(session(), options_, clock_.now());
+    patience_ = more ? kAtOnce : kTidyInterval;
   } catch (const StorageFailure& failure) {
     fail(failure.error());
   } catch (const std::exception& bug) {
@@ -138,8 +131,7 @@ void Writer::Engine::idle() {
   }
 }
 
-void Writer::Engine::probe() {
-  session().connection.execute("UPDATE storage_probe SET probed_at = probed_at + 1");
+void Writer::Engine::succeed() {
   failing_ = false;
   health_.writes_succeeded();
 }
@@ -149,6 +141,7 @@ void Writer::Engine::fail(const Error& error) {
   if (session_) session_->connection.rollback();
   session_.reset();
   failing_ = true;
+  patience_ = kProbeInterval;
   if (error.code == ErrorCode::StorageCorrupt) {
     health_.damaged(error.message);
   } else {

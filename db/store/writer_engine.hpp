@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <string>
 #include <thread>
 #include <tuple>
+#include <vector>
 
 #include "store/health_monitor.hpp"
 #include "store/job_queue.hpp"
@@ -39,10 +41,10 @@ class Writer::Engine {
 
   void run();
   void commit(Jobs jobs);
-  void commit_or_throw(Jobs& jobs, std::vector<std::optional<Error>>& errors);
+  std::optional<Error> try_commit(Jobs& jobs, std::vector<std::optional<Error>>& errors);
   std::optional<Error> run_in_savepoint(WriteJob& job);
   void idle();
-  void probe();
+  void succeed();
   void fail(const Error& error);
   Session& session();
 
@@ -54,7 +56,7 @@ class Writer::Engine {
   std::set<RequestKey> under_way_;
   std::optional<Session> session_;  // the thread's own from here on
   bool failing_ = false;
-  bool more_to_tidy_ = true;
+  std::chrono::milliseconds patience_{0};  ///< how long to wait for work before idle()
   std::thread thread_;
 };
 
