@@ -1,5 +1,7 @@
 #include "store/measurement_statistics.hpp"
 
+#include <boost/multiprecision/cpp_int.hpp>
+
 namespace fitgauge::store {
 namespace {
 
@@ -28,7 +30,7 @@ std::string format_units(const cpp_int& units) {
 
 void ExactStatistics::add(std::int64_t value_nm) {
   if (count_++ == 0) first_ = value_nm;
-  const Sum difference = Sum(value_nm) - first_;
+  const Sum difference = Sum{value_nm} - first_;
   sum_ += difference;
   squares_ += difference * difference;
 }

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
-
-#include "store/measurement_summary.hpp"
+#include <string>
 
 namespace fitgauge::store {
 
 /// Mean and standard deviation of lengths in exact integers: 128-bit sums of the differences from
-/// the first value, and of their squares. A sum that would not fit throws.
-/// Lengths up to 1e14 nm; 1e10 of them fit.
+/// the first value, and of their squares. They hold 1e10 lengths of up to 1e14 nm.
 class ExactStatistics {
  public:
   void add(std::int64_t value_nm);
@@ -22,7 +19,7 @@ class ExactStatistics {
   std::string standard_deviation_mm() const;
 
  private:
-  using Sum = boost::multiprecision::checked_int128_t;
+  __extension__ using Sum = __int128;
 
   std::int64_t count_ = 0;
   std::int64_t first_ = 0;

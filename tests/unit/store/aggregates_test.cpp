@@ -1,0 +1,229 @@
+#include <vector>
+
+#include "fixture.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::store;
+using namespace fitgauge::store::test;
+
+namespace {
+
+/// Runs `work` on the stores of the writer, which can read too.
+template <class Work>
+void with_stores(Fixture& fixture, Work work) {
+  REQUIRE(fixture
+              .write([&](Stores& stores) -> Result<bool> {
+                work(stores);
+                return true;
+              })
+              .has_value());
+}
+
+}  // namespace
+
+TEST_CASE("tokens are long, random and start with fg_") {
+  const std::string token = new_token();
+  CHECK(token.size() == 67);
+  CHECK(token.starts_with("fg_"));
+  CHECK(token != new_token());
+}
+
+TEST_CASE("API keys are created, found by token, listed and revoked") {
+  Fixture fixture;
+  with_stores(fixture, [](Stores& stores) {
+    KeysStore& keys = stores.keys;
+    const std::string token = new_token();
+    const auto created = keys.create("press-3", Role::Operator, token, 5);
+    REQUIRE(created.has_value());
+    CHECK(keys.create("press-3", Role::Viewer, new_token(), 6).error().code ==
+          ErrorCode::FieldConflict);
+    CHECK(keys.create("press-4", Role::Viewer, token, 6).error().code == ErrorCode::FieldConflict);
+    CHECK(keys.create("", Role::Viewer, new_token(), 6).error().code == ErrorCode::FieldInvalid);
+    CHECK(keys.create("short", Role::Viewer, "secret", 6).error().code == ErrorCode::FieldInvalid);
+
+    const KeyRing ring = keys.ring();
+    const ApiKey* found = ring.find(token);
+    REQUIRE(found != nullptr);
+    CHECK(found->name == "press-3");
+    CHECK(found->role == Role::Operator);
+    CHECK(found->created_at_ns == 5);
+    CHECK(ring.find(token + " ") == nullptr);
+    CHECK(ring.find("") == nullptr);
+
+    CHECK(keys.revoke("press-3", 9).has_value());
+    CHECK(keys.revoke("press-3", 9).error().code == ErrorCode::NotFound);
+    CHECK(keys.ring().find(token) == nullptr);
+    CHECK(keys.create("press-3", Role::Admin, new_token(), 10).has_value());
+    CHECK(keys.create("again", Role::Admin, token, 10).error().code == ErrorCode::FieldConflict);
+    REQUIRE(keys.list().size() == 2);
+    CHECK(keys.list()[0].revoked_at_ns == 9);
+  });
+}
+
+TEST_CASE("the token itself is nowhere in the file") {
+  Fixture fixture;
+  const std::string token = new_token();
+  with_stores(fixture, [&](Stores& stores) {
+    REQUIRE(stores.keys.create("press-3", Role::Operator, token, 5).has_value());
+  });
+  fixture.database.reset();
+  CHECK(content_of(fixture.directory.file()).find(token.substr(3)) == std::string::npos);
+}
+
+TEST_CASE("control files keep their case, compare without it, and keep every revision") {
+  Fixture fixture;
+  with_stores(fixture, [](Stores& stores) {
+    FilesStore& files = stores.files;
+    const std::string binary("\0\xFF\r\n", 4);
+    const auto first = files.put({.path = "nc_prog\\8255\\8255.h",
+                                  .content = "0 BEGIN PGM",
+                                  .modified_at_ns = 1,
+                                  .caller = "admin"});
+    CHECK(first.created);
+    const auto second = files.put({.path = "NC_PROG\\8255\\8255.H", .content = binary});
+    CHECK_FALSE(second.created);
+    CHECK(files.put({.path = "nc_prog\\empty.h", .content = ""}).created);
+    CHECK(files.put({.path = "other.h", .content = "x"}).created);
+
+    const auto found = files.find("nc_Prog\\8255\\8255.h");
+    REQUIRE(found.has_value());
+    CHECK(found->content == binary);
+    CHECK(found->entry.path == "NC_PROG\\8255\\8255.H");
+    CHECK(files.find_revision(first.revision)->content == "0 BEGIN PGM");
+    CHECK(files.find_revision(first.revision)->entry.caller == "admin");
+    CHECK(files.find("nc_prog\\empty.h")->content.empty());
+    CHECK_FALSE(files.find("nc_prog").has_value());
+
+    REQUIRE(files.list("nc_prog\\").size() == 2);
+    CHECK(files.list("nc_prog\\")[0].size == 4);
+    CHECK(files.list("").size() == 3);
+    CHECK(files.list("nc_prog_").empty());
+
+    CHECK(files.remove("nc_prog\\8255\\8255.h", 7, std::nullopt));
+    CHECK_FALSE(files.remove("nc_prog\\8255\\8255.h", 7, std::nullopt));
+    CHECK_FALSE(files.stat("nc_prog\\8255\\8255.h").has_value());
+    const auto history = files.history("nc_prog\\8255\\8255.h");
+    REQUIRE(history.size() == 3);
+    CHECK(history[0].deleted);
+    CHECK(history[0].modified_at_ns == 7);
+    CHECK(history[2].revision == first.revision);
+  });
+}
+
+TEST_CASE("setups are stored by name") {
+  Fixture fixture;
+  with_stores(fixture, [](Stores& stores) {
+    SetupsStore& setups = stores.setups;
+    CHECK(setups.put({.name = "bore", .text = "{}", .modified_at_ns = 1}));
+    CHECK_FALSE(setups.put({.name = "bore", .text = "{\"seed\":1}", .modified_at_ns = 2}));
+    CHECK(setups.put({.name = "a", .text = "{}"}));
+    CHECK(setups.find("bore")->text == "{\"seed\":1}");
+    CHECK_FALSE(setups.find("Bore").has_value());
+    REQUIRE(setups.list().size() == 2);
+    CHECK(setups.list()[0].name == "a");
+    CHECK(setups.remove("bore"));
+    CHECK_FALSE(setups.remove("bore"));
+  });
+}
+
+TEST_CASE("a run goes from queued to finished and leaves files and a trace") {
+  Fixture fixture;
+  with_stores(fixture, [](Stores& stores) {
+    RunsStore& runs = stores.runs;
+    const std::int64_t id = runs.create(
+        {.program = "TNC:\\a.h", .request = "{}", .created_at_ns = 1, .caller = "press-3"});
+    REQUIRE(runs.start(id).has_value());
+    CHECK(runs.find(id)->status == RunStatus::Running);
+    CHECK(runs.start(id + 1).error().code == ErrorCode::RunUnknown);
+
+    const std::vector<RunFile> files{{"TNC:\\nc\\TCHPR421.TXT", "log"}, {"screen.a", ""}};
+    const RunOutcome outcome{
+        .status = RunStatus::Failed, .result = "{\"blocks\":3}", .trace = "moves", .files = files};
+    REQUIRE(runs.finish(id, outcome, 9).has_value());
+    CHECK(runs.finish(id, outcome, 9).error().code == ErrorCode::RunFinished);
+    CHECK(runs.start(id).error().code == ErrorCode::RunFinished);
+
+    const auto run = runs.find(id);
+    CHECK(run->status == RunStatus::Failed);
+    CHECK(run->result == "{\"blocks\":3}");
+    CHECK(run->finished_at_ns == 9);
+    CHECK(run->caller == "press-3");
+    CHECK(runs.trace(id) == "moves");
+    CHECK(runs.file(id, "tchpr421.txt")->content == "log");
+    CHECK(runs.file(id, "SCREEN.A")->path == "screen.a");
+    CHECK_FALSE(runs.file(id, "other").has_value());
+  });
+}
+
+TEST_CASE("runs are listed newest first, filtered, in pages, and purged when old") {
+  Fixture fixture;
+  with_stores(fixture, [](Stores& stores) {
+    RunsStore& runs = stores.runs;
+    for (int i = 1; i <= 5; ++i) {
+      const std::int64_t id =
+          runs.create({.program = i % 2 == 0 ? "TNC:\\even.h" : "TNC:\\odd.h", .request = "{}"});
+      if (i == 5) continue;
+      const std::vector<RunFile> files{{"log", "x"}};
+      REQUIRE(runs.finish(id, {.trace = "t", .files = files}, i * 10).has_value());
+    }
+    const auto page = runs.list({}, std::nullopt, 2);
+    REQUIRE(page.runs.size() == 2);
+    CHECK(page.runs[0].id == 5);
+    const auto next = runs.list({}, page.next, 3);
+    CHECK(next.runs.size() == 3);
+    CHECK(next.next == std::nullopt);
+    CHECK(runs.list({.program = "tnc:\\EVEN.H"}, std::nullopt, 10).runs.size() == 2);
+    CHECK(runs.list({.status = RunStatus::Queued}, std::nullopt, 10).runs.size() == 1);
+
+    CHECK(runs.purge(40, 2) == 2);
+    CHECK(runs.purge(40, 2) == 1);
+    CHECK(runs.purge(40, 2) == 0);
+    CHECK(runs.list({}, std::nullopt, 10).runs.size() == 2);
+    CHECK_FALSE(runs.trace(1).has_value());
+    CHECK(runs.trace(4) == "t");
+  });
+}
+
+TEST_CASE("events are replayed from an id and only the newest are kept") {
+  Fixture fixture;
+  with_stores(fixture, [](Stores& stores) {
+    EventsStore& events = stores.events;
+    CHECK(events.kept().newest == 0);
+    for (int i = 1; i <= 10; ++i) {
+      CHECK(events.append("measurement.recorded", std::to_string(i), i) == i);
+    }
+    const auto after = events.after(7, 2);
+    REQUIRE(after.size() == 2);
+    CHECK(after[0].id == 8);
+    CHECK(after[1].payload == "9");
+    CHECK(after[1].type == "measurement.recorded");
+
+    CHECK(events.trim(4, 5) == 5);
+    CHECK(events.trim(4, 5) == 1);
+    CHECK(events.trim(4, 5) == 0);
+    CHECK(events.kept().oldest == 7);
+    CHECK(events.kept().newest == 10);
+    CHECK(events.trim(0, 10) == 4);
+    CHECK(events.append("run.finished", "", 11) == 11);
+  });
+}
+
+TEST_CASE("what has expired is tidied away when the writer is idle") {
+  Fixture fixture;
+  fixture.database.reset();
+  fixture.options.event_retention = 3;
+  fixture.options.run_retention = std::chrono::hours(1);
+  fixture.open();
+  with_stores(fixture, [&](Stores& stores) {
+    const std::int64_t id = stores.runs.create({.program = "p", .request = "{}"});
+    REQUIRE(stores.runs.finish(id, {}, 1).has_value());
+    for (int i = 0; i < 10; ++i) stores.events.append("run.finished", "", 1);
+  });
+  const auto left = [&] {
+    return *fixture.read([](const Stores& stores) -> Result<std::size_t> {
+      return stores.runs.list({}, std::nullopt, 10).runs.size() + stores.events.after(0, 99).size();
+    });
+  };
+  while (left() != 3) std::this_thread::yield();
+  CHECK(left() == 3);
+}
