@@ -38,7 +38,7 @@ if(FITGAUGE_FUZZ)
 endif()
 
 # fitgauge_library(<name> [PUBLIC <targets>] [PRIVATE <targets>])
-# The layer <name> from every *.cpp of the current folder. Its include root holds this folder alone,
+# The layer <name> from every *.cpp of the current folder but main.cpp. Its include root holds this folder alone,
 # so `#include "<layer>/<file>.hpp"` compiles only where that layer is linked.
 function(fitgauge_library name)
   cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
@@ -46,6 +46,7 @@ function(fitgauge_library name)
   file(MAKE_DIRECTORY "${root}")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${root}/${name}" SYMBOLIC)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  list(REMOVE_ITEM sources "${CMAKE_CURRENT_SOURCE_DIR}/main.cpp")
   add_library(${name} STATIC ${sources})
   target_include_directories(${name} PUBLIC "${root}")
   target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} fitgauge_options)

@@ -1,0 +1,21 @@
+# Build and test, then a runtime image that holds the daemon and the libraries it needs.
+FROM debian:bookworm-slim AS build
+WORKDIR /src
+COPY scripts/install scripts/packages scripts/
+RUN scripts/install build test
+COPY . .
+RUN scripts/test
+RUN strip -o /fitgauged build/release/bin/fitgauged
+
+FROM debian:bookworm-slim
+COPY scripts/install scripts/packages /tmp/scripts/
+RUN /tmp/scripts/install runtime \
+ && rm -rf /var/lib/apt/lists/* /var/log/*.log /tmp/scripts \
+ && install -d -o 8286 -g 8286 -m 0750 /data
+COPY --from=build --chmod=0755 /fitgauged /usr/local/bin/fitgauged
+ENV FITGAUGE_LISTEN=0.0.0.0:8286 FITGAUGE_DATA=/data
+USER 8286:8286
+VOLUME /data
+EXPOSE 8286
+HEALTHCHECK --interval=10s --timeout=3s --start-period=10s CMD ["/usr/local/bin/fitgauged", "--healthcheck"]
+ENTRYPOINT ["/usr/local/bin/fitgauged"]

@@ -1,0 +1,87 @@
+#include "api/guard.hpp"
+
+#include "base/text.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+/// What a route asks for, in rising order: `public` (health, even in keys mode), `open`, and roles.
+enum class Access { Public, Open, Viewer, Operator, Admin };
+
+Access access_of(const http::Route& route) {
+  if (route.access == "public") return Access::Public;
+  if (route.access == "open") return Access::Open;
+  if (route.access == "viewer") return Access::Viewer;
+  if (route.access == "operator") return Access::Operator;
+  return Access::Admin;
+}
+
+bool is_write(http::Method method) {
+  return method != http::Method::Get && method != http::Method::Head &&
+         method != http::Method::Options;
+}
+
+/// `Authorization: Bearer fg_…`, or `X-API-Key: fg_…` for clients that cannot set the former.
+std::optional<std::string_view> token_of(const http::Request& request) {
+  constexpr std::string_view kScheme = "bearer ";
+  if (const auto header = request.header("Authorization")) {
+    const std::string_view text = trim(*header);
+    if (ascii_iequals(text.substr(0, kScheme.size()), kScheme)) {
+      return trim(text.substr(kScheme.size()));
+    }
+    return std::string_view();
+  }
+  if (const auto header = request.header("X-API-Key")) return trim(*header);
+  return std::nullopt;
+}
+
+/// A page of another site whose name was made to resolve to this machine addresses it by that name.
+bool addresses_this_machine(const http::Request& request) {
+  std::string_view host = request.header("Host").value_or("localhost");
+  if (const std::size_t colon = host.rfind(':');
+      colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos) {
+    host = host.substr(0, colon);
+  }
+  return ascii_iequals(host, "localhost") || host.starts_with("127.") || host == "[::1]";
+}
+
+}  // namespace
+
+Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
+                                                        const http::Route& route) const {
+  const auto origin = request.header("Origin");
+  if (is_write(request.method()) && origin && !ascii_iequals(*origin, request.own_origin())) {
+    return Error{ErrorCode::OriginRefused,
+                 "a page of " + std::string(origin->substr(0, 200)) + " may not write here"};
+  }
+
+  std::optional<app::KnownCaller> caller;
+  if (const auto token = token_of(request)) {
+    caller = keys_.find(*token);
+    if (!caller) {
+      return Error{ErrorCode::KeyInvalid, "this key is not valid: it is unknown or was revoked"};
+    }
+    request.set_caller(Caller{caller->name});
+  }
+  const Access access = access_of(route);
+  const bool local = request.is_local() && addresses_this_machine(request);
+  const bool without_key = access == Access::Public || (mode_ == AuthMode::Open && local) ||
+                           (mode_ != AuthMode::Keys && access == Access::Open);
+  if (!caller) {
+    if (without_key) return std::optional<http::Response>();
+    return Error{ErrorCode::Unauthenticated,
+                 "send a key: `Authorization: Bearer fg_…`; an administrator makes one with "
+                 "`fitgauged key create`"};
+  }
+  const int needed = access == Access::Admin      ? static_cast<int>(app::Role::Admin)
+                     : access == Access::Operator ? static_cast<int>(app::Role::Operator)
+                                                  : static_cast<int>(app::Role::Viewer);
+  if (!without_key && static_cast<int>(caller->role) < needed) {
+    return Error{ErrorCode::Forbidden, "the key " + caller->name + " is of a " +
+                                           std::string(word(caller->role)) + ", this needs " +
+                                           std::string(word(static_cast<app::Role>(needed)))};
+  }
+  return std::optional<http::Response>();
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace fitgauge::api {
+
+/// One JSON value as it was written: numbers keep their digits, because a length must not pass
+/// through a double. Members stand in the order of the text.
+struct JsonValue {
+  enum class Kind { Null, Boolean, Number, String, Array, Object };
+
+  Kind kind = Kind::Null;
+  bool boolean = false;
+  std::string text{};  ///< the digits of a number, the decoded characters of a string
+  std::vector<JsonValue> items{};
+  std::vector<std::pair<std::string, JsonValue>> members{};
+
+  bool is(Kind other) const { return kind == other; }
+  /// The member of that name, or nullptr.
+  const JsonValue* find(std::string_view name) const;
+};
+
+/// "a number", "a string", …: for messages that say what was found.
+std::string_view name_of(JsonValue::Kind kind);
+
+/// Reads the whole text as one JSON value (RFC 8259).
+/// @errors TextEncoding (invalid UTF-8, a byte-order mark), JsonMalformed (with line and column),
+///   JsonDuplicateKey, JsonTooDeep (more than 32 levels).
+Result<JsonValue> parse_json(std::string_view text);
+
+/// `pointer` with one more token, escaped as RFC 6901 has it.
+std::string pointer_to(std::string_view pointer, std::string_view token);
+std::string pointer_to(std::string_view pointer, std::size_t index);
+
+}  // namespace fitgauge::api

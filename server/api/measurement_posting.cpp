@@ -1,0 +1,106 @@
+#include "api/measurement_posting.hpp"
+
+#include <memory>
+
+#include "api/measurement_batch.hpp"
+#include "api/measurement_codec.hpp"
+#include "api/request_facts.hpp"
+#include "app/measurement_service.hpp"
+#include "app/table_catalog.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+/// Decoding more than this would keep other connections of the I/O thread waiting.
+constexpr std::size_t kLargeBody = 64 * 1024;
+
+/// Everything one POST needs until it is answered. The request lives as long as its responder.
+struct Posting {
+  const Services& services;
+  const http::Request& request;
+  http::Responder responder;
+  std::optional<app::IdempotencyScope> scope{};
+};
+
+using SharedPosting = std::shared_ptr<Posting>;
+
+app::Answer render(std::span<const app::Measurement> measurements, bool single, Preference wanted) {
+  app::Answer answer{.status = 201, .content_type = "application/json", .location = {}, .body = {}};
+  if (single) {
+    answer.location = "/v1/measurements/" + app::measurement_id_text(measurements.front().id);
+  }
+  if (wanted == Preference::Minimal) {
+    answer.content_type.clear();
+  } else if (single) {
+    JsonWriter json(answer.body);
+    write_measurement(json, measurements.front());
+  } else if (wanted == Preference::Representation) {
+    answer.body = representation_json(measurements);
+  } else {
+    answer.body = accepted_json(measurements);
+  }
+  return answer;
+}
+
+http::Response response_of(app::Answer answer, Preference applied) {
+  http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
+  if (!answer.location.empty()) response.with("Location", std::move(answer.location));
+  if (applied == Preference::Minimal) response.with("Preference-Applied", "return=minimal");
+  if (applied == Preference::Representation) {
+    response.with("Preference-Applied", "return=representation");
+  }
+  return response;
+}
+
+void judge_and_record(const SharedPosting& posting) {
+  const auto tables = posting->services.tables.tables();
+  if (!tables) return posting->responder.fail(tables.error());
+  const http::Request& request = posting->request;
+  auto batch = decode_measurements(request.body(), request.media_type(),
+                                   {.tables = **tables,
+                                    .received_at = posting->services.clock.now(),
+                                    .caller = caller_name(request)});
+  if (!batch) return posting->responder.fail(batch.error());
+
+  const Preference wanted = preference_of(request);
+  posting->services.measurements.record(
+      std::move(batch->rows), posting->scope,
+      // The class names of the rows are views of the tables, other texts of the body or of `texts`.
+      [single = batch->single, wanted, texts = std::move(batch->texts), tables = *tables](
+          std::span<const app::Measurement> stored) { return render(stored, single, wanted); },
+      [posting, wanted](Result<app::Answer> answer) {
+        if (!answer) return posting->responder.fail(answer.error());
+        posting->responder.answer(response_of(*std::move(answer), wanted));
+      });
+}
+
+void judge_where_it_may_take_long(const SharedPosting& posting) {
+  if (posting->request.body().size() <= kLargeBody) return judge_and_record(posting);
+  posting->services.measurements.run(
+      [posting] { judge_and_record(posting); },
+      [posting](Error error) { posting->responder.fail(std::move(error)); });
+}
+
+}  // namespace
+
+void post_measurements(const Services& services, const http::Request& request,
+                       http::Responder responder) {
+  const auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});
+  const auto key = idempotency_key(request);
+  if (!key) return posting->responder.fail(key.error());
+  if (!*key) return judge_where_it_may_take_long(posting);
+  posting->scope = app::IdempotencyScope{.caller = std::string(caller_name(request).value_or("")),
+                                         .method = "POST",
+                                         .path = std::string(request.path()),
+                                         .key = **key,
+                                         .body = request.body()};
+  services.measurements.find_answer(
+      *posting->scope, [posting](Result<std::optional<app::Answer>> kept) {
+        if (!kept) return posting->responder.fail(kept.error());
+        if (!*kept) return judge_and_record(posting);
+        posting->responder.answer(
+            response_of(**std::move(kept), Preference::None).with("Idempotency-Replayed", "true"));
+      });
+}
+
+}  // namespace fitgauge::api

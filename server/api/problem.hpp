@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "http/request.hpp"
+#include "http/response.hpp"
+
+namespace fitgauge::api {
+
+/// The status an error has when a handler returns it (RFC 9110 section 15).
+int status_of(ErrorCode code);
+
+/// The problem document (RFC 9457) of an error: type, title, status, detail, instance, code and,
+/// where there are several, every bad field with its pointer.
+/// @param status the one the HTTP engine refuses with; absent, the error's code decides.
+http::Response problem(const Error& error, std::optional<int> status, const http::Request& request);
+
+}  // namespace fitgauge::api

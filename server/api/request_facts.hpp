@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "http/request.hpp"
+
+namespace fitgauge::api {
+
+/// What `Prefer: return=` asks for (RFC 7240).
+enum class Preference { None, Minimal, Representation };
+Preference preference_of(const http::Request& request);
+
+/// The Idempotency-Key without its quotes: quoted and bare are one key.
+/// @errors IdempotencyKeyInvalid unless it has 1 to 255 visible ASCII characters.
+Result<std::optional<std::string>> idempotency_key(const http::Request& request);
+
+/// The revisions an If-Match names, from their entity tags; none without the header or with `*`.
+std::optional<std::vector<std::string>> revisions_to_match(const http::Request& request);
+
+/// The name of the key that sent the request, if one did.
+std::optional<std::string_view> caller_name(const http::Request& request);
+
+}  // namespace fitgauge::api

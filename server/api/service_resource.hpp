@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "api/services.hpp"
+#include "http/route.hpp"
+
+namespace fitgauge::api {
+
+/// /livez, /readyz, /metrics and the page at /.
+void add_service_routes(std::vector<http::Route>& routes, const Services& services);
+
+}  // namespace fitgauge::api

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+
+#include "app/readiness.hpp"
+#include "base/clock.hpp"
+
+namespace fitgauge::app {
+class TableCatalog;
+class MeasurementService;
+}  // namespace fitgauge::app
+
+namespace fitgauge::api {
+
+class Metrics;
+
+/// What the resources answer from; owned by the daemon, alive as long as the server.
+struct Services {
+  app::TableCatalog& tables;
+  app::MeasurementService& measurements;
+  const Metrics& metrics;
+  const Clock& clock;
+  std::function<app::Readiness()> readiness;
+};
+
+}  // namespace fitgauge::api

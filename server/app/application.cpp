@@ -1,0 +1,76 @@
+#include "app/application.hpp"
+
+#include <fmt/format.h>
+
+#include "app/mapping.hpp"
+#include "store/database.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::int64_t kForEverDays = 100'000;
+
+store::OpenOptions to_store(const ApplicationOptions& options) {
+  store::OpenOptions open;
+  open.directory = options.directory;
+  open.access = options.attach ? store::Access::Attach : store::Access::Serve;
+  open.synchronous = options.durable ? store::Synchronous::Full : store::Synchronous::Off;
+  open.commit_each = options.commit_each;
+  open.queue_limit = options.write_queue;
+  open.readers = options.readers;
+  open.idempotency_retention = std::chrono::days(options.idempotency_days);
+  open.run_retention = std::chrono::days(
+      options.run_retention_days == 0 ? kForEverDays : options.run_retention_days);
+  open.event_retention = options.event_retention;
+  return open;
+}
+
+/// Judges a stored measurement again by the limits and the rule stored with it.
+std::optional<std::string> check_verdict(const store::MeasurementRow& row) {
+  Measurement again = from_store(row, [](std::int64_t) { return std::string_view(); });
+  const gauging::Verdict stored = again.result.verdict;
+  judge(again);
+  if (again.result.verdict == stored) return std::nullopt;
+  return fmt::format("measurement {} is stored as {} but its limits make it {}",
+                     measurement_id_text(row.id), word(stored), word(again.result.verdict));
+}
+
+}  // namespace
+
+Application::Application() = default;
+Application::~Application() = default;
+
+Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions& options,
+                                                       const Clock& clock) {
+  std::unique_ptr<Application> app(new Application);
+  auto database = store::Database::open(to_store(options), clock);
+  if (!database) return database.error();
+  app->database_ = *std::move(database);
+  auto tables = TableCatalog::open(*app->database_, clock);
+  if (!tables) return tables.error();
+  app->tables_ = *std::move(tables);
+  auto keys = KeyService::open(*app->database_, clock);
+  if (!keys) return keys.error();
+  app->keys_ = *std::move(keys);
+  app->measurements_ = std::make_unique<MeasurementService>(*app->database_, *app->tables_);
+  return app;
+}
+
+Readiness Application::readiness() const { return app::readiness(*database_, *tables_); }
+
+Result<void> Application::backup(const std::filesystem::path& file) const {
+  return database_->backup(file);
+}
+
+Result<Application::Verification> Application::verify() const {
+  auto report = database_->verify(check_verdict);
+  if (!report) return report.error();
+  Verification verification{.measurements = report->measurements,
+                            .findings = std::move(report->findings)};
+  for (const Error& finding : tables_->state()->findings) {
+    verification.findings.push_back(finding.message);
+  }
+  return verification;
+}
+
+}  // namespace fitgauge::app

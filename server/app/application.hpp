@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/key_service.hpp"
+#include "app/measurement_service.hpp"
+#include "app/readiness.hpp"
+#include "app/table_catalog.hpp"
+
+namespace fitgauge::app {
+
+struct ApplicationOptions {
+  std::filesystem::path directory;  ///< of the database
+  bool attach = false;              ///< beside a running daemon: nothing is created or upgraded
+  bool durable = true;              ///< false only as a test's negative control
+  bool commit_each = false;         ///< every write its own commit: the benchmark's peer
+  std::size_t write_queue = 4096;
+  unsigned readers = 2;
+  std::int64_t idempotency_days = 30;
+  std::int64_t run_retention_days = 90;  ///< 0: for ever
+  std::int64_t event_retention = 100'000;
+};
+
+/// The service without its network: the database and one object per use case. Thread-safe once
+/// open. Destroying it finishes what is queued, commits, checkpoints and closes.
+class Application {
+ public:
+  /// @errors those of the database's opening (DatabaseInUse, DatabaseForeign, DatabaseNewer,
+  ///   StorageCorrupt, StorageUnavailable). Tables that fail their audit are no error here.
+  static Result<std::unique_ptr<Application>> open(const ApplicationOptions& options,
+                                                   const Clock& clock);
+  ~Application();
+
+  TableCatalog& tables() { return *tables_; }
+  MeasurementService& measurements() { return *measurements_; }
+  KeyService& keys() { return *keys_; }
+
+  Readiness readiness() const;
+
+  // These block: for commands.
+
+  /// A consistent copy of the live database. @errors StorageUnavailable, also when the file exists.
+  Result<void> backup(const std::filesystem::path& file) const;
+
+  struct Verification {
+    std::int64_t measurements = 0;
+    std::vector<std::string> findings;  ///< empty: all is well
+  };
+  /// Checks the file, the schema, every table revision, the chain of measurements, and that each
+  /// verdict follows from the stored limits.
+  Result<Verification> verify() const;
+
+ private:
+  Application();
+
+  // In the order of their making: what comes later uses what comes before.
+  std::unique_ptr<store::Database> database_;
+  std::unique_ptr<TableCatalog> tables_;
+  std::unique_ptr<MeasurementService> measurements_;
+  std::unique_ptr<KeyService> keys_;
+};
+
+}  // namespace fitgauge::app

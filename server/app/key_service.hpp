@@ -1,0 +1,76 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/result.hpp"
+#include "base/snapshot.hpp"
+
+namespace fitgauge::store {
+class Database;
+class KeyRing;
+}  // namespace fitgauge::store
+
+namespace fitgauge::app {
+
+/// What a caller may do; each role may do what the ones before it may.
+enum class Role : std::uint8_t { Viewer = 1, Operator = 2, Admin = 3 };
+
+/// `viewer`, `operator`, `admin`.
+std::string_view word(Role role);
+std::optional<Role> role_from_word(std::string_view text);
+
+/// A caller that a token was given to.
+struct KnownCaller {
+  std::string name;
+  Role role = Role::Viewer;
+};
+
+struct KeyEntry {
+  std::string name;
+  Role role = Role::Viewer;
+  Timestamp created_at;
+  std::optional<Timestamp> revoked_at;
+};
+
+/// The API keys. Looking one up touches no storage; the keys are loaded again every two seconds,
+/// because the command line changes them too. Thread-safe.
+class KeyService {
+ public:
+  /// @errors StorageUnavailable.
+  static Result<std::unique_ptr<KeyService>> open(store::Database& database, const Clock& clock);
+  ~KeyService();
+
+  std::optional<KnownCaller> find(std::string_view token) const;
+  bool empty() const;
+
+  // These block: for commands, not for I/O threads.
+
+  /// @param token the secret of the key; a new one is made when empty.
+  /// @returns the token, which is not stored. @errors FieldConflict, FieldInvalid.
+  Result<std::string> create(const std::string& name, Role role, std::string token = {});
+  /// @errors NotFound.
+  Result<void> revoke(const std::string& name);
+  Result<std::vector<KeyEntry>> list() const;
+
+ private:
+  KeyService(store::Database& database, const Clock& clock);
+  Result<void> reload();
+
+  store::Database& database_;
+  const Clock& clock_;
+  Snapshot<store::KeyRing> ring_;
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::jthread loader_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/clock.hpp"
+#include "gauging/gauge.hpp"
+#include "iso286/nominal_size.hpp"
+#include "iso286/tolerance_tables.hpp"
+
+namespace fitgauge::app {
+
+/// Who measured: a gauge at a part, or the simulated machine.
+enum class Source : std::uint8_t { Gauge, Simulation };
+/// Where the limits come from: a class of the tables, a column of the shop's own, or the drawing.
+enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit };
+
+std::string_view word(Source source);
+std::string_view word(LimitsBasis basis);
+std::optional<Source> source_from_word(std::string_view text);
+
+/// What a caller may say about a measured value beside the value itself. Views; see Measurement.
+struct MeasurementTexts {
+  std::optional<std::string_view> part_id;
+  std::optional<std::string_view> characteristic;
+  std::optional<std::string_view> order;
+  std::optional<std::string_view> operation;
+  std::optional<std::string_view> machine;
+  std::optional<std::string_view> operator_id;
+  std::optional<std::string_view> gauge;
+  std::optional<std::string_view> unit;
+  std::optional<std::string_view> comment;
+};
+
+/// One judged measurement, before and after it is stored. Its texts are views of the memory it was
+/// read from: the request's body, or the database's own page while a visitor runs.
+struct Measurement {
+  std::int64_t id = 0;  ///< 0 before it is stored
+  Source source = Source::Gauge;
+  Timestamp measured_at;
+  Timestamp received_at;
+
+  Length nominal_size;
+  std::optional<std::string_view> class_name;  ///< none when the basis is Explicit
+  iso286::Feature feature = iso286::Feature::Hole;
+  iso286::LimitDeviations deviations;
+  std::optional<iso286::NominalSizeRange> size_range;
+  LimitsBasis basis = LimitsBasis::Iso286;
+  std::string_view table_revision;  ///< empty when the basis is Explicit
+
+  Length measured;
+  gauging::GaugingResult result;
+  gauging::DecisionRule rule;
+  std::optional<Length> standard_uncertainty;  ///< as given, also under the simple rule
+  std::optional<gauging::CoverageFactor> coverage_factor;
+
+  MeasurementTexts texts;
+  std::optional<std::int64_t> temperature;  ///< in millionths of a degree Celsius
+
+  std::optional<std::string_view> caller;
+  std::optional<std::int64_t> run_id;
+  std::optional<std::int64_t> cycle;
+  std::optional<std::int64_t> correction_of;
+  std::optional<std::string_view> correction_reason;
+
+  Length upper_limit() const { return nominal_size + deviations.upper; }
+  Length lower_limit() const { return nominal_size + deviations.lower; }
+};
+
+/// Takes the limits of a class of the tables.
+void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
+                  const iso286::ToleranceTables& tables);
+
+/// Judges the measured value by the limits and the rule that stand in the record.
+void judge(Measurement& measurement);
+
+/// The id as the outside sees it, opaque, and back. @errors MeasurementUnknown.
+std::string measurement_id_text(std::int64_t id);
+Result<std::int64_t> parse_measurement_id(std::string_view text);
+
+/// The same for a run. @errors RunUnknown.
+std::string run_id_text(std::int64_t id);
+Result<std::int64_t> parse_run_id(std::string_view text);
+
+}  // namespace fitgauge::app

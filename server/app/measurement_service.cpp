@@ -1,0 +1,188 @@
+#include "app/measurement_service.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "app/mapping.hpp"
+#include "app/table_catalog.hpp"
+#include "store/database.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+store::IdempotentRequest to_store(const IdempotencyScope& scope) {
+  return {.caller = scope.caller,
+          .method = scope.method,
+          .path = scope.path,
+          .key = scope.key,
+          .body = store::sha256(scope.body)};
+}
+
+Answer from_store(store::StoredAnswer stored) {
+  return {.status = stored.status,
+          .content_type = std::move(stored.content_type),
+          .location = std::move(stored.location),
+          .body = std::move(stored.body)};
+}
+
+store::StoredAnswer to_store(Answer answer) {
+  return {.status = answer.status,
+          .content_type = std::move(answer.content_type),
+          .location = std::move(answer.location),
+          .body = std::move(answer.body)};
+}
+
+store::MeasurementFilter to_store(const MeasurementQuery& query) {
+  store::MeasurementFilter filter;
+  filter.part_id = query.part_id;
+  filter.characteristic = query.characteristic;
+  filter.order = query.order;
+  filter.machine = query.machine;
+  if (query.verdict) filter.verdict = app::to_store(*query.verdict);
+  filter.source = query.source ? std::optional(app::to_store(*query.source)) : std::nullopt;
+  if (query.from) filter.from_ns = query.from->nanoseconds;
+  if (query.to) filter.to_ns = query.to->nanoseconds;
+  filter.history = query.history;
+  filter.as_of_id = query.as_of;
+  return filter;
+}
+
+constexpr std::array<std::string_view, 10> kSummaryFields = {
+    "part_id",  "characteristic", "order", "operation",       "machine",
+    "operator", "gauge",          "unit",  "tolerance_class", "caller"};
+static_assert(static_cast<std::size_t>(store::GroupBy::Caller) + 1 == kSummaryFields.size(),
+              "the names stand in the order of store::GroupBy");
+
+MeasurementGroup from_store(store::SummaryGroup group) {
+  return {.value = std::move(group.value),
+          .count = group.count,
+          .good = group.verdict_count(store::Verdict::Good),
+          .rework = group.verdict_count(store::Verdict::Rework),
+          .reject = group.verdict_count(store::Verdict::Reject),
+          .indeterminate = group.verdict_count(store::Verdict::Indeterminate),
+          .mean_mm = std::move(group.mean_mm),
+          .standard_deviation_mm = std::move(group.standard_deviation_mm),
+          .min = Length::nanometres(group.min_nm),
+          .max = Length::nanometres(group.max_nm)};
+}
+
+/// The job of one request: appends the rows, gives them their ids, renders the answer.
+Result<store::StoredAnswer> append(store::Stores& stores, std::vector<Measurement>& measurements,
+                                   const std::vector<store::MeasurementRow>& rows,
+                                   const MeasurementService::Render& render) {
+  const auto ids = stores.measurements.append(rows);
+  if (!ids) return ids.error();
+  std::int64_t id = ids->first;
+  for (Measurement& measurement : measurements) measurement.id = id++;
+  return to_store(render(measurements));
+}
+
+}  // namespace
+
+std::span<const std::string_view> summary_fields() { return kSummaryFields; }
+
+void MeasurementService::find_answer(const IdempotencyScope& scope,
+                                     Done<std::optional<Answer>> done) {
+  database_.readers().submit(
+      [request = to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
+        auto found = stores.idempotency.find(request);
+        if (!found) return found.error();
+        if (!*found) return std::optional<Answer>();
+        return std::optional(from_store(**std::move(found)));
+      },
+      std::move(done));
+}
+
+void MeasurementService::record(std::vector<Measurement> measurements,
+                                const std::optional<IdempotencyScope>& scope, Render render,
+                                Done<Answer> done) {
+  std::vector<store::MeasurementRow> rows;
+  rows.reserve(measurements.size());
+  // The rows of one request are judged by one revision.
+  std::optional<std::int64_t> revision;
+  for (const Measurement& measurement : measurements) {
+    const bool by_tables = measurement.basis != LimitsBasis::Explicit;
+    if (by_tables && !revision) revision = tables_.revision_number(measurement.table_revision);
+    rows.push_back(app::to_store(measurement, by_tables ? revision : std::nullopt));
+  }
+  auto work = [measurements = std::move(measurements), rows = std::move(rows),
+               render = std::move(render)](store::Stores& stores) mutable {
+    return append(stores, measurements, rows, render);
+  };
+  auto deliver = [done = std::move(done)](Result<store::StoredAnswer> answer) {
+    if (!answer) return done(answer.error());
+    done(from_store(*std::move(answer)));
+  };
+  if (scope) {
+    database_.writer().submit_once(to_store(*scope), std::move(work), std::move(deliver));
+  } else {
+    database_.writer().submit(std::move(work), std::move(deliver));
+  }
+}
+
+void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t> done) {
+  database_.readers().submit(
+      [this, id, visit = std::move(visit)](const store::Stores& stores) -> Result<std::int64_t> {
+        const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
+        const bool found = stores.measurements.find(
+            id, [&](const store::MeasurementRow& row) { visit(app::from_store(row, ids)); });
+        if (found) return id;
+        return Error{ErrorCode::MeasurementUnknown,
+                     "there is no measurement '" + measurement_id_text(id) + "'"};
+      },
+      std::move(done));
+}
+
+void MeasurementService::list(MeasurementQuery query, std::int64_t after, std::size_t limit,
+                              Visitor visit, Done<std::optional<std::int64_t>> done) {
+  database_.readers().submit(
+      [this, filter = to_store(query), after, limit, visit = std::move(visit)](
+          const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
+        const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
+        return stores.measurements.list(
+            filter, after, limit,
+            [&](const store::MeasurementRow& row) { visit(app::from_store(row, ids)); });
+      },
+      std::move(done));
+}
+
+void MeasurementService::last_id(Done<std::int64_t> done) {
+  database_.readers().submit(
+      [](const store::Stores& stores) -> Result<std::int64_t> {
+        return stores.measurements.last_id();
+      },
+      std::move(done));
+}
+
+void MeasurementService::summary(MeasurementQuery query, std::string_view group_by,
+                                 Done<std::vector<MeasurementGroup>> done) {
+  const auto field = std::find(kSummaryFields.begin(), kSummaryFields.end(), group_by);
+  if (field == kSummaryFields.end()) {
+    return done(Error{ErrorCode::QueryInvalid, "group_by names no field to group by"});
+  }
+  const auto group = static_cast<store::GroupBy>(field - kSummaryFields.begin());
+  database_.readers().submit(
+      [filter = to_store(query),
+       group](const store::Stores& stores) -> Result<std::vector<MeasurementGroup>> {
+        auto groups = stores.measurements.summary(filter, group);
+        if (!groups) return groups.error();
+        std::vector<MeasurementGroup> mapped;
+        mapped.reserve(groups->size());
+        for (store::SummaryGroup& found : *groups) mapped.push_back(from_store(std::move(found)));
+        return mapped;
+      },
+      std::move(done));
+}
+
+void MeasurementService::run(std::function<void()> work, std::function<void(Error)> refused) {
+  database_.readers().submit(
+      [work = std::move(work)](const store::Stores&) -> Result<bool> {
+        work();
+        return true;
+      },
+      [refused = std::move(refused)](const Result<bool>& ran) {
+        if (!ran) refused(ran.error());
+      });
+}
+
+}  // namespace fitgauge::app

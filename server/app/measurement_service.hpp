@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/measurement.hpp"
+
+namespace fitgauge::store {
+class Database;
+}
+
+namespace fitgauge::app {
+
+class TableCatalog;
+
+/// An answer that can be kept under an idempotency key and given again.
+struct Answer {
+  int status = 200;
+  std::string content_type;
+  std::string location;  ///< empty: none
+  std::string body;
+};
+
+/// What makes a request the same as an earlier one.
+struct IdempotencyScope {
+  std::string caller;
+  std::string method;
+  std::string path;
+  std::string key;
+  std::string_view body;  ///< alive until the answer
+};
+
+/// Which measurements a list shows.
+struct MeasurementQuery {
+  std::optional<std::string> part_id;
+  std::optional<std::string> characteristic;
+  std::optional<std::string> order;
+  std::optional<std::string> machine;
+  std::optional<gauging::Verdict> verdict;
+  std::optional<Source> source = Source::Gauge;  ///< none: all
+  std::optional<Timestamp> from;                 ///< from <= measured_at
+  std::optional<Timestamp> to;                   ///< measured_at < to
+  bool history = false;                          ///< corrected rows too
+  std::optional<std::int64_t> as_of;             ///< the state when this id was the newest
+};
+
+/// Counts and statistics of one group; texts are exact decimals in mm.
+struct MeasurementGroup {
+  std::optional<std::string> value;
+  std::int64_t count = 0;
+  std::int64_t good = 0;
+  std::int64_t rework = 0;
+  std::int64_t reject = 0;
+  std::int64_t indeterminate = 0;
+  std::string mean_mm;
+  std::optional<std::string> standard_deviation_mm;
+  Length min;
+  Length max;
+};
+
+/// Stores and reads measurements. Nothing here blocks; `done` comes exactly once, on a storage
+/// thread or, when refused at once, on the caller's. Thread-safe.
+class MeasurementService {
+ public:
+  MeasurementService(store::Database& database, const TableCatalog& tables)
+      : database_(database), tables_(tables) {}
+
+  template <class T>
+  using Done = std::function<void(Result<T>)>;
+  /// Makes the answer from the stored measurements; called on the writer thread before the commit.
+  using Render = std::function<Answer(std::span<const Measurement>)>;
+
+  /// The answer kept for this request, or none. @errors IdempotencyKeyReused, StorageUnavailable.
+  void find_answer(const IdempotencyScope& scope, Done<std::optional<Answer>> done);
+
+  /// Stores judged measurements, all or none; `done` comes when they are durable. The texts of the
+  /// measurements stay alive until then.
+  /// @param scope keeps the answer for repeats, in the same transaction.
+  /// @errors StorageUnavailable, StorageBusy, IdempotencyKeyReused, IdempotencyInProgress,
+  ///   MeasurementUnknown and FieldConflict of a correction.
+  void record(std::vector<Measurement> measurements, const std::optional<IdempotencyScope>& scope,
+              Render render, Done<Answer> done);
+
+  /// Called on a reader thread; the measurement's texts are valid during the call.
+  using Visitor = std::function<void(const Measurement&)>;
+
+  /// @errors MeasurementUnknown, StorageUnavailable.
+  void find(std::int64_t id, Visitor visit, Done<std::int64_t> done);
+
+  /// Visits up to `limit` matching measurements after the id `after`, in storage order; gives the
+  /// cursor of the next page, or none.
+  void list(MeasurementQuery query, std::int64_t after, std::size_t limit, Visitor visit,
+            Done<std::optional<std::int64_t>> done);
+
+  /// The newest id: 0 when there is none.
+  void last_id(Done<std::int64_t> done);
+
+  /// Groups by one of the text fields. @errors QueryInvalid for another field or too many groups.
+  void summary(MeasurementQuery query, std::string_view group_by,
+               Done<std::vector<MeasurementGroup>> done);
+
+  /// Runs `work` on a thread that may take long, or calls `refused` at once.
+  /// @errors StorageBusy, ShuttingDown.
+  void run(std::function<void()> work, std::function<void(Error)> refused);
+
+ private:
+  store::Database& database_;
+  const TableCatalog& tables_;
+};
+
+/// The fields a summary can group by, as the API names them.
+std::span<const std::string_view> summary_fields();
+
+}  // namespace fitgauge::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace fitgauge::store {
+class Database;
+}
+
+namespace fitgauge::app {
+
+class TableCatalog;
+
+/// Whether the service may be used, and what the database is doing.
+struct Readiness {
+  std::vector<Error> findings;  ///< empty: ready
+  std::string database;         ///< `ok`, or `checking` while a large file is still being read
+};
+
+Readiness readiness(const store::Database& database, const TableCatalog& tables);
+
+}  // namespace fitgauge::app

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/result.hpp"
+#include "base/snapshot.hpp"
+#include "iso286/tolerance_tables.hpp"
+
+namespace fitgauge::store {
+class Database;
+}
+
+namespace fitgauge::app {
+
+/// The tolerance tables in use. Every reader takes them from here, so all see one revision.
+struct TableState {
+  std::shared_ptr<const iso286::ToleranceTables> tables;  ///< null where the audit found something
+  std::int64_t number = 0;                                ///< of the revision, as the store counts
+  std::vector<Error> findings;  ///< what the audit found: table, range and column each
+};
+
+/// Keeps the tables: imports the compiled-in ones as the first revision, audits and loads the
+/// latest, stores a shop's own columns as new revisions. Thread-safe; callbacks come on a storage
+/// thread.
+class TableCatalog {
+ public:
+  using Tables = std::shared_ptr<const iso286::ToleranceTables>;
+  template <class T>
+  using Callback = std::function<void(Result<T>)>;
+
+  /// Loads the latest revision, importing the compiled-in tables into a new database. Tables that
+  /// fail their audit are no error here: state() says so.
+  /// @errors StorageUnavailable, StorageCorrupt.
+  static Result<std::unique_ptr<TableCatalog>> open(store::Database& database, const Clock& clock);
+
+  std::shared_ptr<const TableState> state() const { return state_.get(); }
+
+  /// The tables in use. @errors TablesInconsistent with the audit's findings.
+  Result<Tables> tables() const;
+
+  /// The tables of a stored revision. @errors RevisionUnknown, TablesInconsistent,
+  /// StorageUnavailable.
+  void at_revision(std::string revision, Callback<Tables> done);
+
+  struct ColumnStored {
+    bool created = false;  ///< no custom column of that name stood there before
+    std::string revision;
+  };
+  /// Stores the column in a new revision; from then on every reader sees it.
+  /// @param condition the revisions a change may follow (If-Match), or none for any.
+  /// @errors TableRowsInvalid, PreconditionFailed, StorageUnavailable, StorageBusy.
+  void put_column(iso286::CustomColumn column, std::optional<std::vector<std::string>> condition,
+                  Callback<ColumnStored> done);
+
+  /// The id of a revision by its number, for reading stored rows; valid as long as the catalog.
+  /// Empty for a number that was never given.
+  std::string_view revision_id(std::int64_t number) const;
+  /// The number of a revision that revision_id knows.
+  std::optional<std::int64_t> revision_number(std::string_view id) const;
+
+  /// Back to the standard. @errors ClassUnknown when the class is not custom; those of put_column.
+  void remove_column(iso286::Feature feature, std::string name,
+                     std::optional<std::vector<std::string>> condition,
+                     Callback<ColumnStored> done);
+
+ private:
+  TableCatalog(store::Database& database, const Clock& clock)
+      : database_(database), clock_(clock) {}
+
+  using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
+  void change(Edit edit, std::optional<std::vector<std::string>> condition,
+              Callback<ColumnStored> done);
+  void remember(std::int64_t number, std::string_view id);
+
+  store::Database& database_;
+  const Clock& clock_;
+  Snapshot<TableState> state_;
+  mutable std::mutex ids_mutex_;
+  std::map<std::int64_t, std::string> ids_;  // never erased: views of the texts are given out
+};
+
+}  // namespace fitgauge::app

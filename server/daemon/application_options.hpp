@@ -1,0 +1,22 @@
+#pragma once
+
+#include "app/application.hpp"
+#include "daemon/config.hpp"
+
+namespace fitgauge::daemon {
+
+/// What the application needs of the configuration.
+inline app::ApplicationOptions application_options(const Config& config) {
+  app::ApplicationOptions options;
+  options.directory = config.data;
+  options.durable = config.durability != "off";
+  options.commit_each = config.durability == "each";
+  options.write_queue = static_cast<std::size_t>(config.write_queue);
+  options.readers = static_cast<unsigned>(config.reader_threads);
+  options.idempotency_days = config.idempotency_days;
+  options.run_retention_days = config.run_retention_days;
+  options.event_retention = config.event_retention;
+  return options;
+}
+
+}  // namespace fitgauge::daemon

@@ -1,0 +1,165 @@
+#include "daemon/command_line.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <map>
+
+#include "api/version.hpp"
+#include "daemon/commands.hpp"
+#include "daemon/config.hpp"
+#include "daemon/healthcheck.hpp"
+#include "daemon/log.hpp"
+#include "daemon/serve.hpp"
+
+namespace fitgauge::daemon {
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kUsage = 2;
+
+/// What the command line says, before it is put over the other sources.
+struct Arguments {
+  std::string config_file;
+  std::string port_file;
+  bool check_config = false;
+  bool print_config = false;
+  bool healthcheck = false;
+  std::map<std::string_view, std::vector<std::string>> settings;
+};
+
+int complain(const Error& error) {
+  std::cerr << "fitgauged: " << error.message << '\n';
+  return error.code == ErrorCode::ConfigInvalid ? kUsage : kFailed;
+}
+
+std::vector<std::string> environment() {
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    variables.emplace_back(*variable);
+  }
+  return variables;
+}
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  app.add_option("--config", arguments.config_file, "TOML file with these settings")
+      ->envname("FITGAUGE_CONFIG");
+  for (const Setting& setting : settings()) {
+    auto* option = app.add_option("--" + std::string(setting.name),
+                                  arguments.settings[setting.name], std::string(setting.help));
+    if (setting.texts == nullptr) option->expected(1);
+  }
+  app.add_option("--port-file", arguments.port_file, "Receives the port once the socket listens");
+  app.add_flag("--check-config", arguments.check_config, "Check the configuration and end");
+  app.add_flag("--print-config", arguments.print_config, "Print the configuration and end");
+  app.add_flag("--healthcheck", arguments.healthcheck,
+               "Ask the running service whether it is ready, and end");
+  app.set_version_flag("--version", "fitgauged " + std::string(api::kVersion));
+}
+
+/// Defaults < file < environment < flags.
+Result<Config> configuration(const Arguments& arguments) {
+  Config config;
+  if (!arguments.config_file.empty()) {
+    if (const auto read = read_toml(arguments.config_file, config); !read) return read.error();
+  }
+  if (const auto read = read_environment(environment(), config); !read) return read.error();
+  for (const Setting& setting : settings()) {
+    const auto& values = arguments.settings.at(setting.name);
+    if (values.empty()) continue;
+    const std::string text = fmt::format("{}", fmt::join(values, ","));
+    if (const auto assigned = assign(setting, text, config); !assigned) return assigned.error();
+  }
+  if (const auto checked = check(config); !checked) return checked.error();
+  return config;
+}
+
+/// The subcommands, each with what it does with the configuration.
+struct Commands {
+  explicit Commands(CLI::App& app) {
+    app.require_subcommand(0, 1);
+    // The settings stand before or after the command: `fitgauged verify --data DIR`.
+    app.fallthrough();
+    backup = app.add_subcommand("backup", "Write a consistent copy of the live database");
+    backup->add_option("file", file, "The copy; must not exist")->required();
+    verify = app.add_subcommand("verify", "Check database, tables and every stored verdict");
+    key = app.add_subcommand("key", "Create, list and revoke API keys");
+    key->require_subcommand(1);
+    create = key->add_subcommand("create", "Create a key and show it once");
+    create->add_option("--name", name, "Who the key is for")->required();
+    create->add_option("--role", role, "viewer, operator or admin")->required();
+    revoke = key->add_subcommand("revoke", "Revoke a key");
+    revoke->add_option("--name", name, "The key's name")->required();
+    list = key->add_subcommand("list", "List the keys");
+  }
+
+  Result<int> run(const Config& config) const {
+    if (*backup) return run_backup(config, file);
+    if (*verify) return run_verify(config);
+    if (*create) return run_key_create(config, name, role);
+    if (*revoke) return run_key_revoke(config, name);
+    return run_key_list(config);
+  }
+
+  CLI::App* backup = nullptr;
+  CLI::App* verify = nullptr;
+  CLI::App* key = nullptr;
+  CLI::App* create = nullptr;
+  CLI::App* revoke = nullptr;
+  CLI::App* list = nullptr;
+  std::string file;
+  std::string name;
+  std::string role;
+};
+
+int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& commands) {
+  const auto config = configuration(arguments);
+  if (!config) return complain(config.error());
+  if (arguments.print_config) {
+    std::cout << to_toml(*config);
+    return 0;
+  }
+  if (arguments.check_config) return 0;
+  if (arguments.healthcheck) {
+    const auto healthy = healthcheck(*config);
+    return healthy ? 0 : complain(healthy.error());
+  }
+  if (!app.get_subcommands().empty()) {
+    const auto done = commands.run(*config);
+    return done ? *done : complain(done.error());
+  }
+  open_log(config->log_level);
+  const auto served = serve(*config, arguments.port_file);
+  flush_log();
+  return served ? 0 : complain(served.error());
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app(
+      "fitgauged serves ISO 286 limits, verdicts on measured diameters and Klartext probe programs "
+      "over HTTP.",
+      "fitgauged");
+  Arguments arguments;
+  add_options(app, arguments);
+  const Commands commands(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "fitgauged: " << error.what() << "; see fitgauged --help\n";
+    return kUsage;
+  }
+  try {
+    return dispatch(app, arguments, commands);
+  } catch (const std::exception& defect) {
+    std::cerr << "fitgauged: internal error: " << defect.what() << '\n';
+    return kFailed;
+  }
+}
+
+}  // namespace fitgauge::daemon

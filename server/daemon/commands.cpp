@@ -1,0 +1,75 @@
+#include "daemon/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "daemon/application_options.hpp"
+
+namespace fitgauge::daemon {
+namespace {
+
+const SystemClock kClock;
+
+Result<std::unique_ptr<app::Application>> attach(const Config& config) {
+  app::ApplicationOptions options = application_options(config);
+  options.attach = true;
+  return app::Application::open(options, kClock);
+}
+
+}  // namespace
+
+Result<int> run_backup(const Config& config, const std::string& file) {
+  const auto app = attach(config);
+  if (!app) return app.error();
+  if (const auto written = (*app)->backup(file); !written) return written.error();
+  std::cout << "backup written to " << file << '\n';
+  return 0;
+}
+
+Result<int> run_verify(const Config& config) {
+  const auto app = attach(config);
+  if (!app) return app.error();
+  const auto verification = (*app)->verify();
+  if (!verification) return verification.error();
+  for (const std::string& finding : verification->findings) std::cout << finding << '\n';
+  std::cout << fmt::format("{} measurements checked, {} findings\n", verification->measurements,
+                           verification->findings.size());
+  return verification->findings.empty() ? 0 : 1;
+}
+
+Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role) {
+  const auto known = app::role_from_word(role);
+  if (!known) {
+    return Error{ErrorCode::ConfigInvalid,
+                 fmt::format("role is viewer, operator or admin, not '{}'", role)};
+  }
+  const auto app = attach(config);
+  if (!app) return app.error();
+  const auto token = (*app)->keys().create(name, *known);
+  if (!token) return token.error();
+  std::cout << *token << '\n';
+  return 0;
+}
+
+Result<int> run_key_revoke(const Config& config, const std::string& name) {
+  const auto app = attach(config);
+  if (!app) return app.error();
+  if (const auto revoked = (*app)->keys().revoke(name); !revoked) return revoked.error();
+  return 0;
+}
+
+Result<int> run_key_list(const Config& config) {
+  const auto app = attach(config);
+  if (!app) return app.error();
+  const auto entries = (*app)->keys().list();
+  if (!entries) return entries.error();
+  for (const app::KeyEntry& entry : *entries) {
+    std::cout << fmt::format(
+        "{}\t{}\tcreated {}{}\n", entry.name, word(entry.role), format_rfc3339(entry.created_at),
+        entry.revoked_at ? "\trevoked " + format_rfc3339(*entry.revoked_at) : std::string());
+  }
+  return 0;
+}
+
+}  // namespace fitgauge::daemon

@@ -1,0 +1,273 @@
+#include "daemon/config.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/text.hpp"
+
+namespace fitgauge::daemon {
+namespace {
+
+constexpr std::string_view kPrefix = "FITGAUGE_";
+/// Read by the clients or by the service itself, not a setting of the daemon.
+constexpr std::string_view kOtherVariables[] = {"FITGAUGE_SERVER", "FITGAUGE_KEY",
+                                                "FITGAUGE_CONFIG"};
+
+Error invalid(std::string message) { return {ErrorCode::ConfigInvalid, std::move(message)}; }
+
+const Setting* find(std::string_view name, std::string (*spelling)(const Setting&)) {
+  const auto& all = settings();
+  const auto found = std::find_if(
+      all.begin(), all.end(), [&](const Setting& setting) { return spelling(setting) == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string known(std::string (*spelling)(const Setting&)) {
+  std::vector<std::string> names;
+  for (const Setting& setting : settings()) names.push_back(spelling(setting));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<std::string> split_list(std::string_view text) {
+  std::vector<std::string> items;
+  while (!text.empty()) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    if (const std::string_view item = trim(text.substr(0, comma)); !item.empty()) {
+      items.emplace_back(item);
+    }
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  return items;
+}
+
+Result<void> assign_integer(const Setting& setting, std::string_view text, Config& config) {
+  std::int64_t value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size() || value < setting.least ||
+      value > setting.most) {
+    return invalid(fmt::format("{} must be a whole number from {} to {}, not '{}'", setting.name,
+                               setting.least, setting.most, text));
+  }
+  config.*setting.integer = value;
+  return {};
+}
+
+/// A TOML value as the text that `assign` takes; an array of strings becomes a list.
+Result<std::string> text_of(const Setting& setting, const toml::node& node) {
+  if (setting.integer != nullptr) {
+    if (const auto value = node.value_exact<std::int64_t>()) return std::to_string(*value);
+    return invalid(fmt::format("{} must be a whole number", toml_key(setting)));
+  }
+  if (const auto value = node.value_exact<std::string>()) return *value;
+  const toml::array* items = node.as_array();
+  if (setting.texts == nullptr || items == nullptr) {
+    return invalid(fmt::format("{} must be a string", toml_key(setting)));
+  }
+  std::vector<std::string> texts;
+  for (const toml::node& item : *items) {
+    const auto text = item.value_exact<std::string>();
+    if (!text) return invalid(fmt::format("{} must be a list of strings", toml_key(setting)));
+    texts.push_back(*text);
+  }
+  return fmt::format("{}", fmt::join(texts, ","));
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out += '"';
+}
+
+}  // namespace
+
+const std::vector<Setting>& settings() {
+  static const std::vector<Setting> kSettings = {
+      {.name = "listen",
+       .help = "Addresses to listen on, as host:port; port 0 takes a free one",
+       .texts = &Config::listen},
+      {.name = "data", .help = "Folder of the database", .text = &Config::data},
+      {.name = "auth",
+       .help = "Who needs a key: default is open on loopback addresses and read-open elsewhere",
+       .text = &Config::auth,
+       .words = {"default", "open", "read-open", "keys"}},
+      {.name = "admin-key-file",
+       .help = "File with the first administrator's key",
+       .text = &Config::admin_key_file},
+      {.name = "tls-cert", .help = "Certificate chain (PEM)", .text = &Config::tls_cert},
+      {.name = "tls-key", .help = "Private key of the certificate (PEM)", .text = &Config::tls_key},
+      {.name = "tls-client-ca",
+       .help = "Authorities of client certificates (PEM); a client without one is refused",
+       .text = &Config::tls_client_ca},
+      {.name = "log-level",
+       .help = "Least severe log line that is written",
+       .text = &Config::log_level,
+       .words = {"debug", "info", "warning", "error", "off"}},
+      {.name = "durability",
+       .help =
+           "group: one commit for all that waits; each: one a request; off: no fsync, for tests",
+       .text = &Config::durability,
+       .words = {"group", "each", "off"}},
+      {.name = "io-threads",
+       .help = "Threads that serve connections",
+       .integer = &Config::io_threads,
+       .least = 1,
+       .most = 64},
+      {.name = "reader-threads",
+       .help = "Threads that read the database",
+       .integer = &Config::reader_threads,
+       .least = 1,
+       .most = 64},
+      {.name = "run-workers",
+       .help = "NC programs that run at the same time",
+       .integer = &Config::run_workers,
+       .least = 1,
+       .most = 64},
+      {.name = "max-connections",
+       .help = "Connections served at the same time",
+       .integer = &Config::max_connections,
+       .least = 1,
+       .most = 100'000},
+      {.name = "write-queue",
+       .help = "Writes that may wait for the disk before requests get 503",
+       .integer = &Config::write_queue,
+       .least = 1,
+       .most = 1'000'000},
+      {.name = "idempotency-days",
+       .help = "Days an idempotency key is remembered",
+       .integer = &Config::idempotency_days,
+       .least = 1,
+       .most = 3650},
+      {.name = "run-retention-days",
+       .help = "Days a run with its trace and files is kept; 0 keeps them for ever",
+       .integer = &Config::run_retention_days,
+       .least = 0,
+       .most = 36500},
+      {.name = "event-retention",
+       .help = "Events kept for readers that come back",
+       .integer = &Config::event_retention,
+       .least = 100,
+       .most = 10'000'000},
+  };
+  return kSettings;
+}
+
+std::string toml_key(const Setting& setting) {
+  std::string key(setting.name);
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+std::string environment_name(const Setting& setting) {
+  return std::string(kPrefix) + ascii_upper(toml_key(setting));
+}
+
+Result<void> assign(const Setting& setting, std::string_view text, Config& config) {
+  if (setting.integer != nullptr) return assign_integer(setting, text, config);
+  if (setting.texts != nullptr) {
+    config.*setting.texts = split_list(text);
+    return {};
+  }
+  const auto& words = setting.words;
+  if (!words.empty() && std::find(words.begin(), words.end(), text) == words.end()) {
+    return invalid(
+        fmt::format("{} must be one of {}, not '{}'", setting.name, fmt::join(words, ", "), text));
+  }
+  config.*setting.text = text;
+  return {};
+}
+
+Result<void> read_toml(const std::string& path, Config& config) {
+  toml::table file;
+  try {
+    file = toml::parse_file(path);
+  } catch (const toml::parse_error& error) {
+    return invalid(
+        fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
+  }
+  for (const auto& [key, node] : file) {
+    const auto place = [&](const std::string& message) {
+      return invalid(fmt::format("{}:{}: {}", path, key.source().begin.line, message));
+    };
+    const Setting* setting = find(key.str(), toml_key);
+    if (setting == nullptr) {
+      return place(fmt::format("unknown key '{}'; known are {}", key.str(), known(toml_key)));
+    }
+    const auto text = text_of(*setting, node);
+    if (!text) return place(text.error().message);
+    if (const auto assigned = assign(*setting, *text, config); !assigned) {
+      return place(assigned.error().message);
+    }
+  }
+  return {};
+}
+
+Result<void> read_environment(const std::vector<std::string>& environment, Config& config) {
+  for (const std::string& variable : environment) {
+    const std::size_t equals = variable.find('=');
+    const std::string_view name = std::string_view(variable).substr(0, equals);
+    if (equals == std::string::npos || !name.starts_with(kPrefix)) continue;
+    if (std::find(std::begin(kOtherVariables), std::end(kOtherVariables), name) !=
+        std::end(kOtherVariables)) {
+      continue;
+    }
+    const Setting* setting = find(name, environment_name);
+    if (setting == nullptr) {
+      return invalid(fmt::format("unknown environment variable {}; known are {}", name,
+                                 known(environment_name)));
+    }
+    const auto assigned = assign(*setting, std::string_view(variable).substr(equals + 1), config);
+    if (!assigned) return invalid(fmt::format("{}: {}", name, assigned.error().message));
+  }
+  return {};
+}
+
+Result<void> check(const Config& config) {
+  if (config.listen.empty())
+    return invalid("listen needs at least one address such as 127.0.0.1:8286");
+  for (const std::string& address : config.listen) {
+    const std::size_t colon = address.rfind(':');
+    std::uint16_t port = 0;
+    const char* const end = address.data() + address.size();
+    const char* const digits = address.data() + std::min(colon, address.size() - 1) + 1;
+    if (colon == std::string::npos || digits == end ||
+        std::from_chars(digits, end, port).ptr != end ||
+        std::from_chars(digits, end, port).ec != std::errc()) {
+      return invalid(fmt::format("listen address '{}' is not host:port", address));
+    }
+  }
+  if (config.data.empty()) return invalid("data needs the folder of the database");
+  if (config.tls_cert.empty() != config.tls_key.empty()) {
+    return invalid("tls-cert and tls-key go together: give both or neither");
+  }
+  if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
+    return invalid("tls-client-ca needs tls-cert and tls-key");
+  }
+  return {};
+}
+
+std::string to_toml(const Config& config) {
+  std::string out;
+  for (const Setting& setting : settings()) {
+    out += fmt::format("# {}\n{} = ", setting.help, toml_key(setting));
+    if (setting.integer != nullptr) {
+      out += std::to_string(config.*setting.integer);
+    } else if (setting.texts != nullptr) {
+      std::vector<std::string> items;
+      for (const std::string& item : config.*setting.texts) items.push_back(quoted(item));
+      out += fmt::format("[{}]", fmt::join(items, ", "));
+    } else {
+      out += quoted(config.*setting.text);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace fitgauge::daemon

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace fitgauge::daemon {
+
+/// Everything that can be set from outside. Defaults < TOML file < FITGAUGE_* environment < flags;
+/// the table in config.cpp names each setting once for all of them.
+struct Config {
+  std::vector<std::string> listen{"127.0.0.1:8286"};
+  std::string data = "data";
+  std::string auth = "default";
+  std::string admin_key_file;
+  std::string tls_cert;
+  std::string tls_key;
+  std::string tls_client_ca;
+  std::string log_level = "info";
+  std::string durability = "group";
+  std::int64_t io_threads = 1;
+  std::int64_t reader_threads = 2;
+  std::int64_t run_workers = 2;
+  std::int64_t max_connections = 4096;
+  std::int64_t write_queue = 4096;
+  std::int64_t idempotency_days = 30;
+  std::int64_t run_retention_days = 90;
+  std::int64_t event_retention = 100'000;
+};
+
+/// One setting: its place in Config, its names and its documentation.
+struct Setting {
+  std::string_view name;  ///< `io-threads`: the flag; `io_threads` in TOML, FITGAUGE_IO_THREADS
+  std::string_view help;
+  std::vector<std::string> Config::*texts = nullptr;
+  std::string Config::*text = nullptr;
+  std::int64_t Config::*integer = nullptr;
+  std::int64_t least = 0;
+  std::int64_t most = 0;
+  std::vector<std::string_view> words{};  ///< the values a text may have, if they are few
+};
+
+const std::vector<Setting>& settings();
+
+/// `io-threads` as a TOML key: `io_threads`.
+std::string toml_key(const Setting& setting);
+/// `io-threads` as an environment variable: `FITGAUGE_IO_THREADS`.
+std::string environment_name(const Setting& setting);
+
+/// Reads a TOML file into `config`.
+/// @errors ConfigInvalid naming the file, the line and the key: unreadable, unknown, wrong type or
+/// range.
+Result<void> read_toml(const std::string& path, Config& config);
+
+/// Reads the variables of `environment` ("NAME=value") that begin with FITGAUGE_.
+/// @errors ConfigInvalid for an unknown name or a value out of range.
+Result<void> read_environment(const std::vector<std::string>& environment, Config& config);
+
+/// Sets one setting from text; a list takes comma-separated items.
+Result<void> assign(const Setting& setting, std::string_view text, Config& config);
+
+/// What one setting alone cannot tell: a certificate without a key, an address without a port.
+Result<void> check(const Config& config);
+
+/// The whole configuration as TOML, which reads back to the same.
+std::string to_toml(const Config& config);
+
+}  // namespace fitgauge::daemon

@@ -1,0 +1,197 @@
+#include "daemon/serve.hpp"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "api/guard.hpp"
+#include "api/metrics.hpp"
+#include "api/problem.hpp"
+#include "api/routes.hpp"
+#include "base/text.hpp"
+#include "daemon/application_options.hpp"
+#include "daemon/log.hpp"
+
+namespace fitgauge::daemon {
+namespace {
+
+/// The signals the main thread waits for; blocked in every thread before one is started.
+sigset_t waited_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
+  return signals;
+}
+
+void prepare_signals() {
+  // A client that hangs up and a file at its size limit are errors of calls, not ends of the
+  // process.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const sigset_t signals = waited_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+Result<std::vector<http::ListenAddress>> listen_addresses(const Config& config) {
+  std::vector<http::ListenAddress> addresses;
+  for (const std::string& text : config.listen) {
+    auto address = http::parse_listen_address(text);
+    if (!address) return address.error();
+    addresses.push_back(*std::move(address));
+  }
+  return addresses;
+}
+
+api::AuthMode auth_mode(const Config& config, const std::vector<http::ListenAddress>& addresses) {
+  if (config.auth == "open") return api::AuthMode::Open;
+  if (config.auth == "read-open") return api::AuthMode::ReadOpen;
+  if (config.auth == "keys") return api::AuthMode::Keys;
+  const bool loopback = std::all_of(addresses.begin(), addresses.end(),
+                                    [](const auto& address) { return address.is_loopback(); });
+  return loopback ? api::AuthMode::Open : api::AuthMode::ReadOpen;
+}
+
+/// The administrator's key of the first start that needs one: from the file, or made and shown
+/// once.
+Result<void> provide_first_key(const Config& config, app::KeyService& keys) {
+  if (!keys.empty()) return {};
+  std::string token;
+  if (!config.admin_key_file.empty()) {
+    std::ifstream file(config.admin_key_file);
+    std::getline(file, token);
+    token = trim(token);
+    if (token.empty()) {
+      return Error{ErrorCode::ConfigInvalid,
+                   "admin-key-file " + config.admin_key_file + " holds no key in its first line"};
+    }
+  }
+  const auto created = keys.create("admin", app::Role::Admin, token);
+  if (!created) return created.error();
+  if (token.empty()) {
+    std::cout << "fitgauged: the administrator's key, shown this once: " << *created << std::endl;
+  }
+  return {};
+}
+
+http::ServerOptions server_options(const Config& config,
+                                   std::vector<http::ListenAddress> addresses) {
+  http::ServerOptions options;
+  options.listen = std::move(addresses);
+  options.io_threads = static_cast<unsigned>(config.io_threads);
+  options.max_connections = static_cast<std::size_t>(config.max_connections);
+  if (!config.tls_cert.empty()) {
+    options.tls = http::TlsOptions{.certificate_file = config.tls_cert,
+                                   .key_file = config.tls_key,
+                                   .client_ca_file = config.tls_client_ca,
+                                   .require_client_certificate = !config.tls_client_ca.empty()};
+  }
+  return options;
+}
+
+http::ServerHooks hooks(const api::Guard& guard, api::Metrics& metrics) {
+  http::ServerHooks hooks;
+  hooks.format_error = api::problem;
+  hooks.guard = guard;
+  if (logs_requests()) {
+    hooks.finished = [&metrics](const http::FinishedRequest& request) {
+      metrics.count(request);
+      log_request(request);
+    };
+  } else {
+    hooks.finished = [&metrics](const http::FinishedRequest& request) { metrics.count(request); };
+  }
+  hooks.handler_threw = [](const http::Request& request, std::string_view what) {
+    log_error("handler_threw", fmt::format("request {}: {}", request.id_text(), what));
+  };
+  return hooks;
+}
+
+/// Written aside and renamed, so that whoever waits for the file reads a whole number.
+Result<void> write_port_file(const std::string& path, std::uint16_t port) {
+  const std::string aside = path + ".new";
+  {
+    std::ofstream file(aside);
+    file << port << '\n';
+    if (!file.flush()) {
+      return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
+    }
+  }
+  if (std::rename(aside.c_str(), path.c_str()) != 0) {
+    return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
+  }
+  return {};
+}
+
+/// Returns when the service is to end.
+void wait_for_end(http::Server& server) {
+  const sigset_t signals = waited_signals();
+  for (;;) {
+    int signal = 0;
+    if (sigwait(&signals, &signal) != 0) continue;
+    if (signal != SIGHUP) return;
+    const auto reloaded = server.reload_tls();
+    if (reloaded) {
+      log_info("certificates_reloaded", "");
+    } else {
+      log_error("certificates_kept", reloaded.error().message);
+    }
+  }
+}
+
+}  // namespace
+
+Result<void> serve(const Config& config, const std::string& port_file) {
+  const auto addresses = listen_addresses(config);
+  if (!addresses) return addresses.error();
+  prepare_signals();
+
+  const SystemClock clock;
+  auto opened = app::Application::open(application_options(config), clock);
+  if (!opened) return opened.error();
+  app::Application& app = **opened;
+  for (const Error& finding : app.tables().state()->findings) {
+    log_error("tables_inconsistent", finding.message);
+  }
+  const api::AuthMode mode = auth_mode(config, *addresses);
+  if (mode != api::AuthMode::Open) {
+    if (const auto provided = provide_first_key(config, app.keys()); !provided) {
+      return provided.error();
+    }
+  }
+
+  api::Metrics metrics;
+  const api::Services services{.tables = app.tables(),
+                               .measurements = app.measurements(),
+                               .metrics = metrics,
+                               .clock = clock,
+                               .readiness = [&app] { return app.readiness(); }};
+  auto started = http::Server::start(server_options(config, *addresses), api::make_routes(services),
+                                     hooks(api::Guard(app.keys(), mode), metrics));
+  if (!started) return started.error();
+  http::Server& server = **started;
+  metrics.watch([&server] { return server.counters(); });
+  if (!port_file.empty()) {
+    if (const auto written = write_port_file(port_file, server.ports().front()); !written) {
+      return written.error();
+    }
+  }
+  for (const std::uint16_t port : server.ports())
+    log_info("listening", fmt::format("port {}", port));
+
+  wait_for_end(server);
+  log_info("stopping", "");
+  server.stop();
+  // The application drains its queues first: the answers of its last jobs find no connection.
+  opened->reset();
+  started->reset();
+  log_info("stopped", "");
+  return {};
+}
+
+}  // namespace fitgauge::daemon

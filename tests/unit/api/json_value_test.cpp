@@ -1,0 +1,77 @@
+#include "api/json_value.hpp"
+
+#include <doctest/doctest.h>
+
+#include "api/json_writer.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::api;
+
+namespace {
+ErrorCode refused(std::string_view text) {
+  const auto value = parse_json(text);
+  REQUIRE_MESSAGE(value.has_error(), text);
+  return value.error().code;
+}
+}  // namespace
+
+TEST_CASE("numbers keep their digits") {
+  const auto value = parse_json(R"({"a":25.005884000000002,"b":-0.10,"c":18446744073709551616})");
+  REQUIRE(value.has_value());
+  CHECK(value->find("a")->text == "25.005884000000002");
+  CHECK(value->find("b")->text == "-0.10");
+  CHECK(value->find("c")->text == "18446744073709551616");
+  CHECK(value->find("d") == nullptr);
+  CHECK(parse_json("1e999")->text == "1e999");
+}
+
+TEST_CASE("unreadable JSON says where") {
+  const auto value = parse_json("{\n  \"a\": tru\n}");
+  REQUIRE(value.has_error());
+  CHECK(value.error().code == ErrorCode::JsonMalformed);
+  CHECK(value.error().where.starts_with("line 2, column "));
+  for (const char* text :
+       {"", "{", "[1,]", "01", "NaN", "{\"a\":1}{}", "'a'", "\"\\ud800\"", "+1"}) {
+    CHECK_MESSAGE(refused(text) == ErrorCode::JsonMalformed, text);
+  }
+}
+
+TEST_CASE("a byte-order mark and invalid UTF-8 are refused") {
+  CHECK(refused("\xEF\xBB\xBF{}") == ErrorCode::TextEncoding);
+  CHECK(refused("\"\xFF\"") == ErrorCode::TextEncoding);
+}
+
+TEST_CASE("duplicate keys are refused, also in nested objects") {
+  CHECK(refused(R"({"a":1,"a":2})") == ErrorCode::JsonDuplicateKey);
+  CHECK(refused(R"([{"b":{"a":1,"\u0061":2}}])") == ErrorCode::JsonDuplicateKey);
+}
+
+TEST_CASE("depth is limited before it costs anything") {
+  CHECK(refused(std::string(500'000, '[')) == ErrorCode::JsonTooDeep);
+  CHECK(parse_json(std::string(32, '[') + std::string(32, ']')).has_value());
+}
+
+TEST_CASE("pointers are escaped") { CHECK(pointer_to(pointer_to("", 3), "a/b~c") == "/3/a~1b~0c"); }
+
+TEST_CASE("the writer separates, escapes and prints exact lengths") {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object()
+      .member("name", "a\"b\\c\n\x01")
+      .member_mm("size_mm", Length::nanometres(25'021'000))
+      .member_um("deviation_um", Length::nanometres(-750))
+      .key("list")
+      .begin_array()
+      .value(1)
+      .null()
+      .value(true)
+      .value(0.5)
+      .begin_object()
+      .end_object()
+      .end_array()
+      .end_object();
+  CHECK(out ==
+        "{\"name\":\"a\\\"b\\\\c\\n\\u0001\",\"size_mm\":25.021,\"deviation_um\":-0.75,"
+        "\"list\":[1,null,true,0.5,{}]}");
+  CHECK(parse_json(out).has_value());
+}
