@@ -1,0 +1,208 @@
+// Answers of every kind: asynchronous, prepared, streamed, conditional, failed.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "test_server.hpp"
+#include "worker.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::http;
+using namespace fitgauge::http::test;
+
+namespace {
+
+Response text(std::string body) { return {200, "text/plain", std::move(body)}; }
+
+/// Answers from another thread, the later the smaller its number.
+Route slow(Worker& worker) {
+  return {.pattern = "/slow/{n}",
+          .handler =
+              [&worker](const Request& request, Responder responder) {
+                worker.run([&request, responder = std::move(responder)]() mutable {
+                  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                  responder.answer(text("slow " + std::string(*request.text("n"))));
+                });
+              },
+          .response_types = {}};
+}
+
+Route fast() {
+  return {.pattern = "/fast/{n}",
+          .handler = [](const Request& request) -> Result<Response> {
+            return text("fast " + std::string(*request.text("n")));
+          },
+          .response_types = {}};
+}
+
+}  // namespace
+
+TEST_CASE("pipelined requests are answered in order, whoever answers them") {
+  Worker worker;
+  TestServer server({slow(worker), fast()});
+  Client client = server.connect();
+  std::string requests;
+  for (int i = 0; i < 40; ++i) requests += get(fmt::format("/{}/{}", i % 3 ? "fast" : "slow", i));
+  client.send(requests);
+  for (int i = 0; i < 40; ++i) {
+    const auto answer = client.read();
+    REQUIRE(answer);
+    CHECK(answer->body == fmt::format("{} {}", i % 3 ? "fast" : "slow", i));
+  }
+}
+
+TEST_CASE("every complete request in the buffer is answered in one write") {
+  TestServer server({fast()});
+  Client client = server.connect();
+  std::string requests;
+  for (int i = 0; i < 16; ++i) requests += get("/fast/1");
+  client.send(requests);
+  const std::string answers = client.read_some();
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = answers.find("fast 1", at)) != std::string::npos; ++at) ++count;
+  CHECK(count == 16);
+}
+
+TEST_CASE("a handler that fails answers by the error formatter, one that throws 500 with the id") {
+  std::string thrown;
+  ServerHooks hooks;
+  hooks.format_error = [](const Error& error, std::optional<int> status, const Request& request) {
+    return Response(status.value_or(422), "application/problem+json",
+                    fmt::format("{} {} {}", id(error.code), request.path(), request.id_text()));
+  };
+  hooks.handler_threw = [&](const Request&, std::string_view what) { thrown = what; };
+  Worker worker;
+  TestServer server(
+      {{.pattern = "/error",
+        .handler = [](const Request&) -> Result<Response> {
+          return Error{ErrorCode::ClassUndefinedForSize, "no"};
+        }},
+       {.pattern = "/throw",
+        .handler = [](const Request&) -> Result<Response> { throw std::runtime_error("oops"); }},
+       {.pattern = "/async-error",
+        .handler =
+            [&](const Request&, Responder responder) {
+              worker.run([responder = std::move(responder)]() mutable {
+                responder.fail({ErrorCode::StorageBusy, "full"});
+              });
+            }},
+       {.pattern = "/dropped", .handler = [](const Request&, Responder) {}},
+       {.pattern = "/async-throw",
+        .handler = [](const Request&, Responder) { throw std::runtime_error("early"); }}},
+      {}, hooks);
+  Client client = server.connect();
+  auto answer = client.ask(get("/error"));
+  CHECK(answer->status == 422);
+  CHECK(answer->field("Content-Type") == "application/problem+json");
+  CHECK(answer->body.starts_with("class.undefined_for_size /error "));
+  answer = client.ask(get("/throw"));
+  CHECK(answer->status == 500);
+  CHECK(answer->body.starts_with("service.internal /throw "));
+  CHECK(thrown == "oops");
+  CHECK(client.ask(get("/async-error"))->body.starts_with("storage.busy"));
+  CHECK(client.ask(get("/dropped"))->status == 500);
+  CHECK(client.ask(get("/async-throw"))->status == 500);
+  CHECK(client.ask(get("/missing"))->status == 404);
+  CHECK(client.ask("BAD\r\n\r\n")->body.starts_with("request."));
+}
+
+TEST_CASE("a prepared answer is the same bytes with the Date of now") {
+  const auto prepared =
+      prepare(Response(200, "application/json", std::string("{}")).with("Vary", "Accept"));
+  TestServer server(
+      {{.pattern = "/p", .handler = [&](const Request&) { return Response(prepared); }}});
+  Client client = server.connect();
+  const auto answer = client.ask(get("/p") + get("/p"));
+  CHECK(answer->status == 200);
+  CHECK(answer->body == "{}");
+  CHECK(answer->field("Vary") == "Accept");
+  CHECK(answer->field("Date").ends_with("GMT"));
+  CHECK(answer->field("Date").find("1970") == std::string::npos);
+  CHECK(client.read()->head == answer->head);
+  const auto head = client.ask("HEAD /p HTTP/1.1\r\nHost: h\r\n\r\n", true);
+  CHECK(head->field("Content-Length") == "2");
+  const auto last = client.ask(get("/p", "Connection: close\r\n"));
+  CHECK(last->field("Connection") == "close");
+  CHECK(last->body == "{}");
+  CHECK(client.is_closed_by_server());
+  CHECK(server.ask("GET /p HTTP/1.0\r\nConnection: keep-alive\r\n\r\n").field("Connection") ==
+        "keep-alive");
+}
+
+TEST_CASE("If-None-Match is answered 304 from either kind of answer") {
+  const auto tagged = [] {
+    Response response = text("body").with("Vary", "Accept").with("X-Other", "x");
+    response.etag = "\"r1\"";
+    return response;
+  };
+  const auto prepared = prepare(tagged());
+  TestServer server({{.pattern = "/plain",
+                      .handler = [&](const Request&) { return tagged(); },
+                      .response_types = {}},
+                     {.pattern = "/prepared",
+                      .handler = [&](const Request&) { return Response(prepared); },
+                      .response_types = {}},
+                     {.method = Method::Post,
+                      .pattern = "/plain",
+                      .handler = [&](const Request&) { return tagged(); },
+                      .response_types = {}}});
+  for (const char* path : {"/plain", "/prepared"}) {
+    Client client = server.connect();
+    for (const char* tags : {"\"r1\"", "W/\"r1\"", "\"r0\", \"r1\"", "*"}) {
+      const auto answer = client.ask(get(path, fmt::format("If-None-Match: {}\r\n", tags)));
+      REQUIRE(answer);
+      CHECK(answer->status == 304);
+      CHECK(answer->field("ETag") == "\"r1\"");
+      CHECK(answer->field("Vary") == "Accept");
+      CHECK(answer->field("X-Other").empty());
+      CHECK(answer->field("Content-Length").empty());
+      CHECK(answer->field("Date").ends_with("GMT"));
+    }
+    const auto changed = client.ask(get(path, "If-None-Match: \"r2\"\r\n"));
+    CHECK(changed->status == 200);
+    CHECK(changed->body == "body");
+    CHECK(
+        client
+            .ask(fmt::format("HEAD {} HTTP/1.1\r\nHost: h\r\nIf-None-Match: \"r1\"\r\n\r\n", path),
+                 true)
+            ->status == 304);
+  }
+  CHECK(server.ask(post("/plain", "a/b", "", "If-None-Match: *\r\n")).status == 200);
+}
+
+TEST_CASE("a body of megabytes is sent whole, shared or not, prepared or not") {
+  auto bytes = std::make_shared<std::string>();
+  for (int i = 0; bytes->size() < 3'000'000; ++i) *bytes += std::to_string(i) + " ";
+  const std::shared_ptr<const std::string> shared = bytes;
+  const auto prepared = prepare(Response(200, "text/plain", shared));
+  TestServer server(
+      {{.pattern = "/shared",
+        .handler = [&](const Request&) { return Response(200, "text/plain", shared); },
+        .response_types = {}},
+       {.pattern = "/own",
+        .handler = [&](const Request&) { return Response(200, "text/plain", *shared); },
+        .response_types = {}},
+       {.pattern = "/prepared",
+        .handler = [&](const Request&) { return Response(prepared); },
+        .response_types = {}}});
+  Client client = server.connect();
+  client.send(get("/shared") + get("/own") + get("/prepared") + get("/own"));
+  for (int i = 0; i < 4; ++i) {
+    const auto answer = client.read();
+    REQUIRE(answer);
+    CHECK(answer->body == *shared);
+  }
+}
+
+TEST_CASE("a line break in a field value cannot begin a field") {
+  TestServer server({{.pattern = "/a", .handler = [](const Request&) -> Result<Response> {
+                        return Response(204).with("Location", "/x\r\nSet-Cookie: a=b");
+                      }}});
+  const Answer answer = server.ask(get("/a"));
+  CHECK(answer.field("Set-Cookie").empty());
+  CHECK(answer.field("Location") == "/x  Set-Cookie: a=b");
+}
