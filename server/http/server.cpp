@@ -108,6 +108,7 @@ void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
     } else {
       connection = std::make_shared<PlainConnection>(thread, std::move(peer), std::move(socket));
     }
+    thread.add(connection);
     connection->start();
   });
 }

@@ -58,7 +58,7 @@ struct FinishedRequest {
   std::string_view route;  ///< the pattern, or empty when none was found
   std::string_view method;
   int status = 0;
-  std::int64_t microseconds = 0;  ///< from its first byte to the answer's last byte
+  std::int64_t microseconds = 0;  ///< from its first byte until its answer is handed to the socket
   std::uint64_t bytes_received = 0;
   std::uint64_t bytes_sent = 0;
   std::string_view peer_address;
@@ -69,7 +69,8 @@ struct ServerHooks {
   /// error came from a handler or guard and its code decides. Without this hook: plain text.
   std::function<Response(const Error& error, std::optional<int> status, const Request& request)>
       format_error{};
-  /// Runs on the head before the body is read; a returned response or error is the answer.
+  /// Runs on the head, before parameters and body are read; a returned response or error is the
+  /// answer.
   std::function<Result<std::optional<Response>>(Request& request, const Route& route)> guard{};
   std::function<void(const FinishedRequest&)> finished{};
   /// A handler threw: `what` is the exception's text. The client got 500 with the request's id.

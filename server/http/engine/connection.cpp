@@ -28,12 +28,7 @@ Connection::Connection(IoThread& thread, Peer peer)
       peer_(std::move(peer)),
       exchange_(thread.shared().routes, thread.shared().hooks, peer_),
       body_(thread.shared().budget) {
-  thread_.add(*this);
   deadline_ = thread_.now() + thread_.shared().options.header_timeout;
-}
-
-Connection::~Connection() {
-  if (phase_ != Phase::Closed) thread_.remove(*this);
 }
 
 template <class Function>
@@ -371,6 +366,7 @@ void Connection::end() {
 
 void Connection::close() noexcept {
   if (phase_ == Phase::Closed) return;
+  const auto self = shared_from_this();
   if (phase_ == Phase::Budget) thread_.shared().budget.end_wait();
   phase_ = Phase::Closed;
   close_socket();

@@ -22,13 +22,14 @@ namespace fitgauge::http {
 /// One client's connection: reads requests one after the other, answers every complete one that the
 /// buffer holds and sends the answers in one write. Owns its buffers; the socket belongs to the
 /// transport that derives from it. Runs on its I/O thread alone; post_*() may be called from any.
-/// After close() it only waits for its last owner (a Responder, a handler of the socket) to go.
+/// The thread keeps it until close(); then it only waits for its last owner (a Responder, an
+/// operation of the socket) to go.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(IoThread& thread, Peer peer);
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
-  virtual ~Connection();
+  virtual ~Connection() = default;
 
   /// Begins to serve.
   virtual void start() = 0;

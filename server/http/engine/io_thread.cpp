@@ -40,15 +40,15 @@ void IoThread::join() {
   close_all();  // on this thread: the other one has ended
 }
 
-void IoThread::add(Connection& connection) {
-  connection.index = connections_.size();
-  connections_.push_back(&connection);
+void IoThread::add(std::shared_ptr<Connection> connection) {
+  connection->index = connections_.size();
+  connections_.push_back(std::move(connection));
   shared_.connections_open.fetch_add(1, std::memory_order_relaxed);
 }
 
 void IoThread::remove(Connection& connection) {
   connections_.back()->index = connection.index;
-  connections_[connection.index] = connections_.back();
+  std::swap(connections_[connection.index], connections_.back());
   connections_.pop_back();
   shared_.connections_open.fetch_sub(1, std::memory_order_relaxed);
 }
@@ -57,8 +57,8 @@ template <class Function>
 void IoThread::for_each_connection(Function function) {
   // From the back: one that closes is replaced by one that was visited.
   for (std::size_t i = connections_.size(); i-- > 0;) {
-    const std::shared_ptr<Connection> connection = connections_[i]->weak_from_this().lock();
-    if (connection) function(*connection);
+    const std::shared_ptr<Connection> connection = connections_[i];
+    function(*connection);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -64,7 +65,8 @@ class IoThread {
   const HttpDate& date() const { return date_; }
   std::uint64_t next_request_id() { return next_request_id_++; }
 
-  void add(Connection& connection);
+  /// Keeps the connection until it is removed.
+  void add(std::shared_ptr<Connection> connection);
   void remove(Connection& connection);
 
   void count_request() {  // one writer: no locked instruction
@@ -93,7 +95,7 @@ class IoThread {
   HttpDate date_{};
   std::uint64_t next_request_id_;
   std::atomic<std::uint64_t> requests_{0};
-  std::vector<Connection*> connections_;
+  std::vector<std::shared_ptr<Connection>> connections_;
   std::thread thread_;
 };
 

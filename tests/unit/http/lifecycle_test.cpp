@@ -1,0 +1,229 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <future>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "test_server.hpp"
+#include "worker.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::http;
+using namespace fitgauge::http::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Finished {
+  std::mutex mutex;
+  std::vector<std::string> lines;
+  ServerHooks hooks() {
+    ServerHooks hooks;
+    hooks.finished = [this](const FinishedRequest& done) {
+      const std::lock_guard lock(mutex);
+      lines.push_back(fmt::format("{} {} {} {} {} {}", done.method, done.route, done.status,
+                                  done.bytes_received, done.bytes_sent > 0, done.peer_address));
+      CHECK(done.microseconds >= 0);
+    };
+    return hooks;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the guard sees the route before the body is read and may answer itself") {
+  ServerHooks hooks;
+  hooks.guard = [](Request& request, const Route& route) -> Result<std::optional<Response>> {
+    if (route.access.empty()) return std::optional<Response>{};
+    const auto key = request.header("Authorization");
+    if (!key) return std::optional(Response(401).with("WWW-Authenticate", "Bearer"));
+    if (*key == "Bearer weak") return Error{ErrorCode::Forbidden, "no"};
+    request.set_caller(std::string(key->substr(7)));
+    return std::optional<Response>{};
+  };
+  Route route = {.method = Method::Post,
+                 .pattern = "/w",
+                 .handler = [](const Request& request) -> Result<Response> {
+                   const auto* const caller = request.caller<std::string>();
+                   return Response(200, "text/plain", caller ? *caller : "nobody");
+                 },
+                 .body = {.use = BodyUse::Optional},
+                 .response_types = {"text/plain"},
+                 .access = "operator"};
+  Route open = route;
+  open.pattern = "/open";
+  open.access.clear();
+  TestServer server({std::move(route), std::move(open)}, {}, hooks);
+  Client early = server.connect();
+  early.send("POST /w HTTP/1.1\r\nHost: h\r\nContent-Length: 1000\r\n\r\n");
+  CHECK(early.read()->field("WWW-Authenticate") == "Bearer");
+  CHECK(server.ask(post("/w", "a/b", "x", "Authorization: Bearer weak\r\n")).status == 500);
+  Client client = server.connect();
+  CHECK(client.ask(post("/w", "a/b", "x", "Authorization: Bearer press-3\r\n"))->body == "press-3");
+  CHECK(client.ask(post("/open", "a/b", "x"))->body == "nobody");  // no caller stays behind
+}
+
+TEST_CASE("a request knows its peer, and a proxy's field makes it remote") {
+  TestServer server({{.pattern = "/peer",
+                      .handler = [](const Request& request) -> Result<Response> {
+                        return Response(200, "text/plain",
+                                        fmt::format("{} {} {}", request.peer_address(),
+                                                    request.is_local(), request.is_tls()));
+                      },
+                      .response_types = {}}});
+  CHECK(server.ask(get("/peer")).body == "127.0.0.1 true false");
+  CHECK(server.ask(get("/peer", "X-Forwarded-For: 10.0.0.1\r\n")).body == "127.0.0.1 false false");
+  CHECK(server.ask(get("/peer", "Forwarded: for=x\r\n")).body == "127.0.0.1 false false");
+}
+
+TEST_CASE("header lookups are case-insensitive and lists are joined") {
+  TestServer server({{.pattern = "/h",
+                      .handler = [](const Request& request) -> Result<Response> {
+                        return Response(200, "text/plain",
+                                        fmt::format("{}|{}|{}", request.header("x-A").value_or("-"),
+                                                    request.header_list("X-a").value_or("-"),
+                                                    request.header("X-B").has_value()));
+                      },
+                      .response_types = {}}});
+  CHECK(server.ask(get("/h", "X-A: 1\r\nx-a: 2\r\n")).body == "1|1, 2|false");
+}
+
+TEST_CASE("every answered request is reported once") {
+  Finished finished;
+  TestServer server(
+      {echo(Method::Get, "/a/{x}"), echo(Method::Post, "/p", {.use = BodyUse::Optional})}, {},
+      finished.hooks());
+  Client client = server.connect();
+  const std::string request = get("/a/1");
+  client.ask(request);
+  client.ask(get("/nothing"));
+  client.ask(post("/p", "a/b", std::string(50'000, 'x')));
+  client.ask("garbage\r\n\r\n");
+  const std::lock_guard lock(finished.mutex);
+  REQUIRE(finished.lines.size() == 4);
+  CHECK(finished.lines[0] == fmt::format("GET /a/{{x}} 200 {} true 127.0.0.1", request.size()));
+  CHECK(finished.lines[1].starts_with("GET  404 "));
+  CHECK(finished.lines[2].starts_with("POST /p 200 500"));
+  CHECK(finished.lines[3].starts_with("  400 "));
+  CHECK(server.server().counters().requests == 4);
+}
+
+TEST_CASE("stop finishes the request in flight, closes idle connections and accepts no more") {
+  Worker worker;
+  std::promise<void> entered;
+  TestServer server({{.pattern = "/slow",
+                      .handler =
+                          [&](const Request&, Responder responder) {
+                            entered.set_value();
+                            worker.run([responder = std::move(responder)]() mutable {
+                              std::this_thread::sleep_for(100ms);
+                              responder.answer(Response(200, "text/plain", std::string("done")));
+                            });
+                          },
+                      .response_types = {}},
+                     echo(Method::Get, "/a")});
+  Client idle = server.connect();
+  CHECK(idle.ask(get("/a"))->status == 200);
+  Client busy = server.connect();
+  busy.send(get("/slow"));
+  entered.get_future().wait();
+  server.server().stop();
+  CHECK(server.server().counters().connections_open == 0);
+  const auto answer = busy.read();
+  REQUIRE(answer);
+  CHECK(answer->body == "done");
+  CHECK(answer->field("Connection") == "close");
+  CHECK(busy.is_closed_by_server());
+  CHECK(idle.is_closed_by_server());
+  CHECK_THROWS(server.connect());
+}
+
+TEST_CASE("stop does not wait for ever, and a late answer is dropped") {
+  std::optional<Responder> kept;
+  std::promise<void> entered;
+  ServerOptions options;
+  options.drain_timeout = 50ms;
+  TestServer server({{.pattern = "/never",
+                      .handler =
+                          [&](const Request&, Responder responder) {
+                            kept.emplace(std::move(responder));
+                            entered.set_value();
+                          }}},
+                    options);
+  Client client = server.connect();
+  client.send(get("/never"));
+  entered.get_future().wait();
+  server.server().stop();
+  kept->answer(Response(204));
+  CHECK(client.is_closed_by_server());
+}
+
+TEST_CASE("a client that goes away while its answer is made harms nobody") {
+  Worker worker;
+  TestServer server({{.pattern = "/slow",
+                      .handler =
+                          [&](const Request& request, Responder responder) {
+                            worker.run([&request, responder = std::move(responder)]() mutable {
+                              std::this_thread::sleep_for(20ms);
+                              responder.answer(
+                                  Response(200, "text/plain", std::string(request.path())));
+                            });
+                          }},
+                     echo(Method::Get, "/a")});
+  for (int i = 0; i < 5; ++i) server.connect().send(get("/slow"));
+  CHECK(server.ask(get("/a")).status == 200);
+  for (int i = 0; i < 300 && server.server().counters().connections_open > 0; ++i) {
+    std::this_thread::sleep_for(10ms);
+  }
+  CHECK(server.server().counters().connections_open == 0);
+}
+
+TEST_CASE("several I/O threads and addresses serve side by side") {
+  ServerOptions options;
+  options.io_threads = 3;
+  options.listen = {{.host = "127.0.0.1", .port = 0}, {.host = "127.0.0.1", .port = 0}};
+  TestServer server({echo(Method::Get, "/a")}, options);
+  REQUIRE(server.server().ports().size() == 2);
+  std::vector<std::thread> clients;
+  std::atomic<int> good = 0;
+  for (int i = 0; i < 8; ++i) {
+    clients.emplace_back([&, i] {
+      Client client(server.server().ports()[static_cast<std::size_t>(i % 2)]);
+      for (int n = 0; n < 50; ++n) {
+        const auto answer = client.ask(get("/a"));
+        good += answer && answer->body == "fixed";
+      }
+    });
+  }
+  for (std::thread& client : clients) client.join();
+  CHECK(good == 400);
+  CHECK(server.server().counters().requests == 400);
+}
+
+TEST_CASE("a port in use and an address that is not ours are refused with the reason") {
+  TestServer server({echo(Method::Get, "/a")});
+  const auto second =
+      Server::start({.listen = {{.host = "127.0.0.1", .port = server.port()}}}, RouteTable({}), {});
+  REQUIRE(second.has_error());
+  CHECK(second.error().code == ErrorCode::ListenFailed);
+  CHECK(second.error().message.find(std::to_string(server.port())) != std::string::npos);
+  CHECK(Server::start({.listen = {{.host = "203.0.113.1", .port = 1}}}, RouteTable({}), {})
+            .has_error());
+  CHECK(Server::start({.listen = {{.host = "no address"}}}, RouteTable({}), {}).has_error());
+}
+
+TEST_CASE("listen addresses are read whole") {
+  CHECK(parse_listen_address("127.0.0.1:8286")->port == 8286);
+  CHECK(parse_listen_address("localhost:0")->host == "127.0.0.1");
+  CHECK(parse_listen_address("[::1]:80")->host == "::1");
+  CHECK(parse_listen_address("[::1]:80")->is_loopback());
+  CHECK_FALSE(parse_listen_address("0.0.0.0:80")->is_loopback());
+  for (const char* text : {"", "8286", "127.0.0.1", "127.0.0.1:", "127.0.0.1:x", "127.0.0.1:65536",
+                           "::1:80", "[127.0.0.1]:80", "host:80", "127.0.0.1:80 "}) {
+    CAPTURE(text);
+    CHECK(parse_listen_address(text).has_error());
+  }
+}

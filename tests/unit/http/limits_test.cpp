@@ -1,0 +1,159 @@
+// Time, memory and connections: what a slow, greedy or numerous client can take.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <thread>
+
+#include "test_server.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::http;
+using namespace fitgauge::http::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr std::size_t kLimit = 1'000'000;
+
+std::vector<Route> routes() {
+  return {echo(Method::Get, "/a"),
+          echo(Method::Post, "/p", {.use = BodyUse::Optional, .limit = kLimit}),
+          {.pattern = "/large",
+           .handler = [](const Request&) -> Result<Response> {
+             return Response(200, "text/plain", std::string(20'000'000, 'x'));
+           },
+           .response_types = {}}};
+}
+
+ServerOptions quick() {
+  ServerOptions options;
+  options.header_timeout = 200ms;
+  options.request_timeout = 400ms;
+  options.idle_timeout = 300ms;
+  options.write_timeout = 300ms;
+  return options;
+}
+
+std::string post_head(std::size_t length) {
+  return fmt::format("POST /p HTTP/1.1\r\nHost: h\r\nContent-Length: {}\r\n\r\n", length);
+}
+
+}  // namespace
+
+TEST_CASE("an idle connection is closed without a word") {
+  TestServer server(routes(), quick());
+  Client fresh = server.connect();
+  Client used = server.connect();
+  CHECK(used.ask(get("/a"))->status == 200);
+  CHECK(fresh.is_closed_by_server());
+  CHECK(used.is_closed_by_server());
+}
+
+TEST_CASE("a head that does not end is 408, also when it drips") {
+  TestServer server(routes(), quick());
+  Client silent = server.connect();
+  silent.send("GET /a HTT");
+  Client dripping = server.connect();
+  const std::string request = get("/a", std::string("X: ") + std::string(200, 'y') + "\r\n");
+  std::size_t sent = 0;
+  while (sent < request.size() && dripping.send(request.substr(sent, 1))) {
+    ++sent;
+    std::this_thread::sleep_for(20ms);
+  }
+  CHECK(sent < request.size());
+  for (Client* const client : {&silent, &dripping}) {
+    const auto answer = client->read();
+    REQUIRE(answer);
+    CHECK(answer->status == 408);
+    CHECK(answer->body.starts_with("request.timeout"));
+    CHECK(client->is_closed_by_server());
+  }
+}
+
+TEST_CASE(
+    "the deadline of a request holds for the whole of it: dripping a body does not renew it") {
+  TestServer server(routes(), quick());
+  for (const bool chunked : {false, true}) {
+    Client client = server.connect();
+    client.send(chunked ? "POST /p HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n"
+                        : post_head(50'000));
+    int sent = 0;
+    while (sent < 200 && client.send(chunked ? "1\r\nx\r\n" : "x")) {
+      ++sent;
+      std::this_thread::sleep_for(20ms);
+    }
+    CHECK(sent < 200);
+    const auto answer = client.read();
+    REQUIRE(answer);
+    CHECK(answer->status == 408);
+  }
+}
+
+TEST_CASE("a reader that takes nothing is dropped") {
+  TestServer server(routes(), quick());
+  Client client = server.connect();
+  client.send(get("/large"));
+  std::this_thread::sleep_for(1s);
+  CHECK(server.server().counters().connections_open == 0);
+  CHECK(client.read_to_end().size() < 20'000'000);
+}
+
+TEST_CASE("connections beyond the cap are answered 503 and closed") {
+  ServerOptions options;
+  options.max_connections = 2;
+  TestServer server(routes(), options);
+  Client first = server.connect();
+  Client second = server.connect();
+  CHECK(first.ask(get("/a"))->status == 200);
+  CHECK(second.ask(get("/a"))->status == 200);
+  Client third = server.connect();
+  const auto answer = third.read();
+  REQUIRE(answer);
+  CHECK(answer->status == 503);
+  CHECK(answer->field("Retry-After") == "1");
+  CHECK(third.is_closed_by_server());
+  CHECK(server.server().counters().connections_refused == 1);
+  CHECK(first.ask(get("/a"))->status == 200);
+}
+
+TEST_CASE("half-sent large bodies hold no more than the budget, and others are served meanwhile") {
+  ServerOptions options;
+  options.body_budget = 2'500'000;  // two bodies and a half
+  TestServer server(routes(), options);
+  std::vector<Client> stalled;
+  for (int i = 0; i < 20; ++i) {
+    stalled.push_back(server.connect());
+    stalled.back().send(post_head(kLimit) + std::string(30'000, 'x'));
+  }
+  std::this_thread::sleep_for(50ms);
+  CHECK(server.server().counters().body_bytes_in_flight == 2'000'000);
+
+  CHECK(server.ask(get("/a")).status == 200);
+  CHECK(server.ask(post("/p", "text/plain", std::string(16'000, 's'))).body.size() == 16'000);
+  // A large one waits until one of the senders that have stopped gives way.
+  CHECK(server.ask(post("/p", "text/plain", std::string(kLimit, 'l'))).body.size() == kLimit);
+  CHECK(server.server().counters().body_bytes_in_flight <= 2'500'000);
+}
+
+TEST_CASE("a body that waits too long for memory is 503") {
+  ServerOptions options = quick();
+  options.body_budget = 500'000;
+  TestServer server(routes(), options);
+  const Answer answer = server.ask(post("/p", "text/plain", std::string(600'000, 'x')));
+  CHECK(answer.status == 503);
+  CHECK(answer.body.starts_with("service.overloaded"));
+  CHECK(server.server().counters().body_bytes_in_flight == 0);
+}
+
+TEST_CASE("chunked bodies take their budget as they grow and give it back") {
+  ServerOptions options;
+  options.body_budget = kLimit;
+  TestServer server(routes(), options);
+  const std::string body(kLimit, 'c');
+  const std::string request = "POST /p HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n" +
+                              fmt::format("{:x}\r\n{}\r\n0\r\n\r\n", body.size(), body);
+  for (int i = 0; i < 3; ++i) CHECK(server.ask(request).body == body);
+  CHECK(server.server().counters().body_bytes_in_flight == 0);
+}

@@ -1,0 +1,216 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "http/body_stream.hpp"
+#include "test_server.hpp"
+#include "worker.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::http;
+using namespace fitgauge::http::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// `count` numbered lines, produced on a worker.
+class Lines final : public BodyStream {
+ public:
+  Lines(Worker& worker, int count, std::atomic<int>& produced)
+      : worker_(worker), count_(count), produced_(produced) {}
+
+  void next(ChunkSink sink) override {
+    worker_.run([sink = std::move(sink), piece = make(), last = line_ >= count_]() mutable {
+      if (last) {
+        sink.finish(std::move(piece));
+      } else {
+        sink.put(std::move(piece));
+      }
+    });
+  }
+
+ private:
+  std::string make() {
+    std::string piece;
+    while (line_ < count_ && piece.size() < 16'000) piece += fmt::format("line {}\n", line_++);
+    produced_ = line_;
+    return piece;
+  }
+
+  Worker& worker_;
+  const int count_;
+  std::atomic<int>& produced_;
+  int line_ = 0;
+};
+
+/// Events that a test sends when it likes.
+class Events final : public BodyStream {
+ public:
+  void next(ChunkSink sink) override {
+    const std::lock_guard lock(mutex_);
+    sink_.emplace(std::move(sink));
+  }
+  void cancelled() override {
+    const std::lock_guard lock(mutex_);
+    sink_.reset();
+    is_cancelled = true;
+  }
+  bool send(std::string text, bool last = false) {
+    for (int i = 0; i < 1000; ++i) {
+      {
+        const std::lock_guard lock(mutex_);
+        if (auto sink = std::exchange(sink_, std::nullopt)) {
+          if (last) {
+            sink->finish(std::move(text));
+          } else {
+            sink->put(std::move(text));
+          }
+          return true;
+        }
+      }
+      std::this_thread::sleep_for(1ms);
+    }
+    return false;
+  }
+  void fail() {
+    const std::lock_guard lock(mutex_);
+    if (sink_) sink_->fail();
+    sink_.reset();
+  }
+
+  std::atomic<bool> is_cancelled = false;
+
+ private:
+  std::mutex mutex_;
+  std::optional<ChunkSink> sink_;
+};
+
+Route events(std::shared_ptr<Events> stream, std::chrono::milliseconds heartbeat = 10s) {
+  return {.pattern = "/events",
+          .handler = [=](const Request&) -> Result<Response> {
+            return Response(200, "text/event-stream", StreamedBody{stream, ": \n\n", heartbeat});
+          },
+          .response_types = {"text/event-stream"}};
+}
+
+Route lines(Worker& worker, int count, std::atomic<int>& produced) {
+  return {.pattern = "/lines",
+          .handler = [&worker, &produced, count](const Request&) -> Result<Response> {
+            return Response(200, "text/plain",
+                            StreamedBody{std::make_shared<Lines>(worker, count, produced)});
+          },
+          .response_types = {"text/plain"}};
+}
+
+}  // namespace
+
+TEST_CASE("a streamed body arrives whole in chunks and the connection goes on") {
+  std::atomic<int> produced = 0;
+  Worker worker;
+  TestServer server({lines(worker, 100'000, produced), echo(Method::Get, "/a")});
+  Client client = server.connect();
+  client.send(get("/lines") + get("/a"));
+  const auto answer = client.read();
+  REQUIRE(answer);
+  CHECK(answer->field("Transfer-Encoding") == "chunked");
+  CHECK(answer->field("Content-Length").empty());
+  CHECK(answer->body.starts_with("line 0\nline 1\n"));
+  CHECK(answer->body.ends_with("line 99999\n"));
+  CHECK(client.read()->body == "fixed");
+}
+
+TEST_CASE("HTTP/1.0 gets a stream up to the end of the connection, HEAD gets none") {
+  std::atomic<int> produced = 0;
+  Worker worker;
+  TestServer server({lines(worker, 5000, produced), echo(Method::Get, "/a")});
+  const Answer old = server.ask("GET /lines HTTP/1.0\r\nConnection: keep-alive\r\n\r\n");
+  CHECK(old.field("Transfer-Encoding").empty());
+  CHECK(old.field("Connection") == "close");
+  CHECK(old.body.ends_with("line 4999\n"));
+  produced = 0;
+  Client client = server.connect();
+  CHECK(client.ask("HEAD /lines HTTP/1.1\r\nHost: h\r\n\r\n", true)->status == 200);
+  CHECK(client.ask(get("/a"))->body == "fixed");
+  CHECK(produced == 0);
+}
+
+TEST_CASE(
+    "a stream is produced no faster than its reader takes it, and a stuck reader is dropped") {
+  std::atomic<int> produced = 0;
+  Worker worker;
+  ServerOptions options;
+  options.write_timeout = 400ms;
+  constexpr int kMany = 20'000'000;
+  TestServer server({lines(worker, kMany, produced)}, options);
+  Client client = server.connect();
+  client.send(get("/lines"));
+  client.read_some();
+  for (int i = 0; i < 500 && server.server().counters().connections_open > 0; ++i) {
+    std::this_thread::sleep_for(10ms);
+  }
+  CHECK(server.server().counters().connections_open == 0);
+  CHECK(produced < kMany / 2);  // what the socket's buffers hold, and no more
+}
+
+TEST_CASE("events leave at once, heartbeats fill the silence") {
+  const auto stream = std::make_shared<Events>();
+  ServerOptions options;
+  options.write_timeout = 100ms;  // for a fine sweep
+  TestServer server({events(stream, 50ms)}, options);
+  Client client = server.connect();
+  client.send(get("/events"));
+  std::string seen = client.read_some();
+  while (seen.find("4\r\n: \n\n\r\n") == std::string::npos) seen += client.read_some();
+  CHECK(seen.find("text/event-stream") != std::string::npos);
+  REQUIRE(stream->send("data: 1\n\n"));
+  while (seen.find("9\r\ndata: 1\n\n\r\n") == std::string::npos) seen += client.read_some();
+  REQUIRE(stream->send("data: 2\n\n", true));
+  while (!seen.ends_with("9\r\ndata: 2\n\n\r\n0\r\n\r\n")) seen += client.read_some();
+}
+
+TEST_CASE("a stream whose reader has gone is cancelled") {
+  const auto stream = std::make_shared<Events>();
+  ServerOptions options;
+  options.write_timeout = 100ms;
+  TestServer server({events(stream, 30ms)}, options);
+  {
+    Client client = server.connect();
+    client.send(get("/events"));
+    client.read_some();
+  }
+  for (int i = 0; i < 300 && !stream->is_cancelled; ++i) std::this_thread::sleep_for(10ms);
+  CHECK(stream->is_cancelled);
+}
+
+TEST_CASE("a stream that fails closes without the end of the body") {
+  const auto stream = std::make_shared<Events>();
+  TestServer server({events(stream)});
+  Client client = server.connect();
+  client.send(get("/events"));
+  REQUIRE(stream->send("data: 1\n\n"));
+  std::string seen = client.read_some();
+  while (seen.find("data: 1") == std::string::npos) seen += client.read_some();
+  for (int i = 0; i < 100; ++i) {
+    stream->fail();
+    std::this_thread::sleep_for(1ms);
+  }
+  seen += client.read_to_end();
+  CHECK_FALSE(seen.ends_with("0\r\n\r\n"));
+}
+
+TEST_CASE("stopping the server cuts streams") {
+  const auto stream = std::make_shared<Events>();
+  TestServer server({events(stream)});
+  Client client = server.connect();
+  client.send(get("/events"));
+  client.read_some();
+  server.server().stop();
+  CHECK(stream->is_cancelled);
+  CHECK(client.read_to_end().empty());
+}
