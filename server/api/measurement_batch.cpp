@@ -32,7 +32,9 @@ void read_row(const JsonValue& object, MeasurementRowReader& reader, Measurement
                       fmt::format("a measurement is an object, not {}", name_of(object.kind)));
     return;
   }
-  for (const auto& [name, value] : object.members) reader.field(name, raw_value(value));
+  for (const auto& [name, value] : object.members) {
+    if (!reader.field(name, raw_value(value))) reader.report_unknown(name);
+  }
   if (auto row = reader.end()) batch.rows.push_back(*std::move(row));
 }
 
@@ -125,7 +127,7 @@ Result<MeasurementBatch> decode_csv(std::string_view body, const BatchContext& c
   for (const std::string& name : csv->header()) {
     if (MeasurementRowReader::knows(name)) continue;
     reader.begin(std::nullopt, 1);
-    reader.field(name, {});
+    reader.report_unknown(name);
   }
   std::size_t row = 0;
   for (;; ++row) {

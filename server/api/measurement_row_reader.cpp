@@ -113,17 +113,17 @@ void MeasurementRowReader::report(ErrorCode code, std::string_view field, std::s
   errors_.add(code, std::move(pointer), std::move(message), line_);
 }
 
+void MeasurementRowReader::report_unknown(std::string_view name) {
+  report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));
+}
+
 void MeasurementRowReader::report_row(ErrorCode code, std::string message) {
   report(code, "", std::move(message));
 }
 
 bool MeasurementRowReader::field(std::string_view name, const RawValue& value) {
   const std::size_t field = find_field(name);
-  if (field == kFieldCount) {
-    report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));
-    return true;
-  }
-  if (given(field)) return false;
+  if (field == kFieldCount || given(field)) return false;
   draft_.given |= 1U << field;
   assign(field, value);
   return true;

@@ -34,8 +34,9 @@ class MeasurementRowReader {
   /// @param line the line it stands on, from 1; none where lines mean nothing.
   void begin(std::optional<std::size_t> row, std::optional<std::size_t> line = {});
 
-  /// @returns false when this field was given before.
+  /// @returns false, and reports nothing, when there is no such field or it was given before.
   bool field(std::string_view name, const RawValue& value);
+  void report_unknown(std::string_view name);
 
   /// The judged measurement, or none when the row has errors.
   std::optional<app::Measurement> end();

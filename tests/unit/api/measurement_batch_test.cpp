@@ -1,0 +1,168 @@
+#include "api/measurement_batch.hpp"
+
+#include <doctest/doctest.h>
+
+#include "iso286/table_data.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::api;
+
+namespace {
+
+const iso286::ToleranceTables& tables() {
+  static const auto kTables =
+      iso286::ToleranceTables::make(iso286::compiled_in_tables(), {"test"}).value();
+  return kTables;
+}
+
+/// The body with the padding the HTTP engine gives it. Batches are views of it, so it is kept.
+Result<MeasurementBatch> decode(std::string body, std::string_view type = "application/json") {
+  static std::vector<std::unique_ptr<std::string>> kept;
+  const std::size_t size = body.size();
+  body.append(64, '\0');
+  kept.push_back(std::make_unique<std::string>(std::move(body)));
+  return decode_measurements(std::string_view(*kept.back()).substr(0, size), type,
+                             {.tables = tables(), .received_at = {1'000'000'000}});
+}
+
+app::Measurement one(std::string body, std::string_view type = "application/json") {
+  const auto batch = decode(std::move(body), type);
+  REQUIRE(batch.has_value());
+  REQUIRE(batch->rows.size() == 1);
+  return batch->rows.front();
+}
+
+/// "pointer code" of every entry, with "@line" where there is one.
+std::vector<std::string> complaints(std::string body, std::string_view type = "application/json") {
+  const auto batch = decode(std::move(body), type);
+  REQUIRE(batch.has_error());
+  REQUIRE(batch.error().code == ErrorCode::RequestInvalid);
+  std::vector<std::string> found;
+  for (const Error& entry : batch.error().details) {
+    std::string text = entry.where + ' ' + std::string(id(entry.code));
+    if (!entry.details.empty()) text += '@' + entry.details.front().where;
+    found.push_back(std::move(text));
+  }
+  return found;
+}
+
+using Complaints = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("an object is judged by its class") {
+  const auto m = one(R"({"designation":"25 H7","measured_mm":25.0215,"part_id":"SN-1"})");
+  CHECK(m.measured == Length::nanometres(25'021'500));
+  CHECK(m.result.verdict == gauging::Verdict::Reject);
+  CHECK(m.result.excess == Length::nanometres(500));
+  CHECK(m.texts.part_id == "SN-1");
+  CHECK(m.measured_at.nanoseconds == 1'000'000'000);
+}
+
+TEST_CASE("measured values are rounded to the nanometre, nominal sizes are not") {
+  CHECK(one(R"({"designation":"25 H7","measured_mm":25.005884000000002})").measured ==
+        Length::nanometres(25'005'884));
+  CHECK(complaints(R"({"nominal_mm":25.0000001,"tolerance_class":"H7","measured_mm":25})") ==
+        Complaints{"/nominal_mm length.too_fine"});
+}
+
+TEST_CASE("every bad field of every row is reported with its pointer") {
+  CHECK(complaints(R"([{"designation":"25 H7","measured_mm":25},
+                       {"designation":"25 H19","measured_mm":null,"x":1},
+                       7,
+                       {"nominal_mm":10,"tolerance_class":"t6","measured_mm":""}])") ==
+        Complaints{"/1/measured_mm field.type", "/1/x field.unknown",
+                   "/1/designation class.unknown", "/2 field.type",
+                   "/3/measured_mm length.malformed",
+                   "/3/tolerance_class class.undefined_for_size"});
+}
+
+TEST_CASE("unreadable JSON is no request with bad fields") {
+  CHECK(decode(R"({"designation":"25 H7","measured_mm":25)").error().code ==
+        ErrorCode::JsonMalformed);
+  CHECK(decode(R"({"measured_mm":25,"measured_mm":25})").error().code ==
+        ErrorCode::JsonDuplicateKey);
+  CHECK(decode(R"({"x":25,"x":25})").error().code == ErrorCode::JsonDuplicateKey);
+  CHECK(decode(R"({"designation":"25 H7","measured_mm":025})").error().code ==
+        ErrorCode::JsonMalformed);
+  CHECK(decode(R"({"designation":"25 H7","measured_mm":25.013abc})").error().code ==
+        ErrorCode::JsonMalformed);
+  CHECK(decode(R"([{"designation":"25 H7","measured_mm":25}] [])").error().code ==
+        ErrorCode::JsonMalformed);
+  CHECK(decode("\xEF\xBB\xBF{}").error().code == ErrorCode::TextEncoding);
+  CHECK(decode("{\"part_id\":\"\xFF\"}").error().code == ErrorCode::TextEncoding);
+  CHECK(decode("[]").error().code == ErrorCode::RequestInvalid);
+}
+
+TEST_CASE("escaped texts and keys take the exact way and mean the same") {
+  const auto m =
+      one(R"({"designation":"25\u0020H7","measured_mm":25.013,"comment":"a\"b\\\u00b5"})");
+  CHECK(m.texts.comment == "a\"b\\\xC2\xB5");
+  CHECK(one(R"({"\u0064esignation":"25 H7","measured_mm":25.013})").measured ==
+        Length::nanometres(25'013'000));
+}
+
+TEST_CASE("limits are given once, in one of three ways") {
+  const auto drawing = one(
+      R"({"nominal_mm":25,"feature":"shaft","upper_um":10,"lower_um":-3.5,"measured_mm":25.0101})");
+  CHECK(drawing.basis == app::LimitsBasis::Explicit);
+  CHECK(drawing.result.verdict == gauging::Verdict::Rework);
+  CHECK_FALSE(drawing.class_name.has_value());
+  CHECK(complaints(R"({"designation":"25 H7","nominal_mm":25,"measured_mm":25})") ==
+        Complaints{"/nominal_mm field.conflict"});
+  CHECK(
+      complaints(R"({"nominal_mm":25,"tolerance_class":"H7","feature":"hole","measured_mm":25})") ==
+      Complaints{"/tolerance_class field.conflict"});
+  CHECK(complaints(R"({"nominal_mm":25,"measured_mm":25})") ==
+        Complaints{"/tolerance_class field.missing"});
+  CHECK(complaints(R"({"nominal_mm":25,"feature":"hole","upper_um":1,"measured_mm":25})") ==
+        Complaints{"/lower_um field.missing"});
+  CHECK(complaints(
+            R"({"nominal_mm":25,"feature":"hole","upper_um":1,"lower_um":2,"measured_mm":25})") ==
+        Complaints{"/upper_um limits.invalid"});
+}
+
+TEST_CASE("a guard band needs its uncertainty") {
+  CHECK(complaints(R"({"designation":"25 H7","measured_mm":25,"rule":"guard_band"})") ==
+        Complaints{"/uncertainty_um field.missing"});
+  const auto m = one(
+      R"({"designation":"25 H7","measured_mm":25.02,"rule":"guard_band","uncertainty_um":0.8})");
+  CHECK(m.result.verdict == gauging::Verdict::Indeterminate);
+}
+
+TEST_CASE("CSV of both dialects is read, empty cells are not given") {
+  const auto m =
+      one("\xEF\xBB\xBF"
+          "designation;measured_mm;part_id;comment\r\n25,5 H7;25,5005;\"a;b\";\r\n",
+          "text/csv");
+  CHECK(m.nominal_size == Length::nanometres(25'500'000));
+  CHECK(m.measured == Length::nanometres(25'500'500));
+  CHECK(m.texts.part_id == "a;b");
+  CHECK_FALSE(m.texts.comment.has_value());
+  CHECK(one("nominal_mm,tolerance_class,measured_mm\n\"25,5\",H7,25.5\n", "text/csv").measured ==
+        Length::nanometres(25'500'000));
+  CHECK(complaints("designation,measured_mm,x\n25 H7,25,1\n25 H7,,2\n", "text/csv") ==
+        Complaints{"/x field.unknown@1", "/1/measured_mm field.missing@3"});
+  CHECK(decode("designation,designation\n1,2\n", "text/csv").error().code ==
+        ErrorCode::CsvMalformed);
+}
+
+TEST_CASE("NDJSON names row and line") {
+  CHECK(complaints("{\"designation\":\"25 H7\",\"measured_mm\":25}\n\n"
+                   "{\"designation\":\"25 H7\",\"measured_mm\":true}\r\n",
+                   "application/x-ndjson") == Complaints{"/1/measured_mm field.type@3"});
+  const auto broken =
+      decode("{\"designation\":\"25 H7\",\"measured_mm\":25}\n{\n", "application/x-ndjson");
+  CHECK(broken.error().code == ErrorCode::JsonMalformed);
+  CHECK(broken.error().where == "line 2");
+}
+
+TEST_CASE("no more than a hundred bad fields are listed, all are counted") {
+  std::string body = "[";
+  for (int i = 0; i < 150; ++i) body += R"({"designation":"25 H7"},)";
+  body.back() = ']';
+  const auto batch = decode(body);
+  REQUIRE(batch.has_error());
+  CHECK(batch.error().details.size() == 100);
+  CHECK(batch.error().message.starts_with("150 fields"));
+}
