@@ -34,6 +34,12 @@ std::string caret_line(const Diagnostic& diagnostic) {
 
 std::string_view id(DiagnosticCode code) { return kIds[static_cast<std::size_t>(code)]; }
 
+bool contains_error(const std::vector<Diagnostic>& diagnostics) {
+  return std::any_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& diagnostic) {
+    return diagnostic.severity == Severity::Error;
+  });
+}
+
 std::string render(const Diagnostic& diagnostic) {
   return fmt::format(
       "{}:{}:{}: {}: {} [{}]\n{}{}", diagnostic.program, diagnostic.range.begin.line,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/source_range.hpp"
 
@@ -34,6 +35,9 @@ struct Diagnostic {
   std::optional<std::uint32_t> block{};  ///< its number as written
   std::string source{};                  ///< the physical line
 };
+
+/// One of them refuses the text.
+bool contains_error(const std::vector<Diagnostic>& diagnostics);
 
 /// The finding as text of three lines:
 /// `8255.h:14:9: error: label 5 is not defined [label.unknown]`, the line, and a caret below it.

@@ -14,9 +14,6 @@ namespace {
 
 bool continues_word(char c) { return is_letter(c) || is_digit(c) || c == '_'; }
 
-constexpr double kPowersOfTen[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                   1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-
 /// Literals have at most nine digits before the point.
 constexpr double kLargestNumber = 1e9;
 
@@ -131,40 +128,28 @@ std::string_view Lexer::letters() {
 
 double Lexer::number() {
   skip_blanks();
-  const char* begin = at_;
-  std::uint64_t mantissa = 0;
-  const char* p = at_;
-  for (; is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<unsigned>(*p - '0');
-  std::ptrdiff_t digit_count = p - begin;
-  std::ptrdiff_t decimals = 0;
-  if (*p == '.' || (*p == ',' && is_digit(p[1]))) {
-    const char* fraction = ++p;
-    for (; is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<unsigned>(*p - '0');
-    decimals = p - fraction;
-    digit_count += decimals;
-  }
-  if (digit_count == 0) {
+  double value = 0;
+  if (plain_number(value)) return value;
+  if (!at_number()) {
     fail_expected("a number");
     return 0;
   }
-  at_ = p;
-  // Up to 15 digits both parts of the quotient are exact, so that it is correctly rounded.
-  const double value = digit_count <= 15 ? static_cast<double>(mantissa) / kPowersOfTen[decimals]
-                                         : long_number(begin, p);
-  if (value >= kLargestNumber) {
-    fail(DiagnosticCode::NumberOutOfRange, place(begin, p),
+  const char* begin = at_;
+  const auto skip_digits = [this] { at_ = std::find_if_not(at_, end_, is_digit); };
+  skip_digits();
+  if (peek() == '.' || (peek() == ',' && is_digit(peek(1)))) {
+    ++at_;
+    skip_digits();
+  }
+  std::string text(begin, at_);
+  std::replace(text.begin(), text.end(), ',', '.');
+  const auto error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
+  if (error != std::errc() || value >= kLargestNumber) {
+    fail(DiagnosticCode::NumberOutOfRange, place(begin, at_),
          fmt::format("{} is too large: the control takes up to nine digits before the point",
-                     excerpt({begin, static_cast<std::size_t>(p - begin)})));
+                     excerpt(text)));
   }
   return value;
-}
-
-double Lexer::long_number(const char* begin, const char* end) {
-  std::string text(begin, end);
-  std::replace(text.begin(), text.end(), ',', '.');
-  double value = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc::result_out_of_range ? kLargestNumber : value;
 }
 
 std::uint32_t Lexer::digits(std::uint32_t largest, std::string_view what) {

@@ -12,7 +12,7 @@
 namespace fitgauge::klartext {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
-inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') <= 9; }
 inline bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
 /// What kept a block from being read.
@@ -85,6 +85,9 @@ class Lexer {
     return is_digit(*at_) || ((*at_ == '.' || *at_ == ',') && is_digit(at_[1]));
   }
   double number();
+  /// As number(), for the literals of nearly every program: true when up to 15 digits with a point
+  /// stand here that are in range. Otherwise stays in place.
+  bool plain_number(double& value);
   /// Whole digits, for block, label, cycle and function numbers; fails above `largest`.
   std::uint32_t digits(std::uint32_t largest, std::string_view what);
 
@@ -118,6 +121,30 @@ class Lexer {
   const char* end_ = nullptr;
   std::optional<Failure> failure_;
 };
+
+/// Digits are gathered in an integer that a double holds exactly, as it does the power of ten:
+/// their quotient is the nearest double to the literal.
+inline bool Lexer::plain_number(double& value) {
+  constexpr std::ptrdiff_t kMostDigits = 15;
+  constexpr double kPowersOfTen[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                     1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  constexpr std::uint64_t kLargest = 1'000'000'000;
+  const char* p = at_;
+  std::uint64_t mantissa = 0;
+  for (; is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<unsigned char>(*p - '0');
+  const std::ptrdiff_t whole = p - at_;
+  if (whole == 0 || whole > kMostDigits || mantissa >= kLargest || *p == ',') return false;
+  std::ptrdiff_t decimals = 0;
+  if (*p == '.') {
+    const char* fraction = ++p;
+    for (; is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<unsigned char>(*p - '0');
+    decimals = p - fraction;
+    if (whole + decimals > kMostDigits) return false;
+  }
+  value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
+  at_ = p;
+  return true;
+}
 
 /// A text without its wraps: `a~`, line end, ` b` is `a b`.
 std::string unwrapped(std::string_view text);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -110,6 +111,9 @@ struct MaskFile {
   std::string file_name{};
   std::vector<MaskLine> lines{};
 };
+
+/// A larger file is refused with ProgramTooLarge.
+inline constexpr std::size_t kLargestMask = 8 * 1024 * 1024;
 
 struct ParsedMask {
   MaskFile mask;

@@ -189,7 +189,8 @@ std::size_t Parser::parse_block(std::size_t begin) {
     block.number_or_none = in_.digits(kLargestBlockNumber, "the block number");
     in_.skip_blanks();
   }
-  if (at_q_form_cycle()) {
+  const char first = ascii_upper(in_.peek());
+  if ((first == 'C' || first == 'T') && at_q_form_cycle()) {
     end = extend_over_parameter_lines(end);
     in_.extend(end);
   }
@@ -230,11 +231,7 @@ ParsedProgram Parser::parse() && {
 
 }  // namespace
 
-bool ParsedProgram::has_errors() const {
-  return std::any_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& diagnostic) {
-    return diagnostic.severity == Severity::Error;
-  });
-}
+bool ParsedProgram::has_errors() const { return contains_error(diagnostics); }
 
 ParsedProgram parse_program(std::string bytes, std::string name) {
   if (bytes.size() > kLargestSource) {

@@ -11,6 +11,9 @@ namespace {
 constexpr LetterSet kIncremental =
     kAxes | LetterSet(Letter::Pr, Letter::Pa, Letter::Rot, Letter::Ccx, Letter::Ccy, Letter::Ccz);
 
+/// Words that are nothing but a letter and a number.
+constexpr LetterSet kPlain = kAxes | LetterSet(Letter::F);
+
 /// The words that belong to an M function when they follow it.
 struct MArguments {
   unsigned m;
@@ -33,6 +36,9 @@ constexpr MArguments kMArguments[] = {
 constexpr std::uint32_t kLargestM = 9999;
 
 }  // namespace
+
+WordReader::WordReader(BlockReader& in, LetterSet allowed, LetterSet bare)
+    : in_(in), allowed_(allowed), bare_(bare), plain_(allowed & kPlain), first_(in.word_count()) {}
 
 Word WordReader::parse_name() {
   Word word;
@@ -59,8 +65,30 @@ Word WordReader::parse_name() {
   return word;
 }
 
+/// Words such as `X+10.5`, the form of nearly all words of a long program, without the detours of
+/// the general way. Stops before a word of another form.
+/// @returns whether there was one.
+bool WordReader::read_plain_words() {
+  for (bool found = false;; found = true, in_.skip_blanks()) {
+    const char* begin = in_.at();
+    const Letter letter = single_letter(*begin);
+    if (!plain_.contains(letter)) return found;
+    const char sign = begin[1];
+    in_.move_to(begin + (sign == '+' || sign == '-' ? 2 : 1));
+    double value = 0;
+    if (!in_.plain_number(value)) {
+      in_.move_to(begin);
+      return found;
+    }
+    plain_.erase(letter);
+    seen_.insert(letter);
+    in_.add_word({.letter = letter, .value = sign == '-' ? -value : value});
+  }
+}
+
 void WordReader::read() {
   in_.skip_blanks();
+  if (read_plain_words()) return;
   const char* begin = in_.at();
   Word word = parse_name();
   if (in_.failure()) return;
@@ -76,6 +104,7 @@ void WordReader::read() {
                fmt::format("{} stands twice in this block", spelling(word.letter)));
     }
     seen_.insert(word.letter);
+    plain_.erase(word.letter);
   }
   in_.add_word(word);
 }
@@ -116,6 +145,8 @@ void WordReader::parse_m_number(Word& word) {
   const std::uint32_t number = in_.digits(kLargestM, "the number of the M function");
   word.value = static_cast<double>(number);
   arguments_ = LetterSet();
+  // Behind an M function the general way tells its arguments from words of the block.
+  plain_ = LetterSet();
   for (const MArguments& row : kMArguments) {
     if (row.m != number) continue;
     arguments_ = row.letters;

@@ -15,14 +15,14 @@ class WordReader {
  public:
   /// @param allowed the words this block may hold.
   /// @param bare those that may stand without a value: the axes of `CYCL DEF 8.1 X Y`.
-  WordReader(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet())
-      : in_(in), allowed_(allowed), bare_(bare), first_(in.word_count()) {}
+  WordReader(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet());
 
-  /// The next word; fails when it is none of the allowed ones or stands there twice.
+  /// The next word, or several; fails when one is none of the allowed ones or stands there twice.
   void read();
   Slice<Word> words() const { return in_.words_since(first_); }
 
  private:
+  bool read_plain_words();
   Word parse_name();
   void parse_value_of(Word& word);
   void parse_m_number(Word& word);
@@ -31,6 +31,7 @@ class WordReader {
   LetterSet allowed_;
   LetterSet bare_;
   LetterSet seen_;
+  LetterSet plain_;      ///< those still to come that may be read the short way
   LetterSet arguments_;  ///< of the M function read last
   bool arguments_are_bare_ = false;
   std::uint32_t first_;

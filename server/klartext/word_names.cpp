@@ -107,16 +107,6 @@ constexpr bool rows_follow_letters() {
 static_assert(rows_follow_letters());
 static_assert(std::size(kRows) <= 128, "LetterSet holds 128 letters");
 
-/// The letter of a single character, from `A`; Value where there is none.
-constexpr std::array<Letter, 26> kSingles = [] {
-  std::array<Letter, 26> singles{};
-  singles.fill(Letter::Value);
-  for (const Row& row : kRows) {
-    if (row.name.size() == 1) singles[static_cast<std::size_t>(row.name[0] - 'A')] = row.letter;
-  }
-  return singles;
-}();
-
 /// The rows of names that begin with each character, so that a look-up compares few.
 constexpr std::array<Letter, 26> kFirstRow = [] {
   std::array<Letter, 26> first{};
@@ -130,13 +120,22 @@ constexpr std::array<Letter, 26> kFirstRow = [] {
 
 }  // namespace
 
+constinit const std::array<Letter, 26> kSingleLetters = [] {
+  std::array<Letter, 26> singles{};
+  singles.fill(Letter::Value);
+  for (const Row& row : kRows) {
+    if (row.name.size() == 1) singles[static_cast<std::size_t>(row.name[0] - 'A')] = row.letter;
+  }
+  return singles;
+}();
+
 std::optional<Letter> find_letter(std::string_view letters) {
   if (letters.empty()) return std::nullopt;
-  const auto initial = static_cast<std::size_t>(ascii_upper(letters.front()) - 'A');
   if (letters.size() == 1) {
-    const Letter letter = kSingles[initial];
+    const Letter letter = single_letter(letters.front());
     return letter == Letter::Value ? std::nullopt : std::optional(letter);
   }
+  const auto initial = static_cast<std::size_t>(ascii_upper(letters.front()) - 'A');
   for (auto i = static_cast<std::size_t>(kFirstRow[initial]); i < std::size(kRows); ++i) {
     if (ascii_iequals(kRows[i].name, letters)) return kRows[i].letter;
   }
