@@ -1,0 +1,180 @@
+"""A fitgauged of one's own: the binary of $FITGAUGED on a free port, its data in a new folder."""
+
+import http.client
+import json
+import os
+import pathlib
+import shutil
+import signal
+import ssl
+import subprocess
+import tempfile
+import time
+import unittest
+
+FITGAUGED = os.environ.get("FITGAUGED", "build/release/bin/fitgauged")
+JSON = {"Content-Type": "application/json"}
+
+
+def command(*arguments, environment=None, timeout=60):
+    """Runs fitgauged to its end."""
+    return subprocess.run([FITGAUGED, *map(str, arguments)], capture_output=True, text=True,
+                          env={**os.environ, **(environment or {})}, timeout=timeout, check=False)
+
+
+class Answer:
+    """Status, fields (names in lower case) and body of an answer."""
+
+    def __init__(self, response):
+        self.status = response.status
+        self.headers = {name.lower(): value for name, value in response.getheaders()}
+        self.body = response.read()
+
+    @property
+    def json(self):
+        return json.loads(self.body)
+
+    @property
+    def text(self):
+        return self.body.decode()
+
+    def __repr__(self):
+        return f"{self.status} {self.body[:400]!r}"
+
+
+class Daemon:
+    """One data folder and the process that serves it; it may be stopped, killed and started again."""
+
+    def __init__(self, *flags, data=None, environment=None, listen="127.0.0.1:0", wrapper=()):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-e2e-"))
+        self.data = pathlib.Path(data) if data else self.folder / "data"
+        self.flags = [str(flag) for flag in flags]
+        self.environment = {**os.environ, **(environment or {})}
+        self.listen = listen
+        self.wrapper = list(wrapper)
+        self.process = None
+        self.port = None
+        self.tls = None  # an ssl.SSLContext where it serves TLS
+
+    @property
+    def database(self):
+        return self.data / "fitgauge.db"
+
+    @property
+    def log(self):
+        return (self.folder / "log").read_text(errors="replace")
+
+    @property
+    def output(self):
+        return (self.folder / "output").read_text(errors="replace")
+
+    def spawn(self):
+        """Starts the process without waiting for it."""
+        self.port_file = self.folder / "port"
+        self.port_file.unlink(missing_ok=True)
+        with open(self.folder / "log", "a") as log, open(self.folder / "output", "a") as output:
+            self.process = subprocess.Popen(
+                [*self.wrapper, FITGAUGED, "--listen", self.listen, "--data", str(self.data),
+                 "--port-file", str(self.port_file), *self.flags],
+                stdout=output, stderr=log, env=self.environment)
+        return self
+
+    def start(self, timeout=30):
+        """Starts the process and waits until its socket listens."""
+        self.spawn()
+        deadline = time.monotonic() + timeout
+        while not self.port_file.exists():
+            if self.process.poll() is not None:
+                raise RuntimeError(f"fitgauged ended with {self.process.returncode}: {self.log}")
+            if time.monotonic() > deadline:
+                raise RuntimeError("fitgauged does not listen")
+            time.sleep(0.005)
+        self.port = int(self.port_file.read_text())
+        return self
+
+    def stop(self, timeout=30):
+        """SIGTERM; gives the exit code."""
+        self.process.send_signal(signal.SIGTERM)
+        return self.process.wait(timeout)
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait(30)
+
+    def cleanup(self):
+        if self.process and self.process.poll() is None:
+            self.kill()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def connect(self, timeout=30):
+        if self.tls:
+            return http.client.HTTPSConnection("localhost", self.port, timeout=timeout,
+                                               context=self.tls)
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
+
+    def request(self, method, path, body=None, headers=None, connection=None):
+        """One request; a body that is no text or bytes is sent as JSON. A new connection each time
+        unless one is given."""
+        headers = dict(headers or {})
+        if body is not None and not isinstance(body, (str, bytes)):
+            body = json.dumps(body)
+            headers = {**JSON, **headers}
+        if isinstance(body, str):
+            body = body.encode()
+        own = connection or self.connect()
+        try:
+            own.request(method, path, body, headers)
+            return Answer(own.getresponse())
+        finally:
+            if connection is None:
+                own.close()
+
+    def get(self, path, **headers):
+        return self.request("GET", path, headers={k.replace("_", "-"): v for k, v in headers.items()})
+
+    def post(self, path, body, headers=None, connection=None):
+        return self.request("POST", path, body, headers, connection)
+
+    def measure(self, body, headers=None, connection=None):
+        return self.post("/v1/measurements", body, headers, connection)
+
+    def stored(self, query="source=all&history=all"):
+        """Every measurement, by the streamed list."""
+        lines = self.get(f"/v1/measurements?{query}", Accept="application/x-ndjson").text
+        return [json.loads(line) for line in lines.splitlines()]
+
+    def command(self, *arguments):
+        """Runs a command beside the service: verify, backup, key."""
+        return command(*arguments, "--data", self.data)
+
+
+class DaemonTest(unittest.TestCase):
+    """Tests that share one running daemon a class: `flags` are its own."""
+
+    flags = ()
+    environment = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = Daemon(*cls.flags, environment=cls.environment)
+        cls.addClassCleanup(cls.daemon.cleanup)
+        cls.daemon.start()
+
+    @classmethod
+    def tearDownClass(cls):
+        code = cls.daemon.stop()
+        if code != 0:
+            raise AssertionError(f"fitgauged ended with {code}: {cls.daemon.log}")
+
+    def assert_problem(self, answer, status, code):
+        self.assertEqual(answer.status, status, answer)
+        self.assertEqual(answer.headers["content-type"], "application/problem+json")
+        problem = answer.json
+        self.assertEqual(problem["code"], code, answer)
+        self.assertEqual(problem["status"], status)
+        return problem
+
+
+def trust(certificate):
+    """A TLS context that accepts this certificate alone."""
+    return ssl.create_default_context(cafile=str(certificate))
