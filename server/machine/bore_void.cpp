@@ -55,15 +55,10 @@ Field BoreVoid::wall(const Vec3& at) const {
   const double depth = p.depth - slope_ * gap * cosine_ * cosine_;  // of the nearest point
   const double radius = radius_ + wave + slope_ * depth;
   const Vec3 offset{p.x - radius * c, p.y - radius * s, depth - p.depth};
-  const double distance = norm(offset);
-  const double sign = gap < 0 ? -1 : 1;
-  constexpr double kOnTheWall = 1e-12;
-  if (distance < kOnTheWall) {
-    const double along = -amplitude_ * lobes_ * std::sin(lobes_ * (angle - phase_));
-    const Vec3 normal{-radius * c - along * s, -radius * s + along * c, -slope_ * radius};
-    return {sign * distance, from_local_ * unit(normal)};
-  }
-  return {sign * distance, from_local_ * (offset * (sign / distance))};
+  // The wall is smooth: its normal is the gradient, and holds where the offset is lost in rounding.
+  const double along = -amplitude_ * lobes_ * std::sin(lobes_ * (angle - phase_));
+  const Vec3 normal{-radius * c - along * s, -radius * s + along * c, -slope_ * radius};
+  return {gap < 0 ? -norm(offset) : norm(offset), from_local_ * unit(normal)};
 }
 
 Field BoreVoid::floor(const Vec3& at) const {
@@ -104,13 +99,13 @@ double BoreVoid::nearest_angle(const Local& p) const {
     double low = t - reach;
     double high = t + reach;
     constexpr int kSteps = 60;
+    constexpr double kSettled = 1e-14;
     for (int step = 0; step < kSteps; ++step) {
       const Slopes f = squared(t);
       (f.first > 0 ? high : low) = t;
-      double next = f.second > 0 ? t - f.first / f.second : low;
-      if (!(next > low && next < high)) next = (low + high) / 2;
-      if (std::abs(next - t) < 1e-15 * kPi) return next;
-      t = next;
+      const double next = f.second > 0 ? t - f.first / f.second : low;
+      if (std::abs(next - t) < kSettled) return next;
+      t = next > low && next < high ? next : (low + high) / 2;
     }
     return t;
   };

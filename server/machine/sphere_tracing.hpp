@@ -16,25 +16,29 @@ inline double least_step(double radius) {
 
 /// The first zero of `value` on [0, longest], to a value of 1e-11.
 /// `value` must not change faster than its argument (a distance along a path): then a step of the
-/// value's own length never passes a zero. Steps shorter than `step_at_least` are lengthened to it,
-/// so that a path beside a wall ends; a dip below zero narrower than that step may be passed.
+/// value's own length never passes a zero. Where such steps get nowhere, beside a wall or at a
+/// slant, they are lengthened to `step_at_least`; a dip below zero narrower than that may be
+/// passed.
 template <class Value>
 std::optional<double> first_zero(const Value& value, double longest, double step_at_least) {
   constexpr double kZero = 1e-11;
   double low = 0;
   double at_low = value(low);
   if (at_low <= kZero) return low;
+  bool is_slow = false;
   while (low < longest) {
-    double high = std::min(low + std::max(at_low, step_at_least), longest);
+    const double step = is_slow ? std::max(at_low, step_at_least) : at_low;
+    double high = std::min(low + step, longest);
     double at_high = value(high);
     if (at_high > kZero) {
+      is_slow = at_high > at_low / 2;
       low = high;
       at_low = at_high;
       continue;
     }
     // Regula falsi with halved ends (Illinois): the zero is within one least step.
     constexpr int kSteps = 100;
-    for (int step = 0; step < kSteps && at_high < -kZero; ++step) {
+    for (int round = 0; round < kSteps && at_high < -kZero; ++round) {
       const double next = high - at_high * (high - low) / (at_high - at_low);
       const double at_next = value(next);
       if (std::abs(at_next) <= kZero) return next;

@@ -31,23 +31,27 @@ SurfaceSolid::SurfaceSolid(const Surface& surface, const Triangulation& mesh)
 double SurfaceSolid::bottom() const { return -std::numeric_limits<double>::infinity(); }
 
 Field SurfaceSolid::field(const Vec3& at) const {
-  Vec3 nearest = top_.nearest(at);
+  const auto [point, triangle] = top_.nearest(at);
+  const auto& [a, b, c] = *triangle;
+  Candidate nearest{point, unit(cross(b - a, c - a))};
   bool inside = false;
   if (at.z < top_.highest()) {
     nearest = nearest_with_walls(at, nearest);
     const auto above = top_.height(at.x, at.y);
     inside = above && at.z < *above;
   }
-  const Vec3 offset = at - nearest;
+  const Vec3 offset = at - nearest.point;
   const double distance = norm(offset);
-  if (distance == 0) return {0, {0, 0, 1}};
-  return inside ? Field{-distance, offset * (-1 / distance)}
-                : Field{distance, offset * (1 / distance)};
+  const double sign = inside ? -1 : 1;
+  // Close to a face the offset is lost in rounding; the face's normal is not.
+  constexpr double kOnFace = 1e-6;
+  return {sign * distance, distance < kOnFace ? nearest.normal : offset * (sign / distance)};
 }
 
-Vec3 SurfaceSolid::nearest_with_walls(const Vec3& at, const Vec3& than) const {
-  Vec3 best = than;
-  double least = dot(at - best, at - best);
+SurfaceSolid::Candidate SurfaceSolid::nearest_with_walls(const Vec3& at,
+                                                         const Candidate& top) const {
+  Candidate best = top;
+  double least = dot(at - best.point, at - best.point);
   for (std::size_t k = 0; k + 1 < hull_.size(); ++k) {
     const Vec3& a = hull_[k];
     const Vec3 along = hull_[k + 1] - a;
@@ -58,7 +62,7 @@ Vec3 SurfaceSolid::nearest_with_walls(const Vec3& at, const Vec3& than) const {
     const double distance = dot(at - point, at - point);
     if (distance < least) {
       least = distance;
-      best = point;
+      best = {point, unit({along.y, -along.x, 0})};
     }
   }
   return best;

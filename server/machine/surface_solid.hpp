@@ -19,8 +19,12 @@ class SurfaceSolid final : public Solid {
  private:
   SurfaceSolid(const Surface& surface, const struct Triangulation& mesh);
 
-  /// The nearest point of the walls, if it is nearer than `than`.
-  Vec3 nearest_with_walls(const Vec3& at, const Vec3& than) const;
+  struct Candidate {
+    Vec3 point;
+    Vec3 normal;  ///< of the face it lies on
+  };
+  /// The nearest point of the walls, or `top` when that is nearer.
+  Candidate nearest_with_walls(const Vec3& at, const Candidate& top) const;
 
   TriangleTree top_;
   std::vector<Vec3> hull_;  ///< counter-clockwise, closed: the first point is also the last

@@ -84,9 +84,9 @@ double TriangleTree::squared_distance(const Box& box, const Vec3& at) {
   return sum;
 }
 
-Vec3 TriangleTree::nearest(const Vec3& at) const {
-  Vec3 best = triangles_.front()[0];
-  double least = squared(best - at);
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& at) const {
+  Nearest best{triangles_.front()[0], &triangles_.front()};
+  double least = std::numeric_limits<double>::infinity();
   std::array<std::uint32_t, 64> open{};  // a balanced tree of 32-bit counts is less deep
   std::size_t size = 1;
   while (size > 0) {
@@ -99,7 +99,7 @@ Vec3 TriangleTree::nearest(const Vec3& at) const {
         const double distance = squared(point - at);
         if (distance < least) {
           least = distance;
-          best = point;
+          best = {point, &triangles_[t]};
         }
       }
       continue;

@@ -20,8 +20,12 @@ class TriangleTree {
   /// @pre at least one triangle.
   explicit TriangleTree(std::vector<Triangle> triangles);
 
-  /// The point of all triangles that is nearest to `at`.
-  Vec3 nearest(const Vec3& at) const;
+  struct Nearest {
+    Vec3 point;
+    const Triangle* triangle;
+  };
+  /// The point of all triangles that is nearest to `at`, and the triangle it is of.
+  Nearest nearest(const Vec3& at) const;
   /// The z of a triangle above or below (x, y), or nothing outside of all.
   std::optional<double> height(double x, double y) const;
   double highest() const { return nodes_.front().box.max.z; }

@@ -190,6 +190,7 @@ struct CheckFeature {
     findings.within(at + "/taper_um_per_mm", bore.taper_um_per_mm, -1000, 1000);
     findings.within(at + "/tilt_deg/0", bore.tilt_deg[0], -45, 45);
     findings.within(at + "/tilt_deg/1", bore.tilt_deg[1], -45, 45);
+    if (!(bore.diameter > 0)) return;
     const double amplitude = std::abs(bore.lobe_amplitude_um) / 1000;
     const double narrowest =
         bore.diameter / 2 + std::min(bore.taper_um_per_mm, 0.0) / 2000 * bore.depth;
