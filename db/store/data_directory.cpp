@@ -105,6 +105,11 @@ Result<void> inspect_file(const std::filesystem::path& file) {
   return {};
 }
 
+Result<void> reserve_name(const std::filesystem::path& file) {
+  if (Descriptor(file, O_WRONLY | O_CREAT | O_EXCL).is_open()) return {};
+  return system_error("create", file);
+}
+
 Result<void> sync_file(const std::filesystem::path& file) {
   const Descriptor content(file, O_RDONLY);
   if (!content.is_open() || ::fsync(content.get()) != 0) return system_error("write", file);

@@ -30,6 +30,10 @@ class DirectoryLock {
 /// @errors DatabaseForeign; StorageUnavailable when it cannot be read and written.
 Result<void> inspect_file(const std::filesystem::path& file);
 
+/// Creates an empty file where there is none: the name is taken before the content is made.
+/// @errors StorageUnavailable, also when it exists.
+Result<void> reserve_name(const std::filesystem::path& file);
+
 /// Makes the file and its directory entry durable.
 /// @errors StorageUnavailable
 Result<void> sync_file(const std::filesystem::path& file);

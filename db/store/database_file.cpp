@@ -3,8 +3,6 @@
 #include <SQLiteCpp/Backup.h>
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -25,15 +23,14 @@ Error unavailable(std::string message) {
   return {ErrorCode::StorageUnavailable, std::move(message)};
 }
 
-/// Gives a finished file its name unless that is taken, durably.
+/// Gives a finished file its name, durably.
 Result<void> publish(const fs::path& finished, const fs::path& name) {
   if (const Result<void> synced = sync_file(finished); !synced) return synced;
   std::error_code failure;
-  fs::create_hard_link(finished, name, failure);
+  fs::rename(finished, name, failure);
   if (failure) {
     return unavailable(fmt::format("cannot create {}: {}", name.string(), failure.message()));
   }
-  fs::remove(finished, failure);
   return sync_file(name);
 }
 
@@ -127,11 +124,14 @@ Result<void> prepare_file(const OpenOptions& options, std::span<const sqlite::Mi
 }
 
 Result<void> copy_database(const fs::path& source, const fs::path& target) {
-  if (fs::exists(target)) {
-    return unavailable(fmt::format("{} exists; a backup overwrites nothing", target.string()));
-  }
+  if (const Result<void> reserved = reserve_name(target); !reserved) return reserved;
   const fs::path draft = with_suffix(target, ".partial");
   remove_leftover(draft);
+  const auto give_up = [&](Error error) {
+    remove_leftover(draft);
+    remove_leftover(target);
+    return error;
+  };
   try {
     sqlite::Connection from(source, sqlite::Mode::Read);
     sqlite::Connection to(draft, sqlite::Mode::Create);
@@ -140,13 +140,15 @@ Result<void> copy_database(const fs::path& source, const fs::path& target) {
     // One file without a log beside it, readable from a read-only medium too.
     to.execute("PRAGMA journal_mode = DELETE");
   } catch (const StorageFailure& failure) {
-    remove_leftover(draft);
-    return failure.error();
+    return give_up(failure.error());
   } catch (const SQLite::Exception& failure) {
-    remove_leftover(draft);
-    return unavailable(fmt::format("cannot write {}: {}", target.string(), failure.what()));
+    return give_up(
+        unavailable(fmt::format("cannot write {}: {}", target.string(), failure.what())));
   }
-  return publish(draft, target);
+  if (const Result<void> published = publish(draft, target); !published) {
+    return give_up(published.error());
+  }
+  return {};
 }
 
 }  // namespace fitgauge::store

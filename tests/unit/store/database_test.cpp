@@ -1,6 +1,9 @@
 #include "store/database.hpp"
 
-#include <sqlite3.h>
+#include <unistd.h>
+
+#include <thread>
+#include <vector>
 
 #include "fixture.hpp"
 #include "store/sqlite/connection.hpp"
@@ -148,6 +151,35 @@ TEST_CASE("a directory that cannot be made or written is refused with its name")
   REQUIRE(opened.has_error());
   CHECK(opened.error().code == ErrorCode::StorageUnavailable);
   CHECK(opened.error().message.find("data") != std::string::npos);
+}
+
+TEST_CASE("a read-only directory is refused with its name") {
+  const TempDirectory directory;
+  create_database(directory);
+  for (const auto& entry : std::filesystem::directory_iterator(directory.path())) {
+    std::filesystem::permissions(entry.path(), std::filesystem::perms::owner_read);
+  }
+  if (::geteuid() == 0) {
+    MESSAGE("skipped: root may write to a read-only file");
+    return;
+  }
+  const Error error = refusal(directory);
+  CHECK(error.code == ErrorCode::StorageUnavailable);
+  CHECK(error.message.find(directory.path().string()) != std::string::npos);
+}
+
+TEST_CASE("a background check ends with the database") {
+  Fixture fixture;
+  REQUIRE(fixture.append(std::vector<MeasurementRow>(20'000, sample_row())).has_value());
+  fixture.database.reset();
+  fixture.options.check_at_open_limit = 0;
+  for (int i = 0; i < 5; ++i) {
+    fixture.open();
+    fixture.database.reset();
+  }
+  fixture.open();
+  while (fixture.database->health().state == HealthState::Checking) std::this_thread::yield();
+  CHECK(fixture.database->health().state == HealthState::Ok);
 }
 
 TEST_CASE("a command attaches beside the running daemon") {
