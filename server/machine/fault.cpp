@@ -14,41 +14,25 @@ struct FaultText {
 
 FaultText text_of(FaultKind kind) {
   switch (kind) {
-    case FaultKind::NoContact:
-      return {1014, "Touch point inaccessible"};
-    case FaultKind::StylusDeflected:
-      return {0, "Stylus already deflected"};
-    case FaultKind::Collision:
-      return {0, "Touch probe collision"};
-    case FaultKind::AxisLimit:
-      return {0, "Limit switch"};
-    case FaultKind::AxisMissing:
-      return {0, "Axis not available"};
-    case FaultKind::HirthGrid:
-      return {0, "Position is not on the Hirth grid"};
-    case FaultKind::ToolAxisMissing:
-      return {1001, "Tool axis is missing"};
-    case FaultKind::NoTool:
-      return {1092, "Tool not defined"};
-    case FaultKind::ToolUnknown:
-      return {1092, "Tool not defined"};
+    case FaultKind::NoContact: return {1014, "Touch point inaccessible"};
+    case FaultKind::StylusDeflected: return {0, "Stylus already deflected"};
+    case FaultKind::Collision: return {0, "Touch probe collision"};
+    case FaultKind::AxisLimit: return {0, "Limit switch"};
+    case FaultKind::AxisMissing: return {0, "Axis not available"};
+    case FaultKind::HirthGrid: return {0, "Position is not on the Hirth grid"};
+    case FaultKind::ToolAxisMissing: return {1001, "Tool axis is missing"};
+    case FaultKind::NoTool: return {1092, "Tool not defined"};
+    case FaultKind::ToolUnknown: return {1092, "Tool not defined"};
     case FaultKind::ToolLocked:
       return {0, "Tool locked"};
       return {1093, "Tool number not permitted"};
-    case FaultKind::NotAProbe:
-      return {1093, "Tool number not permitted"};
-    case FaultKind::FeedMissing:
-      return {1010, "Feed rate is missing"};
-    case FaultKind::PresetUnknown:
-      return {0, "Preset not found"};
-    case FaultKind::PresetLocked:
-      return {1085, "Line is write-protected"};
-    case FaultKind::ValueInvalid:
-      return {1011, "Input value incorrect"};
-    case FaultKind::ScriptExhausted:
-      return {0, "No recorded contact is left"};
-    case FaultKind::ScriptedDifferent:
-      return {0, "Command differs from the recorded one"};
+    case FaultKind::NotAProbe: return {1093, "Tool number not permitted"};
+    case FaultKind::FeedMissing: return {1010, "Feed rate is missing"};
+    case FaultKind::PresetUnknown: return {0, "Preset not found"};
+    case FaultKind::PresetLocked: return {1085, "Line is write-protected"};
+    case FaultKind::ValueInvalid: return {1011, "Input value incorrect"};
+    case FaultKind::ScriptExhausted: return {0, "No recorded contact is left"};
+    case FaultKind::ScriptedDifferent: return {0, "Command differs from the recorded one"};
   }
   return {0, "Machine fault"};
 }

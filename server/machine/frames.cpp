@@ -75,30 +75,22 @@ void Frames::compose() {
 
 const Transform& Frames::transform(CoordinateSystem system) const {
   switch (system) {
-    case CoordinateSystem::Input:
-      return input_;
-    case CoordinateSystem::Workpiece:
-      return workpiece_;
-    case CoordinateSystem::Basic:
-      return table_;
+    case CoordinateSystem::Input: return input_;
+    case CoordinateSystem::Workpiece: return workpiece_;
+    case CoordinateSystem::Basic: return table_;
     case CoordinateSystem::Machine:
-    case CoordinateSystem::Reference:
-      break;
+    case CoordinateSystem::Reference: break;
   }
   return machine_;
 }
 
 const Transform& Frames::inverse(CoordinateSystem system) const {
   switch (system) {
-    case CoordinateSystem::Input:
-      return input_inverse_;
-    case CoordinateSystem::Workpiece:
-      return workpiece_inverse_;
-    case CoordinateSystem::Basic:
-      return table_inverse_;
+    case CoordinateSystem::Input: return input_inverse_;
+    case CoordinateSystem::Workpiece: return workpiece_inverse_;
+    case CoordinateSystem::Basic: return table_inverse_;
     case CoordinateSystem::Machine:
-    case CoordinateSystem::Reference:
-      break;
+    case CoordinateSystem::Reference: break;
   }
   return machine_;
 }
@@ -121,14 +113,11 @@ Vec3 Frames::direction_from_machine(const Vec3& direction, CoordinateSystem syst
 
 Vec3 Frames::rotary_zero(CoordinateSystem system) const {
   switch (system) {
-    case CoordinateSystem::Input:
-      return preset_.rotary_offsets_deg + shift_.rotary;
-    case CoordinateSystem::Workpiece:
-      return preset_.rotary_offsets_deg;
+    case CoordinateSystem::Input: return preset_.rotary_offsets_deg + shift_.rotary;
+    case CoordinateSystem::Workpiece: return preset_.rotary_offsets_deg;
     case CoordinateSystem::Basic:
     case CoordinateSystem::Machine:
-    case CoordinateSystem::Reference:
-      break;
+    case CoordinateSystem::Reference: break;
   }
   return {};
 }

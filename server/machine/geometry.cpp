@@ -38,14 +38,10 @@ SineCosine sine_cosine(double degrees) {
   const double s = std::sin(rest);
   const double c = std::cos(rest);
   switch (static_cast<int>(quarter)) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case -1:
-      return {-c, s};
-    default:
-      return {-s, -c};
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case -1: return {-c, s};
+    default: return {-s, -c};
   }
 }
 

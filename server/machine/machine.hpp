@@ -20,6 +20,11 @@ struct Feed {
     return {true, at_most};
   }
   static Feed at(double mm_min) { return {false, mm_min}; }
+
+  /// The rate on a machine whose rapid is `machine_rapid`.
+  double rate_on(double machine_rapid) const {
+    return is_rapid && machine_rapid < rate ? machine_rapid : rate;
+  }
 };
 
 /// A straight move of all named axes together; axes without a word keep their coordinate in

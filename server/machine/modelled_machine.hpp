@@ -8,6 +8,7 @@ namespace fitgauge::machine {
 
 /// The control's half of a machine without hardware: tables, frames, modes, tool calls, where a
 /// move leads, axis ranges, machining time. What a move meets on its way is the derived class's.
+/// Its three files are the tables and frames, the motion, and the probing.
 /// Owns its state. Not thread-safe; after a fault the state is what the finished part has made it.
 class ModelledMachine : public Machine {
  public:
@@ -41,6 +42,8 @@ class ModelledMachine : public Machine {
   virtual MachineResult<double> contact(const Vec3& direction, double distance) = 0;
 
  private:
+  static MachineResult<void> check_feed(const Feed& feed);
+  double seconds_of(double way, const Feed& feed) const;
   MachineResult<void> travel(const Path& path, const Feed& feed);
   MachineResult<Position> target_nose(const LinearMove& move, const Frames& frames,
                                       const Vec3& rotary) const;

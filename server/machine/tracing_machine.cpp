@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace fitgauge::machine {
 namespace {
@@ -98,8 +98,7 @@ void TracingMachine::keep(MoveKind kind, const Begun& begun, const Feed& feed) {
   const Position end = state().position();
   const double seconds = state().elapsed_s - begun.elapsed_s;
   if (seconds == 0 && end == begun.start) return;
-  const double rate = feed.is_rapid ? std::min(feed.rate, state().rapid_mm_min) : feed.rate;
-  add({kind, block(), begun.start, end, rate, seconds, std::nullopt});
+  add({kind, block(), begun.start, end, feed.rate_on(state().rapid_mm_min), seconds, std::nullopt});
 }
 
 MachineResult<void> TracingMachine::move(const LinearMove& move) {

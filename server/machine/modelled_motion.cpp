@@ -1,0 +1,230 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "machine/modelled_machine.hpp"
+
+namespace fitgauge::machine {
+namespace {
+
+MachineResult<void> check_finite(const AxisWords& words) {
+  for (const Axis axis : kAllAxes) {
+    if (words[axis] && !std::isfinite(*words[axis])) {
+      return make_fault(FaultKind::ValueInvalid, fmt::format("{} is not a number", name(axis)));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+MachineResult<void> ModelledMachine::move(const LinearMove& move) {
+  if (auto checked = check_feed(move.feed); !checked) return checked;
+  if (auto checked = check_finite(move.target); !checked) return checked;
+  const auto rotary = target_rotary(move);
+  if (!rotary) return rotary.error();
+  const bool turns = *rotary != state_.nose.rotary;
+  std::optional<Frames> turned;
+  if (turns && is_following()) {
+    turned = state_.frames;
+    turned->set_table(table_at(*rotary));
+  }
+  const auto nose = target_nose(move, turned ? *turned : state_.frames, *rotary);
+  if (!nose) return nose.error();
+  if (auto checked = check_range(*nose); !checked) return checked;
+  return travel(
+      turns && state_.modes.tcpm ? following_path(*nose) : straight_path(state_.nose, *nose),
+      move.feed);
+}
+
+MachineResult<Vec3> ModelledMachine::target_rotary(const LinearMove& move) const {
+  Vec3 rotary = state_.nose.rotary;
+  for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
+    const auto& word = move.target[axis];
+    if (!word) continue;
+    const auto& range = state_.ranges[index(axis)];
+    if (!range) return make_fault(FaultKind::AxisMissing, name(axis));
+    const std::size_t letter = index(axis) - 3;
+    Vec3 programmed;
+    programmed[letter] = *word;
+    rotary[letter] = state_.frames.rotary_to_machine(programmed, move.system)[letter];
+    const double grid = range->hirth_grid_deg;
+    constexpr double kOnTooth = 1e-6;
+    if (grid > 0 && std::abs(std::remainder(rotary[letter], grid)) > kOnTooth) {
+      return make_fault(FaultKind::HirthGrid, fmt::format("{}{:+.4f} with a grid of {} degrees",
+                                                          name(axis), rotary[letter], grid));
+    }
+  }
+  return rotary;
+}
+
+/// Where the nose ends with the rotary axes at `rotary`; `frames` are those that hold there.
+MachineResult<Position> ModelledMachine::target_nose(const LinearMove& move, const Frames& frames,
+                                                     const Vec3& rotary) const {
+  bool has_linear = false;
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+    has_linear = has_linear || move.target[axis];
+    if (move.target[axis] && !state_.ranges[index(axis)]) {
+      return make_fault(FaultKind::AxisMissing, name(axis));
+    }
+  }
+  Vec3 point = state_.nose.linear;
+  const auto take_words = [&] {
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+      point[index(axis)] = move.target[axis].value_or(point[index(axis)]);
+    }
+  };
+  if (move.system == CoordinateSystem::Reference || (!has_linear && !state_.modes.tcpm)) {
+    take_words();
+    return Position{point, rotary};
+  }
+  const Vec3 length =
+      state_.kinematics.tool_direction(rotary, state_.tool_axis()) * state_.tool_length();
+  point = state_.modes.tcpm ? state_.position(move.system).linear
+                            : frames.from_machine(state_.nose.linear - length, move.system);
+  take_words();
+  return Position{frames.to_machine(point, move.system) + length, rotary};
+}
+
+/// With TCPM the tip runs straight on the table while the rotary axes turn.
+Path ModelledMachine::following_path(const Position& end) const {
+  const Kinematics kinematics = state_.kinematics;
+  const Axis axis = state_.tool_axis();
+  const double length = state_.tool_length();
+  const Position start = state_.nose;
+  const auto tip_on_table = [&](const Position& nose) {
+    const Vec3 tip = nose.linear - kinematics.tool_direction(nose.rotary, axis) * length;
+    return kinematics.table(nose.rotary).inverse().point(tip);
+  };
+  const Vec3 from = tip_on_table(start);
+  const Vec3 way = tip_on_table(end) - from;
+  const Vec3 turn = end.rotary - start.rotary;
+
+  Path path = straight_path(start, end);
+  path.nose = [=](double part) {
+    const Vec3 rotary = start.rotary + turn * part;
+    return Position{kinematics.table(rotary).point(from + way * part) +
+                        kinematics.tool_direction(rotary, axis) * length,
+                    rotary};
+  };
+  path.length = norm(way);
+  double lever = std::abs(length) + norm(from) + norm(way);
+  for (const RotaryAxis& known : kinematics.axes()) lever += 2 * norm(known.centre);
+  path.nose_speed =
+      path.length + radians(std::abs(turn.x) + std::abs(turn.y) + std::abs(turn.z)) * lever;
+  return path;
+}
+
+MachineResult<void> ModelledMachine::move_arc(const ArcMove& arc) {
+  if (auto checked = check_feed(arc.feed); !checked) return checked;
+  constexpr double kLongestSweepDeg = 1e6;
+  if (!is_finite(arc.end) || !is_finite(arc.centre) || is_rotary(arc.normal) ||
+      !(std::abs(arc.sweep_deg) <= kLongestSweepDeg)) {
+    return make_fault(FaultKind::ValueInvalid, "an arc needs finite points, a sweep and a plane");
+  }
+  const std::size_t up = index(arc.normal);
+  const Vec3 normal = unit_vector(arc.normal);
+  const Transform input = state_.frames.input();
+  const Vec3 start = state_.position().linear;
+  const Vec3 rotary = state_.nose.rotary;
+  const Vec3 length = state_.nose.linear - input.point(start);
+  Vec3 from = start - arc.centre;
+  Vec3 to = arc.end - arc.centre;
+  const double rise = to[up] - from[up];
+  from[up] = 0;
+  to[up] = 0;
+  const Matrix3 back = Matrix3::rotation(normal, -arc.sweep_deg);
+  // The end's direction turned back differs from the start's by the rounding of the program only:
+  // spread over the arc, it meets both ends.
+  const Vec3 difference = back * to - from;
+
+  Path path;
+  path.start = state_.nose;
+  path.nose = [=](double part) {
+    Vec3 point =
+        arc.centre + Matrix3::rotation(normal, arc.sweep_deg * part) * (from + difference * part);
+    point[up] = start[up] + rise * part;
+    return Position{input.point(point) + length, rotary};
+  };
+  path.end = path.nose(1);
+  path.is_straight = false;
+  const Vec3 scale = state_.frames.scaling().factor;
+  const double stretch = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
+  const double sweep = std::abs(arc.sweep_deg);
+  const double radius = std::max(norm(from), norm(to));
+  path.length = stretch * std::hypot(radians(sweep) * (norm(from) + norm(to)) / 2, rise);
+  path.nose_speed =
+      stretch * (radians(sweep) * (radius + norm(difference)) + norm(difference) + std::abs(rise));
+  if (auto checked = check_arc(path, sweep); !checked) return checked;
+  return travel(path, arc.feed);
+}
+
+/// The ends first; then, unless everything that near to the start is in range, every 0.1 degrees.
+MachineResult<void> ModelledMachine::check_arc(const Path& path, double sweep_deg) const {
+  if (auto checked = check_range(path.end); !checked) return checked;
+  bool is_clear = true;
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+    const auto& range = state_.ranges[index(axis)];
+    const double at = path.start[axis];
+    is_clear =
+        is_clear && range && at - path.nose_speed > range->min && at + path.nose_speed < range->max;
+  }
+  if (is_clear) return {};
+  constexpr double kStepDeg = 0.1;
+  const auto steps = static_cast<int>(sweep_deg / kStepDeg) + 1;
+  for (int step = 1; step < steps; ++step) {
+    if (auto checked = check_range(path.nose(static_cast<double>(step) / steps)); !checked) {
+      return checked;
+    }
+  }
+  return {};
+}
+
+MachineResult<void> ModelledMachine::check_range(const Position& nose) const {
+  for (const Axis axis : kAllAxes) {
+    const auto& range = state_.ranges[index(axis)];
+    if (!range) continue;
+    constexpr double kRounding = 1e-9;  // a position computed to lie on the limit is in range
+    const double at = nose[axis];
+    if (at >= range->min - kRounding && at <= range->max + kRounding) continue;
+    return make_fault(FaultKind::AxisLimit, fmt::format("{}{:+.4f} is outside {} to {}", name(axis),
+                                                        at, range->min, range->max));
+  }
+  return {};
+}
+
+Transform ModelledMachine::table_at(const Vec3& rotary) const {
+  return state_.kinematics.table(rotary);
+}
+
+void ModelledMachine::stand_at(const Position& nose) {
+  const bool has_turned = nose.rotary != state_.nose.rotary;
+  state_.nose = nose;
+  if (has_turned && is_following()) state_.frames.set_table(table_at(nose.rotary));
+}
+
+MachineResult<void> ModelledMachine::check_feed(const Feed& feed) {
+  const bool is_usable = feed.rate > 0 && (feed.is_rapid || std::isfinite(feed.rate));
+  if (is_usable) return {};
+  return make_fault(FaultKind::FeedMissing, fmt::format("a feed of {} mm/min", feed.rate));
+}
+
+double ModelledMachine::seconds_of(double way, const Feed& feed) const {
+  constexpr double kSecondsPerMinute = 60;
+  return way / feed.rate_on(state_.rapid_mm_min) * kSecondsPerMinute;
+}
+
+MachineResult<void> ModelledMachine::travel(const Path& path, const Feed& feed) {
+  if (path.end.rotary != path.start.rotary) on_turn(path.end.rotary);
+  const double part = free_part(path);
+  state_.elapsed_s += seconds_of(part * std::max(path.length, path.turn), feed);
+  stand_at(part < 1 ? path.nose(part) : path.end);
+  if (part == 1) return {};
+  const Vec3 centre = state_.ball_centre();
+  return make_fault(
+      FaultKind::Collision,
+      fmt::format("the ball stands at X{:+.4f} Y{:+.4f} Z{:+.4f}", centre.x, centre.y, centre.z));
+}
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+
+#include "machine/modelled_machine.hpp"
+
+namespace fitgauge::machine {
+
+MachineResult<ContactPoint> ModelledMachine::probe(const ProbeMove& move) {
+  if (!state_.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
+  if (state_.active_tool() == nullptr) return make_fault(FaultKind::NoTool);
+  if (auto checked = check_feed(Feed::at(move.feed)); !checked) return checked.error();
+  if (auto checked = check_feed(move.retract_feed); !checked) return checked.error();
+  const Vec3 along = state_.frames.direction_to_machine(move.direction, move.system);
+  const double retract = move.retract.value_or(0);
+  if (!is_finite(along) || norm(along) == 0 || !std::isfinite(move.distance) ||
+      move.distance <= 0 || !std::isfinite(retract) || retract < 0) {
+    return make_fault(FaultKind::ValueInvalid, "a probing move needs a direction and a distance");
+  }
+  const Vec3 direction = unit(along);
+  const double reachable = reach(direction, move.distance);
+  const auto travelled = contact(direction, reachable);
+  const bool is_missed = !travelled && travelled.error().kind == FaultKind::NoContact;
+  if (!travelled && !is_missed) return travelled.error();
+
+  const double way = is_missed ? reachable : *travelled;
+  const double seconds = seconds_of(way, Feed::at(move.feed));
+  advance(direction * way);
+  state_.elapsed_s += seconds;
+  if (is_missed && reachable < move.distance) {
+    return check_range(
+               {state_.nose.linear + direction * (move.distance - reachable), state_.nose.rotary})
+        .error();
+  }
+  if (is_missed) return travelled.error();
+
+  ContactPoint point = contact_point(direction);
+  point.seconds = seconds;
+  if (auto returned = go_back(direction, way, move); !returned) return returned.error();
+  return point;
+}
+
+/// The way back to the start is free, since the ball came along it; beyond it is looked at.
+MachineResult<void> ModelledMachine::go_back(const Vec3& direction, double way,
+                                             const ProbeMove& move) {
+  const double back = move.retract.value_or(way);
+  const double free = std::min(back, way);
+  advance(direction * -free);
+  state_.elapsed_s += seconds_of(free, move.retract_feed);
+  if (back == free) return {};
+  const Position end{state_.nose.linear - direction * (back - free), state_.nose.rotary};
+  if (auto checked = check_range(end); !checked) return checked;
+  return travel(straight_path(state_.nose, end), move.retract_feed);
+}
+
+/// How far the nose can go along `direction` inside its ranges, at most `distance`.
+double ModelledMachine::reach(const Vec3& direction, double distance) const {
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+    const auto& range = state_.ranges[index(axis)];
+    const double part = direction[index(axis)];
+    if (!range || part == 0) continue;
+    const double end = part > 0 ? range->max : range->min;
+    distance = std::min(distance, std::max((end - state_.nose[axis]) / part, 0.0));
+  }
+  return distance;
+}
+
+ContactPoint ModelledMachine::contact_point(const Vec3& direction) const {
+  const Frames& frames = state_.frames;
+  Vec3 centre = state_.ball_centre(CoordinateSystem::Machine);
+  if (const auto probe = state_.probe_system()) {
+    centre = centre + probe->centre_offset(state_.tool_axis());
+  }
+  ContactPoint point;
+  point.tip_machine =
+      centre - state_.tool_direction(CoordinateSystem::Machine) * state_.tool_radius();
+  point.tip = frames.from_machine(point.tip_machine);
+  point.ball_centre = frames.from_machine(centre);
+  point.surface = frames.from_machine(centre + direction * state_.tool_radius());
+  point.nose = state_.nose;
+  return point;
+}
+
+}  // namespace fitgauge::machine
