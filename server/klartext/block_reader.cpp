@@ -87,10 +87,8 @@ bool BlockReader::is_string(const Expr& expr) const {
     case Operator::Concat:
     case Operator::ToChar:
     case Operator::SubString:
-    case Operator::SystemString:
-      return true;
-    default:
-      return false;
+    case Operator::SystemString: return true;
+    default: return false;
   }
 }
 

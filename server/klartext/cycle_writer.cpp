@@ -10,23 +10,12 @@ void write_head(BlockWriter& out, CycleFamily family, unsigned number) {
 
 void write_value(BlockWriter& out, const CycleParameter& parameter) {
   switch (parameter.kind) {
-    case CycleValue::Auto:
-      out.write("AUTO");
-      return;
-    case CycleValue::Max:
-      out.write("MAX");
-      return;
-    case CycleValue::Predef:
-      out.write("PREDEF");
-      return;
-    case CycleValue::Fu:
-      out.write("FU");
-      break;
-    case CycleValue::Fz:
-      out.write("FZ");
-      break;
-    case CycleValue::Expression:
-      break;
+    case CycleValue::Auto: out.write("AUTO"); return;
+    case CycleValue::Max: out.write("MAX"); return;
+    case CycleValue::Predef: out.write("PREDEF"); return;
+    case CycleValue::Fu: out.write("FU"); break;
+    case CycleValue::Fz: out.write("FZ"); break;
+    case CycleValue::Expression: break;
   }
   out.signed_value(parameter.value);
 }

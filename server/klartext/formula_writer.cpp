@@ -9,20 +9,13 @@ namespace {
 
 std::string_view binary_sign(Operator op) {
   switch (op) {
-    case Operator::Concat:
-      return " || ";
-    case Operator::Add:
-      return " + ";
-    case Operator::Subtract:
-      return " - ";
-    case Operator::Multiply:
-      return " * ";
-    case Operator::Divide:
-      return " / ";
-    case Operator::Modulo:
-      return " % ";
-    default:
-      return " ^ ";
+    case Operator::Concat: return " || ";
+    case Operator::Add: return " + ";
+    case Operator::Subtract: return " - ";
+    case Operator::Multiply: return " * ";
+    case Operator::Divide: return " / ";
+    case Operator::Modulo: return " % ";
+    default: return " ^ ";
   }
 }
 
@@ -35,21 +28,15 @@ BlockWriter::Level BlockWriter::level_of(const Expr& expr) const {
   const auto* index = std::get_if<NodeIndex>(&expr);
   if (index == nullptr) return Level::Alone;
   switch (program_.node(*index).op) {
-    case Operator::Concat:
-      return Level::Concat;
+    case Operator::Concat: return Level::Concat;
     case Operator::Add:
-    case Operator::Subtract:
-      return Level::Sum;
+    case Operator::Subtract: return Level::Sum;
     case Operator::Multiply:
     case Operator::Divide:
-    case Operator::Modulo:
-      return Level::Product;
-    case Operator::Power:
-      return Level::Power;
-    case Operator::Minus:
-      return Level::Signed;
-    default:
-      return Level::Alone;
+    case Operator::Modulo: return Level::Product;
+    case Operator::Power: return Level::Power;
+    case Operator::Minus: return Level::Signed;
+    default: return Level::Alone;
   }
 }
 
@@ -80,9 +67,7 @@ void BlockWriter::node(NodeIndex index) {
   const auto operands = program_.operands(index);
   const std::string_view sign = binary_sign(node.op);
   switch (node.op) {
-    case Operator::Pi:
-      write("PI");
-      return;
+    case Operator::Pi: write("PI"); return;
     case Operator::Concat:
       binary(operands[0], Level::Concat, sign, operands[1], Level::Sum);
       return;
@@ -102,8 +87,7 @@ void BlockWriter::node(NodeIndex index) {
       write("-");
       expression(operands[0], Level::Alone);
       return;
-    default:
-      break;
+    default: break;
   }
   for (const FunctionName& function : kFunctions) {
     if (function.op != node.op) continue;

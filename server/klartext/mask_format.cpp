@@ -77,18 +77,10 @@ class FormatReader {
   void read_escape() {
     take();
     switch (in_.peek()) {
-      case 'n':
-        literal_ += '\n';
-        break;
-      case '"':
-        literal_ += '"';
-        break;
-      case '\\':
-        literal_ += '\\';
-        break;
-      default:
-        literal_ += '\\';
-        return;
+      case 'n': literal_ += '\n'; break;
+      case '"': literal_ += '"'; break;
+      case '\\': literal_ += '\\'; break;
+      default: literal_ += '\\'; return;
     }
     take();
   }
@@ -121,17 +113,10 @@ class FormatReader {
   void read_flags(MaskPlaceholder& placeholder) {
     for (;; take()) {
       switch (in_.peek()) {
-        case '+':
-          placeholder.plus = true;
-          break;
-        case '-':
-          placeholder.left = true;
-          break;
-        case '0':
-          placeholder.zero = true;
-          break;
-        default:
-          return;
+        case '+': placeholder.plus = true; break;
+        case '-': placeholder.left = true; break;
+        case '0': placeholder.zero = true; break;
+        default: return;
       }
     }
   }
@@ -161,21 +146,12 @@ class FormatReader {
     }
     if (first == 'L' && (second == 'F' || second == 'D' || second == 'I')) take();
     switch (ascii_upper(take())) {
-      case 'F':
-        placeholder.conversion = MaskConversion::Float;
-        return true;
+      case 'F': placeholder.conversion = MaskConversion::Float; return true;
       case 'D':
-      case 'I':
-        placeholder.conversion = MaskConversion::Integer;
-        return true;
-      case 'S':
-        placeholder.conversion = MaskConversion::String;
-        return true;
-      case 'C':
-        placeholder.conversion = MaskConversion::Character;
-        return true;
-      default:
-        return false;
+      case 'I': placeholder.conversion = MaskConversion::Integer; return true;
+      case 'S': placeholder.conversion = MaskConversion::String; return true;
+      case 'C': placeholder.conversion = MaskConversion::Character; return true;
+      default: return false;
     }
   }
 

@@ -97,8 +97,12 @@ void parse_loose_part(BlockReader& in, CycleFamily family, unsigned part) {
 }
 
 void parse_part_words(BlockReader& in, CycleFamily family, unsigned number, unsigned part) {
+  if (family == CycleFamily::TchProbe && number == 0 && part == 0) {
+    parse_probing_direction(in);
+    return;
+  }
   if (part == 0) {
-    if (family == CycleFamily::TchProbe && number == 0) parse_probing_direction(in);
+    in.rest();
     return;
   }
   for (const StrictPart& row : kStrictParts) {
@@ -123,13 +127,11 @@ Statement parse_cycle_part(BlockReader& in, CycleFamily family, std::uint16_t nu
   cycle.part = static_cast<std::uint8_t>(in.digits(kLargestPart, "the sub-line of the cycle"));
   in.skip_blanks();
   const char* begin = in.at();
-  cycle.text = in.add_text(free_text(in.rest()));
-  const char* end = in.at();
-  in.move_to(begin);
   const std::uint32_t first = in.word_count();
   parse_part_words(in, family, number, cycle.part);
   cycle.words = in.words_since(first);
-  if (!in.failure() && cycle.part == 0) in.move_to(end);
+  if (!in.at_end()) in.fail_expected("the end of the block");
+  cycle.text = in.add_text(free_text({begin, static_cast<std::size_t>(in.at() - begin)}));
   return cycle;
 }
 

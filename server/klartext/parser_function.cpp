@@ -170,43 +170,27 @@ Statement parse_fn(BlockReader& in) {
   in.expect(':');
   if (const ArithmeticFn* function = find_arithmetic(fn)) return parse_arithmetic(in, *function);
   switch (fn) {
-    case 0:
-      return parse_fn_0(in);
+    case 0: return parse_fn_0(in);
     case 9:
     case 10:
     case 11:
-    case 12:
-      return parse_conditional_jump(in, fn);
-    case 14:
-      return parse_error_stop(in);
-    case 15:
-      in.expect_word("PRINT");
-      return Print{parse_items(in)};
-    case 16:
-      return parse_formatted_print(in);
-    case 17:
-      return parse_system_write(in);
-    case 18:
-      return parse_system_read(in);
+    case 12: return parse_conditional_jump(in, fn);
+    case 14: return parse_error_stop(in);
+    case 15: in.expect_word("PRINT"); return Print{parse_items(in)};
+    case 16: return parse_formatted_print(in);
+    case 17: return parse_system_write(in);
+    case 18: return parse_system_read(in);
     case 19:
-    case 29:
-      return parse_external(in, fn, "PLC", '=');
-    case 20:
-      return parse_wait(in);
+    case 29: return parse_external(in, fn, "PLC", '=');
+    case 20: return parse_wait(in);
     case 23:
-    case 24:
-      return parse_circle_data(in, fn);
+    case 24: return parse_circle_data(in, fn);
     case 26:
     case 27:
-    case 28:
-      return parse_table_function(in, fn);
-    case 37:
-      return parse_external(in, fn, "EXPORT", ' ');
-    case 38:
-      return parse_external(in, fn, "SEND", '/');
-    default:
-      in.refuse(begin, fmt::format("FN {}", fn));
-      return Empty{};
+    case 28: return parse_table_function(in, fn);
+    case 37: return parse_external(in, fn, "EXPORT", ' ');
+    case 38: return parse_external(in, fn, "SEND", '/');
+    default: in.refuse(begin, fmt::format("FN {}", fn)); return Empty{};
   }
 }
 

@@ -100,9 +100,10 @@ Statement parse_motion(BlockReader& in, Path path) {
   }
   const bool turns = path == Path::C || path == Path::Cp || path == Path::Cr || path == Path::Ct ||
                      path == Path::Ctp;
+  const bool compensates = path != Path::Cc && path != Path::Rnd && path != Path::Chf;
   while (!in.at_end()) {
     const char c = ascii_upper(in.peek());
-    if (c == 'R' && path != Path::Cc && parse_compensation(in, motion)) continue;
+    if (c == 'R' && compensates && parse_compensation(in, motion)) continue;
     if (c == 'D' && turns && parse_rotation(in, motion)) continue;
     words.read();
   }

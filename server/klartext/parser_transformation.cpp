@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include "base/text.hpp"
@@ -115,7 +116,8 @@ Statement parse_tcpm(BlockReader& in) {
   std::string options;
   while (!in.at_end()) {
     const char* begin = in.at();
-    while (!in.at_end() && in.at() != in.end() && !is_blank(in.peek())) in.move_to(in.at() + 1);
+    const auto ends_word = [](char c) { return is_blank(c) || c == ';'; };
+    in.move_to(std::find_if(begin, in.end(), ends_word));
     if (!options.empty()) options += ' ';
     options.append(begin, in.at());
   }

@@ -111,9 +111,7 @@ void WordReader::read() {
 
 void WordReader::parse_value_of(Word& word) {
   switch (word.letter) {
-    case Letter::M:
-      parse_m_number(word);
-      return;
+    case Letter::M: parse_m_number(word); return;
     case Letter::F:
       if (in_.accept_word("MAX")) word.letter = Letter::FMax;
       if (in_.accept_word("AUTO")) word.letter = Letter::FAuto;
@@ -128,8 +126,7 @@ void WordReader::parse_value_of(Word& word) {
         word.letter = Letter::Dr2;
       }
       break;
-    default:
-      break;
+    default: break;
   }
   if (is_bare(word.letter)) return;
   in_.skip_blanks();

@@ -195,8 +195,8 @@ TEST_CASE("Tools and workpiece blanks") {
        {"BLK FORM 0.1 Z X+0 Y+0 Z-20", "BLK FORM 0.1 Z X+0 Y+0 Z-20"},
        {"BLK FORM 0.2  X+QR1  IY+100  Z+0", "BLK FORM 0.2 X+QR1 IY+100 Z+0"},
        {"BLK FORM CYLINDER Z R50 L105 DIST+5 RI10", "BLK FORM CYLINDER Z R+50 L+105 DIST+5 RI+10"},
-       {"BLK FORM ROTATION Z DIM_R LBL1", "BLK FORM ROTATION Z DIM_R LBL1"},
-       {"BLK FORM FILE \"a.stl\" TARGET \"b.stl\"", "BLK FORM FILE \"a.stl\" TARGET\"b.stl\""}});
+       {"BLK FORM ROTATION Z DIM_R LBL1", "BLK FORM ROTATION Z DIM_R LBL 1"},
+       {"BLK FORM FILE \"a.stl\" TARGET \"b.stl\"", "BLK FORM FILE \"a.stl\" TARGET \"b.stl\""}});
 }
 
 TEST_CASE("Coordinate transformations and modes") {
