@@ -91,10 +91,14 @@ void Connection::advance() {
 bool Connection::step() {
   if (output_.has_long_body() || output_.queued_text() > kBatch) return false;
   switch (phase_) {
-    case Phase::Head: return step_head();
-    case Phase::ReadingBody: return step_body();
-    case Phase::Stream: return step_stream();
-    default: return false;
+    case Phase::Head:
+      return step_head();
+    case Phase::ReadingBody:
+      return step_body();
+    case Phase::Stream:
+      return step_stream();
+    default:
+      return false;
   }
 }
 
@@ -105,9 +109,13 @@ bool Connection::step_head() {
   input_.advance(used);
   received_ += used;
   switch (parsed) {
-    case RequestParser::Step::NeedMore: return false;
-    case RequestParser::Step::Head: return open_exchange();
-    default: refuse(parser_->refusal()); return true;
+    case RequestParser::Step::NeedMore:
+      return false;
+    case RequestParser::Step::Head:
+      return open_exchange();
+    default:
+      refuse(parser_->refusal());
+      return true;
   }
 }
 
@@ -202,16 +210,23 @@ bool Connection::step_body() {
   input_.advance(used);
   received_ += used;
   switch (parsed) {
-    case RequestParser::Step::NeedMore: return false;
-    case RequestParser::Step::Complete: return finish_body();
-    case RequestParser::Step::Refused: refuse(parser_->refusal()); return true;
-    default: pending_piece_ = parser_->piece(); return true;
+    case RequestParser::Step::NeedMore:
+      return false;
+    case RequestParser::Step::Complete:
+      return finish_body();
+    case RequestParser::Step::Refused:
+      refuse(parser_->refusal());
+      return true;
+    default:
+      pending_piece_ = parser_->piece();
+      return true;
   }
 }
 
 bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
   switch (outcome) {
-    case BodyReader::Outcome::Ok: return !reads_directly_ || admit_body();
+    case BodyReader::Outcome::Ok:
+      return !reads_directly_ || admit_body();
     case BodyReader::Outcome::NoBudget:
       phase_ = Phase::Budget;
       wait_begun_ = thread_.now();
@@ -272,7 +287,7 @@ void Connection::refuse(const Refusal& refusal) {
   answer(exchange_.refuse(head_, thread_.next_request_id(), refusal));
 }
 
-void Connection::answer(Response&& response) {
+void Connection::answer(Response response) {
   const std::size_t before = output_.queued_text();
   sent_ = append_answer(output_, response, exchange_.form(!close_after_), thread_.date());
   sent_bytes_ = output_.queued_text() - before + output_.long_body_size();
@@ -335,10 +350,7 @@ void Connection::read_more() {
   } else if (phase_ == Phase::ReadingBody) {
     room = reads_directly_ ? body_.room() : input_.room_for_body(head_, head_size_, kMaxFraming);
   } else {
-    if (!in_request_) {
-      deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
-      output_.shrink();
-    }
+    if (!in_request_) deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
     room = input_.room_for_head(head_);
   }
   reading_ = true;
@@ -377,7 +389,10 @@ void Connection::check_deadline(Tick now) {
   guarded([&] {
     switch (phase_) {
       case Phase::Head:
-        if (now < (in_request_ ? std::min(deadline_, request_deadline_) : deadline_)) return;
+        if (now < (in_request_ ? std::min(deadline_, request_deadline_) : deadline_)) {
+          if (!in_request_) output_.shrink();
+          return;
+        }
         if (!in_request_) return close();
         refuse(kTimedOut);
         return advance();
@@ -395,13 +410,15 @@ void Connection::check_deadline(Tick now) {
         refuse({503, ErrorCode::Overloaded, "Too many large bodies arrive at once; try again."});
         return advance();
       }
-      case Phase::Stream: return beat(now);
+      case Phase::Stream:
+        return beat(now);
       case Phase::Opening:
       case Phase::Lingering:
         if (now >= deadline_) close();
         return;
       case Phase::InHandler:
-      case Phase::Closed: return;
+      case Phase::Closed:
+        return;
     }
   });
 }

@@ -82,9 +82,9 @@ std::optional<Response> Exchange::dispatch() {
   if (index == Resource::kNone) {
     std::string allow = match.resource->allow();
     if (request_.method_ == Method::Options) return Response(204).with("Allow", std::move(allow));
-    return with_allow(error_response({405, ErrorCode::MethodNotAllowed,
-                                      fmt::format("The methods here are {}.", allow)}),
-                      std::move(allow));
+    Response refused = error_response(
+        {405, ErrorCode::MethodNotAllowed, fmt::format("The methods here are {}.", allow)});
+    return with_allow(std::move(refused), std::move(allow));
   }
   if (match.resource->takes_rest && segments.encoded_slash) {
     return error_response({400, ErrorCode::PathMalformed, "The path holds an encoded slash."});

@@ -48,13 +48,13 @@ class OutputQueue {
     if (long_body_.empty()) owner_.reset();
   }
 
-  /// Gives back what a connection between requests need not keep. @pre empty()
+  /// Gives back what an idle connection need not keep. @pre empty()
   void shrink() {
     constexpr std::size_t kKept = 1024;
-    if (sending_.capacity() <= kKept && queued_.capacity() <= kKept) return;
-    sending_ = {};
-    queued_ = {};
+    sending_.clear();
     sent_ = 0;
+    if (sending_.capacity() > kKept) sending_ = {};
+    if (queued_.capacity() > kKept) queued_ = {};
   }
 
  private:

@@ -112,6 +112,7 @@ TEST_CASE("another method is 405 with Allow, and OPTIONS tells the methods") {
   CHECK(refused.status == 405);
   CHECK(refused.field("Allow") == "GET, HEAD, PUT, OPTIONS");
   CHECK(refused.body.starts_with("method.not_allowed"));
+  CHECK(refused.body.find("GET, HEAD, PUT, OPTIONS") != std::string::npos);
   const Answer unknown = server.ask("BREW /v1/tables/hole HTTP/1.1\r\nHost: h\r\n\r\n");
   CHECK(unknown.status == 405);
   CHECK(unknown.field("Allow") == "GET, HEAD, OPTIONS");
