@@ -1,23 +1,24 @@
 -- Measurements: kept for ever, never changed. Lengths in nm, times in ns since 1970 (UTC).
--- The codes are those of db/store/measurement_row.hpp.
+-- The codes are those of db/store/measurement_row.hpp. They are checked with BETWEEN: for IN with
+-- three values or more SQLite builds a temporary index at every row.
 
 CREATE TABLE measurements (
   id                 INTEGER PRIMARY KEY,
-  source             INTEGER NOT NULL CHECK (source IN (1, 2)),  -- gauge, simulation
+  source             INTEGER NOT NULL CHECK (source BETWEEN 1 AND 2),  -- gauge, simulation
   measured_at        INTEGER NOT NULL,
   received_at        INTEGER NOT NULL,
   nominal_nm         INTEGER NOT NULL,
   tolerance_class    TEXT,
-  feature            INTEGER NOT NULL CHECK (feature IN (1, 2)),  -- hole, shaft
+  feature            INTEGER NOT NULL CHECK (feature BETWEEN 1 AND 2),  -- hole, shaft
   upper_deviation_nm INTEGER NOT NULL,
   lower_deviation_nm INTEGER NOT NULL,
   size_over_nm       INTEGER,
   size_up_to_nm      INTEGER,
-  basis              INTEGER NOT NULL CHECK (basis IN (1, 2, 3)),  -- iso286, custom, explicit
+  basis              INTEGER NOT NULL CHECK (basis BETWEEN 1 AND 3),  -- iso286, custom, explicit
   table_revision     INTEGER REFERENCES table_revisions (number),
   measured_nm        INTEGER NOT NULL,
-  verdict            INTEGER NOT NULL CHECK (verdict IN (1, 2, 3, 4)),  -- good, rework, reject, indeterminate
-  rule               INTEGER NOT NULL CHECK (rule IN (1, 2)),           -- simple, guard_band
+  verdict            INTEGER NOT NULL CHECK (verdict BETWEEN 1 AND 4),  -- good, rework, reject, indeterminate
+  rule               INTEGER NOT NULL CHECK (rule BETWEEN 1 AND 2),           -- simple, guard_band
   uncertainty_nm     INTEGER CHECK (uncertainty_nm >= 0),
   coverage_factor    INTEGER CHECK (coverage_factor >= 0),  -- k in millionths
   part_id            TEXT,
@@ -75,7 +76,7 @@ CREATE TABLE measurement_blocks (
 ) STRICT;
 
 CREATE TABLE measurement_lookup (
-  field       INTEGER NOT NULL CHECK (field IN (1, 2, 3, 4)),  -- part_id, order, characteristic, machine
+  field       INTEGER NOT NULL CHECK (field BETWEEN 1 AND 4),  -- part_id, order, characteristic, machine
   value       TEXT NOT NULL,
   measurement INTEGER NOT NULL,
   PRIMARY KEY (field, value, measurement)

@@ -3,7 +3,7 @@
 CREATE TABLE api_keys (
   id         INTEGER PRIMARY KEY,
   name       TEXT NOT NULL CHECK (name <> ''),
-  role       INTEGER NOT NULL CHECK (role IN (1, 2, 3)),  -- viewer, operator, admin
+  role       INTEGER NOT NULL CHECK (role BETWEEN 1 AND 3),  -- viewer, operator, admin
   token_hash BLOB NOT NULL CHECK (length(token_hash) = 32),
   created_at INTEGER NOT NULL,
   revoked_at INTEGER

@@ -25,7 +25,7 @@ Error unavailable(std::string message) {
 
 /// Gives a finished file its name, durably.
 Result<void> publish(const fs::path& finished, const fs::path& name) {
-  if (const Result<void> synced = sync_file(finished); !synced) return synced;
+  if (Result<void> synced = sync_file(finished); !synced) return synced;
   std::error_code failure;
   fs::rename(finished, name, failure);
   if (failure) {
@@ -63,7 +63,7 @@ Result<void> upgrade_file(const fs::path& file, std::span<const sqlite::Migratio
                           int version, std::int64_t now_ns) {
   const fs::path backup = with_suffix(file, fmt::format(".schema-{}.backup", version));
   remove_leftover(backup);
-  if (const Result<void> copied = copy_database(file, backup); !copied) return copied;
+  if (Result<void> copied = copy_database(file, backup); !copied) return copied;
   sqlite::Connection connection(file, sqlite::Mode::Write);
   sqlite::migrate(connection, known, now_ns);
   return {};
@@ -101,7 +101,7 @@ Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite
     if (options.access == Access::Serve) return create_file(file, known, now_ns);
     return unavailable(fmt::format("{} does not exist; start fitgauged once", file.string()));
   }
-  if (const Result<void> ours = inspect_file(file); !ours) return ours;
+  if (Result<void> ours = inspect_file(file); !ours) return ours;
   const Result<int> version = checked_version(options, file, known);
   if (!version) return version.error();
   if (*version == static_cast<int>(known.size())) return {};
@@ -124,7 +124,7 @@ Result<void> prepare_file(const OpenOptions& options, std::span<const sqlite::Mi
 }
 
 Result<void> copy_database(const fs::path& source, const fs::path& target) {
-  if (const Result<void> reserved = reserve_name(target); !reserved) return reserved;
+  if (Result<void> reserved = reserve_name(target); !reserved) return reserved;
   const fs::path draft = with_suffix(target, ".partial");
   remove_leftover(draft);
   const auto give_up = [&](Error error) {

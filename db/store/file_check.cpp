@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <exception>
-#include <utility>
+#include <functional>
+#include <string>
 
 #include "store/sqlite/connection.hpp"
 #include "store/storage_failure.hpp"
@@ -14,15 +14,14 @@ namespace {
 /// Instructions of SQLite's machine between two looks at the stop flag.
 constexpr int kInstructions = 10'000;
 
-Result<void> check_file(const std::filesystem::path& file, const std::atomic<bool>* stop) {
+Result<void> check_file(const std::filesystem::path& file, std::atomic<bool>* stop) {
   std::string finding;
   try {
     sqlite::Connection connection(file, sqlite::Mode::Read);
     if (stop != nullptr) {
       sqlite3_progress_handler(
           connection.handle(), kInstructions,
-          [](void* flag) { return static_cast<std::atomic<bool>*>(flag)->load() ? 1 : 0; },
-          const_cast<std::atomic<bool>*>(stop));
+          [](void* flag) { return static_cast<std::atomic<bool>*>(flag)->load() ? 1 : 0; }, stop);
     }
     finding = connection.query_text("PRAGMA quick_check(1)");
   } catch (const StorageFailure& failure) {
@@ -39,17 +38,19 @@ Result<void> check_file(const std::filesystem::path& file, const std::atomic<boo
 
 Result<void> check_file(const std::filesystem::path& file) { return check_file(file, nullptr); }
 
-BackgroundCheck::BackgroundCheck(std::filesystem::path file, HealthMonitor& health) {
+BackgroundCheck::BackgroundCheck(const std::filesystem::path& file, HealthMonitor& health) {
   health.checking(fmt::format("{} is being checked", file.string()));
-  thread_ = std::thread([this, file = std::move(file), &health] {
-    const Result<void> checked = check_file(file, &stop_);
-    if (stop_) return;
-    if (checked) {
-      health.check_passed();
-    } else {
-      health.damaged(checked.error().message);
-    }
-  });
+  thread_ = std::thread(&BackgroundCheck::run, this, file, std::ref(health));
+}
+
+void BackgroundCheck::run(const std::filesystem::path& file, HealthMonitor& health) {
+  const Result<void> checked = check_file(file, &stop_);
+  if (stop_) return;
+  if (checked) {
+    health.check_passed();
+  } else {
+    health.damaged(checked.error().message);
+  }
 }
 
 BackgroundCheck::~BackgroundCheck() {

@@ -16,12 +16,14 @@ Result<void> check_file(const std::filesystem::path& file);
 /// The same on a thread of its own, reporting to the monitor. Destroying it stops the check.
 class BackgroundCheck {
  public:
-  BackgroundCheck(std::filesystem::path file, HealthMonitor& health);
+  BackgroundCheck(const std::filesystem::path& file, HealthMonitor& health);
   BackgroundCheck(const BackgroundCheck&) = delete;
   BackgroundCheck& operator=(const BackgroundCheck&) = delete;
   ~BackgroundCheck();
 
  private:
+  void run(const std::filesystem::path& file, HealthMonitor& health);
+
   std::atomic<bool> stop_ = false;
   std::thread thread_;
 };

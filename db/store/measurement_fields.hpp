@@ -11,7 +11,7 @@ namespace fitgauge::store {
 /// all but the id before and the hash after. The one place where rows and columns meet.
 /// The order is part of the hash: a new column goes to the end.
 template <class Row, class Field>
-void for_each_field(Row& row, Field&& field) {
+void for_each_field(Row&& row, Field&& field) {
   field("source", row.source);
   field("measured_at", row.measured_at_ns);
   field("received_at", row.received_at_ns);

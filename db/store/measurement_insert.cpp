@@ -2,51 +2,89 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "store/measurement_fields.hpp"
 
 namespace fitgauge::store {
 namespace {
 
 constexpr std::size_t kRowsPerStatement = 32;
+constexpr std::uint64_t kAllFields = ~std::uint64_t{0};
+/// Statements kept; clients that fill ever other fields get the one with all columns.
+constexpr std::size_t kMostStatements = 32;
 
-std::string insert_sql(std::size_t rows) {
-  const std::string columns = measurement_columns();
-  std::string values = "(?";
-  for (const char c : columns) {
-    if (c == ',') values += ",?";
-  }
-  values += ')';
-  std::string sql = fmt::format("INSERT INTO measurements ({}) VALUES {}", columns, values);
-  for (std::size_t i = 1; i < rows; ++i) sql += ',' + values;
-  return sql;
+template <class T>
+bool is_given(const T&) {
+  return true;
 }
+template <class T>
+bool is_given(const std::optional<T>& value) {
+  return value.has_value();
+}
+
+bool contains(std::uint64_t fields, unsigned bit) { return ((fields >> bit) & 1U) != 0; }
 
 }  // namespace
 
-MeasurementInsert::MeasurementInsert(sqlite::Connection& connection)
-    : many_(connection, insert_sql(kRowsPerStatement)),
-      one_(connection, insert_sql(1)),
-      hashes_(kRowsPerStatement) {}
-
 MeasurementInsert::Place MeasurementInsert::append(Place last,
                                                    std::span<const MeasurementRow> rows) {
-  for (; rows.size() >= kRowsPerStatement; rows = rows.subspan(kRowsPerStatement)) {
-    bind_and_run(many_, rows.first(kRowsPerStatement), last);
+  while (!rows.empty()) {
+    const std::size_t count = rows.size() < kRowsPerStatement ? 1 : kRowsPerStatement;
+    insert(rows.first(count), last);
+    rows = rows.subspan(count);
   }
-  for (; !rows.empty(); rows = rows.subspan(1)) bind_and_run(one_, rows.first(1), last);
   return last;
 }
 
-void MeasurementInsert::bind_and_run(sqlite::Statement& statement,
-                                     std::span<const MeasurementRow> rows, Place& last) {
+MeasurementInsert::Fields MeasurementInsert::fields_of(std::span<const MeasurementRow> rows) {
+  Fields fields = 0;
+  for (const MeasurementRow& row : rows) {
+    unsigned bit = 0;
+    for_each_field(
+        row, [&](const char*, const auto& value) { fields |= Fields{is_given(value)} << bit++; });
+  }
+  return fields;
+}
+
+std::string MeasurementInsert::insert_sql(const Shape& shape) {
+  std::string columns = "id";
+  std::string values = "(?";
+  unsigned bit = 0;
+  for_each_field(MeasurementRow(), [&](std::string_view column, const auto&) {
+    if (!contains(shape.fields, bit++)) return;
+    columns += fmt::format(", {}", column);
+    values += ",?";
+  });
+  values += ",?)";
+  std::string sql = fmt::format("INSERT INTO measurements ({}, hash) VALUES {}", columns, values);
+  for (std::size_t i = 1; i < shape.rows; ++i) sql += ',' + values;
+  return sql;
+}
+
+std::pair<const MeasurementInsert::Shape, sqlite::Statement>& MeasurementInsert::statement_for(
+    const Shape& shape) {
+  const auto found = statements_.find(shape);
+  if (found != statements_.end()) return *found;
+  const Shape made = statements_.size() < kMostStatements ? shape : Shape{kAllFields, shape.rows};
+  return *statements_.try_emplace(made, connection_, insert_sql(made)).first;
+}
+
+void MeasurementInsert::insert(std::span<const MeasurementRow> rows, Place& last) {
+  auto& made = statement_for({fields_of(rows), rows.size()});
+  const Fields fields = made.first.fields;
+  sqlite::Statement& statement = made.second;
+  hashes_.resize(std::max(hashes_.size(), rows.size()));
   int index = 0;
-  const auto bind = [&](const char*, const auto& value) { statement.bind(++index, value); };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ++last.id;
     last.hash = hashes_[i] = hasher_(last.hash, last.id, rows[i]);
-    bind("id", last.id);
-    for_each_field(rows[i], bind);
-    bind("hash", hashes_[i]);
+    statement.bind(++index, last.id);
+    unsigned bit = 0;
+    for_each_field(rows[i], [&](const char*, const auto& value) {
+      if (contains(fields, bit++)) statement.bind(++index, value);
+    });
+    statement.bind(++index, hashes_[i]);
   }
   statement.run();
 }

@@ -2,7 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "store/measurement_hash.hpp"
@@ -10,11 +14,11 @@
 
 namespace fitgauge::store {
 
-/// Inserts measurements at the end of the chain, many rows a statement: stepping a statement for
-/// every row takes twice as long.
+/// Inserts measurements at the end of the chain: many rows a statement, and only the columns that
+/// one of them fills. A statement stepped for every row with every column takes half as long again.
 class MeasurementInsert {
  public:
-  explicit MeasurementInsert(sqlite::Connection& connection);
+  explicit MeasurementInsert(sqlite::Connection& connection) : connection_(connection) {}
 
   /// The place a row gets: the one after `last`.
   struct Place {
@@ -25,11 +29,23 @@ class MeasurementInsert {
   Place append(Place last, std::span<const MeasurementRow> rows);
 
  private:
-  void bind_and_run(sqlite::Statement& statement, std::span<const MeasurementRow> rows,
-                    Place& last);
+  /// A set of fields, one bit each in the order of for_each_field.
+  using Fields = std::uint64_t;
+  /// What a statement is made for.
+  struct Shape {
+    Fields fields = 0;
+    std::size_t rows = 0;
 
-  sqlite::Statement many_;
-  sqlite::Statement one_;
+    friend auto operator<=>(const Shape&, const Shape&) = default;
+  };
+
+  static Fields fields_of(std::span<const MeasurementRow> rows);
+  static std::string insert_sql(const Shape& shape);
+  std::pair<const Shape, sqlite::Statement>& statement_for(const Shape& shape);
+  void insert(std::span<const MeasurementRow> rows, Place& last);
+
+  sqlite::Connection& connection_;
+  std::map<Shape, sqlite::Statement> statements_;
   MeasurementHasher hasher_;
   std::vector<Digest> hashes_;  ///< bound without a copy while a statement runs
 };

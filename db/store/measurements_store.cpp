@@ -29,26 +29,16 @@ MeasurementRow read_row(const Rows& rows) {
 
 constexpr std::string_view column_of(GroupBy group_by) {
   switch (group_by) {
-    case GroupBy::PartId:
-      return "part_id";
-    case GroupBy::Characteristic:
-      return "characteristic";
-    case GroupBy::Order:
-      return "work_order";
-    case GroupBy::Operation:
-      return "operation";
-    case GroupBy::Machine:
-      return "machine";
-    case GroupBy::Operator:
-      return "operator";
-    case GroupBy::Gauge:
-      return "gauge";
-    case GroupBy::Unit:
-      return "unit";
-    case GroupBy::ToleranceClass:
-      return "tolerance_class";
-    case GroupBy::Caller:
-      return "caller";
+    case GroupBy::PartId: return "part_id";
+    case GroupBy::Characteristic: return "characteristic";
+    case GroupBy::Order: return "work_order";
+    case GroupBy::Operation: return "operation";
+    case GroupBy::Machine: return "machine";
+    case GroupBy::Operator: return "operator";
+    case GroupBy::Gauge: return "gauge";
+    case GroupBy::Unit: return "unit";
+    case GroupBy::ToleranceClass: return "tolerance_class";
+    case GroupBy::Caller: return "caller";
   }
   return "characteristic";
 }
