@@ -23,6 +23,28 @@ const char* wrap_end(const char* at, const char* end) {
   return next != end && *next == '\n' ? next + 1 : at;
 }
 
+/// The physical lines of a text with `seam` instead of each wrap.
+std::string joined(std::string_view text, std::string_view seam) {
+  std::string out;
+  out.reserve(text.size());
+  const char* end = text.data() + text.size();
+  for (const char* at = text.data(); at != end;) {
+    const char* next = *at == '~' ? wrap_end(at, end) : at;
+    if (next != at) {
+      out += seam;
+      at = next;
+    } else {
+      out += *at++;
+    }
+  }
+  return out;
+}
+
+std::string without_tail(std::string text) {
+  text.erase(text.find_last_not_of(" \t~") + 1);
+  return text;
+}
+
 }  // namespace
 
 void Lexer::open(std::size_t begin, std::size_t end) {
@@ -224,26 +246,11 @@ std::string_view Lexer::rest_until(char stop) {
   return {begin, static_cast<std::size_t>(last - begin)};
 }
 
-std::string unwrapped(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  const char* end = text.data() + text.size();
-  for (const char* at = text.data(); at != end;) {
-    const char* next = *at == '~' ? wrap_end(at, end) : at;
-    if (next != at) {
-      at = next;
-    } else {
-      out += *at++;
-    }
-  }
-  return out;
-}
+std::string unwrapped(std::string_view code) { return joined(code, " "); }
 
-std::string free_text(std::string_view text) {
-  std::string out = unwrapped(text);
-  out.erase(out.find_last_not_of(" \t~") + 1);
-  return out;
-}
+std::string free_text(std::string_view code) { return without_tail(unwrapped(code)); }
+
+std::string comment_text(std::string_view comment) { return without_tail(joined(comment, "")); }
 
 std::string excerpt(std::string_view text) {
   constexpr std::size_t kShown = 40;

@@ -146,12 +146,15 @@ inline bool Lexer::plain_number(double& value) {
   return true;
 }
 
-/// A text without its wraps: `a~`, line end, ` b` is `a b`.
-std::string unwrapped(std::string_view text);
+/// Code without its wraps: each is a blank.
+std::string unwrapped(std::string_view code);
 
-/// A text that ends its block, without its wraps and without blanks or `~` at its end, so that no
+/// Code that ends its block, without its wraps and without blanks or `~` at its end, so that no
 /// wrap comes into being when it is printed.
-std::string free_text(std::string_view text);
+std::string free_text(std::string_view code);
+
+/// As free_text, for a comment: the control wraps it in the middle of words.
+std::string comment_text(std::string_view comment);
 
 /// An excerpt for a message.
 std::string excerpt(std::string_view text);

@@ -106,7 +106,7 @@ bool Parser::at_q_form_cycle() {
 
 Text Parser::parse_comment() {
   return in_.add_text(
-      free_text({in_.at() + 1, static_cast<std::size_t>(in_.end() - in_.at() - 1)}));
+      comment_text({in_.at() + 1, static_cast<std::size_t>(in_.end() - in_.at() - 1)}));
 }
 
 void Parser::report_failure(Block& block, const char* body) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "base/text.hpp"
 #include "klartext/parser_rules.hpp"
@@ -12,17 +13,19 @@ namespace {
 template <class Frame>
 Statement parse_frame(BlockReader& in) {
   in.expect_word("PGM");
-  std::string_view rest = in.rest();
+  const char* begin = in.at();
+  const std::string text = free_text(in.rest());
+  const std::string_view rest = trim(text);
   const std::size_t blank = rest.find_last_of(" \t");
   const std::size_t unit_at = blank == std::string_view::npos ? 0 : blank + 1;
   const std::string_view unit = rest.substr(unit_at);
   const bool inch = ascii_iequals(unit, "INCH");
   if (!inch && !ascii_iequals(unit, "MM")) {
-    in.fail(DiagnosticCode::SyntaxError, in.place(unit.data(), unit.data() + unit.size()),
+    in.fail(DiagnosticCode::SyntaxError, in.place(begin, in.at()),
             "expected the name of the program and its unit, MM or INCH");
   }
-  const std::string_view name = trim(rest.substr(0, unit_at));
-  return Frame{in.add_text(unwrapped(name)), inch ? Unit::Inch : Unit::Millimetre};
+  const Text name = in.add_text(trim(rest.substr(0, unit_at)));
+  return Frame{name, inch ? Unit::Inch : Unit::Millimetre};
 }
 
 /// A letter of an axis alone, as in `BLK FORM 0.1 Z X+0`.

@@ -39,7 +39,7 @@ void check_round_trip(const ParsedProgram& parsed) {
 
 TEST_CASE("A program without mistakes has no errors and reads back as it was") {
   ProgramGenerator generator(seed());
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const std::string text = generator.program();
     CAPTURE(text);
     const ParsedProgram parsed = parse_program(text, "generated.h");
@@ -51,7 +51,7 @@ TEST_CASE("A program without mistakes has no errors and reads back as it was") {
 
 TEST_CASE("Of damaged programs each finding has its place, and those without errors read back") {
   ProgramGenerator generator(seed());
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const std::string text = generator.damaged(generator.program());
     CAPTURE(text);
     const ParsedProgram parsed = parse_program(text, "damaged.h");

@@ -123,6 +123,13 @@ TEST_CASE("Dotted cycles are blocks of their own") {
   CHECK(call.program.text(std::get<Text>(part_words(call)[0].value)) == "TNC:\\x\\y.h");
 }
 
+TEST_CASE("A wrap separates words of code, also in a dotted cycle") {
+  const ParsedProgram parsed = parse_lines("TCH PROBE 3.2 X~\nANGLE: +15");
+  REQUIRE(parsed.diagnostics.empty());
+  CHECK(parsed.program.text(statement_of<CyclePart>(parsed).text) == "X ANGLE: +15");
+  CHECK(part_words(parsed).size() == 2);
+}
+
 TEST_CASE("Dotted touch probe cycles") {
   using W = std::vector<Word>;
   CHECK(part_words("TCH PROBE 0.0 REF. PLANE Q5 X-") ==

@@ -16,32 +16,19 @@ double evaluate(const Program& program, const Expr& expr) {
   const auto operands = program.operands(index);
   const auto value = [&](std::size_t i) { return evaluate(program, operands[i]); };
   switch (program.node(index).op) {
-    case Operator::Add:
-      return value(0) + value(1);
-    case Operator::Subtract:
-      return value(0) - value(1);
-    case Operator::Multiply:
-      return value(0) * value(1);
-    case Operator::Divide:
-      return value(0) / value(1);
-    case Operator::Modulo:
-      return std::fmod(value(0), value(1));
-    case Operator::Power:
-      return std::pow(value(0), value(1));
+    case Operator::Add: return value(0) + value(1);
+    case Operator::Subtract: return value(0) - value(1);
+    case Operator::Multiply: return value(0) * value(1);
+    case Operator::Divide: return value(0) / value(1);
+    case Operator::Modulo: return std::fmod(value(0), value(1));
+    case Operator::Power: return std::pow(value(0), value(1));
     case Operator::Minus:
-    case Operator::Neg:
-      return -value(0);
-    case Operator::Sq:
-      return value(0) * value(0);
-    case Operator::Sqrt:
-      return std::sqrt(value(0));
-    case Operator::Abs:
-      return std::abs(value(0));
-    case Operator::Int:
-      return std::trunc(value(0));
-    default:
-      FAIL("the formula holds another operator");
-      return 0;
+    case Operator::Neg: return -value(0);
+    case Operator::Sq: return value(0) * value(0);
+    case Operator::Sqrt: return std::sqrt(value(0));
+    case Operator::Abs: return std::abs(value(0));
+    case Operator::Int: return std::trunc(value(0));
+    default: FAIL("the formula holds another operator"); return 0;
   }
 }
 

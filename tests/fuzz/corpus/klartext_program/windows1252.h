@@ -1,0 +1,3 @@
+BEGIN PGM A MM
+L X+1 ;Ä
+END PGM A MM

@@ -1,0 +1,46 @@
+// The first half of the bytes says what to read, the second half is read: the lexer never leaves
+// its block, and after a failure it stands at the end.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "klartext/lexer.hpp"
+
+using namespace fitgauge::klartext;
+
+namespace {
+
+void read_one(Lexer& in, unsigned what) {
+  switch (what % 10) {
+    case 0: in.number(); break;
+    case 1: in.parameter(); break;
+    case 2: in.quoted(); break;
+    case 3: in.digits(65'534, "the label"); break;
+    case 4: in.accept_word("CALL"); break;
+    case 5: in.accept_prefix("Q"); break;
+    case 6: in.expect('='); break;
+    case 7: in.rest_until('/'); break;
+    case 8: in.move_to(in.at() + in.letters().size()); break;
+    default: in.fail_expected("nothing"); break;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::size_t half = size / 2;
+  const std::string source(reinterpret_cast<const char*>(data) + half, size - half);
+  Lexer in(source);
+  in.open(0, source.size());
+  const char* last = in.at();
+  for (std::size_t i = 0; i < half; ++i) {
+    read_one(in, data[i]);
+    if (in.at() < last || in.at() > in.end()) std::abort();
+    if (in.failure() && in.at() != in.end()) std::abort();
+    last = in.at();
+  }
+  if (free_text(source).ends_with('~') || comment_text(source).ends_with('~')) std::abort();
+  return 0;
+}

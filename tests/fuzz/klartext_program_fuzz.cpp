@@ -1,0 +1,25 @@
+// Any bytes as a program: every finding has its place, and a program without errors, printed, reads
+// back as the same.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "klartext/parser.hpp"
+#include "klartext/printer.hpp"
+
+using namespace fitgauge::klartext;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const ParsedProgram parsed =
+      parse_program(std::string(reinterpret_cast<const char*>(data), size), "fuzz.h");
+  for (const Diagnostic& diagnostic : parsed.diagnostics) {
+    if (render(diagnostic).empty() || diagnostic.range.end < diagnostic.range.begin) std::abort();
+  }
+  const std::string printed = print_program(parsed.program);
+  if (parsed.has_errors()) return 0;
+  const ParsedProgram again = parse_program(printed, "printed.h");
+  if (again.has_errors() || !(again.program == parsed.program)) std::abort();
+  return 0;
+}
