@@ -103,6 +103,11 @@ std::string_view ControlPath::file_name() const {
   return std::string_view(text_).substr(text_.rfind('\\') + 1);
 }
 
+ControlPath ControlPath::with_default_extension(std::string_view extension) const {
+  if (file_name().find('.') != std::string_view::npos) return *this;
+  return ControlPath(text_ + std::string(extension));
+}
+
 ControlPath ControlPath::beside(std::string_view name) const {
   return ControlPath(std::string(directory()) + std::string(name));
 }

@@ -26,6 +26,8 @@ class ControlPath {
   /// With its last `\`: `TNC:\nc_prog\8255\`.
   std::string_view directory() const;
   std::string_view file_name() const;
+  /// With `extension` (such as `.H`) where the file name has none.
+  ControlPath with_default_extension(std::string_view extension) const;
   /// A file of the same directory. @pre `name` has no separator.
   ControlPath beside(std::string_view name) const;
 

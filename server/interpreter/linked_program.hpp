@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "klartext/syntax.hpp"
 
 namespace fitgauge::interpreter {
+
+/// What a program is called when it is named without one: `CALL PGM 82551`.
+inline constexpr std::string_view kProgramExtension = ".H";
 
 /// A file that a program names literally, and where.
 struct FileReference {

@@ -1,10 +1,10 @@
 #include "interpreter/parameter.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "base/text.hpp"
+#include "tabfile/characters.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -23,21 +23,7 @@ constexpr std::string_view prefix(klartext::QSpace space) {
   return {};
 }
 
-bool starts_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
-
 }  // namespace
-
-std::size_t character_count(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
-}
-
-std::size_t skip_characters(std::string_view text, std::size_t from, std::size_t count) {
-  std::size_t i = from;
-  for (; i < text.size(); ++i) {
-    if (starts_character(text[i]) && count-- == 0) return i;
-  }
-  return i;
-}
 
 std::string name(klartext::QRef parameter) {
   return std::string(prefix(parameter.space)) + std::to_string(parameter.number);
@@ -74,7 +60,8 @@ Result<void> validate(const ParameterValue& value) {
   if (number != nullptr && !std::isfinite(*number)) {
     return Error{ErrorCode::NumberOutOfRange, who + " must be a finite number"};
   }
-  if (number == nullptr && character_count(std::get<std::string>(value.value)) > kLongestString) {
+  if (number == nullptr &&
+      tabfile::count_characters(std::get<std::string>(value.value)) > kLongestString) {
     return Error{ErrorCode::FieldTooLong, who + " has more than 255 characters"};
   }
   return {};

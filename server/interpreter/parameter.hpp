@@ -11,13 +11,8 @@
 
 namespace fitgauge::interpreter {
 
-/// The characters a QS holds at most.
+/// The characters (code points) a QS holds at most.
 inline constexpr std::size_t kLongestString = 255;
-
-/// The characters (code points) of a UTF-8 text: what the control counts.
-std::size_t character_count(std::string_view text);
-/// The offset in bytes of the character `count` characters after the offset `from`, or the size.
-std::size_t skip_characters(std::string_view text, std::size_t from, std::size_t count);
 
 /// A parameter with its value: a number, or the string of a QS.
 struct ParameterValue {
