@@ -17,7 +17,10 @@ struct GridPoint {
   std::int64_t x;
   std::int64_t y;
 
-  friend auto operator<=>(const GridPoint&, const GridPoint&) = default;
+  friend bool operator==(const GridPoint&, const GridPoint&) = default;
+  friend bool operator<(const GridPoint& a, const GridPoint& b) {
+    return a.x != b.x ? a.x < b.x : a.y < b.y;
+  }
 };
 
 /// Positive when c lies to the left of a -> b, 0 on the line: exact.

@@ -21,11 +21,9 @@ FaultText text_of(FaultKind kind) {
     case FaultKind::AxisMissing: return {0, "Axis not available"};
     case FaultKind::HirthGrid: return {0, "Position is not on the Hirth grid"};
     case FaultKind::ToolAxisMissing: return {1001, "Tool axis is missing"};
-    case FaultKind::NoTool: return {1092, "Tool not defined"};
+    case FaultKind::NoTool:
     case FaultKind::ToolUnknown: return {1092, "Tool not defined"};
-    case FaultKind::ToolLocked:
-      return {0, "Tool locked"};
-      return {1093, "Tool number not permitted"};
+    case FaultKind::ToolLocked: return {0, "Tool locked"};
     case FaultKind::NotAProbe: return {1093, "Tool number not permitted"};
     case FaultKind::FeedMissing: return {1010, "Feed rate is missing"};
     case FaultKind::PresetUnknown: return {0, "Preset not found"};

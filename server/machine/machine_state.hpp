@@ -90,7 +90,8 @@ class MachineState {
 
   /// Where the tool tip (the nose in Reference) stands.
   Position position(CoordinateSystem system = CoordinateSystem::Input) const;
-  /// The centre of the probe's ball; with another tool the point one radius above the tip.
+  /// The centre of the probe's ball on the spindle axis, so without CAL_OF1 and CAL_OF2 (a
+  /// ContactPoint has them); with another tool the point one radius above the tip.
   Vec3 ball_centre(CoordinateSystem system = CoordinateSystem::Input) const;
 };
 

@@ -86,12 +86,12 @@ void TracingMachine::write(const MachineResult<T>& result, const Text& text) {
   lines_.push_back(result ? text() : fmt::format("{} ! {}", text(), result.error().text));
 }
 
-void TracingMachine::add(TracedMove move) {
+void TracingMachine::add(const TracedMove& move) {
   if (moves_.size() >= options_.longest) {
     ++dropped_;
     return;
   }
-  moves_.push_back(std::move(move));
+  moves_.push_back(move);
 }
 
 void TracingMachine::keep(MoveKind kind, const Begun& begun, const Feed& feed) {

@@ -73,7 +73,7 @@ class TracingMachine final : public Machine {
   void keep(MoveKind kind, const Begun& begun, const Feed& feed);
   void keep_probing(const Begun& begun, const ProbeMove& move,
                     const MachineResult<ContactPoint>& result);
-  void add(TracedMove move);
+  void add(const TracedMove& move);
   std::int64_t block() const { return options_.block ? options_.block() : 0; }
   /// Writes the line that `text()` makes, with the fault when there is one.
   template <class T, class Text>

@@ -138,40 +138,31 @@ double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) co
 
 namespace {
 
-std::unique_ptr<const Solid> solid_of(const Feature& feature) {
-  struct Make {
-    std::unique_ptr<const Solid> operator()(const Block& f) const {
-      return std::make_unique<BlockSolid>(f);
-    }
-    std::unique_ptr<const Solid> operator()(const Boss& f) const {
-      return std::make_unique<BossSolid>(f);
-    }
-    std::unique_ptr<const Solid> operator()(const Plane& f) const {
-      return std::make_unique<PlaneSolid>(f);
-    }
-    std::unique_ptr<const Solid> operator()(const Sphere& f) const {
-      return std::make_unique<SphereSolid>(f);
-    }
-    std::unique_ptr<const Solid> operator()(const Surface& f) const {
-      return std::make_unique<SurfaceSolid>(f);
-    }
-    std::unique_ptr<const Solid> operator()(const Bore&) const { return nullptr; }
-  };
-  return std::visit(Make{}, feature);
+std::unique_ptr<const Solid> solid_of(const Block& f) { return std::make_unique<BlockSolid>(f); }
+std::unique_ptr<const Solid> solid_of(const Boss& f) { return std::make_unique<BossSolid>(f); }
+std::unique_ptr<const Solid> solid_of(const Plane& f) { return std::make_unique<PlaneSolid>(f); }
+std::unique_ptr<const Solid> solid_of(const Sphere& f) { return std::make_unique<SphereSolid>(f); }
+std::unique_ptr<const Solid> solid_of(const Surface& f) {
+  return std::make_unique<SurfaceSolid>(f);
 }
 
 }  // namespace
 
+void Workpiece::join(const Bore& bore) {
+  const auto shared = std::make_shared<const BoreVoid>(bore);
+  for (Part& part : parts_) {
+    part.cuts.push_back({shared, shared->floor_top() <= part.solid->bottom() + kOnBoundary});
+  }
+}
+
+template <class Added>
+void Workpiece::join(const Added& feature) {
+  parts_.emplace_back().solid = solid_of(feature);
+}
+
 Workpiece::Workpiece(const std::vector<Feature>& features) {
   for (const Feature& feature : features) {
-    if (const Bore* bore = std::get_if<Bore>(&feature)) {
-      const auto shared = std::make_shared<const BoreVoid>(*bore);
-      for (Part& part : parts_) {
-        part.cuts.push_back({shared, shared->floor_top() <= part.solid->bottom() + kOnBoundary});
-      }
-    } else {
-      parts_.push_back({solid_of(feature), {}});
-    }
+    std::visit([this](const auto& known) { join(known); }, feature);
   }
 }
 

@@ -40,6 +40,10 @@ class Workpiece {
  private:
   struct Part;
 
+  void join(const Bore& bore);
+  template <class Added>
+  void join(const Added& feature);
+
   std::vector<Part> parts_;
 };
 
