@@ -60,6 +60,10 @@ CycleResult<void> Arguments::complete() {
 
 double Arguments::number(ParameterId id) const { return std::get<double>(values_[index(id)]); }
 
+double Arguments::number_or(int parameter, double fallback) const {
+  return descriptor_->find(q(parameter)) == nullptr ? fallback : number(parameter);
+}
+
 bool Arguments::has_number(ParameterId id) const {
   return std::holds_alternative<double>(values_[index(id)]);
 }

@@ -36,6 +36,8 @@ class Arguments {
   /// @pre complete() succeeded and the parameter holds a number.
   double number(ParameterId id) const;
   double number(int parameter) const { return number(q(parameter)); }
+  /// The number of a parameter that not every cycle has.
+  double number_or(int parameter, double fallback) const;
   int whole(int parameter) const { return static_cast<int>(number(parameter)); }
   bool has_number(ParameterId id) const;
   /// The text, or nothing when the parameter holds none.

@@ -14,11 +14,11 @@ CycleResult<CirclePlan> circle_plan(const Arguments& arguments, const ProbingMot
                     .diameter = diameter,
                     .start_angle = arguments.number(325),
                     .step = step,
-                    .points = arguments.whole(423),
+                    .points = static_cast<int>(arguments.number_or(423, 4)),
                     .height = arguments.number(261),
                     .start_distance = motion.start_distance(arguments.number(320)),
                     .via_clearance = arguments.whole(301) == 1,
-                    .on_arc = arguments.whole(365) == 1};
+                    .on_arc = arguments.number_or(365, 1) == 1};
 }
 
 std::vector<Touch> circle_touches(const CirclePlan& plan) {

@@ -4,6 +4,7 @@
 #include "probing/datum_transfer.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
+#include "probing/single_touch.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -23,19 +24,14 @@ constexpr std::array<CycleOutput, 1> kResults{{{160, "Measured coordinate", Unit
 
 CycleResult<void> set_datum(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
-  if (auto prepared = prepare_preset(context); !prepared) return prepared;
-  auto motion = ProbingMotion::begin(context);
+  auto motion = begin_preset(context);
   if (!motion) return motion.error();
-  const Vec3 down{0, 0, -1};
   const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(294)};
-  const std::array touches{Touch{
-      .start = nominal - down * motion->start_distance(arguments.number(320)), .direction = down}};
-  const auto contacts = motion->touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
-  const Vec3 surface = contacts->front().surface;
-  context.host.set_q(160, to_length(surface.z).to_mm(), Unit::Length);
+  const auto surface = touch_down(*motion, nominal, arguments.number(320), arguments.number(260));
+  if (!surface) return surface.error();
+  set_length(context.host, 160, surface->z);
   const std::array points{DatumPoint{
-      .point = surface, .axes = {false, false, true}, .datum = {0, 0, arguments.number(333)}}};
+      .point = *surface, .axes = {false, false, true}, .datum = {0, 0, arguments.number(333)}}};
   return transfer_datum(context, motion->plane(), points);
 }
 

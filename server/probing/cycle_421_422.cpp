@@ -2,6 +2,7 @@
 
 #include "probing/circle_probing.hpp"
 #include "probing/cycles.hpp"
+#include "probing/feature_values.hpp"
 #include "probing/measurement.hpp"
 #include "probing/parameters.hpp"
 
@@ -22,8 +23,8 @@ constexpr auto parameters(int max_q, std::string_view max, int min_q, std::strin
                     kMoveToClearance,
                     length(max_q, max, 0),
                     length(min_q, min, 0),
-                    length(279, "Tolerance of the centre, main axis", 0),
-                    length(280, "Tolerance of the centre, secondary axis", 0),
+                    kCentreToleranceMain,
+                    kCentreToleranceSecondary,
                     kMeasuringLog,
                     kStopOnTolerance,
                     kMonitoringTool,
@@ -38,41 +39,15 @@ constexpr auto k421Parameters =
 constexpr auto k422Parameters =
     parameters(277, "Maximum size of the stud", 278, "Minimum size of the stud");
 
-constexpr std::array<CycleOutput, 9> kResults{
-    {{151, "Centre, main axis", Unit::Length},
-     {152, "Centre, secondary axis", Unit::Length},
-     {153, "Diameter", Unit::Length},
-     {161, "Deviation of the centre, main axis", Unit::Length},
-     {162, "Deviation of the centre, secondary axis", Unit::Length},
-     {163, "Deviation of the diameter", Unit::Length},
-     {180, "Good", Unit::None},
-     {181, "Rework", Unit::None},
-     {182, "Reject", Unit::None}}};
-
 constexpr std::string_view kSimulated =
     "All parameters; Q498 and Q531 concern turning tools and change nothing.";
-
-MeasuredValue centre_value(const Arguments& arguments, bool main, double measured) {
-  const Length nominal = to_length(arguments.number(main ? 273 : 274));
-  const int error = main ? 1044 : 1045;
-  return {.characteristic = main ? "Centre, main axis" : "Centre, secondary axis",
-          .role = ValueRole::Position,
-          .nominal = nominal,
-          .measured = to_length(measured),
-          .limits = position_limits(nominal, to_length(arguments.number(main ? 279 : 280))),
-          .result_q = static_cast<std::uint16_t>(main ? 151 : 152),
-          .deviation_q = static_cast<std::uint16_t>(main ? 161 : 162),
-          .error_too_large = error,
-          .error_too_small = error};
-}
 
 CycleResult<void> measure(const CycleContext& context, Side side) {
   const Arguments& arguments = context.arguments;
   const bool inside = side == Side::Inside;
   const auto limits = inside ? size_limits(arguments, 275, 276) : size_limits(arguments, 277, 278);
   if (!limits) return limits.error();
-  if (auto prepared = prepare_measurement(context); !prepared) return prepared;
-  auto motion = ProbingMotion::begin(context);
+  auto motion = begin_measurement(context);
   if (!motion) return motion.error();
   const auto plan =
       circle_plan(arguments, *motion, side, {arguments.number(273), arguments.number(274)},
@@ -84,7 +59,7 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
   if (!circle) return circle.error();
 
   const MeasuredValue diameter{.characteristic = "Diameter",
-                               .role = inside ? ValueRole::HoleSize : ValueRole::ShaftSize,
+                               .role = size_role(side),
                                .nominal = to_length(arguments.number(262)),
                                .measured = to_length(2 * circle->radius),
                                .limits = *limits,
@@ -92,12 +67,11 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
                                .deviation_q = 163,
                                .error_too_large = inside ? 1047 : 1049,
                                .error_too_small = inside ? 1046 : 1048};
-  return finish_measurement(context,
-                            {.values = {centre_value(arguments, true, circle->centre.x),
-                                        centre_value(arguments, false, circle->centre.y), diameter},
-                             .measuring_height = to_length(arguments.number(261)),
-                             .correction = radius_correction(diameter),
-                             .form = circle_form(contacts->size(), circle->residual)});
+  const auto [centre_main, centre_secondary] = centre_values(arguments, circle->centre);
+  return finish_measurement(context, {.values = {centre_main, centre_secondary, diameter},
+                                      .measuring_height = to_length(arguments.number(261)),
+                                      .correction = radius_correction(diameter),
+                                      .form = circle_form(contacts->size(), circle->residual)});
 }
 
 }  // namespace
@@ -107,7 +81,7 @@ constinit const TouchProbeCycle kCycle421{
      .name = "MEASURE HOLE",
      .kind = CycleKind::Measuring,
      .parameters = k421Parameters,
-     .results = kResults,
+     .results = kCircleResults,
      .simulated = kSimulated},
     [](const CycleContext& context) { return measure(context, Side::Inside); }};
 
@@ -116,7 +90,7 @@ constinit const TouchProbeCycle kCycle422{
      .name = "MEAS. CIRCLE OUTSIDE",
      .kind = CycleKind::Measuring,
      .parameters = k422Parameters,
-     .results = kResults,
+     .results = kCircleResults,
      .simulated = kSimulated},
     [](const CycleContext& context) { return measure(context, Side::Outside); }};
 

@@ -3,7 +3,7 @@
 #include "probing/cycles.hpp"
 #include "probing/measurement.hpp"
 #include "probing/parameters.hpp"
-#include "probing/probing_motion.hpp"
+#include "probing/single_touch.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -35,31 +35,20 @@ CycleResult<void> measure(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
   const auto limits = size_limits(arguments, 288, 289);
   if (!limits) return limits.error();
-  const int direction = arguments.whole(267);
-  if (direction == 0) return nc_error(1042, "Q267 must be -1 or +1");
-  if (auto prepared = prepare_measurement(context); !prepared) return prepared;
-  auto motion = ProbingMotion::begin(context);
+  auto motion = begin_measurement(context);
   if (!motion) return motion.error();
-
-  const auto axis = static_cast<std::size_t>(arguments.whole(272) - 1);
-  const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(261)};
-  Vec3 along;
-  along[axis] = direction;
-  const std::array touches{
-      Touch{.start = nominal - along * motion->start_distance(arguments.number(320)),
-            .direction = along}};
-  const auto contacts = motion->touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
+  const auto touched = touch_coordinate(context, *motion);
+  if (!touched) return touched.error();
 
   const MeasuredValue coordinate{.characteristic = "Coordinate",
                                  .role = ValueRole::ShaftSize,
-                                 .nominal = to_length(nominal[axis]),
-                                 .measured = to_length(contacts->front().surface[axis]),
+                                 .nominal = to_length(touched->nominal[touched->axis]),
+                                 .measured = to_length(touched->surface[touched->axis]),
                                  .limits = *limits,
                                  .result_q = 160,
                                  .deviation_q = 168};
-  const ToolCorrection correction =
-      axis == 2 ? length_correction(coordinate.deviation()) : radius_correction(coordinate);
+  const ToolCorrection correction = touched->axis == 2 ? length_correction(coordinate.deviation())
+                                                       : radius_correction(coordinate);
   return finish_measurement(context, {.values = {coordinate},
                                       .measuring_height = to_length(arguments.number(261)),
                                       .correction = correction});

@@ -1,14 +1,17 @@
 #include "probing/cycle_registry.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "probing/cycles.hpp"
 
 namespace fitgauge::probing {
 namespace {
 
-constexpr std::array kCycles{&kCycle417, &kCycle421, &kCycle422, &kCycle427, &kCycle247};
+constexpr const TouchProbeCycle* kCycles[] = {
+#define FITGAUGE_CYCLE(number) &kCycle##number,
+#include "probing/cycles.inc"
+#undef FITGAUGE_CYCLE
+};
 
 }  // namespace
 
@@ -18,7 +21,7 @@ const TouchProbeCycle* find_cycle(CycleFamily family, int number) {
   const auto found = std::ranges::find_if(kCycles, [&](const TouchProbeCycle* cycle) {
     return cycle->descriptor.family == family && cycle->descriptor.number == number;
   });
-  return found == kCycles.end() ? nullptr : *found;
+  return found == std::ranges::end(kCycles) ? nullptr : *found;
 }
 
 }  // namespace fitgauge::probing

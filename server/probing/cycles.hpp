@@ -2,13 +2,11 @@
 
 #include "probing/touch_probe_cycle.hpp"
 
-/// Every cycle's definition, each in the file of its number; the registry lists them.
 namespace fitgauge::probing {
 
-extern const TouchProbeCycle kCycle247;
-extern const TouchProbeCycle kCycle417;
-extern const TouchProbeCycle kCycle421;
-extern const TouchProbeCycle kCycle422;
-extern const TouchProbeCycle kCycle427;
+/// Every cycle's definition, kCycle421 in the file of its number.
+#define FITGAUGE_CYCLE(number) extern const TouchProbeCycle kCycle##number;
+#include "probing/cycles.inc"
+#undef FITGAUGE_CYCLE
 
 }  // namespace fitgauge::probing

@@ -11,94 +11,103 @@ using machine::Matrix3;
 using machine::Preset;
 using machine::PresetFrame;
 
-Vec3 workpiece_coordinates(const machine::Frames& frames, const Vec3& input) {
-  return frames.from_machine(frames.to_machine(input), CoordinateSystem::Workpiece);
+Vec3 rounded(const Vec3& point) {
+  return {to_length(point.x).to_mm(), to_length(point.y).to_mm(), to_length(point.z).to_mm()};
 }
 
-/// Moves the zero of a preset so that a point given in coordinates of the active one reads `datum`
-/// in the named axes of the moved one; the other axes keep their zero.
-PresetFrame moved(PresetFrame row, const PresetFrame& active, const Vec3& point,
-                  const std::array<bool, 3>& axes, const Vec3& datum) {
-  const Matrix3 rotation = Matrix3::spatial(row.basic_rotation_deg);
-  const Matrix3 inverse = rotation.transposed();
-  const Vec3 machine_point = active.origin + Matrix3::spatial(active.basic_rotation_deg) * point;
-  const Vec3 along_axes = inverse * machine_point;
-  Vec3 zero = inverse * row.origin;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (axes[axis]) zero[axis] = along_axes[axis] - datum[axis];
-  }
-  row.origin = rotation * zero;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    row.origin[axis] = to_length(row.origin[axis]).to_mm();
-  }
-  return row;
-}
-
-/// A DatumPoint in workpiece coordinates and by machine axes.
-struct WorkpieceDatum {
+/// A DatumPoint by machine axes, its point relative to the machine zero of presets.
+struct MachineDatum {
   Vec3 point;
   std::array<bool, 3> axes{};
   Vec3 datum;
 };
 
-WorkpieceDatum in_workpiece(const machine::Frames& frames, const WorkingPlane& plane,
-                            const DatumPoint& point) {
-  WorkpieceDatum made{.point = workpiece_coordinates(frames, plane.to_input(point.point)),
-                      .datum = plane.to_input(point.datum)};
-  made.axes[index(plane.main)] = point.axes[0];
-  made.axes[index(plane.secondary)] = point.axes[1];
-  made.axes[index(plane.probe)] = point.axes[2];
+MachineDatum in_machine(const machine::Frames& frames, const WorkingPlane& plane,
+                        const DatumPoint& found) {
+  const PresetFrame& active = frames.preset();
+  const Vec3 workpiece = frames.from_machine(frames.to_machine(plane.to_input(found.point)),
+                                             CoordinateSystem::Workpiece);
+  MachineDatum made{
+      .point = active.origin + Matrix3::spatial(active.basic_rotation_deg) * workpiece,
+      .datum = plane.to_input(found.datum)};
+  made.axes[index(plane.main)] = found.axes[0];
+  made.axes[index(plane.secondary)] = found.axes[1];
+  made.axes[index(plane.probe)] = found.axes[2];
   return made;
 }
 
-CycleResult<void> write_preset(const CycleContext& context,
-                               std::span<const WorkpieceDatum> points) {
+/// Moves the zero of a preset so that the point reads `datum` in the named axes; the other axes
+/// keep their zero.
+void move_zero(PresetFrame& frame, const MachineDatum& found) {
+  const Matrix3 rotation = Matrix3::spatial(frame.basic_rotation_deg);
+  const Vec3 point = rotation.transposed() * found.point;
+  Vec3 zero = rotation.transposed() * frame.origin;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (found.axes[axis]) zero[axis] = point[axis] - found.datum[axis];
+  }
+  frame.origin = rounded(rotation * zero);
+}
+
+CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& turned,
+                               std::span<const MachineDatum> points) {
   const machine::MachineState& state = context.machine.state();
   const int number = context.arguments.whole(305);
-  const PresetFrame active = state.frames.preset();
-  Preset row{.number = number, .comment = {}, .frame = active};
+  Preset row{.number = number, .comment = {}, .frame = turned};
   const Preset* existing = number == 0 ? nullptr : state.presets.find(number);
-  if (existing != nullptr) row = *existing;
-  for (const WorkpieceDatum& point : points) {
-    row.frame = moved(row.frame, active, point.point, point.axes, point.datum);
+  if (existing != nullptr) {
+    row = *existing;
+    if (turned != state.frames.preset()) {
+      row.frame.basic_rotation_deg = turned.basic_rotation_deg;
+    }
   }
+  for (const MachineDatum& point : points) move_zero(row.frame, point);
   if (auto written = lift(context.machine.write_preset(row)); !written) return written;
   if (number != 0) return {};
   return lift(context.machine.activate_preset(0));
 }
 
-CycleResult<void> write_datum_table(const CycleContext& context,
-                                    std::span<const WorkpieceDatum> points) {
+CycleResult<void> write_datum_table(const CycleContext& context, const PresetFrame& turned,
+                                    std::span<const MachineDatum> points) {
   AxisWords values;
-  for (const WorkpieceDatum& point : points) {
+  const Matrix3 inverse = Matrix3::spatial(turned.basic_rotation_deg).transposed();
+  for (const MachineDatum& found : points) {
+    const Vec3 datum = rounded(inverse * (found.point - turned.origin) - found.datum);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!point.axes[axis]) continue;
-      values.values[axis] = to_length(point.point[axis] - point.datum[axis]).to_mm();
+      if (found.axes[axis]) values.values[axis] = datum[axis];
     }
   }
-  return context.host.write_datum(context.arguments.whole(305), values);
+  if (auto written = context.host.write_datum(context.arguments.whole(305), values); !written) {
+    return written;
+  }
+  machine::Frames frames = context.machine.state().frames;
+  if (turned == frames.preset()) return {};
+  frames.set_preset(turned);
+  return lift(context.machine.set_frames(frames));
 }
 
 }  // namespace
 
-CycleResult<void> prepare_preset(const CycleContext& context) {
-  const machine::Frames& frames = context.machine.state().frames;
-  if (frames.is_mirrored()) return nc_error(1008, "reset cycle 8 before setting a datum");
-  if (frames.is_scaled()) return nc_error(1007, "reset cycles 11 and 26 before setting a datum");
+CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
+  if (auto allowed = refuse_mirror_and_scaling(context.machine.state().frames); !allowed) {
+    return allowed.error();
+  }
   if (context.arguments.whole(303) == -1 && context.arguments.whole(305) != 0) {
     return nc_error(1078, "0 is the datum table, 1 the preset table");
   }
-  return {};
+  return ProbingMotion::begin(context);
 }
 
 CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane& plane,
-                                 std::span<const DatumPoint> points) {
-  std::vector<WorkpieceDatum> by_axes;
-  for (const DatumPoint& point : points) {
-    by_axes.push_back(in_workpiece(context.machine.state().frames, plane, point));
-  }
+                                 std::span<const DatumPoint> points,
+                                 std::optional<double> turn_deg) {
+  const machine::Frames& frames = context.machine.state().frames;
+  std::vector<MachineDatum> found;
+  for (const DatumPoint& point : points) found.push_back(in_machine(frames, plane, point));
+  PresetFrame turned = frames.preset();
+  turned.basic_rotation_deg[index(plane.probe)] += to_angle(turn_deg.value_or(0));
   const bool datum_table = context.arguments.whole(303) == 0 && context.arguments.whole(305) != 0;
-  return datum_table ? write_datum_table(context, by_axes) : write_preset(context, by_axes);
+  return datum_table ? write_datum_table(context, turned, found)
+                     : write_preset(context, turned, found);
 }
 
 }  // namespace fitgauge::probing

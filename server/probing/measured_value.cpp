@@ -27,6 +27,10 @@ int MeasuredValue::error() const {
 
 Length to_length(double mm) { return Length::nearest_mm(mm).value(); }
 
+void set_length(CycleHost& host, std::uint16_t q, double mm) {
+  host.set_q(q, to_length(mm).to_mm(), Unit::Length);
+}
+
 double to_angle(double degrees) { return std::round(degrees * 1e7) / 1e7; }
 
 CycleResult<std::optional<Limits>> size_limits(const Arguments& arguments, int max_q, int min_q) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "probing/arguments.hpp"
+#include "probing/cycle_host.hpp"
 #include "probing/measuring_record.hpp"
 
 namespace fitgauge::probing {
@@ -40,6 +41,11 @@ struct MeasuredValue {
 
 /// A length in the nearest nanometre. @pre finite and within 1e12 mm.
 Length to_length(double mm);
+
+/// A result in mm, to the nanometre.
+void set_length(CycleHost& host, std::uint16_t q, double mm);
+
+constexpr Length magnitude(Length length) { return length < Length{} ? -length : length; }
 
 /// An angle in degrees as Q parameters get it, to 1e-7 degrees (1 nm at 0.5 m), so that two equal
 /// angles are equal.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "probing/basic_rotation.hpp"
 #include "probing/measuring_log.hpp"
 
 namespace fitgauge::probing {
@@ -53,19 +54,14 @@ MeasuringRecord make_record(const CycleContext& context, const Measurement& meas
 
 }  // namespace
 
-CycleResult<void> prepare_measurement(const CycleContext& context) {
-  machine::Frames frames = context.machine.state().frames;
-  const machine::Vec3& factor = frames.scaling().factor;
+CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
+  const Vec3& factor = context.machine.state().frames.scaling().factor;
   if (factor.x != factor.y || factor.y != factor.z) {
     return nc_error(1108, "reset cycle 26 before measuring");
   }
   set_status(context.host, std::nullopt);
-  machine::PresetFrame preset = frames.preset();
-  if (preset.basic_rotation_deg == machine::Vec3{}) return {};
-  preset.basic_rotation_deg = {};
-  frames.set_preset(preset);
-  if (auto set = context.machine.set_frames(frames); !set) return from_machine(set.error());
-  return {};
+  if (auto reset = reset_basic_rotation(context.machine); !reset) return reset.error();
+  return ProbingMotion::begin(context);
 }
 
 CycleResult<void> finish_measurement(const CycleContext& context, const Measurement& measurement) {

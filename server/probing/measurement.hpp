@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "probing/measured_value.hpp"
+#include "probing/probing_motion.hpp"
 #include "probing/tool_monitoring.hpp"
 #include "probing/touch_probe_cycle.hpp"
 
@@ -17,8 +18,9 @@ struct Measurement {
 };
 
 /// What every measuring cycle begins with: resets an active basic rotation and clears Q180 to Q182.
-/// @errors 1108 scaling factors that differ by axis: a circle would be an ellipse.
-CycleResult<void> prepare_measurement(const CycleContext& context);
+/// @errors 1108 scaling factors that differ by axis: a circle would be an ellipse; those of
+///   ProbingMotion::begin.
+CycleResult<ProbingMotion> begin_measurement(const CycleContext& context);
 
 /// What it ends with: results, status, log (Q281), record, tool correction (Q330), and last the
 /// stop of Q309 (decision 6).

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "probing/cycle_descriptor.hpp"
 
 /// The parameters that cycles share, with the input ranges of the control's manuals: coordinates
@@ -56,6 +59,16 @@ constexpr CycleParameter newer(CycleParameter parameter) {
   return parameter;
 }
 
+/// The parameters of one list and then of another.
+template <std::size_t A, std::size_t B>
+constexpr std::array<CycleParameter, A + B> join(const std::array<CycleParameter, A>& first,
+                                                 const std::array<CycleParameter, B>& second) {
+  std::array<CycleParameter, A + B> all;
+  std::ranges::copy(first, all.begin());
+  std::ranges::copy(second, all.begin() + A);
+  return all;
+}
+
 inline constexpr CycleParameter kMeasuringHeight = coordinate(261, "Measuring height");
 inline constexpr CycleParameter kSetUpClearance = length(320, "Set-up clearance", 0);
 inline constexpr CycleParameter kClearanceHeight = coordinate(260, "Clearance height");
@@ -66,6 +79,10 @@ inline constexpr CycleParameter kMeasuringAxisInPlane =
 inline constexpr CycleParameter kMeasuringAxis =
     choice(272, "Measuring axis: 1 main, 2 secondary, 3 probe axis", 1, 3);
 inline constexpr CycleParameter kDirection = choice(267, "Traverse direction: -1 or +1", -1, 1);
+inline constexpr CycleParameter kCentreToleranceMain =
+    length(279, "Tolerance of the centre, main axis", 0);
+inline constexpr CycleParameter kCentreToleranceSecondary =
+    length(280, "Tolerance of the centre, secondary axis", 0);
 inline constexpr CycleParameter kMeasuringLog =
     choice(281, "Measuring log: 0 none, 1 file, 2 stop and show", 0, 2, 1);
 inline constexpr CycleParameter kStopOnTolerance =
@@ -82,7 +99,22 @@ inline constexpr CycleParameter kAngleOfIncidence = newer(angle(531, "Angle of i
 
 inline constexpr CycleParameter kTableRow =
     choice(305, "Row of the preset or datum table, 0: active at once", 0, 65535, 0);
+inline constexpr CycleParameter kPresetRow =
+    choice(305, "Row of the preset table, 0: active at once", 0, 65535, 0);
+inline constexpr CycleParameter kReferenceAngle = angle(307, "Angle of the reference line", 360, 0);
 inline constexpr CycleParameter kTransfer = choice(
     303, "Measured value transfer: 0 datum table, 1 preset table, -1 of old programs", -1, 1, 1);
+
+/// What 421, 422 and 430 give.
+inline constexpr std::array<CycleOutput, 9> kCircleResults{
+    {{151, "Centre, main axis", Unit::Length},
+     {152, "Centre, secondary axis", Unit::Length},
+     {153, "Diameter", Unit::Length},
+     {161, "Deviation of the centre, main axis", Unit::Length},
+     {162, "Deviation of the centre, secondary axis", Unit::Length},
+     {163, "Deviation of the diameter", Unit::Length},
+     {180, "Good", Unit::None},
+     {181, "Rework", Unit::None},
+     {182, "Reject", Unit::None}}};
 
 }  // namespace fitgauge::probing::parameter

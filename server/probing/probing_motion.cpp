@@ -107,9 +107,12 @@ CycleResult<Contact> ProbingMotion::probe(const Vec3& direction) {
   return Contact{plane_.from_input(contact->ball_centre), plane_.from_input(contact->surface)};
 }
 
+CycleResult<void> ProbingMotion::move_tip(const AxisWords& target) {
+  return lift(machine_.move({target, positioning_feed()}));
+}
+
 CycleResult<void> ProbingMotion::move_ball(const Vec3& centre) {
-  const Vec3 target = plane_.to_input(centre) - ball_offset();
-  return lift(machine_.move({AxisWords::linear(target), positioning_feed()}));
+  return move_tip(AxisWords::linear(plane_.to_input(centre) - ball_offset()));
 }
 
 CycleResult<void> ProbingMotion::move_ball_in_plane(const Vec3& centre) {
@@ -121,7 +124,7 @@ CycleResult<void> ProbingMotion::move_ball_in_plane(const Vec3& centre) {
 CycleResult<void> ProbingMotion::move_tip_to_height(double height) {
   AxisWords target;
   target[plane_.probe] = height;
-  return lift(machine_.move({target, positioning_feed()}));
+  return move_tip(target);
 }
 
 Feed ProbingMotion::positioning_feed() const {
@@ -138,11 +141,17 @@ Vec3 ProbingMotion::ball_offset() const {
   return machine_.state().ball_centre() - machine_.position().linear;
 }
 
+CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames) {
+  if (frames.is_mirrored()) return nc_error(1008, "reset cycle 8 before this cycle");
+  if (frames.is_scaled()) return nc_error(1007, "reset cycles 11 and 26 before this cycle");
+  return {};
+}
+
 void publish_touch(const MachineState& state, CycleHost& host, const ContactPoint& contact) {
   const Vec3 nose = state.frames.from_machine(contact.nose.linear, CoordinateSystem::Workpiece);
   std::uint16_t number = 115;
   for (const double coordinate : {nose.x, nose.y, nose.z}) {
-    host.set_q(number++, to_length(coordinate).to_mm(), Unit::Length);
+    set_length(host, number++, coordinate);
   }
   for (const machine::Axis axis : {machine::Axis::A, machine::Axis::B, machine::Axis::C}) {
     if (state.ranges[index(axis)] && number <= 119) {

@@ -61,6 +61,11 @@ class ProbingMotion {
   CycleResult<std::vector<Contact>> touch_all(std::span<const Touch> touches,
                                               double clearance_height);
 
+  /// Moves the tip in the named input axes, all together.
+  CycleResult<void> move_tip(const machine::AxisWords& target);
+  /// Touches along a direction in plane coordinates, as touch_all does, and comes back.
+  CycleResult<Contact> probe(const Vec3& direction);
+
  private:
   ProbingMotion(const CycleContext& context, const machine::ProbeSystem& probe);
 
@@ -68,7 +73,6 @@ class ProbingMotion {
   CycleResult<void> transit(const Touch& touch, double clearance_height);
   CycleResult<void> via_clearance_height(const Vec3& start, double clearance_height);
   CycleResult<void> arc(const Touch& touch);
-  CycleResult<Contact> probe(const Vec3& direction);
   CycleResult<void> move_ball(const Vec3& centre);           ///< all three axes together
   CycleResult<void> move_ball_in_plane(const Vec3& centre);  ///< keeps the height
   CycleResult<void> move_tip_to_height(double height);
@@ -82,6 +86,9 @@ class ProbingMotion {
   machine::ProbeSystem probe_;
   double scale_;  ///< machine mm per input mm
 };
+
+/// @errors 1008 and 1007: preset and alignment cycles do not work mirrored or scaled.
+CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames);
 
 /// Sets Q115 to Q119 and tells the host: every programmed touch does.
 void publish_touch(const machine::MachineState& state, CycleHost& host,

@@ -48,9 +48,7 @@ CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection
   double& oversize = radius ? tool.dr : tool.dl;
   oversize = to_length(oversize + correction.change.to_mm()).to_mm();
   const Length breakage = to_length(radius ? tool.r_breakage : tool.l_breakage);
-  const Length size =
-      correction.deviation < Length{} ? -correction.deviation : correction.deviation;
-  const bool broken = breakage > Length{} && size > breakage;
+  const bool broken = breakage > Length{} && magnitude(correction.deviation) > breakage;
   tool.locked = tool.locked || broken;
   if (auto written = context.machine.write_tool(tool); !written) {
     return from_machine(written.error());

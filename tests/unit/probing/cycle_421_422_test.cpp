@@ -307,6 +307,47 @@ TEST_CASE("measuring resets a basic rotation and refuses unequal scaling") {
   CHECK(bench.run(421, hole_block()) == 1108);
 }
 
+TEST_CASE("422 in the planes of the other tool axes: the equator of a sphere") {
+  using machine::Axis;
+  struct Case {
+    Axis tool_axis;
+    double main;
+    double secondary;
+    double height;
+  };
+  for (const Case& c : {Case{Axis::X, 30, 10, -20}, Case{Axis::Y, 10, -20, 30}}) {
+    ProbingBench bench({machine::Sphere{.centre = {-20, 30, 10}, .diameter = 24.99}});
+    machine::AxisWords aside;
+    aside[c.tool_axis] = 120.0;
+    REQUIRE(bench.machine.move({aside, {}}).has_value());
+    machine::AxisWords level;
+    level[Axis::Z] = 10.0;
+    REQUIRE(bench.machine.move({level, {}}).has_value());
+    REQUIRE(bench.machine.call_tool({.number = {}, .axis = c.tool_axis, .spindle_rpm = {}})
+                .has_value());
+    for (const double via_clearance : {0.0, 1.0}) {
+      CHECK(bench.run(422, with(stud_block(), {{273, c.main},
+                                               {274, c.secondary},
+                                               {261, c.height},
+                                               {260, 60.0},
+                                               {301, via_clearance}})) == 0);
+      CHECK(std::abs(bench.host.q[151] - c.main) < 2e-6);
+      CHECK(std::abs(bench.host.q[152] - c.secondary) < 2e-6);
+      CHECK(std::abs(bench.host.q[153] - 24.99) < 2e-6);
+    }
+  }
+}
+
+TEST_CASE("the log of an INCH program counts in inches") {
+  ProbingBench bench = hole_of(25.4);
+  bench.host.inch = true;
+  CHECK(bench.run(421, with(hole_block(), {{262, 25.4}, {275, 0.0}, {276, 0.0}})) == 0);
+  const std::string& log = bench.host.files.at("TCHPR421.TXT");
+  CHECK(log.find("Unit (0=MM / 1=INCH): 1\n") != std::string::npos);
+  CHECK(log.find("Diameter:                                             1.0000\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("Q115 to Q117 are the spindle position of the last touch") {
   ProbingBench bench = hole_of(25);
   CHECK(bench.run(421, hole_block()) == 0);

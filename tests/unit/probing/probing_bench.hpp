@@ -41,7 +41,6 @@ class ProbingBench {
     const auto result = run_cycle(*cycle, std::move(arguments), machine, host);
     if (result) return 0;
     fault = result.error();
-    INFO(fault.text);
     return fault.number == 0 ? -1 : fault.number;
   }
 

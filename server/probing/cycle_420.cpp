@@ -1,0 +1,55 @@
+#include <array>
+
+#include "probing/cycles.hpp"
+#include "probing/line_probing.hpp"
+#include "probing/measurement.hpp"
+#include "probing/measuring_log.hpp"
+#include "probing/parameters.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kParameters{coordinate(263, "1st point, main axis"),
+                                 coordinate(264, "1st point, secondary axis"),
+                                 coordinate(265, "2nd point, main axis"),
+                                 coordinate(266, "2nd point, secondary axis"),
+                                 kMeasuringAxis,
+                                 kDirection,
+                                 kMeasuringHeight,
+                                 kSetUpClearance,
+                                 kClearanceHeight,
+                                 kMoveToClearance,
+                                 kMeasuringLog};
+
+constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
+
+CycleResult<void> measure(const CycleContext& context) {
+  auto motion = begin_measurement(context);
+  if (!motion) return motion.error();
+  const auto line = probe_line(context, *motion);
+  if (!line) return line.error();
+  const double angle = to_angle(line->angle_deg());
+  context.host.set_q(150, angle, Unit::Angle);
+  MeasuringLog log(context.arguments.descriptor(), context.host);
+  log.section("Actual values");
+  log.angle("Measured angle", angle);
+  log.section("Further results");
+  log.length("Measuring height", to_length(context.arguments.number(261)));
+  return deliver_log(context, std::move(log));
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle420{
+    {.number = 420,
+     .name = "MEASURE ANGLE",
+     .kind = CycleKind::Measuring,
+     .parameters = kParameters,
+     .results = kResults,
+     .simulated = "All parameters. The angle is that of the line to the main axis, with Q272 = 3 "
+                  "to the axis along which the points differ."},
+    measure};
+
+}  // namespace fitgauge::probing

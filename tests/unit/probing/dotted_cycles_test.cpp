@@ -1,0 +1,116 @@
+#include <doctest/doctest.h>
+
+#include "probing_bench.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+constexpr int word(ParameterId id) { return static_cast<int>(id); }
+constexpr int kResult = word(ParameterId::WordResult);
+constexpr int kAxis = word(ParameterId::WordAxis);
+constexpr int kDirection = word(ParameterId::WordDirection);
+constexpr int kX = word(ParameterId::WordX);
+constexpr int kY = word(ParameterId::WordY);
+constexpr int kZ = word(ParameterId::WordZ);
+constexpr int kAngle = word(ParameterId::WordAngle);
+constexpr int kDistance = word(ParameterId::WordDistance);
+constexpr int kFeed = word(ParameterId::WordFeed);
+constexpr int kRetract = word(ParameterId::WordRetract);
+constexpr int kSystem = word(ParameterId::WordReferenceSystem);
+constexpr int kErrorMode = word(ParameterId::WordErrorMode);
+
+const machine::Block kPlate{.min = {0, 0, -40}, .max = {100, 80, 0}};
+
+struct BesideThePlate : ProbingBench {
+  BesideThePlate();
+};
+
+BesideThePlate::BesideThePlate() : ProbingBench({kPlate}) {
+  for (const auto& [axis, value] :
+       {std::pair{machine::Axis::X, -10.0}, {machine::Axis::Y, 40.0}, {machine::Axis::Z, -5.0}}) {
+    machine::AxisWords target;
+    target[axis] = value;
+    REQUIRE(machine.move({target, {}}).has_value());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("TCH PROBE 0 gives the compensated coordinate and comes back to its position") {
+  ProbingBench bench({kPlate});
+  CHECK(
+      bench.run(
+          0,
+          {{kResult, 5.0}, {kAxis, 2.0}, {kDirection, -1.0}, {kX, 50.0}, {kY, 40.0}, {kZ, 5.0}}) ==
+      0);
+  CHECK(same(bench.host.q[5], 0));
+  CHECK(bench.machine.position().linear == machine::Vec3{50, 40, 5});
+  CHECK(same(bench.host.q[117], 120));
+  CHECK(bench.host.files.empty());
+  CHECK(bench.host.records.empty());
+
+  BesideThePlate side;
+  CHECK(side.run(0, {{kResult, 5.0}, {kAxis, 0.0}, {kDirection, 1.0}, {kX, -8.0}}) == 0);
+  CHECK(same(side.host.q[5], 0));
+  CHECK(same(side.host.q[115], -2));
+  CHECK(side.run(0, {{kResult, 5.0}, {kAxis, 0.0}, {kDirection, -1.0}}) == 1014);
+  CHECK(side.run(0, {{kResult, 5.0}, {kAxis, 0.0}, {kDirection, 0.0}}) == 1042);
+}
+
+TEST_CASE("TCH PROBE 1 touches at an angle from its axis") {
+  BesideThePlate bench;
+  CHECK(bench.run(1, {{kAxis, 0.0}, {kAngle, 30.0}}) == 0);
+  CHECK(same(bench.host.q[115], -2));
+  CHECK(std::abs(bench.host.q[116] - (40 + 8 * std::tan(machine::radians(30)))) < 1e-6);
+}
+
+TEST_CASE("TCH PROBE 3 gives the uncompensated position, or -1 without contact") {
+  BesideThePlate bench;
+  const Values block{{kResult, 1.0},    {kAxis, 0.0},   {kAngle, 0.0},
+                     {kDistance, 10.0}, {kFeed, 100.0}, {kRetract, 1.0}};
+  CHECK(bench.run(3, block) == 0);
+  CHECK(same(bench.host.q[1], -2));
+  CHECK(same(bench.host.q[2], 40));
+  CHECK(same(bench.host.q[3], -5));
+  CHECK(bench.host.q[4] == 0);
+  CHECK(same(bench.machine.position().linear.x, -3));
+  CHECK(bench.run(3, with(block, {{kSystem, 1.0}})) == 0);
+  CHECK(same(bench.host.q[3], 115));
+  CHECK(bench.run(3, with(block, {{kDistance, 0.5}})) == 1014);
+  CHECK(bench.run(3, with(block, {{kDistance, 0.4}, {kErrorMode, 1.0}})) == 0);
+  CHECK(bench.host.q[4] == -1);
+}
+
+TEST_CASE("TCH PROBE 4 touches along a vector and goes on without contact") {
+  BesideThePlate bench;
+  const Values block{{kResult, 20.0}, {kX, 3.0}, {kY, 4.0}, {kDistance, 45.0}, {kFeed, 100.0}};
+  CHECK(bench.run(4, block) == 0);
+  CHECK(same(bench.host.q[20], -2));
+  CHECK(std::abs(bench.host.q[21] - (40 + 8 * 4.0 / 3)) < 1e-6);
+  CHECK(bench.host.q[23] == 0);
+  CHECK(bench.run(4, with(block, {{kX, -3.0}})) == 0);
+  CHECK(bench.host.q[23] == -1);
+  CHECK(bench.run(4, with(block, {{kX, 0.0}, {kY, 0.0}})) == 1042);
+}
+
+TEST_CASE("441 changes how later cycles position, until the program ends") {
+  const Values block{{263, 50.0}, {264, 40.0}, {261, 0.0}, {272, 3.0}, {267, -1.0}, {260, 300.0}};
+  const auto seconds = [&](const Values& fast) {
+    ProbingBench bench({kPlate});
+    if (!fast.empty()) CHECK(bench.run(441, fast) == 0);
+    CHECK(bench.run(427, block) == 0);
+    return bench.machine.state().elapsed_s;
+  };
+  const double usual = seconds({});
+  CHECK(seconds({{397, 1.0}}) < usual);
+  CHECK(seconds({{396, 500.0}}) > usual);
+  CHECK(seconds({{396, 0.0}}) == usual);
+  ProbingBench bench({kPlate});
+  CHECK(bench.run(441, {{396, 500.0}, {400, 0.0}}) == 0);
+  CHECK_FALSE(bench.host.cycle_memory.fast_probing.interrupts);
+  bench.host.cycle_memory.end_program();
+  CHECK(bench.host.cycle_memory.fast_probing.interrupts);
+  CHECK_FALSE(bench.host.cycle_memory.fast_probing.positioning_feed.has_value());
+}
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,245 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "probing_bench.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using machine::Block;
+using machine::Bore;
+using machine::Boss;
+using machine::Plane;
+using machine::Vec3;
+
+const Block kPlate{.min = {0, 0, -40}, .max = {200, 160, 0}};
+/// All presets here go to row 9, with 1 and 2 as new datum in the plane.
+const Values kDatum{{305, 9.0}, {303, 1.0}, {331, 1.0}, {332, 2.0}};
+/// And 3 in the probe axis, touched beside the feature.
+const Values kProbeAxis{{381, 1.0}, {382, 20.0}, {383, 20.0}, {384, 0.0}, {333, 3.0}};
+
+std::vector<machine::Feature> pocket(double x1, double y1, double x2, double y2) {
+  return {Block{.min = {0, 0, -40}, .max = {x1, 160, 0}},
+          Block{.min = {x2, 0, -40}, .max = {200, 160, 0}},
+          Block{.min = {x1, 0, -40}, .max = {x2, y1, 0}},
+          Block{.min = {x1, y2, -40}, .max = {x2, 160, 0}}};
+}
+std::vector<machine::Feature> stud(double x1, double y1, double x2, double y2) {
+  return {kPlate, Block{.min = {x1, y1, 0}, .max = {x2, y2, 20}}};
+}
+
+Vec3 row9(const ProbingBench& bench) {
+  const machine::Preset* row = bench.machine.state().presets.find(9);
+  REQUIRE(row != nullptr);
+  return row->frame.origin;
+}
+
+void check_near(const Vec3& a, const Vec3& b) {
+  CAPTURE(a.x);
+  CAPTURE(a.y);
+  CAPTURE(a.z);
+  CHECK(norm(a - b) < 2e-6);
+}
+
+}  // namespace
+
+TEST_CASE("408 and 409 set the datum in the middle of a slot and a ridge") {
+  const Values block = {{321, 100.0}, {322, 80.0}, {311, 30.0}, {261, -5.0},
+                        {320, 0.0},   {260, 40.0}, {405, 1.0},  {305, 9.0}};
+  for (const double via_clearance : {0.0, 1.0}) {
+    ProbingBench slot(pocket(85.1, 20, 115.3, 140));
+    CHECK(slot.run(408, with(block, {{272, 1.0}, {301, via_clearance}})) == 0);
+    CHECK(same(slot.host.q[157], 100.2));
+    CHECK(same(slot.host.q[166], 30.2));
+    check_near(row9(slot), {99.2, 0, 0});
+  }
+  ProbingBench ridge(stud(60, 64.9, 140, 95));
+  CHECK(ridge.run(409, with(with(block, {{272, 2.0}, {261, 5.0}}), kProbeAxis)) == 0);
+  CHECK(same(ridge.host.q[157], 79.95));
+  CHECK(same(ridge.host.q[166], 30.1));
+  check_near(row9(ridge), {0, 78.95, -3});
+}
+
+TEST_CASE("410 and 411 set the datum in the middle of a rectangle") {
+  const Values block = with({{321, 100.0}, {322, 80.0}, {323, 60.0}, {324, 40.0}, {260, 40.0}},
+                            with(kDatum, kProbeAxis));
+  ProbingBench inside(pocket(70.2, 60, 130, 100.4));
+  CHECK(inside.run(410, with(block, {{261, -5.0}})) == 0);
+  CHECK(same(inside.host.q[151], 100.1));
+  CHECK(same(inside.host.q[152], 80.2));
+  CHECK(same(inside.host.q[154], 59.8));
+  CHECK(same(inside.host.q[155], 40.4));
+  check_near(row9(inside), {99.1, 78.2, -3});
+  ProbingBench outside(stud(70.2, 60, 130, 100.4));
+  CHECK(outside.run(411, with(block, {{261, 5.0}})) == 0);
+  CHECK(same(outside.host.q[151], 100.1));
+  check_near(row9(outside), {99.1, 78.2, -3});
+}
+
+TEST_CASE("412 and 413 set the datum in the centre of a circle and report its form") {
+  const Values block = with({{321, 100.0}, {322, 80.0}, {262, 25.0}, {247, 90.0}, {260, 40.0}},
+                            with(kDatum, kProbeAxis));
+  ProbingBench hole(
+      {kPlate, Bore{.centre = {100.3, 79.9}, .top = 0, .depth = 30, .diameter = 25.02}});
+  CHECK(hole.run(412, with(block, {{261, -5.0}})) == 0);
+  CHECK(same(hole.host.q[151], 100.3));
+  CHECK(same(hole.host.q[152], 79.9));
+  CHECK(same(hole.host.q[153], 25.02));
+  check_near(row9(hole), {99.3, 77.9, -3});
+  REQUIRE(hole.host.records.size() == 1);
+  CHECK_FALSE(hole.host.records.front().verdict.has_value());
+  CHECK(hole.host.records.front().form.has_value());
+  ProbingBench boss(
+      {kPlate, Boss{.centre = {100.3, 79.9}, .top = 10, .height = 10, .diameter = 24.9}});
+  CHECK(boss.run(413, with(block, {{261, 5.0}, {423, 3.0}, {247, 120.0}})) == 0);
+  CHECK(same(boss.host.q[153], 24.9));
+  check_near(row9(boss), {99.3, 77.9, -3});
+}
+
+TEST_CASE("414 and 415 find each corner of a part that stands turned in its preset") {
+  struct Case {
+    double main;  // steps from the corner into the part
+    double secondary;
+    double inside_corner;  // Q308 of the same corner of a pocket
+  };
+  for (const Case& c : {Case{1, 1, 3}, Case{-1, 1, 4}, Case{-1, -1, 1}, Case{1, -1, 2}}) {
+    CAPTURE(c.inside_corner);
+    for (const double basic_rotation : {0.0, 1.0}) {
+      const Vec3 corner{100, 80, 0};
+      const Vec3 end{100 + 80 * c.main, 80 + 60 * c.secondary, 0};
+      const std::vector<machine::Feature> part{
+          Block{.min = {std::min(corner.x, end.x), std::min(corner.y, end.y), -40},
+                .max = {std::max(corner.x, end.x), std::max(corner.y, end.y), 0}}};
+      const std::vector<machine::Feature> pocket_walls{
+          Plane{.point = corner, .normal = {-c.main, 0, 0}},
+          Plane{.point = corner, .normal = {0, -c.secondary, 0}}};
+      for (const bool inside : {false, true}) {
+        CAPTURE(inside);
+        machine::Setup setup{.machine = {}, .features = inside ? pocket_walls : part};
+        setup.machine.start[machine::Axis::X] = 100 - c.main * 30;
+        setup.machine.start[machine::Axis::Y] = 80 - c.secondary * 30;
+        ProbingBench bench(setup);
+        machine::Preset turned{.number = 2, .comment = {}, .frame = {}};
+        turned.frame.basic_rotation_deg = {0, 0, -2};
+        REQUIRE(bench.machine.write_preset(turned).has_value());
+        REQUIRE(bench.machine.activate_preset(2).has_value());
+        const auto local = [&](double x, double y) {
+          return bench.machine.state().frames.from_machine(corner + Vec3{x, y, 0});
+        };
+        const Vec3 vertex = local(0, 0);
+        const Vec3 first = local(10 * c.main, 0);
+        const Vec3 third = local(0, 10 * c.secondary);
+        const Values common{{261, -5.0}, {260, 300.0}, {304, basic_rotation},
+                            {305, 2.0},  {303, 1.0},   {331, 0.0},
+                            {332, 0.0}};
+        const Values outside_block{{263, first.x}, {264, first.y}, {326, 40.0},
+                                   {296, third.x}, {297, third.y}, {327, 30.0}};
+        const Values inside_block{{263, vertex.x}, {264, vertex.y},        {326, 40.0},
+                                  {327, 30.0},     {308, c.inside_corner}, {260, 5.0}};
+        CHECK(bench.run(inside ? 415 : 414, with(common, inside ? inside_block : outside_block)) ==
+              0);
+        CHECK(std::abs(bench.host.q[151] - vertex.x) < 2e-6);
+        CHECK(std::abs(bench.host.q[152] - vertex.y) < 2e-6);
+        REQUIRE(bench.machine.activate_preset(2).has_value());
+        check_near(bench.machine.state().frames.from_machine(corner), {});
+        const double left = bench.machine.state().frames.preset().basic_rotation_deg.z;
+        CHECK(std::abs(left - (basic_rotation == 1 ? 0 : -2)) < 1e-6);
+      }
+    }
+  }
+}
+
+TEST_CASE("414 needs points that say where the corner lies") {
+  ProbingBench bench({kPlate});
+  CHECK(bench.run(414, {{263, 0.0},
+                        {264, 10.0},
+                        {326, 40.0},
+                        {296, 0.0},
+                        {297, 30.0},
+                        {327, 30.0},
+                        {261, -5.0},
+                        {260, 40.0}}) == 1081);
+}
+
+TEST_CASE("418 sets the datum where the lines between four holes meet") {
+  std::vector<machine::Feature> features{kPlate};
+  for (const auto& centre :
+       {std::array{60.0, 50.0}, {140.0, 50.1}, {140.2, 110.0}, {60.0, 110.0}}) {
+    features.push_back(Bore{.centre = centre, .top = 0, .depth = 20, .diameter = 10});
+  }
+  ProbingBench bench(features);
+  CHECK(bench.run(418, with({{268, 60.0},
+                             {269, 50.0},
+                             {270, 140.0},
+                             {271, 50.0},
+                             {316, 140.0},
+                             {317, 110.0},
+                             {318, 60.0},
+                             {319, 110.0},
+                             {261, -5.0},
+                             {260, 40.0}},
+                            with(kDatum, kProbeAxis))) == 0);
+  // x = 60 + 80.2 t, y = 50 + 60 t meets x = 140 - 80 s, y = 50.1 + 59.9 s.
+  const double t = (80 * 0.1 + 80 * 59.9) / (80.2 * 59.9 + 80 * 60);
+  check_near(row9(bench), {60 + 80.2 * t - 1, 50 + 60 * t - 2, -3});
+  CHECK(same(bench.host.q[151], std::round((60 + 80.2 * t) * 1e6) / 1e6));
+}
+
+TEST_CASE("416 sets the datum in the centre of a bolt circle") {
+  std::vector<machine::Feature> features{kPlate};
+  for (const double angle : {10.0, 130.0, 250.0}) {
+    const auto [sine, cosine] = machine::sine_cosine(angle);
+    features.push_back(Bore{
+        .centre = {100.2 + 30 * cosine, 79.9 + 30 * sine}, .top = 0, .depth = 20, .diameter = 10});
+  }
+  ProbingBench bench(features);
+  CHECK(bench.run(416, with({{273, 100.0},
+                             {274, 80.0},
+                             {262, 60.0},
+                             {291, 10.0},
+                             {292, 130.0},
+                             {293, 250.0},
+                             {261, -5.0},
+                             {260, 40.0}},
+                            with(kDatum, kProbeAxis))) == 0);
+  CHECK(same(bench.host.q[151], 100.2));
+  CHECK(same(bench.host.q[152], 79.9));
+  CHECK(same(bench.host.q[153], 60));
+  check_near(row9(bench), {99.2, 77.9, -3});
+}
+
+TEST_CASE("419 sets the datum in any one axis") {
+  ProbingBench bench({kPlate});
+  const Values block{{263, 0.0}, {264, 80.0}, {261, -5.0}, {260, 40.0},
+                     {272, 1.0}, {267, 1.0},  {333, 7.0},  {305, 9.0}};
+  CHECK(bench.run(419, block) == 0);
+  CHECK(same(bench.host.q[160], 0));
+  check_near(row9(bench), {-7, 0, 0});
+  CHECK(bench.run(419, with(block, {{263, 20.0}, {261, 0.0}, {272, 3.0}, {267, -1.0}})) == 0);
+  check_near(row9(bench), {-7, 0, -7});
+  CHECK(bench.run(419, with(block, {{267, 0.0}})) == 1042);
+}
+
+TEST_CASE("presets in a rotated preset move along its own axes") {
+  ProbingBench bench({Plane{}, Bore{.centre = {100, 80}, .top = 0, .depth = 30, .diameter = 25}});
+  machine::Preset turned{.number = 2, .comment = {}, .frame = {}};
+  turned.frame.basic_rotation_deg = {0, 0, 30};
+  REQUIRE(bench.machine.write_preset(turned).has_value());
+  REQUIRE(bench.machine.activate_preset(2).has_value());
+  const Vec3 centre = bench.machine.state().frames.from_machine({100, 80, 0});
+  CHECK(bench.run(412, with({{321, centre.x + 0.2},
+                             {322, centre.y},
+                             {262, 25.0},
+                             {247, 90.0},
+                             {261, -5.0},
+                             {260, 40.0},
+                             {305, 2.0},
+                             {303, 1.0}},
+                            {{331, 10.0}, {332, -5.0}})) == 0);
+  REQUIRE(bench.machine.activate_preset(2).has_value());
+  check_near(bench.machine.state().frames.from_machine({100, 80, 0}), {10, -5, 0});
+  CHECK(bench.machine.state().frames.preset().basic_rotation_deg == Vec3{0, 0, 30});
+}
+
+}  // namespace fitgauge::probing
