@@ -1,6 +1,7 @@
 #include "http/engine/io_thread.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <memory>
 
 #include "http/engine/connection.hpp"
@@ -30,7 +31,14 @@ IoThread::~IoThread() { join(); }
 void IoThread::start() {
   update_clock();
   schedule_sweep();
-  thread_ = std::thread([this] { context_.run(); });
+  thread_ = std::thread([this] {
+    while (!context_.stopped()) {
+      try {
+        context_.run();
+      } catch (const std::exception&) {  // out of memory where no connection is to blame: go on
+      }
+    }
+  });
 }
 
 void IoThread::join() {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <utility>
 
 namespace fitgauge::http {
@@ -48,7 +49,10 @@ void Listener::accept() {
   acceptor_.async_accept(*socket_, [this](const error_code& error) {
     if (!acceptor_.is_open()) return;
     if (!error) {
-      deal();
+      try {
+        deal();
+      } catch (const std::exception&) {  // out of memory: this client goes, the next one may stay
+      }
       return accept();
     }
     retry_.expires_after(kRetry);

@@ -6,6 +6,10 @@
 
 namespace fitgauge::http {
 
+namespace {
+constexpr std::size_t kKeptFields = 32;
+}
+
 std::optional<std::string_view> RequestHead::find(std::string_view name) const {
   for (const HeaderField& field : fields) {
     if (ascii_iequals(field.name, name)) return field.value;
@@ -29,6 +33,7 @@ std::optional<std::string> RequestHead::find_list(std::string_view name) const {
 void RequestHead::clear() {
   std::vector<HeaderField> kept = std::move(fields);
   kept.clear();
+  if (kept.capacity() > kKeptFields) kept = {};
   *this = RequestHead{};
   fields = std::move(kept);
 }

@@ -44,7 +44,7 @@ struct RequestHead {
 
   bool has_body() const { return chunked || content_length.value_or(0) > 0; }
 
-  /// Empty again; the memory of `fields` stays.
+  /// Empty again; the memory of an ordinary number of `fields` stays.
   void clear();
 
   /// Moves every view by the distance between the two buffers.
