@@ -16,24 +16,18 @@ namespace {
 
 const char* describe(ParameterPlace place) {
   switch (place) {
-    case ParameterPlace::Path:
-      return "path segment";
-    case ParameterPlace::Query:
-      return "query parameter";
-    case ParameterPlace::Header:
-      return "header field";
+    case ParameterPlace::Path: return "path segment";
+    case ParameterPlace::Query: return "query parameter";
+    case ParameterPlace::Header: return "header field";
   }
   return "";
 }
 
 ErrorCode code_for(ParameterPlace place) {
   switch (place) {
-    case ParameterPlace::Path:
-      return ErrorCode::PathMalformed;
-    case ParameterPlace::Query:
-      return ErrorCode::QueryInvalid;
-    case ParameterPlace::Header:
-      break;
+    case ParameterPlace::Path: return ErrorCode::PathMalformed;
+    case ParameterPlace::Query: return ErrorCode::QueryInvalid;
+    case ParameterPlace::Header: break;
   }
   return ErrorCode::RequestMalformed;
 }

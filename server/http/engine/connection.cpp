@@ -26,6 +26,7 @@ const Refusal kTimedOut{408, ErrorCode::RequestTimeout, "The request took too lo
 Connection::Connection(IoThread& thread, Peer peer)
     : thread_(thread),
       peer_(std::move(peer)),
+      output_(thread.output()),
       exchange_(thread.shared().routes, thread.shared().hooks, peer_),
       body_(thread.shared().budget) {
   deadline_ = thread_.now() + thread_.shared().options.header_timeout;
@@ -83,22 +84,19 @@ void Connection::advance() {
     if (output_.empty()) break;
     if (!send()) return;
   }
-  if (phase_ == Phase::Closed || writing_) return;
+  if (phase_ == Phase::Closed) return;
+  if (writing_) return output_.keep();
   if (phase_ == Phase::Head && close_after_ && !in_request_) return end();
   if (phase_ == Phase::Head || phase_ == Phase::ReadingBody) read_more();
 }
 
 bool Connection::step() {
-  if (output_.has_long_body() || output_.queued_text() > kBatch) return false;
+  if (output_.has_long_body() || output_.text_size() > kBatch) return false;
   switch (phase_) {
-    case Phase::Head:
-      return step_head();
-    case Phase::ReadingBody:
-      return step_body();
-    case Phase::Stream:
-      return step_stream();
-    default:
-      return false;
+    case Phase::Head: return step_head();
+    case Phase::ReadingBody: return step_body();
+    case Phase::Stream: return step_stream();
+    default: return false;
   }
 }
 
@@ -109,13 +107,9 @@ bool Connection::step_head() {
   input_.advance(used);
   received_ += used;
   switch (parsed) {
-    case RequestParser::Step::NeedMore:
-      return false;
-    case RequestParser::Step::Head:
-      return open_exchange();
-    default:
-      refuse(parser_->refusal());
-      return true;
+    case RequestParser::Step::NeedMore: return false;
+    case RequestParser::Step::Head: return open_exchange();
+    default: refuse(parser_->refusal()); return true;
   }
 }
 
@@ -210,23 +204,16 @@ bool Connection::step_body() {
   input_.advance(used);
   received_ += used;
   switch (parsed) {
-    case RequestParser::Step::NeedMore:
-      return false;
-    case RequestParser::Step::Complete:
-      return finish_body();
-    case RequestParser::Step::Refused:
-      refuse(parser_->refusal());
-      return true;
-    default:
-      pending_piece_ = parser_->piece();
-      return true;
+    case RequestParser::Step::NeedMore: return false;
+    case RequestParser::Step::Complete: return finish_body();
+    case RequestParser::Step::Refused: refuse(parser_->refusal()); return true;
+    default: pending_piece_ = parser_->piece(); return true;
   }
 }
 
 bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
   switch (outcome) {
-    case BodyReader::Outcome::Ok:
-      return !reads_directly_ || admit_body();
+    case BodyReader::Outcome::Ok: return !reads_directly_ || admit_body();
     case BodyReader::Outcome::NoBudget:
       phase_ = Phase::Budget;
       wait_begun_ = thread_.now();
@@ -288,9 +275,9 @@ void Connection::refuse(const Refusal& refusal) {
 }
 
 void Connection::answer(Response response) {
-  const std::size_t before = output_.queued_text();
+  const std::size_t before = output_.text_size();
   sent_ = append_answer(output_, response, exchange_.form(!close_after_), thread_.date());
-  sent_bytes_ = output_.queued_text() - before + output_.long_body_size();
+  sent_bytes_ = output_.text_size() - before + output_.long_body_size();
   if (!sent_.keep_alive) close_after_ = true;
   if (!sent_.streams) return finish_request();
   stream_ = std::move(std::get<StreamedBody>(response.body));
@@ -334,6 +321,7 @@ bool Connection::send() {
     }
     output_.consume(count);
     if (count == bytes.size()) continue;
+    output_.keep();
     writing_ = true;
     write_deadline_ = thread_.now() + thread_.shared().options.write_timeout;
     write_some(output_.front());
@@ -372,6 +360,7 @@ void Connection::close() noexcept {
   close_socket();
   thread_.remove(*this);
   body_.clear();
+  output_.discard();
   if (const auto stream = std::exchange(stream_, std::nullopt)) stream->source->cancelled();
 }
 
@@ -389,10 +378,7 @@ void Connection::check_deadline(Tick now) {
   guarded([&] {
     switch (phase_) {
       case Phase::Head:
-        if (now < (in_request_ ? std::min(deadline_, request_deadline_) : deadline_)) {
-          if (!in_request_) output_.shrink();
-          return;
-        }
+        if (now < (in_request_ ? std::min(deadline_, request_deadline_) : deadline_)) return;
         if (!in_request_) return close();
         refuse(kTimedOut);
         return advance();
@@ -410,15 +396,13 @@ void Connection::check_deadline(Tick now) {
         refuse({503, ErrorCode::Overloaded, "Too many large bodies arrive at once; try again."});
         return advance();
       }
-      case Phase::Stream:
-        return beat(now);
+      case Phase::Stream: return beat(now);
       case Phase::Opening:
       case Phase::Lingering:
         if (now >= deadline_) close();
         return;
       case Phase::InHandler:
-      case Phase::Closed:
-        return;
+      case Phase::Closed: return;
     }
   });
 }

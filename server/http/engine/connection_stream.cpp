@@ -59,13 +59,13 @@ bool Connection::step_stream() {
 }
 
 void Connection::append_piece(std::string_view bytes) {
-  const std::size_t before = output_.queued_text();
+  const std::size_t before = output_.text_size();
   if (sent_.chunked) {
     append_chunk(output_.text(), bytes);
   } else {
     output_.text().append(bytes);
   }
-  sent_bytes_ += output_.queued_text() - before;
+  sent_bytes_ += output_.text_size() - before;
 }
 
 void Connection::take_piece(std::string_view bytes, bool is_last) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -63,6 +64,8 @@ class IoThread {
   /// The time of the last sweep: good enough for deadlines.
   Tick now() const { return now_; }
   const HttpDate& date() const { return date_; }
+  /// Where the connections write their answers before these leave; see OutputQueue.
+  std::string& output() { return output_; }
   std::uint64_t next_request_id() { return next_request_id_++; }
 
   /// Keeps the connection until it is removed.
@@ -93,6 +96,7 @@ class IoThread {
   Tick now_ = std::chrono::steady_clock::now();
   std::int64_t date_second_ = 0;
   HttpDate date_{};
+  std::string output_;
   std::uint64_t next_request_id_;
   std::atomic<std::uint64_t> requests_{0};
   std::vector<std::shared_ptr<Connection>> connections_;

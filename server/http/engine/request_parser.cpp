@@ -37,26 +37,20 @@ bool is_digits(std::string_view text) {
 const char* describe(const beast::error_code& code) {
   using beast::http::error;
   switch (static_cast<error>(code.value())) {
-    case error::bad_method:
-      return "The request line does not begin with a method.";
+    case error::bad_method: return "The request line does not begin with a method.";
     case error::bad_target:
       return "The request target holds a character that must be percent-encoded, or is missing.";
-    case error::bad_field:
-      return "A header field name is malformed.";
-    case error::bad_value:
-      return "A header field value is malformed; lines end with CR LF.";
-    case error::bad_line_ending:
-      return "Lines end with CR LF.";
+    case error::bad_field: return "A header field name is malformed.";
+    case error::bad_value: return "A header field value is malformed; lines end with CR LF.";
+    case error::bad_line_ending: return "Lines end with CR LF.";
     case error::bad_content_length:
     case error::multiple_content_length:
       return "Content-Length is malformed, repeated or together with Transfer-Encoding.";
     case error::bad_transfer_encoding:
       return "Transfer-Encoding is repeated or together with Content-Length.";
     case error::bad_chunk:
-    case error::bad_chunk_extension:
-      return "The chunked body is malformed.";
-    default:
-      return "The request is malformed.";
+    case error::bad_chunk_extension: return "The chunked body is malformed.";
+    default: return "The request is malformed.";
   }
 }
 
@@ -168,20 +162,11 @@ void RequestParser::on_field_impl(beast::http::field field, beast::string_view n
           refuse(400, ErrorCode::RequestMalformed, "Content-Length is not a number.");
         }
         break;
-      case beast::http::field::content_type:
-        once(has_content_type_);
-        break;
-      case beast::http::field::accept:
-        head_.has_accept = true;
-        break;
-      case beast::http::field::expect:
-        head_.has_expect = true;
-        break;
-      case beast::http::field::if_none_match:
-        head_.has_if_none_match = true;
-        break;
-      default:
-        break;
+      case beast::http::field::content_type: once(has_content_type_); break;
+      case beast::http::field::accept: head_.has_accept = true; break;
+      case beast::http::field::expect: head_.has_expect = true; break;
+      case beast::http::field::if_none_match: head_.has_if_none_match = true; break;
+      default: break;
     }
     head_.fields.push_back({name, value});
   }

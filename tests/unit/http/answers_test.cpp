@@ -55,6 +55,31 @@ TEST_CASE("pipelined requests are answered in order, whoever answers them") {
   }
 }
 
+TEST_CASE("answers that pile up before a slow reader stay whole and in order") {
+  Worker worker;
+  TestServer server({{.pattern = "/fast/{n}",
+                      .handler = [](const Request& request) -> Result<Response> {
+                        return text(std::string(20'000, 'x') + std::string(*request.text("n")));
+                      },
+                      .response_types = {}},
+                     slow(worker)});
+  Client client = server.connect();
+  constexpr int kCount = 1500;  // 30 MB, more than any socket buffer holds
+  std::thread sender([&] {
+    for (int i = 0; i < kCount; ++i)
+      client.send(get(fmt::format("/{}/{}", i % 50 ? "fast" : "slow", i)));
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  bool in_order = true;
+  for (int i = 0; i < kCount; ++i) {
+    const auto answer = client.read();
+    in_order =
+        in_order && answer && answer->body.ends_with((i % 50 ? "x" : "slow ") + std::to_string(i));
+  }
+  sender.join();
+  CHECK(in_order);
+}
+
 TEST_CASE("every complete request in the buffer is answered in one write") {
   TestServer server({fast()});
   Client client = server.connect();
