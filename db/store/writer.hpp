@@ -54,6 +54,14 @@ class Writer {
   auto wait(Work work) {
     return wait_for<Writer, Stores>(*this, std::move(work));
   }
+  template <class Work>
+  Result<StoredAnswer> wait_once(IdempotentRequest request, Work work) {
+    std::promise<Result<StoredAnswer>> promise;
+    auto future = promise.get_future();
+    submit_once(std::move(request), std::move(work),
+                [&promise](Result<StoredAnswer> answer) { promise.set_value(std::move(answer)); });
+    return future.get();
+  }
 
  private:
   void enqueue(std::unique_ptr<Job<Stores>> job);

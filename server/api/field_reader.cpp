@@ -17,6 +17,11 @@ void FieldErrors::add(ErrorCode code, std::string pointer, std::string message,
   if (line) entry.details.push_back({code, {}, std::to_string(*line)});
 }
 
+bool FieldErrors::has(std::string_view pointer) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [pointer](const Error& entry) { return entry.where == pointer; });
+}
+
 void FieldErrors::rollback(Mark mark) {
   count_ = mark;
   entries_.resize(std::min(entries_.size(), mark));
@@ -134,6 +139,10 @@ std::optional<std::string> FieldReader::optional_text(std::string_view name) {
 }
 
 const JsonValue* FieldReader::optional(std::string_view name) { return take(name, false); }
+
+void FieldReader::accept_all() {
+  for (const auto& [name, value] : object_.members) known_.push_back(name);
+}
 
 void FieldReader::refuse_unknown() {
   for (const auto& [name, value] : object_.members) {

@@ -23,6 +23,8 @@ class FieldErrors {
   void add(ErrorCode code, std::string pointer, std::string message,
            std::optional<std::size_t> line = {});
   bool empty() const { return count_ == 0; }
+  /// Whether an entry of that pointer is listed.
+  bool has(std::string_view pointer) const;
 
   /// What was added after a mark can be taken back.
   using Mark = std::size_t;
@@ -62,6 +64,8 @@ class FieldReader {
 
   /// Reports every member that was not asked for.
   void refuse_unknown();
+  /// As if every member had been asked for.
+  void accept_all();
 
   bool has(std::string_view name) const { return object_.find(name) != nullptr; }
   std::string at(std::string_view name) const { return pointer_to(pointer_, name); }

@@ -34,12 +34,14 @@ int status_of(ErrorCode code) {
     case ErrorCode::FileUnknown:
     case ErrorCode::SetupUnknown:
     case ErrorCode::RunUnknown:
+    case ErrorCode::CycleUnknown:
     case ErrorCode::MeasurementUnknown: return 404;
     case ErrorCode::MethodNotAllowed: return 405;
     case ErrorCode::NotAcceptable: return 406;
     case ErrorCode::RequestTimeout: return 408;
     case ErrorCode::IdempotencyInProgress:
-    case ErrorCode::RunFinished: return 409;
+    case ErrorCode::RunFinished:
+    case ErrorCode::RunUnfinished: return 409;
     case ErrorCode::LengthRequired: return 411;
     case ErrorCode::PreconditionFailed: return 412;
     case ErrorCode::BodyTooLarge: return 413;

@@ -40,6 +40,14 @@ Preference preference_of(const http::Request& request) {
   return Preference::None;
 }
 
+bool prefers_async(const http::Request& request) {
+  const auto header = request.header_list("Prefer");
+  if (!header) return false;
+  const auto preferences = list_items(*header, ",;");
+  return std::any_of(preferences.begin(), preferences.end(),
+                     [](std::string_view item) { return ascii_iequals(item, "respond-async"); });
+}
+
 Result<std::optional<std::string>> idempotency_key(const http::Request& request) {
   constexpr std::size_t kLongest = 255;
   const auto header = request.header("Idempotency-Key");

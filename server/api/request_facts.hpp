@@ -13,6 +13,8 @@ namespace fitgauge::api {
 /// What `Prefer: return=` asks for (RFC 7240).
 enum class Preference { None, Minimal, Representation };
 Preference preference_of(const http::Request& request);
+/// Whether `Prefer: respond-async` asks for an answer before the work is done.
+bool prefers_async(const http::Request& request);
 
 /// The Idempotency-Key without its quotes: quoted and bare are one key.
 /// @errors IdempotencyKeyInvalid unless it has 1 to 255 visible ASCII characters.

@@ -1,9 +1,13 @@
 #include "api/routes.hpp"
 
+#include "api/cycles_resource.hpp"
+#include "api/files_resource.hpp"
 #include "api/limits_resource.hpp"
 #include "api/measurements_resource.hpp"
 #include "api/openapi.hpp"
+#include "api/runs_resource.hpp"
 #include "api/service_resource.hpp"
+#include "api/setups_resource.hpp"
 #include "api/tables_resource.hpp"
 #include "api/verdicts_resource.hpp"
 
@@ -17,6 +21,10 @@ http::RouteTable make_routes(const Services& services) {
   add_tables_routes(routes, services, cache);
   add_verdicts_routes(routes, services);
   add_measurements_routes(routes, services);
+  add_files_routes(routes, services);
+  add_setups_routes(routes, services);
+  add_runs_routes(routes, services);
+  add_cycles_routes(routes);
   add_service_routes(routes, services);
   add_openapi_route(routes);
   return http::RouteTable(std::move(routes));

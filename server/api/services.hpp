@@ -8,6 +8,9 @@
 namespace fitgauge::app {
 class TableCatalog;
 class MeasurementService;
+class FileService;
+class SetupService;
+class RunService;
 }  // namespace fitgauge::app
 
 namespace fitgauge::api {
@@ -18,6 +21,9 @@ class Metrics;
 struct Services {
   app::TableCatalog& tables;
   app::MeasurementService& measurements;
+  app::FileService& files;
+  app::SetupService& setups;
+  app::RunService& runs;
   const Metrics& metrics;
   const Clock& clock;
   std::function<app::Readiness()> readiness;

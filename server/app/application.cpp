@@ -53,6 +53,12 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   if (!keys) return keys.error();
   app->keys_ = *std::move(keys);
   app->measurements_ = std::make_unique<MeasurementService>(*app->database_, *app->tables_);
+  app->files_ = std::make_unique<FileService>(*app->database_, clock);
+  app->setups_ = std::make_unique<SetupService>(*app->database_, clock);
+  if (!options.attach) {
+    app->runs_ = std::make_unique<RunService>(*app->database_, *app->tables_, clock,
+                                              RunServiceOptions{.workers = options.run_workers});
+  }
   return app;
 }
 

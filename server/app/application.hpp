@@ -7,9 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "app/file_service.hpp"
 #include "app/key_service.hpp"
 #include "app/measurement_service.hpp"
 #include "app/readiness.hpp"
+#include "app/run_service.hpp"
+#include "app/setup_service.hpp"
 #include "app/table_catalog.hpp"
 
 namespace fitgauge::app {
@@ -21,6 +24,7 @@ struct ApplicationOptions {
   bool commit_each = false;         ///< every write its own commit: the benchmark's peer
   std::size_t write_queue = 4096;
   unsigned readers = 2;
+  unsigned run_workers = 2;
   std::int64_t idempotency_days = 30;
   std::int64_t run_retention_days = 90;  ///< 0: for ever
   std::int64_t event_retention = 100'000;
@@ -39,6 +43,10 @@ class Application {
   TableCatalog& tables() { return *tables_; }
   MeasurementService& measurements() { return *measurements_; }
   KeyService& keys() { return *keys_; }
+  FileService& files() { return *files_; }
+  SetupService& setups() { return *setups_; }
+  /// @pre not attached.
+  RunService& runs() { return *runs_; }
 
   Readiness readiness() const;
 
@@ -63,6 +71,9 @@ class Application {
   std::unique_ptr<TableCatalog> tables_;
   std::unique_ptr<MeasurementService> measurements_;
   std::unique_ptr<KeyService> keys_;
+  std::unique_ptr<FileService> files_;
+  std::unique_ptr<SetupService> setups_;
+  std::unique_ptr<RunService> runs_;
 };
 
 }  // namespace fitgauge::app

@@ -96,6 +96,28 @@ store::Source to_store(Source source) {
   return source == Source::Gauge ? store::Source::Gauge : store::Source::Simulation;
 }
 
+store::IdempotentRequest to_store(const IdempotencyScope& scope) {
+  return {.caller = scope.caller,
+          .method = scope.method,
+          .path = scope.path,
+          .key = scope.key,
+          .body = store::sha256(scope.body)};
+}
+
+Answer from_store(store::StoredAnswer stored) {
+  return {.status = stored.status,
+          .content_type = std::move(stored.content_type),
+          .location = std::move(stored.location),
+          .body = std::move(stored.body)};
+}
+
+store::StoredAnswer to_store(Answer answer) {
+  return {.status = answer.status,
+          .content_type = std::move(answer.content_type),
+          .location = std::move(answer.location),
+          .body = std::move(answer.body)};
+}
+
 store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t> revision) {
   store::MeasurementRow row;
   row.source = to_store(m.source);

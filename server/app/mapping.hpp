@@ -4,7 +4,9 @@
 #include <string_view>
 
 #include "app/measurement.hpp"
+#include "app/measurement_service.hpp"
 #include "iso286/table_data.hpp"
+#include "store/idempotency_store.hpp"
 #include "store/measurement_row.hpp"
 #include "store/tables_store.hpp"
 
@@ -26,5 +28,9 @@ Measurement from_store(const store::MeasurementRow& row, const RevisionIds& revi
 store::Verdict to_store(gauging::Verdict verdict);
 gauging::Verdict from_store(store::Verdict verdict);
 store::Source to_store(Source source);
+
+store::IdempotentRequest to_store(const IdempotencyScope& scope);
+store::StoredAnswer to_store(Answer answer);
+Answer from_store(store::StoredAnswer stored);
 
 }  // namespace fitgauge::app

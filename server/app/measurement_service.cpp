@@ -10,28 +10,6 @@
 namespace fitgauge::app {
 namespace {
 
-store::IdempotentRequest to_store(const IdempotencyScope& scope) {
-  return {.caller = scope.caller,
-          .method = scope.method,
-          .path = scope.path,
-          .key = scope.key,
-          .body = store::sha256(scope.body)};
-}
-
-Answer from_store(store::StoredAnswer stored) {
-  return {.status = stored.status,
-          .content_type = std::move(stored.content_type),
-          .location = std::move(stored.location),
-          .body = std::move(stored.body)};
-}
-
-store::StoredAnswer to_store(Answer answer) {
-  return {.status = answer.status,
-          .content_type = std::move(answer.content_type),
-          .location = std::move(answer.location),
-          .body = std::move(answer.body)};
-}
-
 store::MeasurementFilter to_store(const MeasurementQuery& query) {
   store::MeasurementFilter filter;
   filter.part_id = query.part_id;
@@ -74,7 +52,7 @@ Result<store::StoredAnswer> append(store::Stores& stores, std::vector<Measuremen
   if (!ids) return ids.error();
   std::int64_t id = ids->first;
   for (Measurement& measurement : measurements) measurement.id = id++;
-  return to_store(render(measurements));
+  return app::to_store(render(measurements));
 }
 
 }  // namespace
@@ -84,11 +62,12 @@ std::span<const std::string_view> summary_fields() { return kSummaryFields; }
 void MeasurementService::find_answer(const IdempotencyScope& scope,
                                      Done<std::optional<Answer>> done) {
   database_.readers().submit(
-      [request = to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
+      [request =
+           app::to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
         auto found = stores.idempotency.find(request);
         if (!found) return found.error();
         if (!*found) return std::optional<Answer>();
-        return std::optional(from_store(**std::move(found)));
+        return std::optional(app::from_store(**std::move(found)));
       },
       std::move(done));
 }
@@ -111,10 +90,10 @@ void MeasurementService::record(std::vector<Measurement> measurements,
   };
   auto deliver = [done = std::move(done)](Result<store::StoredAnswer> answer) {
     if (!answer) return done(answer.error());
-    done(from_store(*std::move(answer)));
+    done(app::from_store(*std::move(answer)));
   };
   if (scope) {
-    database_.writer().submit_once(to_store(*scope), std::move(work), std::move(deliver));
+    database_.writer().submit_once(app::to_store(*scope), std::move(work), std::move(deliver));
   } else {
     database_.writer().submit(std::move(work), std::move(deliver));
   }

@@ -13,6 +13,7 @@ inline app::ApplicationOptions application_options(const Config& config) {
   options.commit_each = config.durability == "each";
   options.write_queue = static_cast<std::size_t>(config.write_queue);
   options.readers = static_cast<unsigned>(config.reader_threads);
+  options.run_workers = static_cast<unsigned>(config.run_workers);
   options.idempotency_days = config.idempotency_days;
   options.run_retention_days = config.run_retention_days;
   options.event_retention = config.event_retention;

@@ -14,6 +14,7 @@
 #include "api/metrics.hpp"
 #include "api/problem.hpp"
 #include "api/routes.hpp"
+#include "api/run_codec.hpp"
 #include "base/text.hpp"
 #include "daemon/application_options.hpp"
 #include "daemon/log.hpp"
@@ -165,9 +166,16 @@ Result<void> serve(const Config& config, const std::string& port_file) {
     }
   }
 
+  if (const auto opened_runs = app.runs().open(api::run_format()); !opened_runs) {
+    return opened_runs.error();
+  }
+
   api::Metrics metrics;
   const api::Services services{.tables = app.tables(),
                                .measurements = app.measurements(),
+                               .files = app.files(),
+                               .setups = app.setups(),
+                               .runs = app.runs(),
                                .metrics = metrics,
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); }};
@@ -186,6 +194,8 @@ Result<void> serve(const Config& config, const std::string& port_file) {
 
   wait_for_end(server);
   log_info("stopping", "");
+  // Runs are cancelled first, so that those who wait for one get their answer.
+  app.runs().stop();
   server.stop();
   // The application drains its queues first: the answers of its last jobs find no connection.
   opened->reset();

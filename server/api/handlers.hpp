@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "api/services.hpp"
+#include "http/route.hpp"
+
+namespace fitgauge::api {
+
+/// A handler that gets the services as well.
+inline http::AsyncHandler with(const Services& services,
+                               void (*handler)(const Services&, const http::Request&,
+                                               http::Responder)) {
+  return [&services, handler](const http::Request& request, http::Responder responder) {
+    handler(services, request, std::move(responder));
+  };
+}
+
+/// For callbacks, which are copied.
+using SharedResponder = std::shared_ptr<http::Responder>;
+inline SharedResponder share(http::Responder responder) {
+  return std::make_shared<http::Responder>(std::move(responder));
+}
+
+/// Bytes that came from outside, so that a browser neither guesses their type nor runs them.
+inline http::Response foreign_bytes(std::string content_type, std::string bytes) {
+  return http::Response(200, std::move(content_type), std::move(bytes))
+      .with("X-Content-Type-Options", "nosniff")
+      .with("Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'");
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,44 @@
+#include "app/file_check.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/text.hpp"
+#include "interpreter/check.hpp"
+#include "klartext/mask_file.hpp"
+#include "tabfile/tab_reader.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::array<std::string_view, 5> kTableExtensions = {".tab", ".t", ".tp", ".pr", ".d"};
+
+std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& file) {
+  const std::string& bytes = *file.bytes;
+  const auto table = tabfile::read_tab(is_utf8(bytes) ? bytes : utf8_from_windows1252(bytes));
+  if (table) return {};
+  const Error& error = table.error();
+  klartext::Diagnostic diagnostic;
+  diagnostic.message = error.where.empty() ? error.message : error.where + ": " + error.message;
+  diagnostic.program = file.path.text();
+  return {std::move(diagnostic)};
+}
+
+}  // namespace
+
+Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlPath& path,
+                                                     const interpreter::ControlDisk& disk,
+                                                     interpreter::ProgramCache& programs) {
+  const std::string_view name = path.file_name();
+  const std::string extension = ascii_lower(name.substr(std::min(name.rfind('.'), name.size())));
+  const bool is_mask = extension == ".a";
+  const bool is_table = std::find(kTableExtensions.begin(), kTableExtensions.end(), extension) !=
+                        kTableExtensions.end();
+  if (!is_mask && !is_table) return interpreter::check(path, disk, programs);
+  const auto file = disk.find(path);
+  if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
+  if (is_mask) return klartext::parse_mask(*file->bytes, file->path.text()).diagnostics;
+  return check_table(*file);
+}
+
+}  // namespace fitgauge::app

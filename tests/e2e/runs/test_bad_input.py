@@ -1,0 +1,114 @@
+"""Programs that cannot run say so with file, line and block; the service stays responsive."""
+
+import time
+
+from support.control import ControlTest
+
+
+class BadInput(ControlTest):
+    def refused(self, name, *blocks):
+        """The errors a program is refused with."""
+        answer = self.post_run(self.upload_program(name, *blocks))
+        problem = self.assert_problem(answer, 422, "program.invalid")
+        errors = [found for found in problem["diagnostics"] if found["severity"] == "error"]
+        for found in errors:
+            self.assertEqual(found["program"], f"TNC:\\{name}.h")
+            self.assertGreater(found["line"], 0)
+            self.assertGreater(found["column"], 0)
+        self.assertTrue(errors, answer)
+        return errors
+
+    def fails(self, name, *blocks, status="failed", **order):
+        """The message a run ends with."""
+        run = self.run_program(self.upload_program(name, *blocks), **order)
+        self.assertEqual(run["status"], status, run)
+        message = run["messages"][-1]
+        self.assertTrue(message["program"].startswith("TNC:\\"), message)
+        self.assertGreater(message["line"], 0)
+        self.assertIsNotNone(message["block"])
+        return message
+
+    def test_unknown_label(self):
+        found = self.refused("jump", "FN 9: IF +1 EQU +1 GOTO LBL 7")
+        self.assertEqual((found[0]["code"], found[0]["line"], found[0]["block"]),
+                         ("label.unknown", 2, 1))
+
+    def test_duplicate_label(self):
+        self.assertEqual(self.refused("twice", "LBL 1", "LBL 1")[0]["code"], "label.duplicate")
+
+    def test_all_errors_of_a_file_at_once(self):
+        found = self.refused("many", "GARBAGE HERE", "Q1 = (", "CALL LBL 9")
+        self.assertEqual([entry["block"] for entry in found], [1, 2, 3])
+
+    def test_missing_program(self):
+        message = self.fails("caller", "CALL PGM nowhere")
+        self.assertEqual((message["line"], message["block"]), (2, 1))
+
+    def test_missing_table_row_and_column(self):
+        self.upload("small.tab", "BEGIN small .TAB MM\nNR      X\n0       +1\n[END]\n")
+        self.fails("notable", "FN 26: TABOPEN missing.tab")
+        self.fails("norow", "FN 26: TABOPEN small.tab", 'FN 28: TABREAD Q1 = 5/"X"')
+        self.fails("nocolumn", "FN 26: TABOPEN small.tab", 'FN 28: TABREAD Q1 = 0/"Y"')
+
+    def test_table_without_end(self):
+        self.upload("open.tab", "BEGIN open .TAB MM\nNR      X\n0       +1\n")
+        self.fails("openended", "FN 26: TABOPEN open.tab")
+        answer = self.daemon.request("POST", "/v1/files/open.tab?action=check")
+        self.assertEqual(answer.json["diagnostics"][0]["severity"], "error")
+
+    def test_unknown_cycle_and_m_function_fail_when_they_are_reached(self):
+        self.fails("oem", "TOOL CALL 30 Z", "TCH PROBE 586 UNKNOWN")
+        path = self.upload_program("passed", "FN 9: IF +1 EQU +1 GOTO LBL 1",
+                                   "L M987", "LBL 1")
+        self.assertEqual(self.run_program(path)["status"], "completed")
+
+    def test_division_by_zero_and_undefined_parameter(self):
+        self.fails("zero", "Q1 = 0", "Q2 = 1 / Q1")
+        self.assertIn("Q77", self.fails("undefined", "Q1 = Q77 + 1")["text"])
+
+    def test_recursion_without_end(self):
+        self.assertEqual(self.fails("selfish", "CALL PGM selfish")["number"], 1025)
+
+    def test_endless_loop_ends_at_its_budget_while_others_are_served(self):
+        loop = self.upload_program("forever", "LBL 1", "FN 9: IF +1 EQU +1 GOTO LBL 1")
+        answer = self.post_run(loop, headers={"Prefer": "respond-async"},
+                               limits={"blocks": 100_000_000, "seconds": 2})
+        self.assertEqual(answer.status, 202)
+        while True:
+            begun = time.monotonic()
+            self.assertEqual(self.daemon.get("/v1/limits/25H7").status, 200)
+            self.assertLess(time.monotonic() - begun, 1)
+            run = self.daemon.get(answer.headers["location"]).json
+            if run["status"] not in ("queued", "running"):
+                break
+        self.assertEqual(run["status"], "limit_exceeded")
+        self.assertEqual(run["messages"][-1]["kind"], "limit")
+
+    def test_string_of_256_characters(self):
+        self.refused("long", f'QS1 = "{"x" * 256}"')
+        answer = self.post_run(self.upload_program("short", "Q1 = 1"),
+                               parameters={"QS1": "x" * 256})
+        entry = self.assert_problem(answer, 422, "request.invalid")["errors"][0]
+        self.assertEqual((entry["pointer"], entry["code"]), ("/parameters/QS1", "field.too_long"))
+
+    def test_binary_garbage(self):
+        self.upload("noise.h", bytes(range(256)) * 64)
+        answer = self.post_run("TNC:\\noise.h")
+        self.assert_problem(answer, 422, "program.invalid")
+
+    def test_path_out_of_the_disk(self):
+        self.fails("escape", "CALL PGM ..\\..\\..\\etc\\passwd")
+        self.assert_problem(self.post_run("TNC:\\..\\..\\etc\\passwd"), 422, "request.invalid")
+        self.assert_problem(self.daemon.get("/v1/files/../../etc/passwd"), 400,
+                            "file.path_invalid")
+
+    def test_program_of_50_megabytes(self):
+        connection = self.daemon.connect()
+        connection.putrequest("PUT", "/v1/files/huge.h")
+        connection.putheader("Content-Length", str(50 << 20))
+        connection.endheaders()
+        self.assertEqual(connection.getresponse().status, 413)
+        connection.close()
+
+    def test_unknown_program(self):
+        self.assert_problem(self.post_run("TNC:\\nothing.h"), 422, "program.unknown")

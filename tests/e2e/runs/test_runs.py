@@ -1,0 +1,208 @@
+"""Files, setups and the life of a run: asynchronous, followed, cancelled, repeated, interrupted."""
+
+import json
+import unittest
+
+from support.control import ControlTest
+from support.daemon import Daemon
+
+FOREVER = ("LBL 1", "FN 9: IF +1 EQU +1 GOTO LBL 1")
+LONG = {"blocks": 100_000_000, "seconds": 60}
+
+
+def events(text):
+    """The events of a stream as (name, data)."""
+    found = []
+    for entry in text.strip().split("\n\n"):
+        fields = dict(line.split(": ", 1) for line in entry.splitlines() if not line.startswith(":"))
+        if fields:
+            found.append((fields["event"], json.loads(fields["data"])))
+    return found
+
+
+class Files(ControlTest):
+    def test_bytes_come_back_as_they_went(self):
+        content = bytes(range(256))
+        first = self.daemon.request("PUT", "/v1/files/Some/Dir/File.H", content)
+        self.assertEqual(first.status, 201)
+        again = self.daemon.request("PUT", "/v1/files/some/dir/file.h", content)
+        self.assertEqual(again.status, 200)
+        read = self.daemon.get("/v1/files/SOME/dir/FILE.h")
+        self.assertEqual((read.status, read.body), (200, content))
+        head = self.daemon.request("HEAD", "/v1/files/some/dir/file.h")
+        self.assertEqual((head.status, head.headers["content-length"]), (200, "256"))
+        self.assertEqual(self.daemon.get("/v1/files/some/dir/file.h",
+                                         If_None_Match=read.headers["etag"]).status, 304)
+        listed = self.daemon.get("/v1/files?prefix=some/").json["files"]
+        self.assertEqual([(f["path"], f["size"]) for f in listed], [("TNC:\\some\\dir\\file.h", 256)])
+        self.assertEqual(self.daemon.request("DELETE", "/v1/files/some/dir/file.h").status, 204)
+        self.assert_problem(self.daemon.get("/v1/files/some/dir/file.h"), 404, "file.unknown")
+
+    def test_uploaded_table_goes_before_the_live_one(self):
+        table = "BEGIN 82553_hole .TAB MM\nNR      BEREICH H7\n0       50      30\n1       50      5\n[END]\n"
+        self.upload("own/82553_hole.tab", table)
+        self.upload("own/p.h", "0 BEGIN PGM p MM\n1 FN 26: TABOPEN 82553_hole.tab\n"
+                               "2 FN 28: TABREAD Q1 = 0/\"H7\"\n3 END PGM p MM\n")
+        run = self.run_program("TNC:\\own\\p.h")
+        self.assertEqual(run["parameters"]["Q1"], 30)
+        self.assertEqual(run["tables"][0]["source"], "stored")
+
+
+class Setups(ControlTest):
+    def test_setup_is_kept_and_used_by_name(self):
+        setup = {"machine": {"start_mm": {"Z": 300}}, "seed": 7}
+        self.assertEqual(self.daemon.request("PUT", "/v1/setups/mill-1", setup).status, 201)
+        self.assertEqual(self.daemon.get("/v1/setups/mill-1").json, setup)
+        self.assertEqual([s["name"] for s in self.daemon.get("/v1/setups").json["setups"]], ["mill-1"])
+        program = self.upload_program("nothing", "Q1 = 1")
+        run = self.run_program(program, "mill-1")
+        self.assertEqual(run["setup_seed"], 7)
+        order = self.daemon.get(f"/v1/runs/{run['id']}/request").json
+        self.assertEqual(order["setup"], setup)
+        self.assertEqual(self.daemon.request("DELETE", "/v1/setups/mill-1").status, 204)
+        self.assert_problem(self.daemon.get("/v1/setups/mill-1"), 404, "setup.unknown")
+        problem = self.assert_problem(self.post_run(program, "mill-1"), 422, "request.invalid")
+        self.assertEqual(problem["errors"][0]["code"], "setup.unknown")
+
+    def test_every_error_has_its_pointer(self):
+        setup = {"machine": {"axes": {"X": {"min_mm": 10, "max_mm": 5}, "U": {}},
+                             "tools": [{"length_mm": "a"}], "rapid_mm_min": -1},
+                 "workpiece": {"features": [{"type": "bore", "center_mm": [1], "diameter_mm": 25.0000001},
+                                            {"type": "cone"},
+                                            {"type": "sphere", "center_mm": [0, 0, 0], "diameter_mm": 0}]},
+                 "sead": 1}
+        problem = self.assert_problem(self.daemon.request("PUT", "/v1/setups/bad", setup),
+                                      422, "request.invalid")
+        found = {entry["pointer"]: entry["code"] for entry in problem["errors"]}
+        self.assertEqual(found, {"/machine/axes/X/max_mm": "field.conflict",
+                                 "/machine/axes/U": "field.unknown",
+                                 "/machine/tools/0/number": "field.missing",
+                                 "/machine/tools/0/length_mm": "length.malformed",
+                                 "/machine/rapid_mm_min": "field.invalid",
+                                 "/workpiece/features/0/center_mm": "field.invalid",
+                                 "/workpiece/features/0/diameter_mm": "length.too_fine",
+                                 "/workpiece/features/1/type": "field.invalid",
+                                 "/workpiece/features/2/diameter_mm": "field.invalid",
+                                 "/sead": "field.unknown"})
+
+
+class Runs(ControlTest):
+    def start(self, program, **order):
+        answer = self.post_run(program, headers={"Prefer": "respond-async"}, **order)
+        self.assertEqual(answer.status, 202, answer)
+        self.assertIn(answer.json["status"], ("queued", "running"))
+        return answer.headers["location"]
+
+    def test_run_is_followed_to_its_end(self):
+        self.upload("say.a", '"STEP %2.0F", Q1;\n')
+        program = self.upload_program("steps", "Q1 = 0", "LBL 1", "Q1 = Q1 + 1",
+                                      "FN 16: F-PRINT say.a / SCREEN:", "CALL LBL 1 REP 2")
+        place = self.start(program)
+        live = events(self.daemon.get(f"{place}/events").text)
+        self.assertEqual([data["line"] for name, data in live if name == "output"],
+                         ["STEP  1", "STEP  2", "STEP  3"])
+        self.assertEqual(live[-1][0], "end")
+        run = self.daemon.get(place).json
+        self.assertEqual(live[-1][1], run)
+        self.assertEqual(run["status"], "completed")
+        self.assertEqual(self.daemon.get(f"{place}/parameters").json, run["parameters"])
+        later = events(self.daemon.get(f"{place}/events").text)
+        self.assertEqual([e for e in live if e[0] != "progress"], later)
+
+    def test_run_is_cancelled(self):
+        place = self.start(self.upload_program("endless", *FOREVER), limits=LONG)
+        self.assertEqual(self.daemon.request("DELETE", place).status, 204)
+        run = self.daemon.get(place).json
+        self.assertEqual(run["status"], "cancelled")
+        self.assertEqual(run["messages"][-1]["kind"], "cancelled")
+        self.assert_problem(self.daemon.request("DELETE", place), 409, "run.finished")
+
+    def test_queued_run_is_cancelled_before_its_first_block(self):
+        endless = self.upload_program("endless2", *FOREVER)
+        places = [self.start(endless, limits=LONG) for _ in range(4)]
+        for place in reversed(places):
+            self.assertEqual(self.daemon.request("DELETE", place).status, 204)
+            self.assertEqual(self.daemon.get(place).json["status"], "cancelled")
+
+    def test_too_many_runs_are_refused_until_there_is_room(self):
+        endless = self.upload_program("endless3", *FOREVER)
+        places = []
+        while True:
+            answer = self.post_run(endless, headers={"Prefer": "respond-async"}, limits=LONG)
+            if answer.status != 202:
+                break
+            places.append(answer.headers["location"])
+        self.assert_problem(answer, 503, "service.overloaded")
+        self.assertIn("retry-after", answer.headers)
+        for place in places:
+            self.assertEqual(self.daemon.request("DELETE", place).status, 204)
+
+    def test_repeat_with_the_same_key_is_the_same_run(self):
+        program = self.upload_program("once", "Q1 = 5")
+        key = {"Idempotency-Key": '"run-1"'}
+        first = self.post_run(program, headers=key)
+        again = self.post_run(program, headers={"Idempotency-Key": "run-1"})
+        self.assertEqual((first.status, first.body, first.headers["location"]),
+                         (again.status, again.body, again.headers["location"]))
+        other = self.post_run(program, headers=key, parameters={"Q2": 1})
+        self.assert_problem(other, 422, "idempotency.key_reused")
+
+    def test_runs_are_listed_the_newest_first(self):
+        program = self.upload_program("listed", "Q1 = 1")
+        ids = [self.run_program(program)["id"] for _ in range(3)]
+        page = self.daemon.get("/v1/runs?program=tnc:%5Clisted.h&limit=2").json
+        self.assertEqual([run["id"] for run in page["runs"]], ids[:0:-1])
+        rest = self.daemon.get(f"/v1/runs?program=TNC:%5Clisted.h&after={page['next']}").json
+        self.assertEqual(([run["id"] for run in rest["runs"]], rest["next"]), ([ids[0]], None))
+        completed = self.daemon.get("/v1/runs?status=completed&limit=1000").json["runs"]
+        self.assertTrue(set(ids) <= {run["id"] for run in completed})
+        self.assert_problem(self.daemon.get("/v1/runs?status=done"), 400, "query.invalid")
+
+    def test_order_with_wrong_fields_lists_them_all(self):
+        answer = self.daemon.post("/v1/runs", {"program": "C:\\x.h", "parameters": {"Q9999": 1, "QS1": 5},
+                                               "limits": {"blocks": 0, "seconds": 61},
+                                               "on_stop": "wait", "block_skip": "yes", "more": 1})
+        found = {e["pointer"] for e in self.assert_problem(answer, 422, "request.invalid")["errors"]}
+        self.assertEqual(found, {"/program", "/parameters/Q9999", "/parameters/QS1", "/limits/blocks",
+                                 "/limits/seconds", "/on_stop", "/block_skip", "/more"})
+
+    def test_unknown_run(self):
+        for path in ("r999", "r999/trace", "r999/events", "r999/parameters", "r999/files/x", "nonsense"):
+            self.assert_problem(self.daemon.get(f"/v1/runs/{path}"), 404, "run.unknown")
+
+    def test_cycles_are_described(self):
+        cycles = self.daemon.get("/v1/cycles").json["cycles"]
+        self.assertTrue({247, 417, 421, 422, 427} <= {cycle["number"] for cycle in cycles})
+        hole = self.daemon.get("/v1/cycles/421").json
+        self.assertEqual(hole["name"], "MEASURE HOLE")
+        diameter = next(p for p in hole["parameters"] if p["name"] == "Q262")
+        self.assertEqual((diameter["unit"], diameter["range"]), ("mm", {"min": 0, "max": 99999.9999}))
+        self.assertIn("Q153", [result["name"] for result in hole["results"]])
+        self.assert_problem(self.daemon.get("/v1/cycles/999"), 404, "cycle.unknown")
+
+
+class Interruptions(unittest.TestCase):
+    def setUp(self):
+        self.daemon = Daemon()
+        self.addCleanup(self.daemon.cleanup)
+        self.daemon.start()
+        lines = ["BEGIN PGM loop MM", *FOREVER, "END PGM loop MM"]
+        self.daemon.request("PUT", "/v1/files/loop.h",
+                            "".join(f"{n} {text}\n" for n, text in enumerate(lines)))
+        self.places = [
+            self.daemon.post("/v1/runs", {"program": "TNC:\\loop.h", "limits": LONG},
+                             {"Prefer": "respond-async"}).headers["location"] for _ in range(4)]
+
+    def test_killed_daemon_leaves_failed_runs(self):
+        self.daemon.kill()
+        self.daemon.start()
+        for place in self.places:
+            run = self.daemon.get(place).json
+            self.assertEqual(run["status"], "failed")
+            self.assertEqual(run["messages"][0]["program"], "TNC:\\loop.h")
+
+    def test_shutdown_cancels_runs(self):
+        self.assertEqual(self.daemon.stop(), 0)
+        self.daemon.start()
+        for place in self.places:
+            self.assertEqual(self.daemon.get(place).json["status"], "cancelled")

@@ -1,0 +1,51 @@
+"""The example programs of clients/nc on a running daemon."""
+
+import json
+import pathlib
+
+from support.daemon import DaemonTest
+
+EXAMPLES = pathlib.Path(__file__).resolve().parents[3] / "clients" / "nc"
+BLOCK = {"type": "block", "min_mm": [-300, -300, -60], "max_mm": [300, 300, 0]}
+
+
+def setup(name):
+    """A setup of the examples: `8255/hole-good`."""
+    program, _, setup_name = name.partition("/")
+    return json.loads((EXAMPLES / program / "setups" / f"{setup_name}.json").read_text())
+
+
+def workpiece(*features, **machine):
+    return {"machine": machine, "workpiece": {"features": list(features)}}
+
+
+class ControlTest(DaemonTest):
+    """Tests on the control's disk, with helpers for files and runs."""
+
+    def upload(self, path, content):
+        answer = self.daemon.request("PUT", f"/v1/files/{path}", content)
+        self.assertIn(answer.status, (200, 201), answer)
+
+    def upload_examples(self):
+        for program in ("8255", "8210", "8025"):
+            for file in (EXAMPLES / program).iterdir():
+                if file.is_file():
+                    self.upload(f"nc_prog/{program}/{file.name}", file.read_bytes())
+
+    def upload_program(self, name, *blocks):
+        """A program in TNC:\\ of these blocks; gives its path."""
+        lines = [f"BEGIN PGM {name} MM", *blocks, f"END PGM {name} MM"]
+        self.upload(f"{name}.h", "".join(f"{n} {text}\n" for n, text in enumerate(lines)))
+        return f"TNC:\\{name}.h"
+
+    def post_run(self, program, machine_setup=None, headers=None, **order):
+        body = {"program": program, "setup": machine_setup or {}, **order}
+        return self.daemon.post("/v1/runs", body, headers)
+
+    def run_program(self, program, machine_setup=None, **order):
+        answer = self.post_run(program, machine_setup, **order)
+        self.assertEqual(answer.status, 201, answer)
+        return answer.json
+
+    def run_example(self, program, machine_setup, **order):
+        return self.run_program(f"TNC:\\nc_prog\\{program[:4]}\\{program}.h", machine_setup, **order)
