@@ -118,7 +118,7 @@ Result<IdRange> MeasurementsStore::append(std::span<const MeasurementRow> rows) 
                    fmt::format("there is no measurement {} to correct", *row.correction_of)};
     }
     if (const auto newer = corrected_by(*row.correction_of)) {
-      return Error{ErrorCode::FieldConflict,
+      return Error{ErrorCode::MeasurementCorrected,
                    fmt::format("measurement {} was corrected before; correct the current one",
                                *row.correction_of)};
     }

@@ -35,8 +35,8 @@ class MeasurementsStore {
 
   /// Appends rows in the order given. A row with `correction_of` must name the current row of its
   /// chain.
-  /// @errors MeasurementUnknown when it names no row; FieldConflict when that one was corrected
-  ///   before.
+  /// @errors MeasurementUnknown when it names no row; MeasurementCorrected when that one was
+  ///   corrected before.
   Result<IdRange> append(std::span<const MeasurementRow> rows);
 
   using Visitor = std::function<void(const MeasurementRow&)>;

@@ -21,10 +21,6 @@ Error no_rows(std::string_view what) {
   return {ErrorCode::RequestInvalid, fmt::format("{} holds no measurement", what)};
 }
 
-RawValue raw_value(const JsonValue& value) {
-  return {.kind = static_cast<RawValue::Kind>(value.kind), .text = value.text};
-}
-
 /// The members of a parsed object as one row.
 void read_row(const JsonValue& object, MeasurementRowReader& reader, MeasurementBatch& batch) {
   if (!object.is(JsonValue::Kind::Object)) {

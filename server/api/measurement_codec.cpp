@@ -1,7 +1,6 @@
 #include "api/measurement_codec.hpp"
 
 #include <array>
-#include <utility>
 
 #include "api/csv_reader.hpp"
 #include "api/limits_codec.hpp"
@@ -11,22 +10,8 @@
 namespace fitgauge::api {
 namespace {
 
+using app::kMeasurementTexts;
 using app::Measurement;
-using app::MeasurementTexts;
-
-using TextField = std::pair<std::string_view, std::optional<std::string_view> MeasurementTexts::*>;
-
-constexpr std::array<TextField, 9> kTexts = {{
-    {"part_id", &MeasurementTexts::part_id},
-    {"characteristic", &MeasurementTexts::characteristic},
-    {"order", &MeasurementTexts::order},
-    {"operation", &MeasurementTexts::operation},
-    {"machine", &MeasurementTexts::machine},
-    {"operator", &MeasurementTexts::operator_id},
-    {"gauge", &MeasurementTexts::gauge},
-    {"unit", &MeasurementTexts::unit},
-    {"comment", &MeasurementTexts::comment},
-}};
 
 constexpr int kTemperatureScale = 6;
 
@@ -54,7 +39,7 @@ void write_limits_members(JsonWriter& json, const Measurement& m) {
 }
 
 void write_given_members(JsonWriter& json, const Measurement& m) {
-  for (const auto& [name, field] : kTexts) {
+  for (const auto& [name, field] : kMeasurementTexts) {
     if (const auto& text = m.texts.*field) json.member(name, *text);
   }
   json.member("rule", word(m.rule.kind()));
@@ -68,6 +53,7 @@ void write_given_members(JsonWriter& json, const Measurement& m) {
     json.member("correction_of", app::measurement_id_text(*m.correction_of));
   }
   if (m.correction_reason) json.member("reason", *m.correction_reason);
+  if (m.corrected_by) json.member("corrected_by", app::measurement_id_text(*m.corrected_by));
 }
 
 void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,
@@ -100,7 +86,7 @@ std::string measurement_csv_header() {
       "id,source,measured_at,received_at,nominal_mm,tolerance_class,feature,upper_deviation_um,"
       "lower_deviation_um,upper_limit_mm,lower_limit_mm,basis,table_revision,measured_mm,"
       "deviation_um,verdict,excess_um,rule,uncertainty_um,coverage_factor,temperature_c";
-  for (const auto& [name, field] : kTexts) {
+  for (const auto& [name, field] : kMeasurementTexts) {
     out += ',';
     out += name;
   }
@@ -141,7 +127,7 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   text(m.standard_uncertainty ? format_um(*m.standard_uncertainty) : "");
   text(m.coverage_factor ? format(*m.coverage_factor) : "");
   text(m.temperature ? format_decimal(*m.temperature, kTemperatureScale) : "");
-  for (const auto& [name, field] : kTexts) text((m.texts.*field).value_or(""));
+  for (const auto& [name, field] : kMeasurementTexts) text((m.texts.*field).value_or(""));
   text(m.caller.value_or(""));
   text(m.run_id ? app::run_id_text(*m.run_id) : "");
   text(m.cycle ? std::to_string(*m.cycle) : "");

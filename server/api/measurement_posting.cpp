@@ -1,11 +1,9 @@
 #include "api/measurement_posting.hpp"
 
-#include <memory>
+#include <utility>
 
-#include "api/measurement_batch.hpp"
 #include "api/measurement_codec.hpp"
 #include "api/request_facts.hpp"
-#include "app/measurement_service.hpp"
 #include "app/table_catalog.hpp"
 
 namespace fitgauge::api {
@@ -13,16 +11,6 @@ namespace {
 
 /// Decoding more than this would keep other connections of the I/O thread waiting.
 constexpr std::size_t kLargeBody = 64 * 1024;
-
-/// Everything one POST needs until it is answered. The request lives as long as its responder.
-struct Posting {
-  const Services& services;
-  const http::Request& request;
-  http::Responder responder;
-  std::optional<app::IdempotencyScope> scope{};
-};
-
-using SharedPosting = std::shared_ptr<Posting>;
 
 app::Answer render(std::span<const app::Measurement> measurements, bool single, Preference wanted) {
   app::Answer answer{.status = 201, .content_type = "application/json", .location = {}, .body = {}};
@@ -61,17 +49,11 @@ void judge_and_record(const SharedPosting& posting) {
                                     .received_at = posting->services.clock.now(),
                                     .caller = caller_name(request)});
   if (!batch) return posting->responder.fail(batch.error());
-
-  const Preference wanted = preference_of(request);
-  posting->services.measurements.record(
-      std::move(batch->rows), posting->scope,
-      // The class names of the rows are views of the tables, other texts of the body or of `texts`.
-      [single = batch->single, wanted, texts = std::move(batch->texts), tables = *tables](
-          std::span<const app::Measurement> stored) { return render(stored, single, wanted); },
-      [posting, wanted](Result<app::Answer> answer) {
-        if (!answer) return posting->responder.fail(answer.error());
-        posting->responder.answer(response_of(*std::move(answer), wanted));
-      });
+  // The class names of the rows are views of the tables.
+  batch->texts =
+      std::make_shared<std::pair<std::shared_ptr<const void>, app::TableCatalog::Tables>>(
+          std::move(batch->texts), *tables);
+  record(posting, *std::move(batch));
 }
 
 void judge_where_it_may_take_long(const SharedPosting& posting) {
@@ -83,24 +65,41 @@ void judge_where_it_may_take_long(const SharedPosting& posting) {
 
 }  // namespace
 
-void post_measurements(const Services& services, const http::Request& request,
-                       http::Responder responder) {
+void post_once(const Services& services, const http::Request& request, http::Responder responder,
+               std::function<void(const SharedPosting&)> first_time) {
   const auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});
   const auto key = idempotency_key(request);
   if (!key) return posting->responder.fail(key.error());
-  if (!*key) return judge_where_it_may_take_long(posting);
+  if (!*key) return first_time(posting);
   posting->scope = app::IdempotencyScope{.caller = std::string(caller_name(request).value_or("")),
                                          .method = "POST",
                                          .path = std::string(request.path()),
                                          .key = **key,
                                          .body = request.body()};
-  services.measurements.find_answer(
-      *posting->scope, [posting](Result<std::optional<app::Answer>> kept) {
-        if (!kept) return posting->responder.fail(kept.error());
-        if (!*kept) return judge_and_record(posting);
-        posting->responder.answer(
-            response_of(**std::move(kept), Preference::None).with("Idempotency-Replayed", "true"));
+  services.measurements.find_answer(*posting->scope, [posting, first_time = std::move(first_time)](
+                                                         Result<std::optional<app::Answer>> kept) {
+    if (!kept) return posting->responder.fail(kept.error());
+    if (!*kept) return first_time(posting);
+    posting->responder.answer(
+        response_of(**std::move(kept), Preference::None).with("Idempotency-Replayed", "true"));
+  });
+}
+
+void record(const SharedPosting& posting, MeasurementBatch batch) {
+  const Preference wanted = preference_of(posting->request);
+  posting->services.measurements.record(
+      std::move(batch.rows), posting->scope,
+      [single = batch.single, wanted, texts = std::move(batch.texts)](
+          std::span<const app::Measurement> stored) { return render(stored, single, wanted); },
+      [posting, wanted](Result<app::Answer> answer) {
+        if (!answer) return posting->responder.fail(answer.error());
+        posting->responder.answer(response_of(*std::move(answer), wanted));
       });
+}
+
+void post_measurements(const Services& services, const http::Request& request,
+                       http::Responder responder) {
+  post_once(services, request, std::move(responder), judge_where_it_may_take_long);
 }
 
 }  // namespace fitgauge::api

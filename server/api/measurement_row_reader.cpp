@@ -89,6 +89,10 @@ std::string_view name_of(RawValue::Kind kind) {
 
 }  // namespace
 
+RawValue raw_value(const JsonValue& value) {
+  return {.kind = static_cast<RawValue::Kind>(value.kind), .text = value.text};
+}
+
 bool MeasurementRowReader::knows(std::string_view name) { return search_field(name) < kFieldCount; }
 
 std::size_t MeasurementRowReader::find_field(std::string_view name) {
@@ -263,12 +267,17 @@ std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
   return value.text;
 }
 
+void MeasurementRowReader::take_limits(const app::Measurement& other) {
+  app::apply_limits(draft_.measurement, other);
+  draft_.has_limits = true;
+}
+
 std::optional<app::Measurement> MeasurementRowReader::end() {
   app::Measurement& m = draft_.measurement;
   if (!given(kMeasured)) {
     report(ErrorCode::FieldMissing, kFields[kMeasured].name, "measured_mm is required");
   }
-  resolve_limits();
+  if (!draft_.has_limits) resolve_limits();
   if (draft_.rule == gauging::DecisionRule::Kind::GuardBand) {
     if (!given(kUncertainty)) {
       report(ErrorCode::FieldMissing, kFields[kUncertainty].name,
@@ -317,7 +326,7 @@ void MeasurementRowReader::resolve_limits() {
 Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) {
   if (name == last_class_) return last_class_id_;
   const auto found = tables_.find_class(name);
-  if (!found) return Error{ErrorCode::ClassUnknown, found.error().message};
+  if (!found) return found.error();
   last_class_ = name;
   last_class_id_ = *found;
   return *found;
@@ -345,7 +354,7 @@ void MeasurementRowReader::resolve_class() {
   if (!draft_.class_name) return;
   const auto id = find_class(*draft_.class_name);
   if (!id) {
-    report(id.error().code, kFields[kClass].name, id.error().message);
+    report(ErrorCode::ClassUnknown, kFields[kClass].name, id.error().message);
   } else if (size) {
     take_limits(tables_.limits_of_size(*size, *id), kFields[kClass].name);
   }

@@ -21,6 +21,9 @@ struct RawValue {
   bool decimal_comma = false;  ///< CSV with `;` or quotes
 };
 
+/// A parsed JSON value as one. @returns a view of it.
+RawValue raw_value(const JsonValue& value);
+
 /// Turns the fields of one row into a judged measurement, whichever format they came in: begin()
 /// the row, give it every field, end() it. What is wrong goes to the FieldErrors. Remembers the
 /// last class, so that a batch of one class looks it up once. Refers to all it is given.
@@ -37,6 +40,10 @@ class MeasurementRowReader {
   /// @returns false, and reports nothing, when there is no such field or it was given before.
   bool field(std::string_view name, const RawValue& value);
   void report_unknown(std::string_view name);
+
+  /// Gives the row the limits of another measurement as they were applied there; then it has no
+  /// field of its own that says limits.
+  void take_limits(const app::Measurement& other);
 
   /// The judged measurement, or none when the row has errors.
   std::optional<app::Measurement> end();
@@ -59,6 +66,7 @@ class MeasurementRowReader {
     std::optional<Length> upper{};
     std::optional<Length> lower{};
     gauging::DecisionRule::Kind rule = gauging::DecisionRule::Kind::Simple;
+    bool has_limits = false;  ///< taken from another measurement
     bool failed = false;
   };
 

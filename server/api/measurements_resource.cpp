@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "api/measurement_codec.hpp"
+#include "api/measurement_correction.hpp"
 #include "api/measurement_listing.hpp"
 #include "api/measurement_posting.hpp"
 #include "app/measurement_service.hpp"
@@ -48,6 +49,16 @@ http::AsyncHandler with(const Services& services,
   };
 }
 
+std::vector<http::Parameter> posting_parameters(std::vector<http::Parameter> parameters = {}) {
+  parameters.push_back({.name = "Idempotency-Key",
+                        .place = http::ParameterPlace::Header,
+                        .description = "Makes a repeat answer what the first was answered"});
+  parameters.push_back({.name = "Prefer",
+                        .place = http::ParameterPlace::Header,
+                        .description = "return=representation or return=minimal"});
+  return parameters;
+}
+
 std::vector<http::Parameter> list_parameters() {
   auto parameters = measurement_filter_parameters();
   parameters.push_back({.name = "limit",
@@ -75,15 +86,23 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .handler = with(services, post_measurements),
       .summary = "Judge and store measurements, all or none",
       .description = "201 means durable. An Idempotency-Key makes repeats safe.",
-      .parameters = {{.name = "Idempotency-Key",
-                      .place = http::ParameterPlace::Header,
-                      .description = "Makes a repeat answer what the first was answered"},
-                     {.name = "Prefer",
-                      .place = http::ParameterPlace::Header,
-                      .description = "return=representation or return=minimal"}},
+      .parameters = posting_parameters(),
       .body = {.use = http::BodyUse::Required,
                .media_types = {"application/json", "application/x-ndjson", "text/csv"},
                .limit = kBodyLimit},
+      .access = "operator",
+  });
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/measurements/{id}/corrections",
+      .handler = with(services, post_correction),
+      .summary = "Correct a measurement by a new one that names it",
+      .description = "The body has measured_mm and reason; fields it leaves out are taken over. "
+                     "The old record stays.",
+      .parameters = posting_parameters({{.name = "id",
+                                         .place = http::ParameterPlace::Path,
+                                         .description = "The measurement to correct"}}),
+      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
       .access = "operator",
   });
   routes.push_back({

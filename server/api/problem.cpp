@@ -40,6 +40,8 @@ int status_of(ErrorCode code) {
     case ErrorCode::NotAcceptable: return 406;
     case ErrorCode::RequestTimeout: return 408;
     case ErrorCode::IdempotencyInProgress:
+    case ErrorCode::MeasurementCorrected:
+    case ErrorCode::MeasurementSimulated:
     case ErrorCode::RunFinished:
     case ErrorCode::RunUnfinished: return 409;
     case ErrorCode::LengthRequired: return 411;

@@ -38,6 +38,16 @@ std::optional<Source> source_from_word(std::string_view text) {
   return std::nullopt;
 }
 
+KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(measurement) {
+  const auto keep = [this](std::optional<std::string_view>& text) {
+    if (text) text = texts_.emplace_back(*text);
+  };
+  for (const auto& [name, text] : kMeasurementTexts) keep(measurement_.texts.*text);
+  keep(measurement_.class_name);
+  keep(measurement_.caller);
+  keep(measurement_.correction_reason);
+}
+
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
                   const iso286::ToleranceTables& tables) {
   measurement.nominal_size = limits.nominal_size.length();
@@ -48,6 +58,16 @@ void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
   measurement.basis =
       limits.basis == iso286::Basis::Custom ? LimitsBasis::Custom : LimitsBasis::Iso286;
   measurement.table_revision = tables.revision().id;
+}
+
+void apply_limits(Measurement& measurement, const Measurement& other) {
+  measurement.nominal_size = other.nominal_size;
+  measurement.class_name = other.class_name;
+  measurement.feature = other.feature;
+  measurement.deviations = other.deviations;
+  measurement.size_range = other.size_range;
+  measurement.basis = other.basis;
+  measurement.table_revision = other.table_revision;
 }
 
 void judge(Measurement& measurement) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/clock.hpp"
 #include "gauging/gauge.hpp"
@@ -33,6 +36,21 @@ struct MeasurementTexts {
   std::optional<std::string_view> unit;
   std::optional<std::string_view> comment;
 };
+
+/// Every text with its name.
+inline constexpr std::array<
+    std::pair<std::string_view, std::optional<std::string_view> MeasurementTexts::*>, 9>
+    kMeasurementTexts = {{
+        {"part_id", &MeasurementTexts::part_id},
+        {"characteristic", &MeasurementTexts::characteristic},
+        {"order", &MeasurementTexts::order},
+        {"operation", &MeasurementTexts::operation},
+        {"machine", &MeasurementTexts::machine},
+        {"operator", &MeasurementTexts::operator_id},
+        {"gauge", &MeasurementTexts::gauge},
+        {"unit", &MeasurementTexts::unit},
+        {"comment", &MeasurementTexts::comment},
+    }};
 
 /// One judged measurement, before and after it is stored. Its texts are views of the memory it was
 /// read from: the request's body, or the database's own page while a visitor runs.
@@ -64,14 +82,33 @@ struct Measurement {
   std::optional<std::int64_t> cycle;
   std::optional<std::int64_t> correction_of;
   std::optional<std::string_view> correction_reason;
+  std::optional<std::int64_t> corrected_by;  ///< known where one measurement was asked for
 
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }
 };
 
+/// A measurement with texts of its own, to be kept after the visitor's call.
+class KeptMeasurement {
+ public:
+  explicit KeptMeasurement(const Measurement& measurement);
+  KeptMeasurement(const KeptMeasurement&) = delete;
+  KeptMeasurement& operator=(const KeptMeasurement&) = delete;
+
+  const Measurement& operator*() const { return measurement_; }
+  const Measurement* operator->() const { return &measurement_; }
+
+ private:
+  std::deque<std::string> texts_;
+  Measurement measurement_;
+};
+
 /// Takes the limits of a class of the tables.
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
                   const iso286::ToleranceTables& tables);
+
+/// Takes the limits that stand in another measurement, as they were applied there.
+void apply_limits(Measurement& measurement, const Measurement& other);
 
 /// Judges the measured value by the limits and the rule that stand in the record.
 void judge(Measurement& measurement);

@@ -1,5 +1,7 @@
 #include "app/measurement_service.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -44,11 +46,22 @@ MeasurementGroup from_store(store::SummaryGroup group) {
           .max = Length::nanometres(group.max_nm)};
 }
 
+/// The store knows ids as numbers: this error names them as the outside does.
+Error corrected_before(const store::Stores& stores, std::int64_t id) {
+  const auto newer = stores.measurements.corrected_by(id);
+  return {ErrorCode::MeasurementCorrected,
+          fmt::format("measurement {} was corrected by {}: correct that one",
+                      measurement_id_text(id), measurement_id_text(newer.value_or(0)))};
+}
+
 /// The job of one request: appends the rows, gives them their ids, renders the answer.
 Result<store::StoredAnswer> append(store::Stores& stores, std::vector<Measurement>& measurements,
                                    const std::vector<store::MeasurementRow>& rows,
                                    const MeasurementService::Render& render) {
   const auto ids = stores.measurements.append(rows);
+  if (!ids && ids.error().code == ErrorCode::MeasurementCorrected) {
+    return corrected_before(stores, *rows.front().correction_of);
+  }
   if (!ids) return ids.error();
   std::int64_t id = ids->first;
   for (Measurement& measurement : measurements) measurement.id = id++;
@@ -103,8 +116,11 @@ void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t>
   database_.readers().submit(
       [this, id, visit = std::move(visit)](const store::Stores& stores) -> Result<std::int64_t> {
         const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
-        const bool found = stores.measurements.find(
-            id, [&](const store::MeasurementRow& row) { visit(app::from_store(row, ids)); });
+        const bool found = stores.measurements.find(id, [&](const store::MeasurementRow& row) {
+          Measurement measurement = app::from_store(row, ids);
+          measurement.corrected_by = stores.measurements.corrected_by(id);
+          visit(measurement);
+        });
         if (found) return id;
         return Error{ErrorCode::MeasurementUnknown,
                      "there is no measurement '" + measurement_id_text(id) + "'"};

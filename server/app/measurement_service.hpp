@@ -83,14 +83,14 @@ class MeasurementService {
   /// measurements stay alive until then.
   /// @param scope keeps the answer for repeats, in the same transaction.
   /// @errors StorageUnavailable, StorageBusy, IdempotencyKeyReused, IdempotencyInProgress,
-  ///   MeasurementUnknown and FieldConflict of a correction.
+  ///   MeasurementUnknown and MeasurementCorrected of a correction.
   void record(std::vector<Measurement> measurements, const std::optional<IdempotencyScope>& scope,
               Render render, Done<Answer> done);
 
   /// Called on a reader thread; the measurement's texts are valid during the call.
   using Visitor = std::function<void(const Measurement&)>;
 
-  /// @errors MeasurementUnknown, StorageUnavailable.
+  /// Visits one measurement; `corrected_by` is set if it was. @errors MeasurementUnknown.
   void find(std::int64_t id, Visitor visit, Done<std::int64_t> done);
 
   /// Visits up to `limit` matching measurements after the id `after`, in storage order; gives the

@@ -230,7 +230,7 @@ TEST_CASE("a correction replaces the current row and keeps the old one") {
   CHECK(ids_of(fixture, {.history = true}) == std::vector<std::int64_t>{1, 2, 3});
   CHECK(ids_of(fixture, {.as_of_id = 2}) == std::vector<std::int64_t>{1, 2});
 
-  CHECK(fixture.append(correction).error().code == ErrorCode::FieldConflict);
+  CHECK(fixture.append(correction).error().code == ErrorCode::MeasurementCorrected);
   correction.correction_of = 4;
   CHECK(fixture.append(correction).error().code == ErrorCode::MeasurementUnknown);
   correction.correction_of = 3;
