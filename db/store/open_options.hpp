@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 
 namespace fitgauge::store {
 
@@ -32,6 +33,10 @@ struct OpenOptions {
   std::chrono::hours idempotency_retention{30 * 24};
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
   std::int64_t event_retention = 100'000;     ///< events kept for replay
+
+  /// Called on the writer thread after each commit, when its jobs have their outcomes; must not
+  /// block. Lives as long as the database.
+  std::function<void()> committed{};
 };
 
 }  // namespace fitgauge::store

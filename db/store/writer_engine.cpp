@@ -64,12 +64,12 @@ void Writer::Engine::run() {
 /// One transaction for all jobs, then their outcomes.
 void Writer::Engine::commit(Jobs jobs) {
   std::vector<std::optional<Error>> errors(jobs.size());
-  if (const std::optional<Error> error = try_commit(jobs, errors)) {
-    errors.assign(jobs.size(), error);
-  }
+  const std::optional<Error> error = try_commit(jobs, errors);
+  if (error) errors.assign(jobs.size(), error);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     errors[i] ? jobs[i]->refuse(*std::move(errors[i])) : jobs[i]->deliver();
   }
+  if (!error && options_.committed) options_.committed();
 }
 
 /// @returns what concerns the whole batch; `errors` gets what concerns one job.

@@ -1,6 +1,7 @@
 #include "api/routes.hpp"
 
 #include "api/cycles_resource.hpp"
+#include "api/events_resource.hpp"
 #include "api/files_resource.hpp"
 #include "api/limits_resource.hpp"
 #include "api/measurements_resource.hpp"
@@ -25,6 +26,7 @@ http::RouteTable make_routes(const Services& services) {
   add_setups_routes(routes, services);
   add_runs_routes(routes, services);
   add_cycles_routes(routes);
+  add_events_routes(routes, services);
   add_service_routes(routes, services);
   add_openapi_route(routes);
   return http::RouteTable(std::move(routes));

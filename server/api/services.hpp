@@ -11,6 +11,7 @@ class MeasurementService;
 class FileService;
 class SetupService;
 class RunService;
+class EventService;
 }  // namespace fitgauge::app
 
 namespace fitgauge::api {
@@ -24,6 +25,7 @@ struct Services {
   app::FileService& files;
   app::SetupService& setups;
   app::RunService& runs;
+  app::EventService& events;
   const Metrics& metrics;
   const Clock& clock;
   std::function<app::Readiness()> readiness;

@@ -43,7 +43,9 @@ Application::~Application() = default;
 Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions& options,
                                                        const Clock& clock) {
   std::unique_ptr<Application> app(new Application);
-  auto database = store::Database::open(to_store(options), clock);
+  store::OpenOptions open_options = to_store(options);
+  open_options.committed = [&signal = app->committed_] { signal.raise(); };
+  auto database = store::Database::open(open_options, clock);
   if (!database) return database.error();
   app->database_ = *std::move(database);
   auto tables = TableCatalog::open(*app->database_, clock);
@@ -59,6 +61,8 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     app->runs_ = std::make_unique<RunService>(*app->database_, *app->tables_, clock,
                                               RunServiceOptions{.workers = options.run_workers});
   }
+  app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, app->committed_,
+                                                options.event_retention);
   return app;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/commit_signal.hpp"
+#include "app/event_service.hpp"
 #include "app/file_service.hpp"
 #include "app/key_service.hpp"
 #include "app/measurement_service.hpp"
@@ -42,6 +44,7 @@ class Application {
 
   TableCatalog& tables() { return *tables_; }
   MeasurementService& measurements() { return *measurements_; }
+  EventService& events() { return *events_; }
   KeyService& keys() { return *keys_; }
   FileService& files() { return *files_; }
   SetupService& setups() { return *setups_; }
@@ -67,9 +70,11 @@ class Application {
   Application();
 
   // In the order of their making: what comes later uses what comes before.
+  CommitSignal committed_;
   std::unique_ptr<store::Database> database_;
   std::unique_ptr<TableCatalog> tables_;
   std::unique_ptr<MeasurementService> measurements_;
+  std::unique_ptr<EventService> events_;
   std::unique_ptr<KeyService> keys_;
   std::unique_ptr<FileService> files_;
   std::unique_ptr<SetupService> setups_;

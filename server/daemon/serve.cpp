@@ -176,6 +176,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .files = app.files(),
                                .setups = app.setups(),
                                .runs = app.runs(),
+                               .events = app.events(),
                                .metrics = metrics,
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); }};
