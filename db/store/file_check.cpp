@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -29,6 +30,7 @@ Result<void> check_file(const std::filesystem::path& file, std::atomic<bool>* st
     finding = failure.error().message;
   }
   if (finding == "ok") return {};
+  std::replace(finding.begin(), finding.end(), '\n', ' ');  // SQLite's heading is a line of its own
   return Error{
       ErrorCode::StorageCorrupt,
       fmt::format("{} is damaged: {}. Restore a backup in its place", file.string(), finding)};

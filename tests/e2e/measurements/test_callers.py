@@ -1,0 +1,158 @@
+"""Who may do what: keys, roles, the modes of --auth, proxies, foreign pages."""
+
+import time
+
+from support.daemon import Daemon, DaemonTest
+
+PART = {"designation": "25 H7", "measured_mm": 25.013}
+COLUMN = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]}
+OPEN_READS = ("/v1/limits/25H7", "/v1/fits/25H7/g6", "/v1/tables",
+              "/v1/verdicts/25H7?measured_mm=25", "/openapi.json", "/")
+HEALTH = ("/livez", "/readyz")
+
+
+class Callers(DaemonTest):
+    def make_key(self, name, role):
+        made = self.daemon.command("key", "create", "--name", name, "--role", role)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        return made.stdout.strip()
+
+    def wait_for(self, condition):
+        deadline = time.monotonic() + 15
+        while not condition():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+
+    def assert_needs_a_key(self, answer):
+        self.assert_problem(answer, 401, "auth.required")
+        self.assertTrue(answer.headers["www-authenticate"].startswith("Bearer"))
+
+
+class Open(Callers):
+    """The default on loopback."""
+
+    def test_nobody_here_needs_a_key(self):
+        self.assertEqual(self.daemon.measure(PART).status, 201)
+
+    def test_through_a_proxy_everybody_is_remote(self):
+        for field in ("Forwarded", "X-Forwarded-For", "X-Forwarded-Proto", "X-Forwarded-Host"):
+            with self.subTest(field):
+                self.assert_needs_a_key(self.daemon.measure(PART, {field: "for=10.0.0.9"}))
+                self.assertEqual(
+                    self.daemon.request("GET", "/v1/limits/25H7", headers={field: "x"}).status, 200)
+
+    def test_a_page_of_another_site_cannot_write(self):
+        before = len(self.daemon.stored())
+        for origin in ("http://evil.example", "null", "http://localhost:1",
+                       f"https://127.0.0.1:{self.daemon.port}"):
+            with self.subTest(origin):
+                self.assert_problem(self.daemon.measure(PART, {"Origin": origin}), 403,
+                                    "origin.refused")
+        self.assertEqual(len(self.daemon.stored()), before)
+        own = f"http://127.0.0.1:{self.daemon.port}"
+        self.assertEqual(self.daemon.measure(PART, {"Origin": own}).status, 201)
+        self.assertEqual(self.daemon.request("GET", "/v1/limits/25H7",
+                                             headers={"Origin": "http://evil.example"}).status, 200)
+
+    def test_a_name_that_was_made_to_resolve_here_is_remote(self):
+        self.assert_needs_a_key(self.daemon.measure(PART, {"Host": "rebound.example"}))
+
+
+class ReadOpen(Callers):
+    flags = ("--auth", "read-open")
+
+    def test_tables_are_open_and_measurements_are_not(self):
+        for path in OPEN_READS + HEALTH:
+            self.assertEqual(self.daemon.get(path).status, 200, path)
+        self.assert_needs_a_key(self.daemon.get("/v1/measurements"))
+        self.assert_needs_a_key(self.daemon.measure(PART))
+        self.assert_needs_a_key(self.daemon.get("/v1/events"))
+
+    def test_the_first_start_shows_the_administrators_key_once(self):
+        shown = [line for line in self.daemon.output.splitlines() if "administrator" in line]
+        self.assertEqual(len(shown), 1, self.daemon.output)
+        token = shown[0].split()[-1]
+        self.assertEqual(self.daemon.get("/v1/measurements",
+                                         Authorization=f"Bearer {token}").status, 200)
+        self.assertEqual(self.daemon.stop(), 0)
+        self.daemon.start()
+        self.assertEqual(self.daemon.output.count("administrator"), 1)
+        self.assertNotIn(token.encode(), self.daemon.database.read_bytes(), "only a hash is stored")
+
+    def test_it_is_the_default_of_an_address_that_is_not_loopback(self):
+        daemon = Daemon(listen="0.0.0.0:0")
+        self.addCleanup(daemon.cleanup)
+        daemon.start()
+        self.assert_needs_a_key(daemon.measure(PART))
+        self.assertEqual(daemon.get("/v1/limits/25H7").status, 200)
+        self.assertEqual(daemon.stop(), 0)
+
+
+class Keys(Callers):
+    flags = ("--auth", "keys")
+
+    def test_everything_but_health_needs_a_key(self):
+        for path in HEALTH:
+            self.assertEqual(self.daemon.get(path).status, 200, path)
+        for path in OPEN_READS[:-1]:
+            self.assert_needs_a_key(self.daemon.get(path))
+
+    def test_roles(self):
+        tokens = {role: self.make_key(f"{role}-1", role) for role in ("viewer", "operator", "admin")}
+        calls = {
+            "viewer": lambda h: self.daemon.request("GET", "/v1/measurements", headers=h),
+            "operator": lambda h: self.daemon.measure(PART, h),
+            "admin": lambda h: self.daemon.request("PUT", "/v1/tables/hole/classes/Shop1", COLUMN, h),
+        }
+        order = list(calls)
+        self.wait_for(lambda: self.daemon.get(
+            "/v1/measurements", Authorization=f"Bearer {tokens['admin']}").status == 200)
+        for role, token in tokens.items():
+            for needed, call in calls.items():
+                answer = call({"Authorization": f"Bearer {token}"})
+                with self.subTest(role=role, needed=needed):
+                    if order.index(role) >= order.index(needed):
+                        self.assertIn(answer.status, (200, 201), answer)
+                    else:
+                        self.assert_problem(answer, 403, "auth.forbidden")
+        record = self.daemon.measure(PART, {"X-API-Key": tokens["operator"]}).json
+        self.assertEqual(record["caller"], "operator-1")
+
+    def test_keys_that_are_none(self):
+        for value in ("Bearer nonsense", "Bearer ", "Basic dXNlcjpwYXNz", "Bearer fg_" + "0" * 40):
+            with self.subTest(value):
+                answer = self.daemon.get("/v1/limits/25H7", Authorization=value)
+                self.assertEqual(answer.status, 401)
+                self.assertIn("www-authenticate", answer.headers)
+
+    def test_a_key_is_listed_and_revoked(self):
+        token = self.make_key("press-3", "operator")
+        use = lambda: self.daemon.measure(PART, {"Authorization": f"Bearer {token}"}).status
+        self.wait_for(lambda: use() == 201)
+        listed = self.daemon.command("key", "list").stdout
+        self.assertIn("press-3\toperator", listed)
+        self.assertNotIn(token, listed)
+        self.assertEqual(self.daemon.command("key", "create", "--name", "press-3", "--role",
+                                             "viewer").returncode, 1)
+        self.assertEqual(self.daemon.command("key", "revoke", "--name", "press-3").returncode, 0)
+        self.wait_for(lambda: use() == 401)
+        self.assertIn("revoked", self.daemon.command("key", "list").stdout)
+        self.assertEqual(self.daemon.command("key", "revoke", "--name", "press-3").returncode, 1)
+
+    def test_a_role_that_is_none(self):
+        made = self.daemon.command("key", "create", "--name", "x", "--role", "king")
+        self.assertEqual(made.returncode, 2)
+        self.assertIn("viewer, operator or admin", made.stderr)
+
+
+class TheFirstKey(Callers):
+    def test_it_may_come_from_a_file(self):
+        daemon = Daemon("--auth", "keys")
+        self.addCleanup(daemon.cleanup)
+        token = "fg_" + "7" * 40
+        (daemon.folder / "key").write_text(token + "\n")
+        daemon.environment["FITGAUGE_ADMIN_KEY_FILE"] = str(daemon.folder / "key")
+        daemon.start()
+        self.assertEqual(daemon.get("/v1/measurements", Authorization=f"Bearer {token}").status, 200)
+        self.assertNotIn("administrator", daemon.output)
+        self.assertEqual(daemon.stop(), 0)

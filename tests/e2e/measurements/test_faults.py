@@ -1,0 +1,224 @@
+"""A disk that is full, read-only or failing: 503, reads go on, nothing acknowledged is lost, and the
+service recovers by itself."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+
+from support.daemon import Daemon
+from support.writers import Writers, compare
+
+PART = {"designation": "25 H7", "measured_mm": 25.013, "part_id": "SN-1"}
+
+
+def can_mount():
+    if os.geteuid() != 0:
+        return False
+    with tempfile.TemporaryDirectory() as folder:
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "none", folder],
+                                 capture_output=True, check=False).returncode == 0
+        if mounted:
+            subprocess.run(["umount", folder], check=True)
+        return mounted
+
+
+class FaultTest(unittest.TestCase):
+    def make_daemon(self, *flags, **named):
+        daemon = Daemon(*flags, **named)
+        self.addCleanup(daemon.cleanup)
+        return daemon
+
+    def assert_unavailable(self, answer, *texts):
+        self.assertEqual(answer.status, 503, answer)
+        self.assertEqual(answer.json["code"], "storage.unavailable", answer)
+        self.assertIn("retry-after", answer.headers)
+        for text in texts:
+            self.assertIn(text, answer.json["detail"])
+
+    def wait_until_stored(self, daemon, timeout=20):
+        deadline = time.monotonic() + timeout
+        while (answer := daemon.measure(PART)).status != 201:
+            self.assertEqual(answer.status, 503, answer)
+            self.assertLess(time.monotonic(), deadline, answer)
+            time.sleep(0.1)
+        return answer
+
+
+@unittest.skipUnless(can_mount(), "needs root and tmpfs mounts")
+class FullDisk(FaultTest):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-full-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=12m", "none", self.folder], check=True)
+        self.addCleanup(subprocess.run, ["umount", "-l", self.folder], check=True)
+
+    def test_it_refuses_goes_on_reading_and_recovers(self):
+        daemon = self.make_daemon(data=self.folder / "data")
+        daemon.start()
+        with Writers(daemon, 4) as writers:
+            time.sleep(0.5)
+            ballast = self.folder / "ballast"
+            with open(ballast, "wb", buffering=0) as file:
+                try:
+                    while True:
+                        file.write(b"x" * 4096)
+                except OSError:
+                    pass
+            deadline = time.monotonic() + 30
+            while (answer := daemon.measure([PART] * 500)).status == 201:
+                self.assertLess(time.monotonic(), deadline)
+            self.assert_unavailable(answer, "full")
+            before = dict(writers.acknowledged)
+            self.assertEqual(daemon.get("/livez").status, 200)
+            self.assertEqual(daemon.get("/v1/limits/25H7").status, 200)
+            self.assertEqual(daemon.get("/v1/measurements/m1").status, 200)
+            ready = daemon.get("/readyz")
+            self.assertEqual(ready.status, 503)
+            self.assertIn("full", ready.json["detail"])
+            self.assertEqual(compare(before, daemon.stored()), ([], []))
+            ballast.unlink()
+            self.wait_until_stored(daemon)
+            self.assertEqual(daemon.get("/readyz").status, 200)
+        stored = [row for row in daemon.stored() if row["part_id"] != "SN-1"]
+        self.assertEqual(compare(writers.acknowledged, stored), ([], []))
+        self.assertEqual(daemon.command("verify").returncode, 0)
+        self.assertEqual(daemon.stop(), 0)
+
+    def test_a_start_on_a_full_disk_says_so(self):
+        with open(self.folder / "ballast", "wb", buffering=0) as file:
+            try:
+                while True:
+                    file.write(b"x" * 4096)
+            except OSError:
+                pass
+        daemon = self.make_daemon(data=self.folder / "data")
+        daemon.spawn()
+        self.assertEqual(daemon.process.wait(20), 1)
+        line, = daemon.log.strip().splitlines()
+        self.assertTrue(line.startswith("fitgauged: "), line)
+
+
+class ReadOnly(FaultTest):
+    @unittest.skipUnless(can_mount(), "needs root and tmpfs mounts")
+    def test_a_directory_that_becomes_read_only(self):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-ro-"))
+        self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
+        subprocess.run(["mount", "-t", "tmpfs", "none", folder], check=True)
+        self.addCleanup(subprocess.run, ["umount", "-l", folder], check=True)
+        first = self.make_daemon(data=folder / "data")
+        first.start()
+        self.assertEqual(first.measure(PART).status, 201)
+        self.assertEqual(first.stop(), 0)
+        subprocess.run(["mount", "-o", "remount,ro", folder], check=True)
+        second = self.make_daemon(data=folder / "data")
+        second.spawn()
+        self.assertEqual(second.process.wait(20), 1)
+        line, = second.log.strip().splitlines()
+        self.assertIn("Read-only", line)
+
+    def test_a_directory_that_cannot_be_made(self):
+        daemon = self.make_daemon()
+        (daemon.folder / "file").write_text("")
+        daemon.data = daemon.folder / "file" / "data"
+        daemon.spawn()
+        self.assertEqual(daemon.process.wait(20), 1)
+        line, = daemon.log.strip().splitlines()
+        self.assertIn("data directory", line)
+
+
+def can_trace():
+    if not shutil.which("strace"):
+        return False
+    traced = subprocess.run(["strace", "-qq", "-o", "/dev/null", "-e", "inject=getppid:retval=7",
+                             "true"], capture_output=True, check=False)
+    return traced.returncode == 0
+
+
+@unittest.skipUnless(can_trace(), "needs strace and the right to trace")
+class FailingCalls(FaultTest):
+    """Every system call that writes a measurement fails once: the row is acknowledged and there, or
+    refused and, sent again with its key, there once."""
+
+    CALLS = "pwrite64,fdatasync,fsync,ftruncate"
+
+    def traced(self, inject):
+        """A daemon of which strace lets the calls fail that `inject` says, once it has started."""
+        daemon = self.make_daemon()
+        daemon.start()
+        self.assertEqual(daemon.measure({**PART, "part_id": "first"}).status, 201)
+        tracer = subprocess.Popen(
+            ["strace", "-f", "-qq", "-o", daemon.folder / "trace", "-p", str(daemon.process.pid),
+             "-e", f"trace={self.CALLS}", "-e", f"inject={inject}"], stderr=subprocess.DEVNULL)
+        self.addCleanup(tracer.wait)
+        self.addCleanup(tracer.kill)
+        time.sleep(0.5)
+        return daemon, tracer
+
+    def check(self, daemon):
+        """Sends one value until it is taken; it is there once, before and after a restart."""
+        headers = {"Idempotency-Key": "once"}
+        answers = []
+        deadline = time.monotonic() + 30
+        while True:
+            self.assertLess(time.monotonic(), deadline, answers)
+            try:
+                answers.append(daemon.measure({**PART, "part_id": "once"}, headers))
+            except OSError:
+                daemon.process.wait(20)
+                daemon.start()
+                continue
+            if answers[-1].status == 201:
+                break
+            self.assert_unavailable(answers[-1])
+            self.assertEqual(daemon.get("/v1/measurements/m1").status, 200, "reads go on")
+            time.sleep(0.1)
+        parts = [row["part_id"] for row in daemon.stored()]
+        self.assertEqual(sorted(parts), ["first", "once"])
+        return answers
+
+    def finish(self, daemon, tracer):
+        tracer.terminate()
+        tracer.wait()
+        if daemon.process.poll() is None:
+            daemon.kill()
+        daemon.start()
+        self.assertEqual(sorted(r["part_id"] for r in daemon.stored()), ["first", "once"])
+        verified = daemon.command("verify")
+        self.assertEqual(verified.returncode, 0, verified.stdout)
+        self.assertEqual(daemon.stop(), 0)
+
+    def test_each_call_fails_once(self):
+        failed = 0
+        for call in ("pwrite64", "fdatasync"):
+            for error in ("EIO", "ENOSPC"):
+                for when in (1, 2, 3):
+                    with self.subTest(call=call, error=error, when=when):
+                        daemon, tracer = self.traced(f"{call}:error={error}:when={when}")
+                        answers = self.check(daemon)
+                        failed += len(answers) > 1
+                        self.finish(daemon, tracer)
+        self.assertGreater(failed, 0, "no call was made to fail: the test proves nothing")
+
+    def test_each_call_is_the_last(self):
+        for call in ("pwrite64", "fdatasync"):
+            for when in (1, 2):
+                with self.subTest(call=call, when=when):
+                    daemon, tracer = self.traced(f"{call}:signal=SIGKILL:when={when}")
+                    self.check(daemon)
+                    self.finish(daemon, tracer)
+
+    def test_a_slow_disk_slows_no_reads(self):
+        daemon, tracer = self.traced("fdatasync:delay_enter=1000000")
+        with Writers(daemon, 2):
+            time.sleep(0.2)
+            for path in ("/livez", "/v1/limits/25H7", "/v1/measurements/m1"):
+                began = time.monotonic()
+                self.assertEqual(daemon.get(path).status, 200)
+                self.assertLess(time.monotonic() - began, 0.9, path)
+        tracer.terminate()
+        tracer.wait()
+        self.assertEqual(daemon.stop(), 0)

@@ -1,0 +1,139 @@
+"""Lists, streams and summaries of stored measurements."""
+
+import csv
+import decimal
+import fractions
+import io
+import json
+import random
+import re
+
+from support.daemon import DaemonTest
+
+NDJSON = "application/x-ndjson"
+
+
+class Lists(DaemonTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        rows = []
+        for i in range(250):
+            rows.append({"designation": "25 H7", "measured_mm": 25.03 if i % 10 == 0 else 25.01,
+                         "part_id": f"SN-{i % 50}", "characteristic": f"bore-{i % 5}",
+                         "order": f"WO-{i % 2}", "machine": f"M{i % 4}",
+                         "measured_at": f"2026-11-20T08:{i // 60:02}:{i % 60:02}Z"})
+        cls.rows = [m["id"] for m in cls.daemon.measure(
+            rows, {"Prefer": "return=representation"}).json["measurements"]]
+
+    def ids(self, query):
+        page = self.daemon.get(f"/v1/measurements?{query}")
+        self.assertEqual(page.status, 200, page)
+        return [m["id"] for m in page.json["measurements"]]
+
+    def test_a_page_has_a_hundred_rows(self):
+        page = self.daemon.get("/v1/measurements")
+        self.assertEqual([m["id"] for m in page.json["measurements"]], self.rows[:100])
+        self.assertIsNotNone(page.json["next"])
+
+    def test_the_cursor_and_the_link_lead_through_all_pages(self):
+        for limit in (1, 7, 100, 250, 1000):
+            if limit == 1:
+                path = "/v1/measurements?limit=1&part_id=SN-7"
+                expected = self.rows[7::50]
+            else:
+                path, expected = f"/v1/measurements?limit={limit}", self.rows
+            seen = []
+            while path:
+                page = self.daemon.get(path)
+                seen += [m["id"] for m in page.json["measurements"]]
+                link = re.fullmatch(r'<(.*)>; rel="next"', page.headers.get("link", ""))
+                self.assertEqual(link is None, page.json["next"] is None)
+                if link:
+                    self.assertIn(f"after={page.json['next']}", link[1])
+                path = link and link[1]
+            self.assertEqual(seen, expected)
+
+    def test_filters(self):
+        rows = self.rows
+        self.assertEqual(self.ids("part_id=SN-7"), rows[7::50])
+        self.assertEqual(self.ids("characteristic=bore-3&limit=1000"), rows[3::5])
+        self.assertEqual(self.ids("order=WO-1&machine=M3&limit=1000"), rows[3::4])
+        self.assertEqual(self.ids("verdict=reject&limit=1000"), rows[::10])
+        self.assertEqual(self.ids("verdict=rework"), [])
+        self.assertEqual(self.ids("part_id=SN"), [])
+        self.assertEqual(self.ids("source=simulation"), [])
+        self.assertEqual(self.ids("source=all&part_id=SN-0"), rows[::50])
+
+    def test_the_time_range_takes_its_beginning_and_not_its_end(self):
+        self.assertEqual(self.ids("from=2026-11-20T08:01:00Z&to=2026-11-20T08:01:10Z"),
+                         self.rows[60:70])
+        self.assertEqual(self.ids("from=2026-11-20T09:01:00%2B01:00&limit=3"), self.rows[60:63])
+        self.assertEqual(self.ids("to=2026-11-20T08:00:00Z"), [])
+
+    def test_streams_have_every_row(self):
+        text = self.daemon.get("/v1/measurements", Accept=NDJSON).text
+        self.assertEqual([json.loads(line)["id"] for line in text.splitlines()], self.rows)
+        answer = self.daemon.get("/v1/measurements?verdict=reject", Accept="text/csv")
+        self.assertEqual(answer.headers["content-type"],
+                         "text/csv; charset=utf-8; header=present")
+        table = list(csv.DictReader(io.StringIO(answer.text)))
+        self.assertEqual([row["id"] for row in table], self.rows[::10])
+        self.assertEqual({row["excess_um"] for row in table}, {"9"})
+        self.assertEqual(answer.headers["vary"], "Accept")
+
+    def test_a_limited_csv_has_the_link(self):
+        answer = self.daemon.get("/v1/measurements?limit=10", Accept="text/csv")
+        self.assertEqual(len(answer.text.splitlines()), 11)
+        self.assertIn('rel="next"', answer.headers["link"])
+
+    def test_an_unacceptable_form(self):
+        self.assertEqual(self.daemon.get("/v1/measurements", Accept="image/png").status, 406)
+
+    def test_groups(self):
+        groups = self.daemon.get("/v1/measurements/summary?group_by=machine").json["groups"]
+        self.assertEqual([(g["machine"], g["count"]) for g in groups],
+                         [("M0", 63), ("M1", 63), ("M2", 62), ("M3", 62)])
+        group, = self.daemon.get(
+            "/v1/measurements/summary?group_by=order&order=WO-0&verdict=reject").json["groups"]
+        self.assertEqual(group["verdicts"],
+                         {"good": 0, "rework": 0, "reject": 25, "indeterminate": 0})
+        self.assertEqual((group["min_mm"], group["max_mm"], group["standard_deviation_mm"]),
+                         (25.03, 25.03, 0))
+
+
+def exact(text):
+    return json.loads(text, parse_float=decimal.Decimal, parse_int=decimal.Decimal)
+
+
+class Statistics(DaemonTest):
+    def test_values_near_a_kilometre_keep_every_digit(self):
+        generator = random.Random(286)
+        nanometres = [1_000_000_200_000 + generator.randrange(100) for _ in range(5_000)]
+        body = "nominal_mm,feature,upper_um,lower_um,measured_mm,characteristic\n" + "".join(
+            f"1000000,hole,1000,0,{n // 10**6}.{n % 10**6:06},far\n" for n in nanometres)
+        self.assertEqual(self.daemon.measure(body, {"Content-Type": "text/csv"}).status, 201)
+        group, = exact(
+            self.daemon.get("/v1/measurements/summary?characteristic=far").body)["groups"]
+
+        mean = fractions.Fraction(sum(nanometres), len(nanometres))
+        variance = sum((n - mean) ** 2 for n in nanometres) / (len(nanometres) - 1)
+        with decimal.localcontext() as context:
+            context.prec = 60
+            millimetre = decimal.Decimal(10) ** 6
+            mean_mm = decimal.Decimal(mean.numerator) / mean.denominator / millimetre
+            deviation_mm = (decimal.Decimal(variance.numerator) / variance.denominator).sqrt() \
+                / millimetre
+            half = decimal.Decimal("5e-13")
+            self.assertLessEqual(abs(group["mean_mm"] - mean_mm), half)
+            self.assertLessEqual(abs(group["standard_deviation_mm"] - deviation_mm), half)
+        self.assertEqual(group["min_mm"], decimal.Decimal(min(nanometres)) / 10**6)
+        self.assertEqual(group["max_mm"], decimal.Decimal(max(nanometres)) / 10**6)
+
+    def test_one_value_has_no_deviation(self):
+        self.daemon.measure({"designation": "25 H7", "measured_mm": 25.01,
+                             "characteristic": "single"})
+        group, = [g for g in self.daemon.get("/v1/measurements/summary").json["groups"]
+                  if g["characteristic"] == "single"]
+        self.assertIsNone(group["standard_deviation_mm"])
+        self.assertEqual(group["mean_mm"], 25.01)

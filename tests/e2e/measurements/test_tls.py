@@ -1,0 +1,92 @@
+"""TLS: the service speaks it, takes new certificates on SIGHUP, asks for those of clients."""
+
+import shutil
+import signal
+import ssl
+import subprocess
+import time
+import unittest
+
+from support.daemon import Daemon, trust
+
+PART = {"designation": "25 H7", "measured_mm": 25.013}
+
+
+def certificate(folder, name, serial):
+    """A self-signed certificate for localhost; gives the files of it and its key."""
+    files = folder / f"{name}.pem", folder / f"{name}.key"
+    subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
+                    "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2", "-set_serial",
+                    str(serial), "-subj", f"/CN={name}", "-addext", "subjectAltName=DNS:localhost",
+                    "-out", files[0], "-keyout", files[1]], check=True, capture_output=True)
+    return files
+
+
+@unittest.skipUnless(shutil.which("openssl"), "needs the openssl command")
+class Tls(unittest.TestCase):
+    def setUp(self):
+        self.daemon = Daemon()
+        self.addCleanup(self.daemon.cleanup)
+        self.certificate, self.key = certificate(self.daemon.folder, "first", 1)
+        self.daemon.flags = ["--tls-cert", self.certificate, "--tls-key", self.key]
+
+    def serial(self):
+        connection = self.daemon.connect()
+        connection.connect()
+        found = connection.sock.getpeercert()["serialNumber"]
+        connection.close()
+        return int(found, 16)
+
+    def test_it_serves_and_takes_new_certificates_on_sighup(self):
+        self.daemon.start()
+        self.daemon.tls = trust(self.certificate)
+        self.assertEqual(self.daemon.measure(PART).status, 201)
+        self.assertEqual(self.serial(), 1)
+        standing = self.daemon.connect()
+        standing.connect()
+
+        new_certificate, new_key = certificate(self.daemon.folder, "second", 2)
+        shutil.copy(new_certificate, self.certificate)
+        shutil.copy(new_key, self.key)
+        self.daemon.tls = trust(new_certificate)
+        self.daemon.process.send_signal(signal.SIGHUP)
+        self.wait_for_log("certificates_reloaded")
+        self.assertEqual(self.serial(), 2)
+        self.assertEqual(self.daemon.request("GET", "/livez", connection=standing).status, 200)
+        standing.close()
+
+        self.certificate.write_text("nonsense")
+        self.daemon.process.send_signal(signal.SIGHUP)
+        self.wait_for_log("certificates_kept")
+        self.assertEqual(self.serial(), 2)
+        self.assertEqual(self.daemon.stop(), 0)
+
+    def wait_for_log(self, event):
+        deadline = time.monotonic() + 15
+        while event not in self.daemon.log:
+            self.assertLess(time.monotonic(), deadline, self.daemon.log)
+            time.sleep(0.02)
+
+    def test_plain_http_on_the_port_is_not_answered(self):
+        self.daemon.start()
+        with self.assertRaises(OSError):
+            answer = self.daemon.get("/livez")
+            self.fail(answer)
+
+    def test_a_client_shows_its_certificate_where_one_is_asked_for(self):
+        authority, authority_key = certificate(self.daemon.folder, "press-3", 3)
+        self.daemon.flags += ["--tls-client-ca", authority]
+        self.daemon.start()
+        self.daemon.tls = trust(self.certificate)
+        with self.assertRaises((ssl.SSLError, OSError)):
+            self.daemon.get("/livez")
+        self.daemon.tls = trust(self.certificate)
+        self.daemon.tls.load_cert_chain(authority, authority_key)
+        self.assertEqual(self.daemon.get("/livez").status, 200)
+
+    def test_unusable_certificates_end_the_start_in_one_line(self):
+        self.certificate.write_text("nonsense")
+        self.daemon.spawn()
+        self.assertIn(self.daemon.process.wait(20), (1, 2))
+        self.assertIn("first.pem", self.daemon.log)
+        self.assertEqual(len(self.daemon.log.strip().splitlines()), 1, self.daemon.log)
