@@ -274,7 +274,7 @@ void Connection::refuse(const Refusal& refusal) {
   answer(exchange_.refuse(head_, thread_.next_request_id(), refusal));
 }
 
-void Connection::answer(Response response) {
+void Connection::answer(Response&& response) {
   const std::size_t before = output_.text_size();
   sent_ = append_answer(output_, response, exchange_.form(!close_after_), thread_.date());
   sent_bytes_ = output_.text_size() - before + output_.long_body_size();

@@ -107,7 +107,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool finish_body();
   void run_handler();
   void refuse(const Refusal& refusal);
-  void answer(Response response);
+  void answer(Response&& response);
   void finish_request();
   bool send();
   void end();

@@ -1,6 +1,7 @@
 #include "http/engine/uri.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "base/text.hpp"
@@ -15,15 +16,22 @@ int hex_digit(char c) {
   return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
-bool is_alphanumeric(char c) {
+constexpr bool is_alphanumeric(char c) {
   return (c >= '0' && c <= '9') || (ascii_lower(c) >= 'a' && ascii_lower(c) <= 'z');
 }
 
-/// reg-name or IPv4address: unreserved, sub-delims and %XX.
-bool is_host_character(char c) {
-  return is_alphanumeric(c) ||
-         std::string_view("-._~%!$&'()*+,;=").find(c) != std::string_view::npos;
-}
+/// The characters of a reg-name or IPv4address: unreserved, sub-delims and %XX.
+constexpr std::array<bool, 256> kHostCharacters = [] {
+  std::array<bool, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const char c = static_cast<char>(i);
+    table[i] = is_alphanumeric(c) ||
+               std::string_view("-._~%!$&'()*+,;=").find(c) != std::string_view::npos;
+  }
+  return table;
+}();
+
+bool is_host_character(char c) { return kHostCharacters[static_cast<unsigned char>(c)]; }
 
 bool is_ip_literal_character(char c) { return is_alphanumeric(c) || c == ':' || c == '.'; }
 
