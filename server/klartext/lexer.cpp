@@ -151,7 +151,10 @@ std::string_view Lexer::letters() {
 double Lexer::number() {
   skip_blanks();
   double value = 0;
-  if (plain_number(value)) return value;
+  if (const char* end = scan_plain_number(at_, value)) {
+    at_ = end;
+    return value;
+  }
   if (!at_number()) {
     fail_expected("a number");
     return 0;
@@ -242,7 +245,7 @@ std::string_view Lexer::rest_until(char stop) {
   const char* begin = at_;
   at_ = std::find_if(at_, end_, [stop](char c) { return c == ';' || c == stop; });
   const char* last = at_;
-  while (last != begin && is_blank(last[-1])) --last;
+  while (last != begin && (is_blank(last[-1]) || last[-1] == '~' || last[-1] == '\n')) --last;
   return {begin, static_cast<std::size_t>(last - begin)};
 }
 

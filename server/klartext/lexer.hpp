@@ -15,6 +15,31 @@ inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') <= 9; }
 inline bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
+/// Scans a number of at most 15 digits with or without a point, as nearly all are, that is in the
+/// range of the control. The digits are gathered in an integer, which a double holds exactly as it
+/// does the power of ten: their quotient is the double nearest to the literal.
+/// @returns the end of the number, or nullptr when it is none of this form.
+inline const char* scan_plain_number(const char* begin, double& value) {
+  constexpr std::ptrdiff_t kMostDigits = 15;
+  constexpr double kPowersOfTen[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                     1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  constexpr std::uint64_t kLargest = 1'000'000'000;
+  std::uint64_t mantissa = 0;
+  const char* at = begin;
+  for (; is_digit(*at); ++at) mantissa = mantissa * 10 + static_cast<unsigned char>(*at - '0');
+  const std::ptrdiff_t whole = at - begin;
+  if (whole == 0 || whole > kMostDigits || mantissa >= kLargest || *at == ',') return nullptr;
+  std::ptrdiff_t decimals = 0;
+  if (*at == '.') {
+    const char* fraction = ++at;
+    for (; is_digit(*at); ++at) mantissa = mantissa * 10 + static_cast<unsigned char>(*at - '0');
+    decimals = at - fraction;
+    if (whole + decimals > kMostDigits) return nullptr;
+  }
+  value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
+  return at;
+}
+
 /// What kept a block from being read.
 struct Failure {
   enum class Kind : std::uint8_t {
@@ -51,8 +76,10 @@ class Lexer {
 
   /// Passes blanks and wraps (`~` at the end of a physical line).
   void skip_blanks() {
-    while (is_blank(*at_)) ++at_;
-    if (*at_ == '~') skip_wraps();
+    const char* at = at_;
+    while (is_blank(*at)) ++at;
+    at_ = at;
+    if (*at == '~') skip_wraps();
   }
   /// No more code in this block: its end, or a comment.
   bool at_end() {
@@ -85,9 +112,6 @@ class Lexer {
     return is_digit(*at_) || ((*at_ == '.' || *at_ == ',') && is_digit(at_[1]));
   }
   double number();
-  /// As number(), for the literals of nearly every program: true when up to 15 digits with a point
-  /// stand here that are in range. Otherwise stays in place.
-  bool plain_number(double& value);
   /// Whole digits, for block, label, cycle and function numbers; fails above `largest`.
   std::uint32_t digits(std::uint32_t largest, std::string_view what);
 
@@ -98,8 +122,8 @@ class Lexer {
   /// The characters between double quotes, in one physical line.
   std::string_view quoted();
 
-  /// The code from here to its end, without blanks at either side; the lexer stands at the end
-  /// then. May contain wraps.
+  /// The code from here to its end, without blanks and wraps at either side; the lexer stands at
+  /// the end then. May contain wraps.
   std::string_view rest();
 
   /// As rest(), but up to the first of `stop` (which is left) when there is one.
@@ -121,30 +145,6 @@ class Lexer {
   const char* end_ = nullptr;
   std::optional<Failure> failure_;
 };
-
-/// Digits are gathered in an integer that a double holds exactly, as it does the power of ten:
-/// their quotient is the nearest double to the literal.
-inline bool Lexer::plain_number(double& value) {
-  constexpr std::ptrdiff_t kMostDigits = 15;
-  constexpr double kPowersOfTen[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                     1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  constexpr std::uint64_t kLargest = 1'000'000'000;
-  const char* p = at_;
-  std::uint64_t mantissa = 0;
-  for (; is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<unsigned char>(*p - '0');
-  const std::ptrdiff_t whole = p - at_;
-  if (whole == 0 || whole > kMostDigits || mantissa >= kLargest || *p == ',') return false;
-  std::ptrdiff_t decimals = 0;
-  if (*p == '.') {
-    const char* fraction = ++p;
-    for (; is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<unsigned char>(*p - '0');
-    decimals = p - fraction;
-    if (whole + decimals > kMostDigits) return false;
-  }
-  value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
-  at_ = p;
-  return true;
-}
 
 /// Code without its wraps: each is a blank.
 std::string unwrapped(std::string_view code);

@@ -69,21 +69,25 @@ Word WordReader::parse_name() {
 /// the general way. Stops before a word of another form.
 /// @returns whether there was one.
 bool WordReader::read_plain_words() {
-  for (bool found = false;; found = true, in_.skip_blanks()) {
-    const char* begin = in_.at();
-    const Letter letter = single_letter(*begin);
-    if (!plain_.contains(letter)) return found;
-    const char sign = begin[1];
-    in_.move_to(begin + (sign == '+' || sign == '-' ? 2 : 1));
+  const char* at = in_.at();
+  const char* behind = at;
+  for (;;) {
+    const Letter letter = single_letter(*at);
+    if (!plain_.contains(letter)) break;
+    const char sign = at[1];
     double value = 0;
-    if (!in_.plain_number(value)) {
-      in_.move_to(begin);
-      return found;
-    }
+    const char* end = scan_plain_number(at + (sign == '+' || sign == '-' ? 2 : 1), value);
+    if (end == nullptr) break;
+    in_.add_word({.letter = letter, .value = sign == '-' ? -value : value});
     plain_.erase(letter);
     seen_.insert(letter);
-    in_.add_word({.letter = letter, .value = sign == '-' ? -value : value});
+    behind = end;
+    at = end;
+    while (is_blank(*at)) ++at;
   }
+  const bool found = behind != in_.at();
+  in_.move_to(behind);
+  return found;
 }
 
 void WordReader::read() {

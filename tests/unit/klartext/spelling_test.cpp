@@ -40,7 +40,8 @@ TEST_CASE("Skip mark, block number and comment are optional and kept") {
 TEST_CASE("A comment wrapped by ~ is one comment") {
   check({{";please modify it~\n under all", ";please modify it under all"},
          {"L X+1 ;a ~\nb", "L X+1 ;a b"},
-         {"L X+1 ~  \n  Y+2", "L X+1 Y+2"}});
+         {"L X+1 ~  \n  Y+2", "L X+1 Y+2"},
+         {"CALL PGM :'QS4' b ~\n", "CALL PGM :'QS4' b"}});
 }
 
 TEST_CASE("FN functions in their spellings") {
