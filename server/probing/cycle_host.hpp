@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -29,8 +31,13 @@ struct FastProbing {
 struct CycleMemory {
   FastProbing fast_probing;
   std::map<std::string, machine::Kinematics> saved_kinematics;  ///< cycle 450, by name
+  /// The programs whose log of cycle 444 this run has begun: further points join it.
+  std::set<std::string, std::less<>> programs_with_log_444;
 
-  void end_program() { fast_probing = {}; }
+  void end_program() {
+    fast_probing = {};
+    programs_with_log_444.clear();
+  }
 };
 
 /// What a cycle needs from the program it runs in; the interpreter implements it. Lengths and feeds

@@ -19,6 +19,10 @@ std::string fixed4(double value) {
 
 }  // namespace
 
+std::string log_text(Length value, bool inch) {
+  return fixed4(inch ? value.to_mm() / kMmPerInch : value.to_mm());
+}
+
 MeasuringLog::MeasuringLog(const CycleDescriptor& cycle, const CycleHost& host)
     : inch_(host.is_inch()) {
   const CivilTime time = civil_time(host.now());
@@ -38,14 +42,13 @@ void MeasuringLog::section(std::string_view title) {
 }
 
 void MeasuringLog::length(std::string_view label, Length value) {
-  number(label, inch_ ? value.to_mm() / kMmPerInch : value.to_mm());
+  line(label, log_text(value, inch_));
 }
 
-void MeasuringLog::angle(std::string_view label, double degrees) { number(label, degrees); }
+void MeasuringLog::angle(std::string_view label, double degrees) { line(label, fixed4(degrees)); }
 
-void MeasuringLog::number(std::string_view label, double value) {
-  fmt::format_to(std::back_inserter(text_), "{:<44}{:>16}\n", fmt::format("{}:", label),
-                 fixed4(value));
+void MeasuringLog::line(std::string_view label, std::string_view value) {
+  fmt::format_to(std::back_inserter(text_), "{:<44}{:>16}\n", fmt::format("{}:", label), value);
 }
 
 std::string MeasuringLog::finish() && {

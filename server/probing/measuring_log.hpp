@@ -10,6 +10,9 @@
 
 namespace fitgauge::probing {
 
+/// Four decimals of a length, in mm or inch, as logs show it.
+std::string log_text(Length value, bool inch);
+
 /// The text log of Q281: header with date, time, program and unit, then sections separated by
 /// dashed lines, each a list of named numbers with four decimals in the unit of the main program.
 class MeasuringLog {
@@ -28,7 +31,7 @@ class MeasuringLog {
   static std::string file_name(const CycleDescriptor& cycle);
 
  private:
-  void number(std::string_view label, double value);
+  void line(std::string_view label, std::string_view value);
 
   bool inch_;
   std::string text_;

@@ -15,7 +15,7 @@ class RecordingHost final : public CycleHost {
   void set_q(std::uint16_t number, double value, Unit) override { q[number] = value; }
   CycleMemory& memory() override { return cycle_memory; }
   bool is_inch() const override { return inch; }
-  std::string_view program_path() const override { return "TNC:\\nc_prog\\test\\part.h"; }
+  std::string_view program_path() const override { return path; }
   Timestamp now() const override { return parse_rfc3339("2026-11-20T06:05:04Z").value(); }
 
   CycleResult<void> append_log(std::string_view name, std::string_view text) override {
@@ -39,6 +39,7 @@ class RecordingHost final : public CycleHost {
   std::map<int, double> q;
   CycleMemory cycle_memory;
   bool inch = false;
+  std::string path = "TNC:\\nc_prog\\test\\part.h";
   std::map<std::string, std::string> files;
   std::vector<std::string> shown;
   std::vector<MeasuringRecord> records;
