@@ -69,9 +69,36 @@ Result<void> upgrade_file(const fs::path& file, std::span<const sqlite::Migratio
   return {};
 }
 
+/// A read-only connection to a file in WAL mode makes an empty log with its index and leaves both
+/// behind. While this lives, the directory is the caller's alone; what was not there before goes
+/// again.
+class LeavesNoLog {
+ public:
+  explicit LeavesNoLog(const fs::path& file)
+      : log_(with_suffix(file, "-wal")),
+        index_(with_suffix(file, "-shm")),
+        kept_(fs::exists(log_)) {}
+  LeavesNoLog(const LeavesNoLog&) = delete;
+  LeavesNoLog& operator=(const LeavesNoLog&) = delete;
+  ~LeavesNoLog() {
+    std::error_code ignored;
+    if (kept_ || !fs::is_empty(log_, ignored) || ignored) return;
+    fs::remove(log_, ignored);
+    fs::remove(index_, ignored);
+  }
+
+ private:
+  fs::path log_;
+  fs::path index_;
+  bool kept_;
+};
+
 /// Opens the existing file read-only, so that whatever is refused is also left untouched.
 Result<int> checked_version(const OpenOptions& options, const fs::path& file,
                             std::span<const sqlite::Migration> known) {
+  // Beside a running daemon the log is the daemon's.
+  std::optional<LeavesNoLog> leaves_no_log;
+  if (options.access == Access::Serve) leaves_no_log.emplace(file);
   try {
     sqlite::Connection connection(file, sqlite::Mode::Read);
     const int version = sqlite::schema_version(connection);
