@@ -8,10 +8,12 @@ RUN scripts/test
 RUN strip -o /fitgauged build/release/bin/fitgauged
 
 FROM debian:bookworm-slim
-COPY scripts/install scripts/packages /tmp/scripts/
-RUN /tmp/scripts/install runtime \
- && rm -rf /var/lib/apt/lists/* /var/log/*.log /tmp/scripts \
+WORKDIR /setup
+COPY scripts/install scripts/packages scripts/
+RUN scripts/install runtime \
+ && rm -rf scripts /var/lib/apt/lists/* /var/log/*.log \
  && install -d -o 8286 -g 8286 -m 0750 /data
+WORKDIR /data
 COPY --from=build --chmod=0755 /fitgauged /usr/local/bin/fitgauged
 ENV FITGAUGE_LISTEN=0.0.0.0:8286 FITGAUGE_DATA=/data
 USER 8286:8286
