@@ -25,11 +25,14 @@ Result<MeasurementBatch> decode(std::string body, std::string_view type = "appli
                              {.tables = tables(), .received_at = {1'000'000'000}});
 }
 
+/// The one row of a batch. Its texts are views of the batch, so that is kept too.
 app::Measurement one(std::string body, std::string_view type = "application/json") {
-  const auto batch = decode(std::move(body), type);
+  static std::vector<MeasurementBatch> kept;
+  auto batch = decode(std::move(body), type);
   REQUIRE(batch.has_value());
   REQUIRE(batch->rows.size() == 1);
-  return batch->rows.front();
+  kept.push_back(*std::move(batch));
+  return kept.back().rows.front();
 }
 
 /// "pointer code" of every entry, with "@line" where there is one.
