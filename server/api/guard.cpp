@@ -49,10 +49,12 @@ bool addresses_this_machine(const http::Request& request) {
 
 Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
                                                         const http::Route& route) const {
-  const auto origin = request.header("Origin");
-  if (is_write(request.method()) && origin && !ascii_iequals(*origin, request.own_origin())) {
-    return Error{ErrorCode::OriginRefused,
-                 "a page of " + std::string(origin->substr(0, 200)) + " may not write here"};
+  if (is_write(request.method())) {
+    const auto origin = request.header("Origin");
+    if (origin && !ascii_iequals(*origin, request.own_origin())) {
+      return Error{ErrorCode::OriginRefused,
+                   "a page of " + std::string(origin->substr(0, 200)) + " may not write here"};
+    }
   }
 
   std::optional<app::KnownCaller> caller;
@@ -63,12 +65,14 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
     }
     request.set_caller(Caller{caller->name});
   }
+  if (mode_ == AuthMode::Open && request.is_local() && addresses_this_machine(request)) {
+    return std::optional<http::Response>();
+  }
   const Access access = access_of(route);
-  const bool local = request.is_local() && addresses_this_machine(request);
-  const bool without_key = access == Access::Public || (mode_ == AuthMode::Open && local) ||
-                           (mode_ != AuthMode::Keys && access == Access::Open);
+  if (access == Access::Public || (mode_ != AuthMode::Keys && access == Access::Open)) {
+    return std::optional<http::Response>();
+  }
   if (!caller) {
-    if (without_key) return std::optional<http::Response>();
     return Error{ErrorCode::Unauthenticated,
                  "send a key: `Authorization: Bearer fg_…`; an administrator makes one with "
                  "`fitgauged key create`"};
@@ -76,7 +80,7 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   const int needed = access == Access::Admin      ? static_cast<int>(app::Role::Admin)
                      : access == Access::Operator ? static_cast<int>(app::Role::Operator)
                                                   : static_cast<int>(app::Role::Viewer);
-  if (!without_key && static_cast<int>(caller->role) < needed) {
+  if (static_cast<int>(caller->role) < needed) {
     return Error{ErrorCode::Forbidden, "the key " + caller->name + " is of a " +
                                            std::string(word(caller->role)) + ", this needs " +
                                            std::string(word(static_cast<app::Role>(needed)))};

@@ -8,7 +8,7 @@
 
 #include <map>
 #include <mutex>
-#include <utility>
+#include <tuple>
 
 #include "api/version.hpp"
 
@@ -50,7 +50,7 @@ struct Metrics::Parts {
     prometheus::Histogram* duration;
   };
   /// By the route's text (whose address is its identity), the method and the status.
-  using Key = std::pair<const char*, std::pair<std::string_view, int>>;
+  using Key = std::tuple<const char*, http::Method, int>;
   std::map<Key, Series> series;
   std::mutex mutex;
   std::function<http::ServerCounters()> counters;
@@ -63,17 +63,15 @@ Metrics::Metrics() : parts_(std::make_unique<Parts>()) {
 Metrics::~Metrics() = default;
 
 void Metrics::count(const http::FinishedRequest& request) {
-  const std::lock_guard lock(parts_->mutex);
-  // A method the service does not know is the client's text: it must not become a label.
   const http::Method method = http::method_named(request.method);
-  const std::string_view method_name =
-      method == http::Method::Other ? std::string_view("other") : http::name(method);
-  const Parts::Key key{request.route.data(), {method_name, request.status}};
+  const Parts::Key key{request.route.data(), method, request.status};
+  const std::lock_guard lock(parts_->mutex);
   auto found = parts_->series.find(key);
   if (found == parts_->series.end()) {
     const prometheus::Labels route{{"route", std::string(request.route)}};
     prometheus::Labels labels = route;
-    labels.emplace("method", method_name);
+    // A method the service does not know is the client's text: it must not become a label.
+    labels.emplace("method", method == http::Method::Other ? "other" : http::name(method));
     labels.emplace("status", std::to_string(request.status));
     found = parts_->series
                 .emplace(key, Parts::Series{&parts_->requests.Add(labels),

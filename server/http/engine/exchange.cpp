@@ -255,6 +255,7 @@ std::optional<Refusal> Exchange::check_expectation() {
 
 std::optional<Refusal> Exchange::check_body() {
   const BodyRules& rules = request_.route_->body;
+  if (rules.use == BodyUse::None && !head_->has_body()) return std::nullopt;
   if (rules.use == BodyUse::Required && !head_->chunked && !head_->content_length) {
     return Refusal{411, ErrorCode::LengthRequired,
                    "A body is required: send Content-Length or Transfer-Encoding: chunked."};

@@ -31,9 +31,13 @@ constexpr std::array<bool, 256> kHostCharacters = [] {
   return table;
 }();
 
-bool is_host_character(char c) { return kHostCharacters[static_cast<unsigned char>(c)]; }
-
-bool is_ip_literal_character(char c) { return is_alphanumeric(c) || c == ':' || c == '.'; }
+// Objects, not functions: an algorithm calls them inline.
+constexpr auto is_host_character = [](char c) {
+  return kHostCharacters[static_cast<unsigned char>(c)];
+};
+constexpr auto is_ip_literal_character = [](char c) {
+  return is_alphanumeric(c) || c == ':' || c == '.';
+};
 
 }  // namespace
 
