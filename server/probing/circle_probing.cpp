@@ -4,23 +4,6 @@
 
 namespace fitgauge::probing {
 
-CycleResult<CirclePlan> circle_plan(const Arguments& arguments, const ProbingMotion& motion,
-                                    Side side, Point2 centre, double diameter) {
-  const double step = arguments.number(247);
-  if (step == 0) return nc_error(1066);
-  if (std::abs(step) < 5) return nc_error(1067);
-  return CirclePlan{.side = side,
-                    .centre = centre,
-                    .diameter = diameter,
-                    .start_angle = arguments.number(325),
-                    .step = step,
-                    .points = static_cast<int>(arguments.number_or(423, 4)),
-                    .height = arguments.number(261),
-                    .start_distance = motion.start_distance(arguments.number(320)),
-                    .via_clearance = arguments.whole(301) == 1,
-                    .on_arc = arguments.number_or(365, 1) == 1};
-}
-
 std::vector<Touch> circle_touches(const CirclePlan& plan) {
   const double outwards = plan.side == Side::Inside ? 1 : -1;
   const double pitch_radius = plan.diameter / 2 - outwards * plan.start_distance;
@@ -70,6 +53,30 @@ Form circle_form(std::size_t points, double residual) {
                     " points cannot show as many lobes: these change the "
                     "diameter",
           .residual_mm = residual};
+}
+
+CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
+                                       Side side, Point2 centre) {
+  const Arguments& arguments = context.arguments;
+  const double step = arguments.number(247);
+  if (step == 0) return nc_error(1066);
+  if (std::abs(step) < 5) return nc_error(1067);
+  const auto touches =
+      circle_touches({.side = side,
+                      .centre = centre,
+                      .diameter = arguments.number(262),
+                      .start_angle = arguments.number(325),
+                      .step = step,
+                      .points = static_cast<int>(arguments.number_or(423, 4)),
+                      .height = arguments.number(261),
+                      .start_distance = motion.start_distance(arguments.number(320)),
+                      .via_clearance = arguments.whole(301) == 1,
+                      .on_arc = arguments.number_or(365, 1) == 1});
+  const auto contacts = motion.touch_all(touches, arguments.number(260));
+  if (!contacts) return contacts.error();
+  const auto circle = circle_through(*contacts, side, motion.ball_radius());
+  if (!circle) return circle.error();
+  return ProbedCircle{*circle, circle_form(contacts->size(), circle->residual)};
 }
 
 }  // namespace fitgauge::probing

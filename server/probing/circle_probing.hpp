@@ -26,12 +26,6 @@ struct CirclePlan {
   bool on_arc = true;          ///< Q365; a chord between the points would cut a stud
 };
 
-/// The plan of the parameters that 412, 413, 421 and 422 have in common: Q325, Q247, Q261, Q320,
-/// Q301, Q423, Q365.
-/// @errors 1066, 1067 for a step angle of less than 5 degrees.
-CycleResult<CirclePlan> circle_plan(const Arguments& arguments, const ProbingMotion& motion,
-                                    Side side, Point2 centre, double diameter);
-
 /// The touches in order. A hole too small for the start distance is touched from its centre,
 /// without moves between the points.
 std::vector<Touch> circle_touches(const CirclePlan& plan);
@@ -45,5 +39,16 @@ CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
 
 /// What that number of points says about roundness.
 Form circle_form(std::size_t points, double residual);
+
+struct ProbedCircle {
+  Circle circle;  ///< of the surface
+  Form form;
+};
+
+/// Touches the circle of the parameters that 405, 412, 413, 421 and 422 have in common: Q262, Q325,
+/// Q247, Q261, Q320, Q260, Q301, Q423, Q365.
+/// @errors 1066, 1067 for a step angle of less than 5 degrees; 1081.
+CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
+                                       Side side, Point2 centre);
 
 }  // namespace fitgauge::probing

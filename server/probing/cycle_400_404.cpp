@@ -11,29 +11,19 @@ namespace {
 
 using namespace parameter;
 
-constexpr std::array kParameters{coordinate(263, "1st point, main axis"),
-                                 coordinate(264, "1st point, secondary axis"),
-                                 coordinate(265, "2nd point, main axis"),
-                                 coordinate(266, "2nd point, secondary axis"),
-                                 kMeasuringAxisInPlane,
-                                 kDirection,
-                                 kMeasuringHeight,
-                                 kSetUpClearance,
-                                 kClearanceHeight,
-                                 kMoveToClearance,
-                                 kReferenceAngle,
-                                 kPresetRow};
+constexpr std::array kParameters =
+    join(line(kMeasuringAxisInPlane), std::array{kReferenceAngle, kPresetRow});
 
 CycleResult<void> rotate(const CycleContext& context) {
   auto motion = begin_alignment(context);
   if (!motion) return motion.error();
-  const auto line = probe_line(context, *motion);
-  if (!line) return line.error();
+  const auto edge = probe_line(context, *motion);
+  if (!edge) return edge.error();
   double angle =
-      workpiece_angle(context.machine.state().frames, motion->plane(), line->direction()) -
+      workpiece_angle(context.machine.state().frames, motion->plane(), edge->direction()) -
       context.arguments.number(307);
   // Along the secondary axis: the reference line is that axis, whether Q307 says 90 or 0.
-  if (line->axis == 0) angle -= 90 * std::round(angle / 90);
+  if (edge->axis == 0) angle -= 90 * std::round(angle / 90);
   return set_basic_rotation(context, angle, context.arguments.whole(305));
 }
 

@@ -13,22 +13,11 @@ namespace {
 using machine::Axis;
 using namespace parameter;
 
-constexpr std::array kParameters{
-    coordinate(263, "1st point, main axis"),
-    coordinate(264, "1st point, secondary axis"),
-    coordinate(265, "2nd point, main axis"),
-    coordinate(266, "2nd point, secondary axis"),
-    kMeasuringAxis,
-    kDirection,
-    kMeasuringHeight,
-    kSetUpClearance,
-    kClearanceHeight,
-    kMoveToClearance,
-    choice(312, "Rotary axis: 0 by the measuring axis, 4 A, 5 B, 6 C", 0, 6, 0),
-    choice(337, "Set the axis to zero: 0 no, 1 yes", 0, 1, 0),
-    kTableRow,
-    kTransfer,
-    newer(angle(380, "Reference angle", 360, 0))};
+constexpr std::array kParameters =
+    join(line(kMeasuringAxis),
+         std::array{choice(312, "Rotary axis: 0 by the measuring axis, 4 A, 5 B, 6 C", 0, 6, 0),
+                    choice(337, "Set the axis to zero: 0 no, 1 yes", 0, 1, 0), kTableRow, kTransfer,
+                    newer(angle(380, "Reference angle", 360, 0))});
 
 constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
 
@@ -38,12 +27,12 @@ struct Misalignment {
   double angle_deg;
 };
 
-Misalignment misalignment(const ProbedLine& line, const WorkingPlane& plane) {
-  if (line.axis != 2) return {plane.probe, line.angle_deg()};
+Misalignment misalignment(const ProbedLine& edge, const WorkingPlane& plane) {
+  if (edge.axis != 2) return {plane.probe, edge.angle_deg()};
   // From the secondary to the probe axis it is right-handed around the main axis; from the main
   // axis left-handed around the secondary one.
-  if (line.across == 1) return {plane.main, line.angle_deg()};
-  return {plane.secondary, -line.angle_deg()};
+  if (edge.across == 1) return {plane.main, edge.angle_deg()};
+  return {plane.secondary, -edge.angle_deg()};
 }
 
 CycleResult<void> zero(const CycleContext& context, Axis rotary) {
@@ -61,9 +50,9 @@ CycleResult<void> align(const CycleContext& context) {
   if (wanted > 0 && wanted < 4) return nc_error(1019, "Q312 is 0, 4 (A), 5 (B) or 6 (C)");
   auto motion = begin_alignment(context);
   if (!motion) return motion.error();
-  const auto line = probe_line(context, *motion);
-  if (!line) return line.error();
-  const auto [around, angle] = misalignment(*line, motion->plane());
+  const auto edge = probe_line(context, *motion);
+  if (!edge) return edge.error();
+  const auto [around, angle] = misalignment(*edge, motion->plane());
   const Axis rotary = rotary_axis_around(around);
   if (wanted != 0 && rotary != static_cast<Axis>(wanted - 1)) {
     return nc_error(1019, "this rotary axis does not turn the measured line");

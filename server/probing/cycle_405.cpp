@@ -13,18 +13,12 @@ namespace {
 
 using namespace parameter;
 
-constexpr std::array kParameters{
-    coordinate(321, "Centre, main axis"),
-    coordinate(322, "Centre, secondary axis; 0: the hole comes to the positive secondary axis"),
-    length(262, "Nominal diameter"),
-    angle(325, "Starting angle", 360, 0),
-    angle(247, "Stepping angle", 120),
-    kMeasuringHeight,
-    kSetUpClearance,
-    kClearanceHeight,
-    kMoveToClearance,
-    choice(337, "0: the table reads 0, else the row of the datum table for its offset", 0, 9999,
-           0)};
+constexpr std::array kParameters = join(
+    circle(coordinate(321, "Centre, main axis"),
+           coordinate(322,
+                      "Centre, secondary axis; 0: the hole comes to the positive secondary axis")),
+    std::array{choice(337, "0: the table reads 0, else the row of the datum table for its offset",
+                      0, 9999, 0)});
 
 constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
 
@@ -35,14 +29,10 @@ CycleResult<void> align(const CycleContext& context) {
   auto motion = begin_alignment(context);
   if (!motion) return motion.error();
   const Point2 nominal{arguments.number(321), arguments.number(322)};
-  const auto plan = circle_plan(arguments, *motion, Side::Inside, nominal, arguments.number(262));
-  if (!plan) return plan.error();
-  const auto contacts = motion->touch_all(circle_touches(*plan), arguments.number(260));
-  if (!contacts) return contacts.error();
-  const auto circle = circle_through(*contacts, Side::Inside, motion->ball_radius());
-  if (!circle) return circle.error();
+  const auto probed = probe_circle(context, *motion, Side::Inside, nominal);
+  if (!probed) return probed.error();
   const double wanted = nominal.y == 0 ? 90 : angle_of(nominal);
-  const double misalignment = std::remainder(angle_of(circle->centre) - wanted, 360);
+  const double misalignment = std::remainder(angle_of(probed->circle.centre) - wanted, 360);
   context.host.set_q(150, to_angle(misalignment), Unit::Angle);
   const machine::Axis table = rotary_axis_around(motion->plane().probe);
   if (auto turned = align_rotary_axis(context, table, misalignment); !turned) return turned;

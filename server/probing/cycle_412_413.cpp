@@ -10,29 +10,20 @@ namespace {
 
 using namespace parameter;
 
-constexpr std::array kParameters =
-    join(join(std::array{coordinate(321, "Centre, main axis"),
-                         coordinate(322, "Centre, secondary axis"), length(262, "Nominal diameter"),
-                         angle(325, "Starting angle", 360, 0), angle(247, "Stepping angle", 120),
-                         kMeasuringHeight, kSetUpClearance, kClearanceHeight, kMoveToClearance},
-              kPlaneDatum),
-         std::array{newer(choice(423, "Number of touches", 3, 4, 4)),
-                    newer(choice(365, "Traverse: 0 line, 1 arc", 0, 1, 1))});
+constexpr std::array kParameters = join(
+    join(circle(coordinate(321, "Centre, main axis"), coordinate(322, "Centre, secondary axis")),
+         kPlaneDatum),
+    std::array{kTouches, kTraverse});
 
 CycleResult<void> set_datum(const CycleContext& context, Side side) {
   const Arguments& arguments = context.arguments;
   auto motion = begin_preset(context);
   if (!motion) return motion.error();
-  const auto plan =
-      circle_plan(arguments, *motion, side, {arguments.number(321), arguments.number(322)},
-                  arguments.number(262));
-  if (!plan) return plan.error();
-  const auto contacts = motion->touch_all(circle_touches(*plan), arguments.number(260));
-  if (!contacts) return contacts.error();
-  const auto circle = circle_through(*contacts, side, motion->ball_radius());
-  if (!circle) return circle.error();
-  publish_circle(context, side, *circle, contacts->size());
-  return finish_preset(context, *motion, plane_datum(arguments, circle->centre));
+  const auto probed =
+      probe_circle(context, *motion, side, {arguments.number(321), arguments.number(322)});
+  if (!probed) return probed.error();
+  publish_circle(context, side, *probed);
+  return finish_preset(context, *motion, plane_datum(arguments, probed->circle.centre));
 }
 
 }  // namespace

@@ -12,13 +12,8 @@ namespace {
 
 using namespace parameter;
 
-constexpr std::array k416Parameters = join(
-    join(std::array{coordinate(273, "Centre, main axis"), coordinate(274, "Centre, secondary axis"),
-                    length(262, "Nominal diameter of the bolt circle"),
-                    angle(291, "Angle of the 1st hole"), angle(292, "Angle of the 2nd hole"),
-                    angle(293, "Angle of the 3rd hole"), kMeasuringHeight, kClearanceHeight},
-         kPlaneDatum),
-    std::array{newer(kSetUpClearance)});
+constexpr std::array k416Parameters =
+    join(join(kBoltCircle, kPlaneDatum), std::array{newer(kSetUpClearance)});
 
 constexpr std::array k418Parameters = join(
     std::array{coordinate(268, "1st hole, main axis"), coordinate(269, "1st hole, secondary axis"),
@@ -36,14 +31,10 @@ CycleResult<void> bolt_circle(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
   auto motion = begin_preset(context);
   if (!motion) return motion.error();
-  const auto nominal = bolt_circle_holes(arguments, {arguments.number(273), arguments.number(274)});
-  const auto holes =
-      probe_hole_centres(*motion, nominal, arguments.number(261), arguments.number(260));
-  if (!holes) return holes.error();
-  const auto circle = fit_circle(*holes);
-  if (!circle) return circle.error();
-  publish_circle(context, Side::Inside, *circle, holes->size());
-  return finish_preset(context, *motion, plane_datum(arguments, circle->centre));
+  const auto probed = probe_bolt_circle(context, *motion);
+  if (!probed) return probed.error();
+  publish_circle(context, Side::Inside, *probed);
+  return finish_preset(context, *motion, plane_datum(arguments, probed->circle.centre));
 }
 
 CycleResult<void> four_holes(const CycleContext& context) {

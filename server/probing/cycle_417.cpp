@@ -1,9 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
-#include "probing/datum_transfer.hpp"
-#include "probing/measured_value.hpp"
-#include "probing/parameters.hpp"
+#include "probing/preset_cycle.hpp"
 #include "probing/single_touch.hpp"
 
 namespace fitgauge::probing {
@@ -29,10 +27,7 @@ CycleResult<void> set_datum(const CycleContext& context) {
   const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(294)};
   const auto surface = touch_down(*motion, nominal, arguments.number(320), arguments.number(260));
   if (!surface) return surface.error();
-  set_length(context.host, 160, surface->z);
-  const std::array points{DatumPoint{
-      .point = *surface, .axes = {false, false, true}, .datum = {0, 0, arguments.number(333)}}};
-  return transfer_datum(context, motion->plane(), points);
+  return set_datum_of_axis(context, motion->plane(), *surface, 2);
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
-#include "probing/datum_transfer.hpp"
-#include "probing/measured_value.hpp"
-#include "probing/parameters.hpp"
+#include "probing/preset_cycle.hpp"
 #include "probing/single_touch.hpp"
 
 namespace fitgauge::probing {
@@ -29,11 +27,7 @@ CycleResult<void> set_datum(const CycleContext& context) {
   if (!motion) return motion.error();
   const auto touched = touch_coordinate(context, *motion);
   if (!touched) return touched.error();
-  set_length(context.host, 160, touched->surface[touched->axis]);
-  DatumPoint found{.point = touched->surface};
-  found.axes[touched->axis] = true;
-  found.datum[touched->axis] = context.arguments.number(333);
-  return transfer_datum(context, motion->plane(), std::array{found});
+  return set_datum_of_axis(context, motion->plane(), touched->surface, touched->axis);
 }
 
 }  // namespace

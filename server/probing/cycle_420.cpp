@@ -11,26 +11,16 @@ namespace {
 
 using namespace parameter;
 
-constexpr std::array kParameters{coordinate(263, "1st point, main axis"),
-                                 coordinate(264, "1st point, secondary axis"),
-                                 coordinate(265, "2nd point, main axis"),
-                                 coordinate(266, "2nd point, secondary axis"),
-                                 kMeasuringAxis,
-                                 kDirection,
-                                 kMeasuringHeight,
-                                 kSetUpClearance,
-                                 kClearanceHeight,
-                                 kMoveToClearance,
-                                 kMeasuringLog};
+constexpr std::array kParameters = join(line(kMeasuringAxis), std::array{kMeasuringLog});
 
 constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
 
 CycleResult<void> measure(const CycleContext& context) {
   auto motion = begin_measurement(context);
   if (!motion) return motion.error();
-  const auto line = probe_line(context, *motion);
-  if (!line) return line.error();
-  const double angle = to_angle(line->angle_deg());
+  const auto edge = probe_line(context, *motion);
+  if (!edge) return edge.error();
+  const double angle = to_angle(edge->angle_deg());
   context.host.set_q(150, angle, Unit::Angle);
   MeasuringLog log(context.arguments.descriptor(), context.host);
   log.section("Actual values");

@@ -12,26 +12,11 @@ namespace {
 using namespace parameter;
 
 constexpr auto parameters(int max_q, std::string_view max, int min_q, std::string_view min) {
-  return std::array{coordinate(273, "Nominal centre, main axis"),
-                    coordinate(274, "Nominal centre, secondary axis"),
-                    length(262, "Nominal diameter"),
-                    angle(325, "Starting angle", 360, 0),
-                    angle(247, "Stepping angle", 120),
-                    kMeasuringHeight,
-                    kSetUpClearance,
-                    kClearanceHeight,
-                    kMoveToClearance,
-                    length(max_q, max, 0),
-                    length(min_q, min, 0),
-                    kCentreToleranceMain,
-                    kCentreToleranceSecondary,
-                    kMeasuringLog,
-                    kStopOnTolerance,
-                    kMonitoringTool,
-                    newer(choice(423, "Number of touches", 3, 4, 4)),
-                    newer(choice(365, "Traverse: 0 line, 1 arc", 0, 1, 1)),
-                    kReverseTool,
-                    kAngleOfIncidence};
+  return join(circle(coordinate(273, "Nominal centre, main axis"),
+                     coordinate(274, "Nominal centre, secondary axis")),
+              std::array{length(max_q, max, 0), length(min_q, min, 0), kCentreToleranceMain,
+                         kCentreToleranceSecondary, kMeasuringLog, kStopOnTolerance,
+                         kMonitoringTool, kTouches, kTraverse, kReverseTool, kAngleOfIncidence});
 }
 
 constexpr auto k421Parameters =
@@ -49,29 +34,24 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
   if (!limits) return limits.error();
   auto motion = begin_measurement(context);
   if (!motion) return motion.error();
-  const auto plan =
-      circle_plan(arguments, *motion, side, {arguments.number(273), arguments.number(274)},
-                  arguments.number(262));
-  if (!plan) return plan.error();
-  const auto contacts = motion->touch_all(circle_touches(*plan), arguments.number(260));
-  if (!contacts) return contacts.error();
-  const auto circle = circle_through(*contacts, side, motion->ball_radius());
-  if (!circle) return circle.error();
+  const auto probed =
+      probe_circle(context, *motion, side, {arguments.number(273), arguments.number(274)});
+  if (!probed) return probed.error();
 
   const MeasuredValue diameter{.characteristic = "Diameter",
                                .role = size_role(side),
                                .nominal = to_length(arguments.number(262)),
-                               .measured = to_length(2 * circle->radius),
+                               .measured = to_length(2 * probed->circle.radius),
                                .limits = *limits,
                                .result_q = 153,
                                .deviation_q = 163,
                                .error_too_large = inside ? 1047 : 1049,
                                .error_too_small = inside ? 1046 : 1048};
-  const auto [centre_main, centre_secondary] = centre_values(arguments, circle->centre);
+  const auto [centre_main, centre_secondary] = centre_values(arguments, probed->circle.centre);
   return finish_measurement(context, {.values = {centre_main, centre_secondary, diameter},
                                       .measuring_height = to_length(arguments.number(261)),
                                       .correction = radius_correction(diameter),
-                                      .form = circle_form(contacts->size(), circle->residual)});
+                                      .form = probed->form});
 }
 
 }  // namespace

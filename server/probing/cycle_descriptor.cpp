@@ -7,34 +7,23 @@ namespace fitgauge::probing {
 
 std::string_view word(CycleKind kind) {
   switch (kind) {
-    case CycleKind::Measuring:
-      return "measuring";
-    case CycleKind::Preset:
-      return "preset";
-    case CycleKind::Alignment:
-      return "alignment";
-    case CycleKind::Calibration:
-      return "calibration";
-    case CycleKind::Kinematics:
-      return "kinematics";
-    case CycleKind::Tool:
-      return "tool";
-    case CycleKind::Other:
-      return "other";
+    case CycleKind::Measuring: return "measuring";
+    case CycleKind::Preset: return "preset";
+    case CycleKind::Alignment: return "alignment";
+    case CycleKind::Calibration: return "calibration";
+    case CycleKind::Kinematics: return "kinematics";
+    case CycleKind::Tool: return "tool";
+    case CycleKind::Other: return "other";
   }
   return {};
 }
 
 std::string_view symbol(Unit unit) {
   switch (unit) {
-    case Unit::None:
-      return "";
-    case Unit::Length:
-      return "mm";
-    case Unit::Angle:
-      return "deg";
-    case Unit::Feed:
-      return "mm/min";
+    case Unit::None: return "";
+    case Unit::Length: return "mm";
+    case Unit::Angle: return "deg";
+    case Unit::Feed: return "mm/min";
   }
   return {};
 }

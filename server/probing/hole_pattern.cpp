@@ -17,14 +17,21 @@ CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,
   return centres;
 }
 
-std::vector<Point2> bolt_circle_holes(const Arguments& arguments, Point2 centre) {
-  std::vector<Point2> holes;
+CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion) {
+  const Arguments& arguments = context.arguments;
   const double radius = arguments.number(262) / 2;
+  std::vector<Point2> nominal;
   for (const int angle : {291, 292, 293}) {
     const auto [sine, cosine] = machine::sine_cosine(arguments.number(angle));
-    holes.push_back({centre.x + radius * cosine, centre.y + radius * sine});
+    nominal.push_back(
+        {arguments.number(273) + radius * cosine, arguments.number(274) + radius * sine});
   }
-  return holes;
+  const auto holes =
+      probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260));
+  if (!holes) return holes.error();
+  const auto circle = fit_circle(*holes);
+  if (!circle) return circle.error();
+  return ProbedCircle{*circle, circle_form(holes->size(), circle->residual)};
 }
 
 }  // namespace fitgauge::probing

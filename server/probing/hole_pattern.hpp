@@ -14,7 +14,8 @@ CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,
                                                     std::span<const Point2> nominal, double height,
                                                     double clearance_height);
 
-/// Three holes on the pitch circle of Q262 around a centre, at the angles Q291, Q292, Q293.
-std::vector<Point2> bolt_circle_holes(const Arguments& arguments, Point2 centre);
+/// The circle through three holes around Q273 and Q274, of the parameters Q262, Q291, Q292, Q293,
+/// Q261, Q260.
+CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion);
 
 }  // namespace fitgauge::probing

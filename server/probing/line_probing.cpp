@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "probing/single_touch.hpp"
+
 namespace fitgauge::probing {
 
 double ProbedLine::angle_deg() const {
@@ -16,8 +18,8 @@ double ProbedLine::angle_deg() const {
 
 CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  const int direction = arguments.whole(267);
-  if (direction == 0) return nc_error(1042, "Q267 must be -1 or +1");
+  const auto direction = probing_direction(arguments);
+  if (!direction) return direction.error();
   const double height = arguments.number(261);
   const std::array nominal{Vec3{arguments.number(263), arguments.number(264), height},
                            Vec3{arguments.number(265), arguments.number(266), height}};
@@ -28,7 +30,7 @@ CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& m
     return nc_error(1081, "both points lie at the same place of the line");
   }
   Vec3 along;
-  along[line.axis] = direction;
+  along[line.axis] = *direction;
   const Vec3 back = along * motion.start_distance(arguments.number(320));
   const Transit between = arguments.whole(301) == 1 ? Transit::ClearanceHeight : Transit::Straight;
   const std::array touches{

@@ -14,6 +14,10 @@ constexpr std::uint16_t kStatusGood = 180;
 constexpr std::uint16_t kStatusRework = 181;
 constexpr std::uint16_t kStatusReject = 182;
 
+bool has_status(const CycleDescriptor& cycle) {
+  return std::ranges::find(cycle.results, kStatusGood, &CycleOutput::q) != cycle.results.end();
+}
+
 void set_status(CycleHost& host, std::optional<Verdict> verdict) {
   host.set_q(kStatusGood, verdict == Verdict::Good ? 1 : 0, Unit::None);
   host.set_q(kStatusRework, verdict == Verdict::Rework ? 1 : 0, Unit::None);
@@ -59,7 +63,7 @@ CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
   if (factor.x != factor.y || factor.y != factor.z) {
     return nc_error(1108, "reset cycle 26 before measuring");
   }
-  set_status(context.host, std::nullopt);
+  if (has_status(context.arguments.descriptor())) set_status(context.host, std::nullopt);
   if (auto reset = reset_basic_rotation(context.machine); !reset) return reset.error();
   return ProbingMotion::begin(context);
 }

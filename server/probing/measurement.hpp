@@ -17,7 +17,8 @@ struct Measurement {
   std::optional<Form> form{};
 };
 
-/// What every measuring cycle begins with: resets an active basic rotation and clears Q180 to Q182.
+/// What every measuring cycle begins with: resets an active basic rotation and, with a
+/// status among its results, clears Q180 to Q182.
 /// @errors 1108 scaling factors that differ by axis: a circle would be an ellipse; those of
 ///   ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_measurement(const CycleContext& context);

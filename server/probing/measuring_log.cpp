@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "probing/touch_probe_cycle.hpp"
@@ -64,7 +65,9 @@ std::string MeasuringLog::file_name(const CycleDescriptor& cycle) {
 void add_values(MeasuringLog& log, std::span<const MeasuredValue> values) {
   log.section("Nominal values");
   for (const auto& value : values) log.length(value.characteristic, value.nominal);
-  log.section("Limits");
+  if (std::ranges::any_of(values, [](const auto& value) { return value.limits.has_value(); })) {
+    log.section("Limits");
+  }
   for (const auto& value : values) {
     if (!value.limits) continue;
     log.length(fmt::format("{}, maximum", value.characteristic), value.limits->upper);

@@ -79,6 +79,46 @@ inline constexpr CycleParameter kMeasuringAxisInPlane =
 inline constexpr CycleParameter kMeasuringAxis =
     choice(272, "Measuring axis: 1 main, 2 secondary, 3 probe axis", 1, 3);
 inline constexpr CycleParameter kDirection = choice(267, "Traverse direction: -1 or +1", -1, 1);
+/// Two points of a line, how they are touched and how the probe gets there: 400, 403 and 420.
+constexpr std::array<CycleParameter, 10> line(const CycleParameter& measuring_axis) {
+  return {coordinate(263, "1st point, main axis"),
+          coordinate(264, "1st point, secondary axis"),
+          coordinate(265, "2nd point, main axis"),
+          coordinate(266, "2nd point, secondary axis"),
+          measuring_axis,
+          kDirection,
+          kMeasuringHeight,
+          kSetUpClearance,
+          kClearanceHeight,
+          kMoveToClearance};
+}
+
+/// A circle and how it is touched: 405, 412, 413, 421 and 422.
+constexpr std::array<CycleParameter, 9> circle(const CycleParameter& centre_main,
+                                               const CycleParameter& centre_secondary) {
+  return {centre_main,
+          centre_secondary,
+          length(262, "Nominal diameter"),
+          angle(325, "Starting angle", 360, 0),
+          angle(247, "Stepping angle", 120),
+          kMeasuringHeight,
+          kSetUpClearance,
+          kClearanceHeight,
+          kMoveToClearance};
+}
+inline constexpr CycleParameter kTouches = newer(choice(423, "Number of touches", 3, 4, 4));
+inline constexpr CycleParameter kTraverse = newer(choice(365, "Traverse: 0 line, 1 arc", 0, 1, 1));
+
+/// Three holes on a bolt circle: 416 and 430.
+inline constexpr std::array kBoltCircle{coordinate(273, "Nominal centre, main axis"),
+                                        coordinate(274, "Nominal centre, secondary axis"),
+                                        length(262, "Nominal diameter of the bolt circle"),
+                                        angle(291, "Angle of the 1st hole"),
+                                        angle(292, "Angle of the 2nd hole"),
+                                        angle(293, "Angle of the 3rd hole"),
+                                        kMeasuringHeight,
+                                        kClearanceHeight};
+
 inline constexpr CycleParameter kCentreToleranceMain =
     length(279, "Tolerance of the centre, main axis", 0);
 inline constexpr CycleParameter kCentreToleranceSecondary =

@@ -4,8 +4,8 @@
 
 namespace fitgauge::probing {
 
-void publish_circle(const CycleContext& context, Side side, const Circle& circle,
-                    std::size_t points) {
+void publish_circle(const CycleContext& context, Side side, const ProbedCircle& probed) {
+  const Circle& circle = probed.circle;
   CycleHost& host = context.host;
   set_length(host, 151, circle.centre.x);
   set_length(host, 152, circle.centre.y);
@@ -16,7 +16,7 @@ void publish_circle(const CycleContext& context, Side side, const Circle& circle
                   .feature = side == Side::Inside ? iso286::Feature::Hole : iso286::Feature::Shaft,
                   .nominal = to_length(context.arguments.number(262)),
                   .measured = to_length(2 * circle.radius)}},
-       .form = circle_form(points, circle.residual)});
+       .form = probed.form});
 }
 
 }  // namespace fitgauge::probing

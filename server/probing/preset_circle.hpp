@@ -11,7 +11,6 @@ inline constexpr std::array<CycleOutput, 3> kPresetCircleResults{
      {153, "Diameter", Unit::Length}}};
 
 /// Sets Q151 to Q153 and records the diameter against Q262, without limits and verdict.
-void publish_circle(const CycleContext& context, Side side, const Circle& circle,
-                    std::size_t points);
+void publish_circle(const CycleContext& context, Side side, const ProbedCircle& probed);
 
 }  // namespace fitgauge::probing

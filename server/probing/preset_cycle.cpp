@@ -1,5 +1,6 @@
 #include "probing/preset_cycle.hpp"
 
+#include "probing/measured_value.hpp"
 #include "probing/single_touch.hpp"
 
 namespace fitgauge::probing {
@@ -23,6 +24,15 @@ CycleResult<void> finish_preset(const CycleContext& context, ProbingMotion& moti
         {.point = *surface, .axes = {false, false, true}, .datum = {0, 0, arguments.number(333)}});
   }
   return transfer_datum(context, motion.plane(), points, basic_rotation);
+}
+
+CycleResult<void> set_datum_of_axis(const CycleContext& context, const WorkingPlane& plane,
+                                    const Vec3& surface, std::size_t axis) {
+  set_length(context.host, 160, surface[axis]);
+  DatumPoint found{.point = surface};
+  found.axes[axis] = true;
+  found.datum[axis] = context.arguments.number(333);
+  return transfer_datum(context, plane, std::array{found});
 }
 
 }  // namespace fitgauge::probing

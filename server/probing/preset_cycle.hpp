@@ -33,4 +33,9 @@ CycleResult<void> finish_preset(const CycleContext& context, ProbingMotion& moti
                                 const DatumPoint& found,
                                 std::optional<double> basic_rotation = std::nullopt);
 
+/// What 417 and 419 do with their one point: Q160, and Q333 as its new coordinate along an axis (0
+/// main, 1 secondary, 2 probe axis).
+CycleResult<void> set_datum_of_axis(const CycleContext& context, const WorkingPlane& plane,
+                                    const Vec3& surface, std::size_t axis);
+
 }  // namespace fitgauge::probing

@@ -67,12 +67,9 @@ CycleResult<void> ProbingMotion::approach(const Touch& touch, double clearance_h
 
 CycleResult<void> ProbingMotion::transit(const Touch& touch, double clearance_height) {
   switch (touch.transit) {
-    case Transit::Arc:
-      return arc(touch);
-    case Transit::ClearanceHeight:
-      return via_clearance_height(touch.start, clearance_height);
-    case Transit::Straight:
-      break;
+    case Transit::Arc: return arc(touch);
+    case Transit::ClearanceHeight: return via_clearance_height(touch.start, clearance_height);
+    case Transit::Straight: break;
   }
   for (const Vec3& waypoint : touch.waypoints) {
     if (auto moved = move_ball(waypoint); !moved) return moved;
@@ -102,6 +99,10 @@ CycleResult<Contact> ProbingMotion::probe(const Vec3& direction) {
                                        .system = CoordinateSystem::Input,
                                        .retract = std::nullopt,
                                        .retract_feed = positioning_feed()});
+  if (!contact && contact.error().kind == machine::FaultKind::NoContact) {
+    return nc_error(1014,
+                    fmt::format("nothing within DIST = {} mm of the start", probe_.data.distance));
+  }
   if (!contact) return from_machine(contact.error());
   publish_touch(machine_.state(), host_, *contact);
   return Contact{plane_.from_input(contact->ball_centre), plane_.from_input(contact->surface)};

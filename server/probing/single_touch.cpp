@@ -16,17 +16,23 @@ CycleResult<Vec3> touch(ProbingMotion& motion, const Vec3& nominal, const Vec3& 
 
 }  // namespace
 
+CycleResult<int> probing_direction(const Arguments& arguments) {
+  const int direction = arguments.whole(267);
+  if (direction == 0) return nc_error(1042, "Q267 must be -1 or +1");
+  return direction;
+}
+
 CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context,
                                                 ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  const int direction = arguments.whole(267);
-  if (direction == 0) return nc_error(1042, "Q267 must be -1 or +1");
+  const auto direction = probing_direction(arguments);
+  if (!direction) return direction.error();
   TouchedCoordinate touched{
       .axis = static_cast<std::size_t>(arguments.whole(272) - 1),
       .nominal = {arguments.number(263), arguments.number(264), arguments.number(261)},
       .surface = {}};
   Vec3 along;
-  along[touched.axis] = direction;
+  along[touched.axis] = *direction;
   const auto surface =
       touch(motion, touched.nominal, along, arguments.number(320), arguments.number(260));
   if (!surface) return surface.error();

@@ -4,6 +4,9 @@
 
 namespace fitgauge::probing {
 
+/// Q267. @errors 1042 it is 0.
+CycleResult<int> probing_direction(const Arguments& arguments);
+
 struct TouchedCoordinate {
   std::size_t axis = 0;  ///< 0 main, 1 secondary, 2 probe axis (Q272)
   Vec3 nominal;          ///< Q263, Q264, Q261

@@ -31,7 +31,9 @@ TEST_CASE("420 measures the angle of an edge to the main axis") {
                       {267, -1.0},  {261, 0.0},  {260, 100.0}, {320, 5.0},  {281, 0.0}};
   for (const double angle : {90.0, 91.5, 88.0}) {
     ProbingBench bench(edge_at(angle));
+    bench.host.q[180] = 1;
     CHECK(bench.run(420, across) == 0);
+    CHECK(bench.host.q[180] == 1);
     CHECK(std::abs(bench.host.q[150] - angle) < 1e-7);
     CHECK(bench.host.files.empty());
   }

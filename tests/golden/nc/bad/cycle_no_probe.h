@@ -1,0 +1,13 @@
+; run: failed line 4: Tool not defined
+BEGIN PGM BAD MM
+TOOL CALL 0 Z
+TCH PROBE 421 MEASURE HOLE ~
+    Q273=+50 ~
+    Q274=+65 ~
+    Q262=+12 ~
+    Q247=+90 ~
+    Q261=-5 ~
+    Q260=+20 ~
+    Q275=+12.045 ~
+    Q276=+12
+END PGM BAD MM

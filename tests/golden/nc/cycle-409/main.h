@@ -1,0 +1,23 @@
+BEGIN PGM RIDGEDATUM MM
+; The middle of a ridge reads X+10, a face beside it Z+0.
+TOOL CALL 30 Z
+TCH PROBE 409 RIDGE CENTER REF PT ~
+    Q321=+100 ~
+    Q322=+80 ~
+    Q311=+30 ~
+    Q272=+1 ~
+    Q261=-5 ~
+    Q320=+0 ~
+    Q260=+30 ~
+    Q305=+9 ~
+    Q405=+10 ~
+    Q303=+1 ~
+    Q381=+1 ~
+    Q382=+20 ~
+    Q383=+20 ~
+    Q384=+0 ~
+    Q333=+0
+FN 18: SYSREAD Q1601 = ID503 NR9 IDX1
+FN 18: SYSREAD Q1602 = ID503 NR9 IDX2
+FN 18: SYSREAD Q1603 = ID503 NR9 IDX3
+END PGM RIDGEDATUM MM

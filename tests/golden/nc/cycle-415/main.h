@@ -1,0 +1,27 @@
+BEGIN PGM INNERCORNER MM
+; The lower left corner of a pocket reads X+0 Y+0.
+TOOL CALL 30 Z
+TCH PROBE 415 DATUM INSIDE CORNER ~
+    Q263=+70 ~
+    Q264=+60 ~
+    Q326=+30 ~
+    Q327=+20 ~
+    Q308=+1 ~
+    Q261=-5 ~
+    Q320=+0 ~
+    Q260=+30 ~
+    Q301=+0 ~
+    Q304=+1 ~
+    Q305=+9 ~
+    Q331=+0 ~
+    Q332=+0 ~
+    Q303=+1 ~
+    Q381=+0 ~
+    Q382=+0 ~
+    Q383=+0 ~
+    Q384=+0 ~
+    Q333=+0
+FN 18: SYSREAD Q1601 = ID503 NR9 IDX1
+FN 18: SYSREAD Q1602 = ID503 NR9 IDX2
+FN 18: SYSREAD Q1603 = ID503 NR9 IDX3
+END PGM INNERCORNER MM

@@ -1,0 +1,26 @@
+BEGIN PGM BOLTDATUM MM
+; The centre of a bolt circle reads X+1 Y+2.
+TOOL CALL 30 Z
+TCH PROBE 416 DATUM CIRCLE CENTER ~
+    Q273=+100 ~
+    Q274=+80 ~
+    Q262=+60 ~
+    Q291=+0 ~
+    Q292=+90 ~
+    Q293=+180 ~
+    Q261=-5 ~
+    Q260=+30 ~
+    Q305=+9 ~
+    Q331=+1 ~
+    Q332=+2 ~
+    Q303=+1 ~
+    Q381=+1 ~
+    Q382=+20 ~
+    Q383=+20 ~
+    Q384=+0 ~
+    Q333=+0 ~
+    Q320=+0
+FN 18: SYSREAD Q1601 = ID503 NR9 IDX1
+FN 18: SYSREAD Q1602 = ID503 NR9 IDX2
+FN 18: SYSREAD Q1603 = ID503 NR9 IDX3
+END PGM BOLTDATUM MM

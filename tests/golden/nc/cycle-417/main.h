@@ -1,0 +1,37 @@
+BEGIN PGM TSAXIS MM
+; A face reads Z+5 after cycle 247.
+TOOL CALL 30 Z
+TCH PROBE 417 DATUM IN TS AXIS ~
+    Q263=+50 ~
+    Q264=+40 ~
+    Q294=+0 ~
+    Q320=+0 ~
+    Q260=+30 ~
+    Q305=+9 ~
+    Q333=+5 ~
+    Q303=+1
+FN 18: SYSREAD Q1601 = ID503 NR9 IDX1
+FN 18: SYSREAD Q1602 = ID503 NR9 IDX2
+FN 18: SYSREAD Q1603 = ID503 NR9 IDX3
+CYCL DEF 247 DATUM SETTING ~
+    Q339=+9
+TCH PROBE 427 MEASURE COORDINATE ~
+    Q263=+50 ~
+    Q264=+40 ~
+    Q261=+5 ~
+    Q320=+0 ~
+    Q272=+3 ~
+    Q267=-1 ~
+    Q260=+20 ~
+    Q281=+0
+; a datum table without one: an error
+TCH PROBE 417 DATUM IN TS AXIS ~
+    Q263=+50 ~
+    Q264=+40 ~
+    Q294=+5 ~
+    Q320=+0 ~
+    Q260=+30 ~
+    Q305=+9 ~
+    Q333=+5 ~
+    Q303=+0
+END PGM TSAXIS MM
