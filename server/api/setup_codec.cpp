@@ -273,6 +273,11 @@ machine::MachineSetup read_machine(SetupReader& reader) {
     tt.mm("center_mm", machine.tt.centre);
     tt.mm("radius_mm", machine.tt.radius);
   });
+  reader.object("calibration_sphere", [&machine](SetupReader& fields) {
+    machine::CalibrationSphere& sphere = machine.calibration_sphere.emplace();
+    fields.required_mm("center_mm", sphere.centre);
+    fields.mm("radius_mm", sphere.radius);
+  });
   reader.array("presets", machine.presets, read_preset);
   reader.integer("active_preset", machine.active_preset, 0, kHighestNumber);
   return machine;

@@ -57,6 +57,13 @@ struct ToolTouchProbe {
   double radius = 20;
 };
 
+/// The calibration sphere that is clamped to the table for cycles 451 to 453 and 460: the touch
+/// probe touches it as it touches the workpiece.
+struct CalibrationSphere {
+  Vec3 centre;           ///< center_mm, fixed to the table as a workpiece is
+  double radius = 12.5;  ///< radius_mm
+};
+
 struct MachineSetup {
   /// X, Y and Z exist always, A, B and C when the setup names them.
   std::array<std::optional<AxisSetup>, kAxes> axes{AxisSetup::of(Axis::X), AxisSetup::of(Axis::Y),
@@ -68,6 +75,7 @@ struct MachineSetup {
   std::vector<ToolSetup> tools{default_probe_tool()};
   std::vector<ProbeSetup> probes{ProbeSetup{}};
   ToolTouchProbe tt;
+  std::optional<CalibrationSphere> calibration_sphere;
   std::vector<Preset> presets{default_preset()};
   int active_preset = 1;
 

@@ -22,12 +22,21 @@ Kinematics as_built(const MachineSetup& setup) {
   return Kinematics(std::move(axes));
 }
 
+/// The workpiece and, beside it, the calibration sphere.
+std::vector<Feature> on_the_table(const Setup& setup) {
+  std::vector<Feature> features = setup.features;
+  if (const auto& sphere = setup.machine.calibration_sphere) {
+    features.emplace_back(Sphere{sphere->centre, 2 * sphere->radius});
+  }
+  return features;
+}
+
 }  // namespace
 
 SimulatedMachine::SimulatedMachine(const Setup& setup)
     : ModelledMachine(setup.machine),
       setup_(setup.machine),
-      workpiece_(setup.features),
+      workpiece_(on_the_table(setup)),
       kinematics_(as_built(setup.machine)),
       rest_{},
       random_(setup.seed) {}

@@ -262,6 +262,10 @@ Result<void> validate(const Setup& setup) {
   check_probes(findings, machine);
   findings.point("/machine/tt/center_mm", machine.tt.centre);
   findings.positive("/machine/tt/radius_mm", machine.tt.radius, 1000);
+  if (const auto& sphere = machine.calibration_sphere) {
+    findings.point("/machine/calibration_sphere/center_mm", sphere->centre);
+    findings.positive("/machine/calibration_sphere/radius_mm", sphere->radius, 1000);
+  }
   check_presets(findings, machine);
   for (std::size_t k = 0; k < setup.features.size(); ++k) {
     std::visit(CheckFeature{findings, fmt::format("/workpiece/features/{}", k)}, setup.features[k]);
