@@ -44,7 +44,6 @@ Result<const std::vector<CsvCell>*> CsvReader::next() {
 Result<void> CsvReader::read_record() {
   record_line_ = line_;
   cells_.clear();
-  unescaped_.clear();
   for (;;) {
     if (rest_.starts_with('"')) {
       if (const auto read = read_quoted(); !read) return read.error();

@@ -17,7 +17,8 @@ struct CsvCell {
 };
 
 /// Reads CSV (RFC 4180) with `,` or `;` between the cells, whichever the header line has; LF, CRLF
-/// and a byte-order mark are accepted. Views stay valid until the next call of next().
+/// and a byte-order mark are accepted. The texts of cells stay valid as long as the reader and the
+/// text it reads.
 class CsvReader {
  public:
   /// @errors TextEncoding, CsvMalformed (no header line).
@@ -50,7 +51,7 @@ class CsvReader {
   std::size_t record_line_ = 1;
   std::vector<std::string> header_;
   std::vector<CsvCell> cells_;
-  std::deque<std::string> unescaped_;  // cells whose doubled quotes were undone: views stay valid
+  std::deque<std::string> unescaped_;  // cells whose doubled quotes were undone, of every record
 };
 
 /// Appends `text` as a CSV cell, quoted where it has to be. A cell that a spreadsheet would take

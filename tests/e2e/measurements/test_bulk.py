@@ -69,6 +69,13 @@ class Forms(Bulk):
         record = self.daemon.get(f"/v1/measurements/{answer.json['first_id']}").json
         self.assertEqual((record["measured_mm"], record["comment"]), (25.013, "first\nsecond"))
 
+    def test_each_row_keeps_its_own_quoted_text(self):
+        comments = [f'the "{word}" one' for word in ("first", "second", "third")]
+        quoted = (comment.replace('"', '""') for comment in comments)
+        body = "designation,measured_mm,comment\n" + "".join(f'25 H7,25.01,"{text}"\n' for text in quoted)
+        answer = self.daemon.measure(body, {**CSV, "Prefer": "return=representation"})
+        self.assertEqual([record["comment"] for record in answer.json["measurements"]], comments)
+
     def test_gzip_in_every_form(self):
         for body, kind in ((json.dumps([part(1), part(2)]), "application/json"),
                            (json.dumps(part(1)) + "\n" + json.dumps(part(2)),
