@@ -9,10 +9,10 @@ EXAMPLES = pathlib.Path(__file__).resolve().parents[3] / "clients" / "nc"
 BLOCK = {"type": "block", "min_mm": [-300, -300, -60], "max_mm": [300, 300, 0]}
 
 
-def setup(name):
+def setup(name, loads=json.loads):
     """A setup of the examples: `8255/hole-good`."""
     program, _, setup_name = name.partition("/")
-    return json.loads((EXAMPLES / program / "setups" / f"{setup_name}.json").read_text())
+    return loads((EXAMPLES / program / "setups" / f"{setup_name}.json").read_text())
 
 
 def workpiece(*features, **machine):

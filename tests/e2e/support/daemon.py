@@ -8,9 +8,15 @@ import shutil
 import signal
 import ssl
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "clients" / "python"))
+
+import fitgauge  # noqa: E402 - the client of this tree, not an installed one
 
 FITGAUGED = os.environ.get("FITGAUGED", "build/release/bin/fitgauged")
 JSON = {"Content-Type": "application/json"}
@@ -111,6 +117,11 @@ class Daemon:
             return http.client.HTTPSConnection("localhost", self.port, timeout=timeout,
                                                context=self.tls)
         return http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
+
+    def client(self, **options):
+        """The Python client, as a program of a shop would use it."""
+        scheme, host = ("https", "localhost") if self.tls else ("http", "127.0.0.1")
+        return fitgauge.Client(f"{scheme}://{host}:{self.port}", tls=self.tls, **options)
 
     def request(self, method, path, body=None, headers=None, connection=None):
         """One request; a body that is no text or bytes is sent as JSON. A new connection each time
