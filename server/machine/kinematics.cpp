@@ -64,7 +64,8 @@ double way(const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-Kinematics::Kinematics(std::vector<RotaryAxis> axes) : axes_(std::move(axes)) {
+Kinematics::Kinematics(std::vector<RotaryAxis> axes, const Vec3& offset)
+    : axes_(std::move(axes)), offset_(offset) {
   for (RotaryAxis& axis : axes_) axis.direction = unit(axis.direction);
   std::sort(axes_.begin(), axes_.end(), stands_before);
 }
@@ -83,6 +84,16 @@ Transform Kinematics::table(const Vec3& rotary) const {
     chain = chain * Transform::rotation_around(axis.centre, axis.direction, -angle);
   }
   return chain;
+}
+
+Vec3 Kinematics::tool_vector(const Vec3& rotary, Axis tool_axis, double length) const {
+  Transform head = Transform::translation(offset_);
+  for (const RotaryAxis& axis : axes_) {
+    if (axis.mount != AxisMount::Head) continue;
+    const double angle = rotary[index(axis.axis) - 3];
+    head = head * Transform::rotation_around(axis.centre, axis.direction, angle);
+  }
+  return head.point(unit_vector(tool_axis) * -length);
 }
 
 Vec3 Kinematics::tool_direction(const Vec3& rotary, Axis tool_axis) const {

@@ -16,26 +16,33 @@ enum class AxisMount : std::uint8_t { Table, Head };
 struct RotaryAxis {
   Axis axis = Axis::C;
   AxisMount mount = AxisMount::Table;
-  Vec3 centre;              ///< a point of the axis in machine coordinates, in mm; unused in a head
+  Vec3 centre;  ///< a point of the axis in mm: of a table in machine coordinates, of a head from
+                ///< the spindle nose
   Vec3 direction{0, 0, 1};  ///< unit vector
 
   friend bool operator==(const RotaryAxis&, const RotaryAxis&) = default;
 };
 
 /// The rotary axes and their order: a table is stacked A, B, C from the bed to the workpiece, a
-/// head C, B, A from the column to the tool. The spindle nose is the pivot of a head. A value type
-/// without interior state.
+/// head C, B, A from the column to the tool. A value type without interior state.
 class Kinematics {
  public:
   Kinematics() = default;
   /// At most one axis of each letter; directions are normalised. @pre no direction is zero.
-  explicit Kinematics(std::vector<RotaryAxis> axes);
+  explicit Kinematics(std::vector<RotaryAxis> axes, const Vec3& offset = {});
 
   const std::vector<RotaryAxis>& axes() const { return axes_; }
+  /// How far the spindle nose stands from where the linear axes show it, in mm: what preset
+  /// compensation (cycle 452) corrects when a head was exchanged or the machine has drifted.
+  const Vec3& offset() const { return offset_; }
   const RotaryAxis* find(Axis axis) const;
 
   /// Table-fixed coordinates to machine coordinates, with the axes at `rotary` (degrees).
   Transform table(const Vec3& rotary) const;
+
+  /// From where the linear axes show the spindle nose to the point of the tool `length` mm from it,
+  /// in machine coordinates.
+  Vec3 tool_vector(const Vec3& rotary, Axis tool_axis, double length) const;
 
   /// The unit vector from the tool tip to the spindle nose, in machine coordinates.
   Vec3 tool_direction(const Vec3& rotary, Axis tool_axis) const;
@@ -50,6 +57,7 @@ class Kinematics {
 
  private:
   std::vector<RotaryAxis> axes_;  ///< table axes first, each group in its order
+  Vec3 offset_;
 };
 
 }  // namespace fitgauge::machine

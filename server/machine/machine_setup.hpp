@@ -25,7 +25,7 @@ struct AxisSetup {
   double max = 500;                    ///< max_mm, max_deg
   double hirth_grid_deg = 0;           ///< 0: any angle
   AxisMount mount = AxisMount::Table;  ///< on
-  Vec3 centre{0, 0, -100};             ///< center_mm
+  Vec3 centre{0, 0, -100};             ///< center_mm, of a table; a head turns about the nose
   Vec3 direction{0, 0, 1};  ///< any length; the tool turns around it relative to the workpiece
   Vec3 centre_error;        ///< center_error_mm: real centre minus modelled centre
   Vec3 tilt_error_deg;      ///< spatial angles by which the real direction differs
@@ -34,6 +34,10 @@ struct AxisSetup {
 
   /// X, Y, Z: -500 to 500 mm. A, B: -120 to 120 degrees, C: -360 to 360, each around its own axis.
   static AxisSetup of(Axis axis);
+
+  /// As the control's kinematic model has the rotary axis, and as it really is.
+  RotaryAxis modelled(Axis axis) const;
+  RotaryAxis built(Axis axis) const;
 };
 
 /// A row of tool.t together with the real tool, where that is not what the table says.

@@ -27,14 +27,14 @@ Vec3 MachineState::tool_direction(CoordinateSystem system) const {
 
 Position MachineState::position(CoordinateSystem system) const {
   if (system == CoordinateSystem::Reference) return nose;
-  const Vec3 tip = nose.linear - tool_direction(CoordinateSystem::Machine) * tool_length();
+  const Vec3 tip = nose.linear + kinematics.tool_vector(nose.rotary, tool_axis(), tool_length());
   return {frames.from_machine(tip, system), frames.rotary_from_machine(nose.rotary, system)};
 }
 
 Vec3 MachineState::ball_centre(CoordinateSystem system) const {
-  const Vec3 direction = tool_direction(CoordinateSystem::Machine);
-  const Vec3 centre = nose.linear - direction * (tool_length() - tool_radius());
-  return frames.from_machine(centre, system);
+  const double length = tool_length() - tool_radius();
+  return frames.from_machine(nose.linear + kinematics.tool_vector(nose.rotary, tool_axis(), length),
+                             system);
 }
 
 }  // namespace fitgauge::machine

@@ -27,7 +27,7 @@ ModelledMachine::ModelledMachine(const MachineSetup& setup) {
     const auto& known = setup.axes[index(axis)];
     if (!known) continue;
     state_.ranges[index(axis)] = AxisRange{known->min, known->max, known->hirth_grid_deg};
-    if (is_rotary(axis)) rotary.push_back({axis, known->mount, known->centre, known->direction});
+    if (is_rotary(axis)) rotary.push_back(known->modelled(axis));
   }
   state_.kinematics = Kinematics(std::move(rotary));
   for (const ToolSetup& tool : setup.tools) state_.tools.write(tool.row);
@@ -127,6 +127,9 @@ MachineResult<void> ModelledMachine::set_kinematics(const Kinematics& kinematics
     if (!is_finite(axis.centre) || !is_finite(axis.direction)) {
       return make_fault(FaultKind::ValueInvalid, fmt::format("kinematics of {}", name(axis.axis)));
     }
+  }
+  if (!is_finite(kinematics.offset())) {
+    return make_fault(FaultKind::ValueInvalid, "offset of the kinematics");
   }
   state_.kinematics = kinematics;
   refresh_table();

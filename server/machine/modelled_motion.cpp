@@ -79,12 +79,11 @@ MachineResult<Position> ModelledMachine::target_nose(const LinearMove& move, con
     take_words();
     return Position{point, rotary};
   }
-  const Vec3 length =
-      state_.kinematics.tool_direction(rotary, state_.tool_axis()) * state_.tool_length();
+  const Vec3 tool = state_.kinematics.tool_vector(rotary, state_.tool_axis(), state_.tool_length());
   point = state_.modes.tcpm ? state_.position(move.system).linear
-                            : frames.from_machine(state_.nose.linear - length, move.system);
+                            : frames.from_machine(state_.nose.linear + tool, move.system);
   take_words();
-  return Position{frames.to_machine(point, move.system) + length, rotary};
+  return Position{frames.to_machine(point, move.system) - tool, rotary};
 }
 
 /// With TCPM the tip runs straight on the table while the rotary axes turn.
@@ -94,7 +93,7 @@ Path ModelledMachine::following_path(const Position& end) const {
   const double length = state_.tool_length();
   const Position start = state_.nose;
   const auto tip_on_table = [&](const Position& nose) {
-    const Vec3 tip = nose.linear - kinematics.tool_direction(nose.rotary, axis) * length;
+    const Vec3 tip = nose.linear + kinematics.tool_vector(nose.rotary, axis, length);
     return kinematics.table(nose.rotary).inverse().point(tip);
   };
   const Vec3 from = tip_on_table(start);
@@ -104,8 +103,8 @@ Path ModelledMachine::following_path(const Position& end) const {
   Path path = straight_path(start, end);
   path.nose = [=](double part) {
     const Vec3 rotary = start.rotary + turn * part;
-    return Position{kinematics.table(rotary).point(from + way * part) +
-                        kinematics.tool_direction(rotary, axis) * length,
+    return Position{kinematics.table(rotary).point(from + way * part) -
+                        kinematics.tool_vector(rotary, axis, length),
                     rotary};
   };
   path.length = norm(way);

@@ -12,6 +12,17 @@ AxisSetup AxisSetup::of(Axis axis) {
   return setup;
 }
 
+RotaryAxis AxisSetup::modelled(Axis axis) const {
+  return {axis, mount, mount == AxisMount::Head ? Vec3{} : centre, direction};
+}
+
+RotaryAxis AxisSetup::built(Axis axis) const {
+  RotaryAxis real = modelled(axis);
+  real.centre = real.centre + centre_error;
+  real.direction = Matrix3::spatial(tilt_error_deg) * real.direction;
+  return real;
+}
+
 ToolSetup MachineSetup::default_probe_tool() {
   ToolSetup tool;
   tool.row.number = 30;

@@ -15,9 +15,7 @@ Kinematics as_built(const MachineSetup& setup) {
   std::vector<RotaryAxis> axes;
   for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
     const auto& known = setup.axes[index(axis)];
-    if (!known) continue;
-    axes.push_back({axis, known->mount, known->centre + known->centre_error,
-                    Matrix3::spatial(known->tilt_error_deg) * known->direction});
+    if (known) axes.push_back(known->built(axis));
   }
   return Kinematics(std::move(axes));
 }
@@ -77,9 +75,13 @@ Transform SimulatedMachine::real_table(const Vec3& rotary) const {
          kinematics_.table(rotary + slack_deg_);
 }
 
+Vec3 SimulatedMachine::real_tool_point(const Position& nose, double length) const {
+  return nose.linear +
+         kinematics_.tool_vector(nose.rotary + slack_deg_, state().tool_axis(), length);
+}
+
 Vec3 SimulatedMachine::ball_on_table(const Position& nose, const RealTool& tool) const {
-  const Vec3 direction = kinematics_.tool_direction(nose.rotary + slack_deg_, state().tool_axis());
-  const Vec3 centre = nose.linear - direction * (tool.length - tool.radius) + tool.offset;
+  const Vec3 centre = real_tool_point(nose, tool.length - tool.radius) + tool.offset;
   return real_table(nose.rotary).inverse().point(centre);
 }
 
@@ -145,8 +147,7 @@ MachineResult<double> SimulatedMachine::plate_contact(const Vec3& direction, dou
   const ToolTouchProbe& tt = setup_.tt;
   const Workpiece disc(
       {Boss{{tt.centre.x, tt.centre.y}, tt.centre.z, kThickness, 2 * (tt.radius + tool.radius)}});
-  const Vec3 tip =
-      state().nose.linear - state().tool_direction(CoordinateSystem::Machine) * tool.length;
+  const Vec3 tip = real_tool_point(state().nose, tool.length);
   if (disc.clearance(tip, 0) < -kTouching) return make_fault(FaultKind::StylusDeflected);
   const auto touched = disc.contact(tip, direction, 0, distance);
   if (!touched) return make_fault(FaultKind::NoContact);

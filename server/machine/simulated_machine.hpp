@@ -32,6 +32,7 @@ class SimulatedMachine final : public ModelledMachine {
 
   RealTool real_tool() const;
   Transform real_table(const Vec3& rotary) const;
+  Vec3 real_tool_point(const Position& nose, double length) const;
   Vec3 ball_on_table(const Position& nose, const RealTool& tool) const;
   MachineResult<double> probe_contact(const Vec3& direction, double distance, const RealTool& tool);
   MachineResult<double> plate_contact(const Vec3& direction, double distance, const RealTool& tool);
