@@ -48,6 +48,19 @@ bool prefers_async(const http::Request& request) {
                      [](std::string_view item) { return ascii_iequals(item, "respond-async"); });
 }
 
+bool accepts_gzip(const http::Request& request) {
+  const auto header = request.header_list("Accept-Encoding");
+  if (!header) return false;
+  const auto is_taken = [](std::string_view coding) {
+    const auto parts = list_items(coding, ";");
+    if (parts.empty() || !ascii_iequals(parts.front(), "gzip")) return false;
+    const std::string_view weight = parts.size() > 1 ? parts[1] : "q=1";
+    return weight.find_first_of("123456789") != std::string_view::npos;
+  };
+  const auto codings = list_items(*header, ",");
+  return std::any_of(codings.begin(), codings.end(), is_taken);
+}
+
 Result<std::optional<std::string>> idempotency_key(const http::Request& request) {
   constexpr std::size_t kLongest = 255;
   const auto header = request.header("Idempotency-Key");

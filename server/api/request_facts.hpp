@@ -16,6 +16,9 @@ Preference preference_of(const http::Request& request);
 /// Whether `Prefer: respond-async` asks for an answer before the work is done.
 bool prefers_async(const http::Request& request);
 
+/// Whether Accept-Encoding takes gzip (RFC 9110, 12.5.3).
+bool accepts_gzip(const http::Request& request);
+
 /// The Idempotency-Key without its quotes: quoted and bare are one key.
 /// @errors IdempotencyKeyInvalid unless it has 1 to 255 visible ASCII characters.
 Result<std::optional<std::string>> idempotency_key(const http::Request& request);

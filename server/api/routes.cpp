@@ -6,6 +6,7 @@
 #include "api/limits_resource.hpp"
 #include "api/measurements_resource.hpp"
 #include "api/openapi.hpp"
+#include "api/page_resource.hpp"
 #include "api/runs_resource.hpp"
 #include "api/service_resource.hpp"
 #include "api/setups_resource.hpp"
@@ -28,6 +29,7 @@ http::RouteTable make_routes(const Services& services) {
   add_cycles_routes(routes);
   add_events_routes(routes, services);
   add_service_routes(routes, services);
+  add_page_routes(routes);
   add_openapi_route(routes);
   return http::RouteTable(std::move(routes));
 }

@@ -7,7 +7,7 @@
 
 namespace fitgauge::api {
 
-/// /livez, /readyz, /metrics and the page at /.
+/// /livez, /readyz and /metrics.
 void add_service_routes(std::vector<http::Route>& routes, const Services& services);
 
 }  // namespace fitgauge::api

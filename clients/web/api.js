@@ -1,0 +1,72 @@
+/** Calls of the service. A refusal is a Problem; a service that cannot be reached is a TypeError. */
+
+import { toJson } from './exact.js';
+import { forget, readStored, store } from './stored.js';
+
+const KEY = 'key';
+
+/** A problem document (RFC 9457). */
+export class Problem extends Error {
+  constructor(status, document) {
+    super(document.detail ?? document.title ?? `HTTP ${status}`);
+    this.status = status;
+    this.code = document.code ?? '';
+    this.errors = document.errors ?? [];
+    this.diagnostics = document.diagnostics ?? [];
+  }
+
+  /** The first field's own reason says more than the document's. */
+  get reason() {
+    return this.errors[0]?.detail ?? this.message;
+  }
+
+  /** Whether the same request may succeed later. */
+  get passing() {
+    return this.status >= 500 || [408, 429].includes(this.status) || this.code === 'idempotency.in_progress';
+  }
+}
+
+let askForKey = async () => null;
+/** @param ask shows why a key is needed and resolves to one, or to null. */
+export const onKeyNeeded = (ask) => { askForKey = ask; };
+
+export const hasKey = () => readStored(KEY, sessionStorage) !== null;
+
+async function problemOf(response) {
+  const document = await response.json().catch(() => ({}));
+  return new Problem(response.status, document);
+}
+
+/**
+ * One request. A 401 asks for a key and repeats it; the key lives as long as the window.
+ * @param body text, bytes, or an object that is sent as JSON
+ */
+export async function request(method, path, { body, headers = {}, signal } = {}) {
+  const isJson = body !== undefined && Object.getPrototypeOf(body) === Object.prototype;
+  const sent = isJson ? toJson(body) : body;
+  const type = isJson ? { 'Content-Type': 'application/json' } : {};
+  for (;;) {
+    const key = readStored(KEY, sessionStorage);
+    const authorization = key ? { Authorization: `Bearer ${key}` } : {};
+    const response = await fetch(path, {
+      method, signal, body: sent, cache: 'no-cache', headers: { ...type, ...headers, ...authorization },
+    });
+    if (response.ok) return response;
+    const problem = await problemOf(response);
+    if (response.status !== 401) throw problem;
+    if (key) forget(KEY, sessionStorage);
+    const entered = await askForKey(problem);
+    if (!entered) throw problem;
+    store(KEY, entered, sessionStorage);
+  }
+}
+
+export const get = (path, options) => request('GET', path, options);
+export const getJson = async (path, options) => (await get(path, options)).json();
+
+/** A path from parts and a query; parts are encoded, empty options left out. */
+export function url(parts, options = {}) {
+  const given = Object.entries(options).filter(([, value]) => value !== '' && value !== undefined && value !== null);
+  const query = new URLSearchParams(given).toString();
+  return `/v1/${parts.map(encodeURIComponent).join('/')}${query && `?${query}`}`;
+}

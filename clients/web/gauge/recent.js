@@ -1,0 +1,57 @@
+/** The values of this station, the newest first, with what became of each. */
+
+import { h } from '../dom.js';
+import { number, t, time } from '../i18n.js';
+import { readStored, store } from '../stored.js';
+import { distanceText, measuredText, verdictMark, verdictShape } from '../verdict.js';
+
+const MOST = 12;
+const KEPT = 'recent';
+
+export class Recent {
+  /** @param onCorrect takes the record to correct */
+  constructor({ onCorrect }) {
+    this.onCorrect = onCorrect;
+    this.rows = JSON.parse(readStored(KEPT, sessionStorage) ?? '[]');
+    this.list = h('ol');
+    this.element = h('section.recent', { 'aria-labelledby': 'recent-title' },
+      h('h2', { id: 'recent-title' }, t('recent.title')), this.list);
+    this.#draw();
+  }
+
+  /** The last record that can be corrected. */
+  get last() {
+    return this.rows.find((row) => row.state === 'stored' && !row.corrected)?.record;
+  }
+
+  /** @param row {key, state: waiting | stored | refused | dropped, shown, record, reason} */
+  set(row) {
+    const at = this.rows.findIndex((other) => other.key === row.key);
+    if (at >= 0) this.rows[at] = row;
+    else this.rows.unshift(row);
+    const corrected = this.rows.find((other) => row.record && other.record?.id === row.record.correction_of);
+    if (corrected) corrected.corrected = true;
+    this.rows.length = Math.min(this.rows.length, MOST);
+    store(KEPT, JSON.stringify(this.rows), sessionStorage);
+    this.#draw();
+  }
+
+  #draw() {
+    this.element.hidden = this.rows.length === 0;
+    this.list.replaceChildren(...this.rows.map((row) => this.#item(row)));
+  }
+
+  #item(row) {
+    const { shown, record, state } = row;
+    return h('li', { class: row.corrected ? 'corrected' : state },
+      record ? verdictMark(record.verdict) : h('span.mark-of', verdictShape('waiting'), t(`recent.${state}`)),
+      h('span.figure', record ? measuredText(record) : number(shown.measured)),
+      h('span.aside', [record?.designation ?? shown.designation, time(new Date(shown.at)),
+        row.corrected && t('recent.corrected')].filter(Boolean).join(' · ')),
+      h('span.aside', record ? distanceText(record) : row.reason ?? ''),
+      state === 'stored' && !row.corrected && h('button.quiet', {
+        type: 'button', onclick: () => this.onCorrect(record),
+        'aria-label': t('recent.correct_this', { mm: measuredText(record) }),
+      }, t('recent.correct')));
+  }
+}

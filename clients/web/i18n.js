@@ -1,0 +1,60 @@
+/** The page's words in the reader's language. */
+
+import en from './lang/en.js';
+import { readStored, store } from './stored.js';
+
+export const LANGUAGES = { en: 'English', de: 'Deutsch', nl: 'Nederlands', it: 'Italiano' };
+
+let words = en;
+export let language = 'en';
+
+/** The language chosen, else the first of the browser's (its Accept-Language) that the page has. */
+function preferred() {
+  const chosen = readStored('language');
+  if (chosen in LANGUAGES) return chosen;
+  return navigator.languages.map((tag) => tag.slice(0, 2)).find((tag) => tag in LANGUAGES) ?? 'en';
+}
+
+export async function loadLanguage(wanted = preferred()) {
+  words = { ...en, ...(await import(`./lang/${wanted}.js`)).default };
+  language = wanted;
+  document.documentElement.lang = wanted;
+}
+
+export async function chooseLanguage(wanted) {
+  store('language', wanted);
+  await loadLanguage(wanted);
+}
+
+/** The text of a name, its {places} filled in. */
+export function t(name, values = {}) {
+  return words[name].replace(/\{(\w+)\}/g, (_, place) => values[place] ?? '');
+}
+
+/** Whether there is a text of that name. */
+export const has = (name) => name in words;
+
+/** A decimal as it is written here: comma but in English, and a true minus. */
+export function number(text) {
+  const local = language === 'en' ? String(text) : String(text).replace('.', ',');
+  return local.replace('-', '\u2212');
+}
+
+/** With its sign, zero without. */
+export const signed = (text) => (/^[-0]*$|^-/.test(String(text)) ? number(text) : `+${number(text)}`);
+
+export function time(date) {
+  return date.toLocaleTimeString(language, { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
+}
+
+export function dateTime(date) {
+  return `${date.toLocaleDateString(language, { day: 'numeric', month: 'short', year: 'numeric' })}, ${time(date)}`;
+}
+
+/** Why a call failed, in the reader's language where the page knows the reason. */
+export function explain(problem) {
+  if (problem.status === undefined) return t('error.away');
+  const codes = [problem.errors[0]?.code, problem.code];
+  const known = codes.find((code) => has(`error.${code}`));
+  return known ? t(`error.${known}`) : problem.reason;
+}

@@ -1,0 +1,33 @@
+/** Asks for an API key when the service wants one. One question at a time, however many calls wait. */
+
+import { field, h } from './dom.js';
+import { t } from './i18n.js';
+
+let asking = null;
+
+/** Resolves to the key that was entered, or to null. */
+export function enterKey(problem) {
+  asking ??= ask(problem).finally(() => { asking = null; });
+  return asking;
+}
+
+function ask(problem) {
+  const before = document.activeElement;
+  const input = h('input', { type: 'password', autocomplete: 'off', spellcheck: 'false', required: true });
+  const dialog = h('dialog', { 'aria-labelledby': 'key-title' },
+    h('form', { method: 'dialog' },
+      h('h2', { id: 'key-title' }, t('key.title')),
+      h('p', t(problem.code === 'auth.invalid' ? 'key.invalid' : 'key.why')),
+      field(t('key.label'), input, t('key.hint')),
+      h('p.actions', h('button.primary', { value: 'use' }, t('key.use')),
+        h('button', { value: '', formnovalidate: true }, t('key.cancel')))));
+  document.body.append(dialog);
+  dialog.showModal();
+  return new Promise((resolve) => {
+    dialog.addEventListener('close', () => {
+      dialog.remove();
+      before?.focus?.();
+      resolve(dialog.returnValue === 'use' ? input.value.trim() : null);
+    });
+  });
+}

@@ -1,0 +1,118 @@
+/**
+ * Typed values on their way to the service. A value is in the browser's storage before it is sent and
+ * until it is answered, under a key of its own that makes repeats safe: it arrives once, also when the
+ * service is away or the page is loaded again meanwhile. One is sent at a time, in the order of typing.
+ */
+
+import { request } from './api.js';
+import { connection } from './connection.js';
+import { forget, readStored, store, storedKeys } from './stored.js';
+
+const PREFIX = 'queue.';
+const SHORTEST_WAIT_MS = 200;
+const LONGEST_WAIT_MS = 2000;
+const TIMEOUT_MS = 10000;
+
+/** Unlikely anywhere else; crypto.randomUUID would need HTTPS. */
+const randomText = () =>
+  Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
+
+/**
+ * Fires `stored` with {entry, record}, `refused` with {entry, problem} and `change`. An entry is
+ * {key, path, body, shown}: what is posted where, and what the page shows of it meanwhile.
+ */
+class Queue extends EventTarget {
+  #entries = [];
+  #sending = false;
+  #lastTime = 0;
+  #wake = () => {};
+
+  constructor() {
+    super();
+    for (const name of storedKeys(PREFIX)) this.#entries.push({ name, ...JSON.parse(readStored(name)) });
+    connection.addEventListener('change', () => this.#wake());
+  }
+
+  get size() {
+    return this.#entries.length;
+  }
+
+  get entries() {
+    return this.#entries;
+  }
+
+  /** Takes a value over. @returns its entry */
+  add(path, body, shown) {
+    // Names sort in the order of typing, also those of one millisecond.
+    this.#lastTime = Math.max(this.#lastTime + 1, Date.now());
+    const key = randomText();
+    const name = `${PREFIX}${String(this.#lastTime).padStart(15, '0')}.${key}`;
+    const entry = { name, key, path, body, shown };
+    store(name, JSON.stringify({ key, path, body, shown }));
+    this.#entries.push(entry);
+    this.#changed();
+    this.send();
+    return entry;
+  }
+
+  /** Sends what there is until nothing is left. */
+  async send() {
+    if (this.#sending) return;
+    this.#sending = true;
+    let wait = SHORTEST_WAIT_MS;
+    while (this.#entries.length) {
+      if (await this.#sendOne(this.#entries[0])) {
+        wait = SHORTEST_WAIT_MS;
+        continue;
+      }
+      await this.#pause(wait);
+      wait = Math.min(2 * wait, LONGEST_WAIT_MS);
+    }
+    this.#sending = false;
+  }
+
+  /** @returns whether the entry is answered for good */
+  async #sendOne(entry) {
+    try {
+      const response = await request('POST', entry.path, {
+        body: entry.body,
+        headers: { 'Content-Type': 'application/json', 'Idempotency-Key': `"${entry.key}"` },
+        signal: AbortSignal.timeout(TIMEOUT_MS),
+      });
+      const record = await response.json();
+      connection.report(true);
+      this.#finish(entry, 'stored', { entry, record });
+      return true;
+    } catch (problem) {
+      const reached = problem.status !== undefined;
+      connection.report(reached);
+      if (!reached || problem.passing || problem.status === 401) return false;
+      this.#finish(entry, 'refused', { entry, problem });
+      return true;
+    }
+  }
+
+  #finish(entry, type, detail) {
+    forget(entry.name);
+    this.#entries.shift();
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+    this.#changed();
+  }
+
+  /** Waits, but no longer than until the service is back. */
+  #pause(milliseconds) {
+    return new Promise((resolve) => {
+      const timer = setTimeout(resolve, milliseconds);
+      this.#wake = () => {
+        clearTimeout(timer);
+        resolve();
+      };
+    });
+  }
+
+  #changed() {
+    this.dispatchEvent(new Event('change'));
+  }
+}
+
+export const queue = new Queue();

@@ -1,0 +1,128 @@
+/** A hole and a shaft: zones, clearances, the classes to choose from. */
+
+import { getJson, url } from '../api.js';
+import { parseFit } from '../designation.js';
+import { field, h } from '../dom.js';
+import { mmText, nmFromMm, nmFromUm, parseMeasured, umText } from '../exact.js';
+import { ClassMap } from '../fit/class_map.js';
+import { clearanceBar } from '../fit/clearance_bar.js';
+import { preferredFits } from '../fit/preferred.js';
+import { zoneFigure } from '../fit/zone_figure.js';
+import { explain, number, signed, t } from '../i18n.js';
+import { go } from '../route.js';
+import { classNames } from '../tables/catalogue.js';
+import { limitsText, verdictMark } from '../verdict.js';
+
+const FIRST = '25H7/g6';
+const FEATURES = ['hole', 'shaft'];
+
+export function mount(main, route) {
+  const state = parseFit(route.path.join('/') || FIRST) ?? { text: route.path.join('/') };
+  const typed = h('input.designation', { id: 'fit', type: 'text', autocomplete: 'off', autocapitalize: 'off', spellcheck: 'false' });
+  const measured = Object.fromEntries(FEATURES.map((feature) => [feature, h('input', {
+    type: 'text', inputmode: 'decimal', autocomplete: 'off', id: `measured-${feature}`, onchange: () => refresh(),
+  })]));
+  for (const feature of FEATURES) measured[feature].value = route.options[feature] ?? '';
+  const note = h('p.note', { role: 'alert' });
+  const result = h('div.result', { role: 'status' });
+  const figure = h('figure');
+  const preferred = h('div');
+  const maps = h('div.class-maps');
+  let classMaps = {};
+
+  main.replaceChildren(h('div.desk.fit', h('h1.unseen', t('view.fit')),
+    h('div.main-column', h('div.sheet', figure), preferred),
+    h('div.side', h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); readTyped(); } },
+      field(t('fit.label'), typed), note,
+      h('div.pair', FEATURES.map((feature) => field(t(`fit.measured.${feature}`), measured[feature]))),
+      h('button.unseen', { type: 'submit', tabindex: -1 }, t('fit.show'))),
+    result),
+    maps));
+  typed.addEventListener('change', readTyped);
+
+  function readTyped() {
+    const parsed = parseFit(typed.value);
+    if (parsed) pick(parsed);
+    else note.textContent = t('error.fit.malformed');
+  }
+
+  function pick(change) {
+    Object.assign(state, change);
+    refresh();
+  }
+
+  function remembered() {
+    const options = Object.fromEntries(FEATURES.map((feature) => [feature, measured[feature].value.trim()]));
+    go({ view: 'fit', path: [`${state.size}${state.hole}`, state.shaft], options });
+  }
+
+  async function refresh() {
+    if (!state.size) {
+      typed.value = state.text;
+      note.textContent = t('error.fit.malformed');
+      return;
+    }
+    const designation = `${number(state.size)} ${state.hole}/${state.shaft}`;
+    typed.value = designation;
+    remembered();
+    try {
+      const fit = await getJson(url(['fits', `${state.size}${state.hole}`, state.shaft]));
+      note.textContent = '';
+      await draw(fit);
+    } catch (problem) {
+      note.textContent = explain(problem);
+      figure.replaceChildren();
+      result.replaceChildren();
+    }
+    preferred.replaceChildren(preferredFits(state, pick));
+    for (const feature of FEATURES) classMaps[feature]?.show(nmFromMm(state.size), state[feature]);
+  }
+
+  async function draw(fit) {
+    const sizes = {};
+    for (const feature of FEATURES) {
+      const text = parseMeasured(measured[feature].value);
+      if (measured[feature].value.trim() && text === null) note.textContent = t('entry.malformed', { typed: measured[feature].value });
+      sizes[feature] = text === null ? NaN : nmFromMm(text);
+    }
+    const actual = sizes.hole - sizes.shaft;
+    figure.replaceChildren(zoneFigure(fit, sizes), clearanceBar(fit, actual));
+    result.replaceChildren(...summary(fit, actual), limitsTable(fit, await verdicts(fit, sizes)));
+  }
+
+  const verdicts = async (fit, sizes) => Object.fromEntries(await Promise.all(FEATURES
+    .filter((feature) => sizes[feature] > 0)
+    .map(async (feature) => {
+      const name = `${state.size}${fit[feature].tolerance_class}`;
+      return [feature, await getJson(url(['verdicts', name], { measured_mm: mmText(sizes[feature], 0) }))];
+    })));
+
+  async function drawMaps() {
+    const names = await classNames();
+    classMaps = Object.fromEntries(FEATURES.map((feature) => [feature, new ClassMap(feature, names[feature], (name) => pick({ [feature]: name }))]));
+    maps.replaceChildren(...FEATURES.map((feature) => classMaps[feature].element));
+    if (state.size) for (const feature of FEATURES) classMaps[feature].show(nmFromMm(state.size), state[feature]);
+  }
+
+  refresh();
+  drawMaps().catch((problem) => { note.textContent = explain(problem); });
+}
+
+function summary(fit, actual) {
+  const [least, most] = [fit.min_clearance_um, fit.max_clearance_um].map(nmFromUm);
+  const um = (nm) => `${number(umText(Math.abs(nm)))} µm`;
+  const line = (nm, which) => h('div', h('dt', t(`fit.${which}.${nm < 0 ? 'interference' : 'clearance'}`)), h('dd', um(nm)));
+  return [
+    h('p.headline', t(`fit.type.${fit.type}`)),
+    h('dl', ...(most <= 0 ? [line(least, 'max'), line(most, 'min')]
+      : least < 0 ? [line(most, 'max'), line(least, 'max')] : [line(most, 'max'), line(least, 'min')]),
+    Number.isFinite(actual) && h('div', h('dt', t(`fit.actual.${actual < 0 ? 'interference' : 'clearance'}`)), h('dd', um(actual)))),
+  ];
+}
+
+function limitsTable(fit, verdicts) {
+  return h('table.limits', h('tbody', FEATURES.map((feature) => h('tr',
+    h('th', { scope: 'row' }, `${t(`feature.${feature}`)} ${fit[feature].tolerance_class}`),
+    h('td', limitsText(fit[feature]), h('span.aside', `${signed(fit[feature].upper_deviation_um)} / ${signed(fit[feature].lower_deviation_um)} µm`)),
+    h('td', verdicts[feature] && verdictMark(verdicts[feature].verdict))))));
+}

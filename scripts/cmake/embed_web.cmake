@@ -1,0 +1,51 @@
+# cmake -DOUT=<file> -DROOT=<folder> -DFILES=<names> -P embed_web.cmake
+# Writes the table of server/api/page_assets.hpp: every file of the page as it is and gzipped, with its
+# media type and an entity tag made of its content.
+
+set(type_html "text/html; charset=utf-8")
+set(type_css "text/css; charset=utf-8")
+set(type_js "text/javascript; charset=utf-8")
+set(type_svg "image/svg+xml")
+
+# The bytes of a file as the initialiser of an array.
+function(bytes_of file variable)
+  file(READ "${file}" hex HEX)
+  string(REGEX REPLACE "(................................)" "\\1\n" hex "${hex}")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," hex "${hex}")
+  set(${variable} "${hex}" PARENT_SCOPE)
+endfunction()
+
+set(arrays "")
+set(rows "")
+set(number 0)
+foreach(name IN LISTS FILES)
+  string(REGEX REPLACE ".*\\." "" extension "${name}")
+  if(NOT DEFINED type_${extension})
+    message(FATAL_ERROR "embed_web: no media type is known for ${name}")
+  endif()
+  set(packed "${OUT}.gz")
+  execute_process(COMMAND gzip -9 -n -c "${ROOT}/${name}" OUTPUT_FILE "${packed}"
+                  COMMAND_ERROR_IS_FATAL ANY)
+  file(SHA256 "${ROOT}/${name}" digest)
+  string(SUBSTRING "${digest}" 0 16 digest)
+  bytes_of("${ROOT}/${name}" plain)
+  bytes_of("${packed}" gzipped)
+  file(REMOVE "${packed}")
+  string(APPEND arrays
+    "constexpr unsigned char kPlain${number}[] = {\n${plain}};\n"
+    "constexpr unsigned char kGzipped${number}[] = {\n${gzipped}};\n")
+  string(APPEND rows
+    "    {\"${name}\", \"${type_${extension}}\", \"${digest}\", kPlain${number}, kGzipped${number}},\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+
+file(WRITE "${OUT}"
+"#include \"api/page_assets.hpp\"\n
+namespace fitgauge::api {
+namespace {\n
+${arrays}
+constexpr PageAsset kAssets[] = {
+${rows}};\n
+}  // namespace\n
+std::span<const PageAsset> page_assets() { return kAssets; }\n
+}  // namespace fitgauge::api\n")

@@ -1,0 +1,243 @@
+/** The gauging station: values in, records and verdicts out. */
+
+import assert from 'node:assert/strict';
+import { after, afterEach, before, beforeEach, describe, it } from 'node:test';
+
+import { close, launch, open, openIn, picture } from './support/browser.mjs';
+import { asSeenWith, difference, parseColour } from './support/colour.mjs';
+import { Daemon, sleep } from './support/daemon.mjs';
+
+/** Ten times the difference that is just noticed side by side. */
+const CLEARLY = 20;
+
+describe('the gauging station', () => {
+  let browser;
+  let daemon;
+  let page;
+
+  before(async () => { browser = await launch(); });
+  after(() => browser.close());
+  beforeEach(async () => {
+    daemon = await new Daemon().start();
+    page = await open(browser, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+  });
+  afterEach(async () => {
+    await close(page);
+    await daemon.cleanup();
+  });
+
+  /** As a gauge on the keyboard does: key by key. */
+  const typeValue = (text, delay = 0) => page.keyboard.type(`${text}\n`, { delay });
+  const settled = () => page.waitForSelector('.link[data-state="up"]');
+  const measured = async () => (await daemon.stored()).map((record) => record.measured_mm);
+  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
+  const hasFocus = () => page.evaluate(() => document.activeElement.id === 'value');
+
+  it('stores each of 50 values typed at 20 ms a key, once and in order', async () => {
+    const values = Array.from({ length: 50 }, (_, i) => Number((24.99 + i / 1000 + (i % 7) / 10000).toFixed(4)));
+    for (const value of values) {
+      await typeValue(String(value), 20);
+      assert.ok(await hasFocus());
+    }
+    await settled();
+    assert.deepEqual(await measured(), values);
+  });
+
+  it('takes a second Enter within 300 ms for the same one', async () => {
+    await page.keyboard.type('25.0131');
+    for (let i = 0; i < 3; ++i) await page.keyboard.press('Enter');
+    await verdict('good');
+    await typeValue('25.0132\n');
+    await settled();
+    assert.deepEqual(await measured(), [25.0131, 25.0132]);
+    assert.equal(await page.textContent('#entry-note'), '');
+  });
+
+  it('keeps values while the service is away, and they arrive once', async () => {
+    await typeValue('25.001');
+    await verdict('good');
+    await daemon.stop();
+    const back = sleep(5000).then(() => daemon.start());
+    const values = [25.002, 25.003, 25.004, 25.005];
+    for (const value of values) await typeValue(value, 20);
+    await verdict('waiting');
+    await page.waitForSelector('.link[data-state="away"]');
+    assert.match(await page.textContent('#link'), /4/);
+    await picture(page, 'gauge-away');
+    await back;
+    await verdict('good');
+    await settled();
+    assert.deepEqual(await measured(), [25.001, ...values]);
+  });
+
+  it('sends what was kept when the page is opened again', async () => {
+    await daemon.stop();
+    await typeValue('25.002');
+    await typeValue('25.003');
+    await verdict('waiting');
+    const context = page.context();
+    assert.deepEqual(page.errors, []);
+    await page.close();
+    await daemon.start();
+    page = await openIn(context, daemon, '#/gauge/25H7');
+    await verdict('good');
+    await settled();
+    assert.deepEqual(await measured(), [25.002, 25.003]);
+  });
+
+  it('stores a value once whose answer was lost', async () => {
+    let lost = 0;
+    await page.route('**/v1/measurements', async (route) => {
+      await route.fetch();
+      if (lost++) return route.continue();
+      return route.abort('connectionreset');
+    });
+    await typeValue('25.0131');
+    await verdict('good');
+    assert.ok(lost > 1);
+    assert.deepEqual(await measured(), [25.0131]);
+  });
+
+  it('reads a decimal comma as a point', async () => {
+    await typeValue('25,0081');
+    await typeValue('25.0081');
+    await typeValue('+025,0081 mm');
+    await settled();
+    const own = (record) => ({ ...record, id: '', measured_at: '', received_at: '' });
+    const records = (await daemon.stored()).map(own);
+    assert.equal(records.length, 3);
+    assert.equal(records[0].measured_mm, 25.0081);
+    assert.deepEqual(records[1], records[0]);
+    assert.deepEqual(records[2], records[0]);
+  });
+
+  it('sends the digits that were typed', async () => {
+    const sent = [];
+    page.on('request', (request) => request.method() === 'POST' && sent.push(request.postData()));
+    for (const text of ['25.005884000000002', '25.1', '25.000001']) await typeValue(text);
+    await settled();
+    assert.deepEqual(sent.map((body) => /"measured_mm":([^,}]*)/.exec(body)[1]), ['25.005884000000002', '25.1', '25.000001']);
+    assert.deepEqual(await measured(), [25.005884, 25.1, 25.000001]);
+  });
+
+  it('says why a value is none, and stores nothing', async () => {
+    for (const bad of ['NaN', '', '1e9', '1000000000', '25.0.1', '-25.01', '25.01abc', '0', '1.234,5']) {
+      await sleep(350); // an empty value right after an Enter is the second of a pair
+      await page.press('#value', 'Escape');
+      await typeValue(bad);
+      await page.waitForFunction(() => document.getElementById('entry-note').textContent !== '');
+      assert.ok(await hasFocus(), bad);
+    }
+    await typeValue('25.0131');
+    await verdict('good');
+    assert.deepEqual(await measured(), [25.0131]);
+  });
+
+  it('asks about a value beyond half to twice the nominal size', async () => {
+    await page.fill('#value', '250.131');
+    // The second Enter of a pair is no answer.
+    await page.$eval('.entry', (form) => { form.requestSubmit(); form.requestSubmit(); });
+    await page.waitForSelector('.entry.asking');
+    await verdict('open');
+    assert.deepEqual(await measured(), []);
+    await page.keyboard.press('Escape');
+    assert.equal(await page.inputValue('#value'), '');
+    await typeValue('12.4');
+    await page.waitForSelector('.entry.asking');
+    await sleep(350);
+    await page.keyboard.press('Enter');
+    await verdict('rework');
+    await typeValue('50');
+    await verdict('reject');
+    assert.deepEqual(await measured(), [12.4, 50]);
+  });
+
+  it('clears what was typed with Esc', async () => {
+    await page.keyboard.type('25.01');
+    await page.keyboard.press('Escape');
+    assert.equal(await page.inputValue('#value'), '');
+    assert.deepEqual(await measured(), []);
+  });
+
+  it('undoes with a correction that keeps the old record', async () => {
+    await typeValue('25.031');
+    await verdict('reject');
+    await page.keyboard.press('Control+z');
+    await page.waitForSelector('.entry.correcting');
+    await typeValue('25,013');
+    await verdict('good');
+    await page.waitForSelector('.recent .corrected');
+    const [old, corrected] = await daemon.stored();
+    assert.equal((await daemon.json(`/v1/measurements/${old.id}`)).corrected_by, corrected.id);
+    assert.deepEqual([old.measured_mm, corrected.measured_mm, corrected.correction_of], [25.031, 25.013, old.id]);
+    assert.deepEqual((await daemon.stored('')).map((record) => record.id), [corrected.id]);
+  });
+
+  it('understands designations as they are typed', async () => {
+    for (const [typed, echo] of [['25 H7', 'Ø 25 H7'], ['Ø25H7', 'Ø 25 H7'], ['25 h7', 'Ø 25 h7'], ['132,5/a13', 'Ø 132.5 a13']]) {
+      await page.fill('#designation', typed);
+      await page.waitForFunction((text) => document.querySelector('.echo strong')?.textContent === text, echo);
+    }
+    await page.fill('#designation', '25 H19');
+    await page.waitForSelector('.echo.wrong');
+    await page.press('#designation', 'Enter');
+    assert.ok(await hasFocus());
+    await typeValue('25.01');
+    assert.notEqual(await page.textContent('#entry-note'), '');
+    assert.deepEqual(await measured(), []);
+  });
+
+  it('puts the job into every record, and the job into the URL', async () => {
+    await page.click('.more summary');
+    await page.fill('[name="part_id"]', 'SN-1');
+    await page.fill('[name="operator"]', '42');
+    await page.selectOption('[name="rule"]', 'guard_band');
+    await page.fill('[name="uncertainty_um"]', '0,8');
+    await page.focus('#value');
+    await typeValue('25.0205');
+    await verdict('indeterminate');
+    const [record] = await daemon.stored();
+    assert.deepEqual([record.part_id, record.operator, record.rule, record.uncertainty_um], ['SN-1', '42', 'guard_band', 0.8]);
+    const again = await openIn(page.context(), daemon, new URL(page.url()).hash);
+    assert.equal(await again.inputValue('[name="part_id"]'), 'SN-1');
+    assert.equal(await again.inputValue('[name="uncertainty_um"]'), '0,8');
+    assert.deepEqual(again.errors, []);
+  });
+
+  it('says good, rework and reject by word, shape and colour, also to the colour-blind', async () => {
+    const seen = {};
+    for (const [word, value] of [['good', '25.0131'], ['rework', '24.9985'], ['reject', '25.0215']]) {
+      await typeValue(value);
+      await verdict(word);
+      seen[word] = await page.$eval('.verdict', (panel) => ({
+        word: panel.querySelector('.word').textContent,
+        outline: panel.querySelector('.outline').getAttribute('d'),
+        colour: getComputedStyle(panel).backgroundColor,
+        distance: panel.querySelector('.distance').textContent,
+        share: panel.getBoundingClientRect().height / innerHeight,
+      }));
+      await picture(page, `gauge-${word}`);
+    }
+    for (const part of ['word', 'outline', 'colour']) {
+      assert.equal(new Set(Object.values(seen).map((each) => each[part])).size, 3, part);
+    }
+    assert.deepEqual(Object.values(seen).map((each) => each.distance),
+      ['7.9 µm below the upper limit', '1.5 µm below the lower limit', '0.5 µm above the upper limit']);
+    for (const { share } of Object.values(seen)) assert.ok(share > 1 / 3, `${share} of the screen`);
+    for (const [name, see] of Object.entries(asSeenWith)) {
+      const colours = Object.values(seen).map(({ colour }) => see(parseColour(colour)));
+      for (const [one, other] of [[0, 1], [0, 2], [1, 2]]) {
+        const apart = difference(colours[one], colours[other]);
+        assert.ok(apart > CLEARLY, `${name}: ${apart}`);
+      }
+    }
+  });
+
+  it('takes figures typed anywhere for the value', async () => {
+    await page.focus('.more summary');
+    await typeValue('25.0131');
+    await verdict('good');
+    assert.ok(await hasFocus());
+  });
+});

@@ -1,0 +1,66 @@
+/** Chromium and pages in it. A page that logs an error fails its test. */
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+
+const require = createRequire(path.join(process.env.WEB_TEST_MODULES, 'package.json'));
+const { chromium } = require('playwright-core');
+const AXE = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+const SCREENSHOTS = path.resolve('build/screenshots');
+
+export const launch = () => chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync'],
+});
+
+/** A page at a state, in a browser context of its own; `errors` holds what it logged. */
+export async function open(browser, daemon, fragment = '', options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', reducedMotion: 'reduce', ...options });
+  return openIn(context, daemon, fragment);
+}
+
+export async function openIn(context, daemon, fragment = '') {
+  const page = await context.newPage();
+  page.setDefaultTimeout(15000);
+  page.errors = [];
+  page.foreign = [];
+  page.on('pageerror', (error) => page.errors.push(String(error)));
+  page.on('console', (message) => {
+    // A service that is away or refuses is the test's doing.
+    if (message.type() === 'error' && !message.text().startsWith('Failed to load resource')) page.errors.push(message.text());
+  });
+  page.on('request', (request) => {
+    if (!request.url().startsWith(daemon.url) && !request.url().startsWith('about:')) page.foreign.push(request.url());
+  });
+  await page.goto(`${daemon.url}/${fragment}`);
+  await page.waitForSelector('main h1');
+  return page;
+}
+
+/** Closes a page's context after checking that it logged no error and asked nobody else. */
+export async function close(page) {
+  assert.deepEqual(page.errors, []);
+  assert.deepEqual(page.foreign, []);
+  await page.context().close();
+}
+
+/** Writes a picture for people to look at into build/screenshots. */
+export async function picture(page, name, options = {}) {
+  fs.mkdirSync(SCREENSHOTS, { recursive: true });
+  await page.screenshot({ path: path.join(SCREENSHOTS, `${name}.png`), ...options });
+}
+
+/** What axe-core finds serious or critical, as readable lines. */
+export async function findings(page) {
+  // Evaluated by the debugger, so that the page's own policy need not allow it.
+  await page.evaluate(AXE);
+  const { violations } = await page.evaluate(() => globalThis.axe.run(document, {
+    runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'],
+  }));
+  return violations
+    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+    .flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html.slice(0, 160)} ${node.failureSummary}`));
+}

@@ -1,0 +1,74 @@
+/** A fitgauged of one's own: the binary of $FITGAUGED on a free port, its data in a new folder. */
+
+import { execFileSync, spawn } from 'node:child_process';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+
+const FITGAUGED = path.resolve(process.env.FITGAUGED ?? 'build/release/bin/fitgauged');
+const LONGEST_START_MS = 20000;
+
+export const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+export class Daemon {
+  constructor(...flags) {
+    this.folder = fs.mkdtempSync(path.join(os.tmpdir(), 'fitgauge-web-'));
+    this.flags = flags;
+    this.port = 0;
+  }
+
+  get url() {
+    return `http://127.0.0.1:${this.port}`;
+  }
+
+  /** Starts it; again on the port it had. */
+  async start() {
+    const portFile = path.join(this.folder, 'port');
+    fs.rmSync(portFile, { force: true });
+    this.process = spawn(FITGAUGED, ['--listen', `127.0.0.1:${this.port}`, '--data', path.join(this.folder, 'data'),
+      '--port-file', portFile, '--log-level', 'error', ...this.flags], { stdio: ['ignore', 'ignore', 'inherit'] });
+    const ended = new Promise((resolve) => this.process.once('exit', resolve));
+    this.ended = ended;
+    for (const until = Date.now() + LONGEST_START_MS; !fs.existsSync(portFile); await sleep(10)) {
+      if (this.process.exitCode !== null || Date.now() > until) throw new Error('fitgauged does not start');
+    }
+    this.port = Number(fs.readFileSync(portFile, 'utf8'));
+    return this;
+  }
+
+  async stop() {
+    this.process.kill('SIGTERM');
+    await this.ended;
+  }
+
+  async cleanup() {
+    if (this.process.exitCode === null) {
+      this.process.kill('SIGKILL');
+      await this.ended;
+    }
+    fs.rmSync(this.folder, { recursive: true, force: true });
+  }
+
+  /** The output of a command beside the service. */
+  command(...args) {
+    return execFileSync(FITGAUGED, [...args, '--data', path.join(this.folder, 'data')], { encoding: 'utf8' }).trim();
+  }
+
+  async json(target) {
+    return (await fetch(this.url + target)).json();
+  }
+
+  async send(method, target, body, type = 'application/json') {
+    const answer = await fetch(this.url + target, {
+      method, body: typeof body === 'string' ? body : JSON.stringify(body), headers: { 'Content-Type': type },
+    });
+    if (!answer.ok) throw new Error(`${method} ${target}: ${answer.status} ${await answer.text()}`);
+    return answer;
+  }
+
+  /** Every measurement, in the order of storage. */
+  async stored(query = 'history=all') {
+    const text = await (await fetch(`${this.url}/v1/measurements?${query}`, { headers: { Accept: 'application/x-ndjson' } })).text();
+    return text.split('\n').filter(Boolean).map((line) => JSON.parse(line));
+  }
+}
