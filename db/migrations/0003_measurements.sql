@@ -15,7 +15,7 @@ CREATE TABLE measurements (
   size_over_nm       INTEGER,
   size_up_to_nm      INTEGER,
   basis              INTEGER NOT NULL CHECK (basis BETWEEN 1 AND 3),  -- iso286, custom, explicit
-  table_revision     INTEGER REFERENCES table_revisions (number),
+  table_revision     INTEGER,  -- of table_revisions: checked once a batch, not at every row
   measured_nm        INTEGER NOT NULL,
   verdict            INTEGER NOT NULL CHECK (verdict BETWEEN 1 AND 4),  -- good, rework, reject, indeterminate
   rule               INTEGER NOT NULL CHECK (rule BETWEEN 1 AND 2),           -- simple, guard_band

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "store/digest.hpp"
 
@@ -12,8 +13,10 @@ namespace fitgauge::store {
 
 /// SHA-256 over a list of values in an encoding that no two different lists share:
 ///   absent   00
-///   integer  01 and 8 bytes, big-endian two's complement (enumerations by their code)
-///   text     02, the number of bytes as 8 bytes big-endian, the bytes
+///   integer  10 to 18: so many bytes less 10 follow, big-endian two's complement without leading
+///            bytes that say nothing (enumerations by their code)
+///   text     01, the number of bytes as an integer, the bytes
+///   digest   its 32 bytes; where one stands is fixed
 /// Not thread-safe.
 class CanonicalDigest {
  public:
@@ -27,18 +30,22 @@ class CanonicalDigest {
   }
   template <class T>
   void add(const std::optional<T>& value) {
-    value ? add(*value) : bytes_.push_back('\0');
+    value ? add(*value) : add_byte('\0');
   }
 
-  /// The digest of what was added since the last one, preceded by `salt` as it is.
-  Digest finish(std::string_view salt = {});
+  void add(const Digest& digest);
+
+  /// The digest of what was added since the last one.
+  Digest finish();
 
  private:
+  void add_byte(char byte);
   void add_integer(std::int64_t value);
   void add_text(std::string_view text);
-  void append_big_endian(std::uint64_t value);
+  char* room_for(std::size_t count);
 
-  std::string bytes_;
+  std::vector<char> buffer_;  ///< the encoded values, its first size_ bytes
+  std::size_t size_ = 0;
   Sha256 hash_;
 };
 

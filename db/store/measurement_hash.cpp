@@ -6,9 +6,10 @@ namespace fitgauge::store {
 
 Digest MeasurementHasher::operator()(const Digest& before, std::int64_t id,
                                      const MeasurementRow& row) {
+  digest_.add(before);
   digest_.add(id);
   for_each_field(row, [this](const char*, const auto& value) { digest_.add(value); });
-  return digest_.finish({reinterpret_cast<const char*>(before.data()), before.size()});
+  return digest_.finish();
 }
 
 }  // namespace fitgauge::store

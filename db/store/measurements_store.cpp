@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <stdexcept>
 
 #include "store/measurement_fields.hpp"
 #include "store/measurement_insert.hpp"
@@ -73,6 +74,7 @@ struct MeasurementsStore::Statements {
         newest(c, "SELECT id, hash FROM measurements ORDER BY id DESC LIMIT 1"),
         by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
         correction(c, "SELECT id FROM measurements WHERE correction_of = ?"),
+        revision(c, "SELECT 1 FROM table_revisions WHERE number = ?"),
         lookup(c),
         whole_rows(c, measurement_columns()) {}
 
@@ -80,6 +82,26 @@ struct MeasurementsStore::Statements {
     Rows rows = newest.query();
     if (!rows.next()) return {};
     return {rows.get<std::int64_t>(0), rows.get<Digest>(1)};
+  }
+
+  /// @errors as append
+  Result<void> require_current(std::int64_t id) {
+    if (!by_id.query(id).next()) {
+      return Error{ErrorCode::MeasurementUnknown,
+                   fmt::format("there is no measurement {} to correct", id)};
+    }
+    if (corrected_by(id)) {
+      return Error{ErrorCode::MeasurementCorrected,
+                   fmt::format("measurement {} was corrected before; correct the current one", id)};
+    }
+    return {};
+  }
+
+  /// A row with limits of a revision that is not there is a bug of the caller's.
+  void require_revision(std::int64_t number) {
+    if (!revision.query(number).next()) {
+      throw std::logic_error(fmt::format("there is no table revision {}", number));
+    }
   }
 
   std::optional<std::int64_t> corrected_by(std::int64_t id) {
@@ -100,6 +122,7 @@ struct MeasurementsStore::Statements {
   Statement newest;
   Statement by_id;
   Statement correction;
+  Statement revision;
   MeasurementLookup lookup;
   MeasurementQuery whole_rows;
   std::map<GroupBy, MeasurementQuery> values;
@@ -110,19 +133,19 @@ MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
 MeasurementsStore::~MeasurementsStore() = default;
 
 Result<IdRange> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
-  const MeasurementInsert::Place last = statements_->last();
+  std::optional<std::int64_t> known_revision;
   for (const MeasurementRow& row : rows) {
-    if (!row.correction_of) continue;
-    if (!find(*row.correction_of, [](const MeasurementRow&) {})) {
-      return Error{ErrorCode::MeasurementUnknown,
-                   fmt::format("there is no measurement {} to correct", *row.correction_of)};
+    if (row.correction_of) {
+      if (Result<void> open = statements_->require_current(*row.correction_of); !open) {
+        return open.error();
+      }
     }
-    if (const auto newer = corrected_by(*row.correction_of)) {
-      return Error{ErrorCode::MeasurementCorrected,
-                   fmt::format("measurement {} was corrected before; correct the current one",
-                               *row.correction_of)};
+    if (row.table_revision && row.table_revision != known_revision) {
+      statements_->require_revision(*row.table_revision);
+      known_revision = row.table_revision;
     }
   }
+  const MeasurementInsert::Place last = statements_->last();
   const MeasurementInsert::Place end = statements_->insert.append(last, rows);
   return IdRange{last.id + 1, end.id};
 }

@@ -140,22 +140,14 @@ struct TablesStore::Statements {
 Digest digest_of(TableContent content) {
   sort(content);
   CanonicalDigest digest;
+  const auto add_all = [&digest](const auto&... values) { (digest.add(values), ...); };
   digest.add(content.cells.size());
   for (const TableCell& cell : content.cells) {
-    digest.add(cell.table);
-    digest.add(cell.column);
-    digest.add(cell.over_nm);
-    digest.add(cell.up_to_nm);
-    digest.add(cell.value_nm);
+    add_all(cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.value_nm);
   }
   digest.add(content.custom.size());
   for (const CustomCell& cell : content.custom) {
-    digest.add(cell.table);
-    digest.add(cell.column);
-    digest.add(cell.over_nm);
-    digest.add(cell.up_to_nm);
-    digest.add(cell.upper_nm);
-    digest.add(cell.lower_nm);
+    add_all(cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.upper_nm, cell.lower_nm);
   }
   return digest.finish();
 }

@@ -81,6 +81,7 @@ void Verifier::check_schema() {
 void Verifier::check_tables() {
   const TablesStore& tables = session_.stores.tables;
   for (const TableRevision& revision : tables.list()) {
+    revisions_.insert(revision.number);
     const auto loaded = tables.load(revision.number);
     if (loaded && loaded->computed != revision.digest) {
       note(fmt::format("table revision {} differs from its digest", revision.id));
@@ -102,6 +103,10 @@ void Verifier::check_measurement(const MeasurementRow& row) {
     note(fmt::format("measurements {} to {} are missing", expected_id, row.id - 1));
   } else if (hasher_(last_hash_, row.id, row) != row.hash) {
     note(fmt::format("measurement {} was altered: its hash is another", row.id));
+  }
+  if (row.table_revision && !revisions_.contains(*row.table_revision)) {
+    note(fmt::format("measurement {} names table revision {}, which is not there", row.id,
+                     *row.table_revision));
   }
   if (check_) {
     if (const std::optional<std::string> wrong = check_(row)) {

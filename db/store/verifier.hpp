@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <set>
+#include <string>
+
 #include "store/measurement_hash.hpp"
 #include "store/session.hpp"
 #include "store/verify.hpp"
@@ -25,6 +29,7 @@ class Verifier {
   Session& session_;
   const MeasurementCheck& check_;
   VerifyReport report_;
+  std::set<std::int64_t> revisions_;
   MeasurementHasher hasher_;
   std::int64_t last_id_ = 0;
   Digest last_hash_{};

@@ -12,17 +12,22 @@ constexpr int kBusyMilliseconds = 5'000;
 
 int flags_of(Mode mode) {
   switch (mode) {
-    case Mode::Read:
-      return SQLite::OPEN_READONLY | SQLite::OPEN_NOMUTEX;
-    case Mode::Write:
-      return SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX;
-    case Mode::Create:
-      return SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | SQLite::OPEN_NOMUTEX;
+    case Mode::Read: return SQLite::OPEN_READONLY | SQLite::OPEN_NOMUTEX;
+    case Mode::Write: return SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX;
+    case Mode::Create: return SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | SQLite::OPEN_NOMUTEX;
   }
   return 0;
 }
 
+/// Without its memory statistics SQLite takes no global lock for every allocation. Takes effect
+/// before the first connection of the process only.
+void configure_library() {
+  static const int configured = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
+  static_cast<void>(configured);
+}
+
 SQLite::Database open(const std::filesystem::path& file, Mode mode) {
+  configure_library();
   try {
     return {file.string(), flags_of(mode), kBusyMilliseconds};
   } catch (const SQLite::Exception& failure) {
@@ -32,12 +37,9 @@ SQLite::Database open(const std::filesystem::path& file, Mode mode) {
 
 std::string_view name_of(Synchronous synchronous) {
   switch (synchronous) {
-    case Synchronous::Off:
-      return "OFF";
-    case Synchronous::Normal:
-      return "NORMAL";
-    case Synchronous::Full:
-      return "FULL";
+    case Synchronous::Off: return "OFF";
+    case Synchronous::Normal: return "NORMAL";
+    case Synchronous::Full: return "FULL";
   }
   return "FULL";
 }

@@ -28,8 +28,7 @@ void throw_failure(sqlite3* handle, int code, std::string_view doing) {
   const std::string what = describe(handle, code, doing);
   switch (code & 0xFF) {
     case SQLITE_CORRUPT:
-    case SQLITE_NOTADB:
-      throw StorageFailure({ErrorCode::StorageCorrupt, what});
+    case SQLITE_NOTADB: throw StorageFailure({ErrorCode::StorageCorrupt, what});
     case SQLITE_FULL:
     case SQLITE_IOERR:
     case SQLITE_READONLY:
@@ -39,10 +38,8 @@ void throw_failure(sqlite3* handle, int code, std::string_view doing) {
     case SQLITE_LOCKED:
     case SQLITE_PROTOCOL:
     case SQLITE_NOMEM:
-    case SQLITE_INTERRUPT:
-      throw StorageFailure({ErrorCode::StorageUnavailable, what});
-    default:
-      throw std::logic_error(what);
+    case SQLITE_INTERRUPT: throw StorageFailure({ErrorCode::StorageUnavailable, what});
+    default: throw std::logic_error(what);
   }
 }
 

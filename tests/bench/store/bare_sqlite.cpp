@@ -79,7 +79,7 @@ double insert_bare(const std::filesystem::path& database,
   require(handle, sqlite3_open(database.c_str(), &handle) == SQLITE_OK);
   run(handle,
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 4000;"
-      "PRAGMA cache_size = -16000; PRAGMA foreign_keys = ON");
+      "PRAGMA cache_size = -16000");
   sqlite3_stmt* insert = nullptr;
   require(handle, sqlite3_prepare_v3(handle, kInsert, -1, SQLITE_PREPARE_PERSISTENT, &insert,
                                      nullptr) == SQLITE_OK);

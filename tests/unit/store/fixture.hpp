@@ -4,11 +4,13 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "store/database.hpp"
 
@@ -94,6 +96,19 @@ struct Fixture {
   std::int64_t last_id() {
     return *read(
         [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.last_id(); });
+  }
+
+  /// The ids a filter finds, read page by page.
+  std::vector<std::int64_t> list(const MeasurementFilter& filter, std::size_t page = 1000) {
+    std::vector<std::int64_t> ids;
+    std::optional<std::int64_t> after = 0;
+    while (after) {
+      after = *read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
+        return stores.measurements.list(filter, *after, page,
+                                        [&](const MeasurementRow& row) { ids.push_back(row.id); });
+      });
+    }
+    return ids;
   }
 
   TempDirectory directory;

@@ -70,19 +70,6 @@ bool matches(const MeasurementRow& row, std::int64_t id, const MeasurementFilter
          (!filter.as_of_id || id <= *filter.as_of_id);
 }
 
-std::vector<std::int64_t> listed(Fixture& fixture, const MeasurementFilter& filter,
-                                 std::size_t page) {
-  std::vector<std::int64_t> ids;
-  std::optional<std::int64_t> after = 0;
-  while (after) {
-    after = *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
-      return stores.measurements.list(filter, *after, page,
-                                      [&](const MeasurementRow& row) { ids.push_back(row.id); });
-    });
-  }
-  return ids;
-}
-
 std::int64_t count_in_summary(Fixture& fixture, const MeasurementFilter& filter) {
   return *fixture.read([&](const Stores& stores) -> Result<std::int64_t> {
     std::int64_t count = 0;
@@ -111,7 +98,7 @@ TEST_CASE("a filter finds the same rows however many of them are indexed") {
         const auto id = static_cast<std::int64_t>(k) + 1;
         if (matches(sample.rows[k], id, filter)) expected.push_back(id);
       }
-      CHECK(listed(fixture, filter, 1 + random() % 2000) == expected);
+      CHECK(fixture.list(filter, 1 + random() % 2000) == expected);
       CHECK(count_in_summary(fixture, filter) == static_cast<std::int64_t>(expected.size()));
     }
     static_cast<void>(fixture.write(

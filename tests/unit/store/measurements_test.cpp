@@ -70,19 +70,6 @@ std::string text_of(const MeasurementRow& row) {
   return text;
 }
 
-std::vector<std::int64_t> ids_of(Fixture& fixture, const MeasurementFilter& filter,
-                                 std::size_t page = 1000) {
-  std::vector<std::int64_t> ids;
-  std::optional<std::int64_t> after = 0;
-  while (after) {
-    after = *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
-      return stores.measurements.list(filter, *after, page,
-                                      [&](const MeasurementRow& row) { ids.push_back(row.id); });
-    });
-  }
-  return ids;
-}
-
 void import_tables(Fixture& fixture) {
   const TableImport tables{
       .content = {.cells = {{"it", "IT7", 18'000'000, 30'000'000, 21'000}}, .custom = {}},
@@ -131,7 +118,7 @@ TEST_CASE("batches of any size are stored whole, in order") {
     expected += static_cast<std::int64_t>(size);
     CHECK(ids->last == expected - 1);
   }
-  CHECK(ids_of(fixture, {}, 7).size() == static_cast<std::size_t>(expected - 1));
+  CHECK(fixture.list({}, 7).size() == static_cast<std::size_t>(expected - 1));
 }
 
 TEST_CASE("the database refuses what contradicts itself") {
@@ -190,18 +177,18 @@ TEST_CASE("lists are filtered and come in pages") {
   }
   REQUIRE(fixture.append(rows).has_value());
 
-  CHECK(ids_of(fixture, {}).size() == 99);
-  CHECK(ids_of(fixture, {.source = std::nullopt}, 9).size() == 100);
-  CHECK(ids_of(fixture, {.source = Source::Simulation}) == std::vector<std::int64_t>{100});
-  CHECK(ids_of(fixture, {.verdict = Verdict::Rework}) == std::vector<std::int64_t>{99});
-  CHECK(ids_of(fixture, {.part_id = "tenth"}, 3).size() == 10);
-  CHECK(ids_of(fixture, {.part_id = "tenth", .machine = "M2"}) ==
+  CHECK(fixture.list({}).size() == 99);
+  CHECK(fixture.list({.source = std::nullopt}, 9).size() == 100);
+  CHECK(fixture.list({.source = Source::Simulation}) == std::vector<std::int64_t>{100});
+  CHECK(fixture.list({.verdict = Verdict::Rework}) == std::vector<std::int64_t>{99});
+  CHECK(fixture.list({.part_id = "tenth"}, 3).size() == 10);
+  CHECK(fixture.list({.part_id = "tenth", .machine = "M2"}) ==
         std::vector<std::int64_t>{51, 61, 71, 81, 91});
-  CHECK(ids_of(fixture, {.part_id = "tent"}).empty());
-  CHECK(ids_of(fixture, {.characteristic = "odd", .order = "WO"}).size() == 49);
-  CHECK(ids_of(fixture, {.order = "wo"}).empty());
-  CHECK(ids_of(fixture, {.from_ns = 10, .to_ns = 13}) == std::vector<std::int64_t>{11, 12, 13});
-  CHECK(ids_of(fixture, {.as_of_id = 5}) == std::vector<std::int64_t>{1, 2, 3, 4, 5});
+  CHECK(fixture.list({.part_id = "tent"}).empty());
+  CHECK(fixture.list({.characteristic = "odd", .order = "WO"}).size() == 49);
+  CHECK(fixture.list({.order = "wo"}).empty());
+  CHECK(fixture.list({.from_ns = 10, .to_ns = 13}) == std::vector<std::int64_t>{11, 12, 13});
+  CHECK(fixture.list({.as_of_id = 5}) == std::vector<std::int64_t>{1, 2, 3, 4, 5});
 }
 
 TEST_CASE("a page that ends at the last row has no next one") {
@@ -226,16 +213,16 @@ TEST_CASE("a correction replaces the current row and keeps the old one") {
   correction.correction_of = 1;
   REQUIRE(fixture.append(correction)->first == 3);
 
-  CHECK(ids_of(fixture, {}) == std::vector<std::int64_t>{2, 3});
-  CHECK(ids_of(fixture, {.history = true}) == std::vector<std::int64_t>{1, 2, 3});
-  CHECK(ids_of(fixture, {.as_of_id = 2}) == std::vector<std::int64_t>{1, 2});
+  CHECK(fixture.list({}) == std::vector<std::int64_t>{2, 3});
+  CHECK(fixture.list({.history = true}) == std::vector<std::int64_t>{1, 2, 3});
+  CHECK(fixture.list({.as_of_id = 2}) == std::vector<std::int64_t>{1, 2});
 
   CHECK(fixture.append(correction).error().code == ErrorCode::MeasurementCorrected);
   correction.correction_of = 4;
   CHECK(fixture.append(correction).error().code == ErrorCode::MeasurementUnknown);
   correction.correction_of = 3;
   REQUIRE(fixture.append(correction)->first == 4);
-  CHECK(ids_of(fixture, {}) == std::vector<std::int64_t>{2, 4});
+  CHECK(fixture.list({}) == std::vector<std::int64_t>{2, 4});
   CHECK(*fixture.read([](const Stores& stores) -> Result<std::optional<std::int64_t>> {
     return stores.measurements.corrected_by(3);
   }) == 4);

@@ -92,6 +92,10 @@ TEST_CASE("an altered cell, schema or reference is named") {
     fixture.tamper("CREATE TRIGGER extra AFTER INSERT ON events BEGIN SELECT 1; END");
     place = "trigger extra";
   }
+  SUBCASE("table revision of a measurement") {
+    fixture.tamper("UPDATE measurements SET table_revision = 9, basis = 1, tolerance_class = 'H7'");
+    place = "measurement 1 ";
+  }
   SUBCASE("reference") {
     fixture.tamper("UPDATE table_revisions SET table_set = 77");
     place = "table_sets";
