@@ -38,6 +38,32 @@ void append_row(std::string& out, Form form, const app::Measurement& measurement
   if (form == Form::Ndjson) out += '\n';
 }
 
+/// Where a page begins.
+struct Cursor {
+  std::int64_t after = 0;             ///< the id before its first row
+  std::optional<std::int64_t> as_of;  ///< the state its list is read in; none: the newest
+};
+
+/// `m100.m250`: the rows after m100, in the state when m250 was the newest.
+std::string cursor_text(const app::ListPage& page) {
+  return fmt::format("{}.{}", app::measurement_id_text(*page.next),
+                     app::measurement_id_text(page.as_of));
+}
+
+/// The id of a measurement is a cursor too: what was recorded after it.
+Result<Cursor> cursor_of(const http::Request& request) {
+  const auto text = request.text("after");
+  if (!text) return Cursor();
+  const std::size_t point = text->find('.');
+  const auto after = app::parse_measurement_id(text->substr(0, point));
+  if (after && point == std::string_view::npos) return Cursor{.after = *after, .as_of = {}};
+  if (after) {
+    const auto as_of = app::parse_measurement_id(text->substr(point + 1));
+    if (as_of) return Cursor{.after = *after, .as_of = *as_of};
+  }
+  return Error{ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
+}
+
 /// All measurements that match, read page by page while they are sent.
 class MeasurementStream final : public http::BodyStream,
                                 public std::enable_shared_from_this<MeasurementStream> {
@@ -56,11 +82,11 @@ class MeasurementStream final : public http::BodyStream,
           append_row(*piece, form, measurement);
         },
         [self = shared_from_this(), piece,
-         sink = std::make_shared<http::ChunkSink>(std::move(sink))](
-            Result<std::optional<std::int64_t>> next) {
-          if (!next) return sink->fail();
-          if (!*next) return sink->finish(std::move(*piece));
-          self->after_ = **next;
+         sink = std::make_shared<http::ChunkSink>(std::move(sink))](Result<app::ListPage> page) {
+          if (!page) return sink->fail();
+          if (!page->next) return sink->finish(std::move(*piece));
+          self->after_ = *page->next;
+          self->query_.as_of = page->as_of;
           sink->put(std::move(*piece));
         });
   }
@@ -90,23 +116,14 @@ std::string next_link(const http::Request& request, std::string_view cursor) {
   return fmt::format("<{}{}after={}>; rel=\"next\"", link, separator, cursor);
 }
 
-/// Cursors are measurement ids.
-Result<std::int64_t> cursor_of(const http::Request& request) {
-  const auto after = request.text("after");
-  if (!after) return std::int64_t{0};
-  const auto id = app::parse_measurement_id(*after);
-  if (id) return *id;
-  return Error{ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
-}
-
 void answer_page(const http::Request& request, http::Responder& responder, Form form,
-                 std::string rows, std::optional<std::int64_t> next) {
+                 std::string rows, const app::ListPage& page) {
   std::string body;
-  const std::string cursor = next ? app::measurement_id_text(*next) : std::string();
+  const std::string cursor = page.next ? cursor_text(page) : std::string();
   if (form == Form::Json) {
     JsonWriter json(body);
     json.begin_object().key("measurements").raw("[" + rows + "]").key("next");
-    if (next) {
+    if (page.next) {
       json.value(cursor);
     } else {
       json.null();
@@ -117,7 +134,7 @@ void answer_page(const http::Request& request, http::Responder& responder, Form 
   }
   http::Response response(200, media_type(form), std::move(body));
   response.with("Vary", "Accept");
-  if (next) response.with("Link", next_link(request, cursor));
+  if (page.next) response.with("Link", next_link(request, cursor));
   responder.answer(std::move(response));
 }
 
@@ -166,29 +183,30 @@ app::MeasurementQuery measurement_query(const http::Request& request) {
 
 void list_measurements(const Services& services, const http::Request& request,
                        http::Responder responder) {
-  const auto after = cursor_of(request);
-  if (!after) return responder.fail(after.error());
+  const auto cursor = cursor_of(request);
+  if (!cursor) return responder.fail(cursor.error());
   const Form form = form_of(request);
   const auto limit = request.integer("limit");
   app::MeasurementQuery query = measurement_query(request);
+  query.as_of = cursor->as_of;
   if (!limit && form != Form::Json) {
     http::Response response(
         200, media_type(form),
         http::StreamedBody{.source = std::make_shared<MeasurementStream>(
-                               services.measurements, std::move(query), *after, form)});
+                               services.measurements, std::move(query), cursor->after, form)});
     return responder.answer(std::move(response).with("Vary", "Accept"));
   }
   auto rows = std::make_shared<std::string>();
   services.measurements.list(
-      std::move(query), *after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
+      std::move(query), cursor->after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
       [rows, form](const app::Measurement& measurement) {
         if (form == Form::Json && !rows->empty()) *rows += ',';
         append_row(*rows, form, measurement);
       },
       [&request, rows, form, responder = std::make_shared<http::Responder>(std::move(responder))](
-          Result<std::optional<std::int64_t>> next) {
-        if (!next) return responder->fail(next.error());
-        answer_page(request, *responder, form, std::move(*rows), *next);
+          Result<app::ListPage> page) {
+        if (!page) return responder->fail(page.error());
+        answer_page(request, *responder, form, std::move(*rows), *page);
       });
 }
 

@@ -109,7 +109,8 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .pattern = "/v1/measurements",
       .handler = with(services, list_measurements),
       .summary = "List measurements in storage order",
-      .description = "CSV and NDJSON without `limit` stream all that match.",
+      .description = "All pages show the state at the first one. CSV and NDJSON without `limit` "
+                     "stream all that match.",
       .parameters = list_parameters(),
       .response_types = {"application/json", "application/x-ndjson", "text/csv"},
       .access = "viewer",

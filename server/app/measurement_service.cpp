@@ -129,22 +129,16 @@ void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t>
 }
 
 void MeasurementService::list(MeasurementQuery query, std::int64_t after, std::size_t limit,
-                              Visitor visit, Done<std::optional<std::int64_t>> done) {
+                              Visitor visit, Done<ListPage> done) {
   database_.readers().submit(
-      [this, filter = to_store(query), after, limit, visit = std::move(visit)](
-          const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
+      [this, filter = to_store(query), after, limit,
+       visit = std::move(visit)](const store::Stores& stores) mutable -> Result<ListPage> {
+        if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
         const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
-        return stores.measurements.list(
+        const auto next = stores.measurements.list(
             filter, after, limit,
             [&](const store::MeasurementRow& row) { visit(app::from_store(row, ids)); });
-      },
-      std::move(done));
-}
-
-void MeasurementService::last_id(Done<std::int64_t> done) {
-  database_.readers().submit(
-      [](const store::Stores& stores) -> Result<std::int64_t> {
-        return stores.measurements.last_id();
+        return ListPage{.next = next, .as_of = *filter.as_of_id};
       },
       std::move(done));
 }

@@ -50,6 +50,12 @@ struct MeasurementQuery {
   std::optional<std::int64_t> as_of;             ///< the state when this id was the newest
 };
 
+/// How a list goes on after a page.
+struct ListPage {
+  std::optional<std::int64_t> next;  ///< the last id of the page; none when nothing follows
+  std::int64_t as_of = 0;            ///< the state all pages of the list are read in
+};
+
 /// Counts and statistics of one group; texts are exact decimals in mm.
 struct MeasurementGroup {
   std::optional<std::string> value;
@@ -93,13 +99,11 @@ class MeasurementService {
   /// Visits one measurement; `corrected_by` is set if it was. @errors MeasurementUnknown.
   void find(std::int64_t id, Visitor visit, Done<std::int64_t> done);
 
-  /// Visits up to `limit` matching measurements after the id `after`, in storage order; gives the
-  /// cursor of the next page, or none.
+  /// Visits up to `limit` matching measurements after the id `after`, in storage order. A query
+  /// without `as_of` is read in the newest state; the pages that follow name the one it gives, so
+  /// that the list is of one piece however much is recorded and corrected meanwhile.
   void list(MeasurementQuery query, std::int64_t after, std::size_t limit, Visitor visit,
-            Done<std::optional<std::int64_t>> done);
-
-  /// The newest id: 0 when there is none.
-  void last_id(Done<std::int64_t> done);
+            Done<ListPage> done);
 
   /// Groups by one of the text fields. @errors QueryInvalid for another field or too many groups.
   void summary(MeasurementQuery query, std::string_view group_by,

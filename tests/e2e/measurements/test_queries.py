@@ -7,6 +7,7 @@ import io
 import json
 import random
 import re
+import socket
 
 from support.daemon import DaemonTest
 
@@ -100,6 +101,59 @@ class Lists(DaemonTest):
                          {"good": 0, "rework": 0, "reject": 25, "indeterminate": 0})
         self.assertEqual((group["min_mm"], group["max_mm"], group["standard_deviation_mm"]),
                          (25.03, 25.03, 0))
+
+
+class OneState(DaemonTest):
+    """A list is of one piece, whatever is recorded and corrected while it is read."""
+
+    ROWS = 20_000
+
+    def ids(self, query):
+        return [m["id"] for m in self.daemon.get(f"/v1/measurements?{query}").json["measurements"]]
+
+    def test_all_pages_show_the_state_at_the_first(self):
+        rows = [{"designation": "25 H7", "measured_mm": 25.01, "part_id": "one-piece"}] * 6
+        ids = [m["id"] for m in self.daemon.measure(
+            rows, {"Prefer": "return=representation"}).json["measurements"]]
+        path = "/v1/measurements?part_id=one-piece&limit=2"
+        page = self.daemon.get(path).json
+        seen = page["measurements"]
+        corrections = [self.correct(ids[0]), self.correct(ids[4])]
+        self.daemon.measure(rows[0])
+        while page["next"]:
+            page = self.daemon.get(f"{path}&after={page['next']}").json
+            seen += page["measurements"]
+        self.assertEqual([m["id"] for m in seen], ids)
+        # A list that begins now shows what holds now, and an id is a cursor too.
+        current = self.ids("part_id=one-piece")
+        self.assertEqual(current[:6], ids[1:4] + ids[5:] + corrections)
+        self.assertEqual(self.ids(f"part_id=one-piece&after={corrections[0]}"), current[5:])
+
+    def correct(self, name):
+        answer = self.daemon.post(f"/v1/measurements/{name}/corrections",
+                                  {"measured_mm": 25.02, "reason": "typing error"})
+        self.assertEqual(answer.status, 201, answer)
+        return answer.json["id"]
+
+    def test_a_stream_shows_the_state_at_its_beginning(self):
+        body = "designation,measured_mm,comment\n" + f"25H7,25.01,{'x' * 400}\n" * self.ROWS
+        answer = self.daemon.measure(body, {"Content-Type": "text/csv"})
+        self.assertEqual(answer.status, 201, answer)
+        with socket.socket() as client:
+            # A reader that takes little at a time: the end is not read before the list has changed.
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
+            client.connect(("127.0.0.1", self.daemon.port))
+            client.settimeout(30)
+            client.sendall(b"GET /v1/measurements HTTP/1.1\r\nHost: localhost\r\n"
+                           b"Accept: application/x-ndjson\r\nConnection: close\r\n\r\n")
+            text = client.recv(100, socket.MSG_WAITALL)
+            last = answer.json["last_id"]
+            self.correct(last)
+            self.daemon.measure({"designation": "25H7", "measured_mm": 25, "comment": "late"})
+            text += b"".join(iter(lambda: client.recv(65536), b""))
+        self.assertEqual(text.count(b'"comment":"' + b"x" * 400), self.ROWS)
+        self.assertTrue(f'"id":"{last}"'.encode() in text, "the end as it was at the beginning")
+        self.assertFalse(b"late" in text, "nothing newer than the beginning")
 
 
 def exact(text):
