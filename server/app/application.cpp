@@ -68,6 +68,17 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
 
 Readiness Application::readiness() const { return app::readiness(*database_, *tables_); }
 
+Result<std::optional<Timestamp>> Application::newest_measurement() const {
+  return database_->readers().wait(
+      [](const store::Stores& stores) -> Result<std::optional<Timestamp>> {
+        std::optional<Timestamp> newest;
+        stores.measurements.find(
+            stores.measurements.last_id(),
+            [&](const store::MeasurementRow& row) { newest = Timestamp{row.received_at_ns}; });
+        return newest;
+      });
+}
+
 Result<void> Application::backup(const std::filesystem::path& file) const {
   return database_->backup(file);
 }

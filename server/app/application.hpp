@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,10 @@ class Application {
 
   Readiness readiness() const;
 
-  // These block: for commands.
+  // These block: for the start and for commands.
+
+  /// When the newest measurement was received; none before the first. @errors StorageUnavailable.
+  Result<std::optional<Timestamp>> newest_measurement() const;
 
   /// A consistent copy of the live database. @errors StorageUnavailable, also when the file exists.
   Result<void> backup(const std::filesystem::path& file) const;

@@ -45,6 +45,10 @@ void log_info(std::string_view event, std::string_view detail) {
   log_event(spdlog::level::info, event, detail);
 }
 
+void log_warning(std::string_view event, std::string_view detail) {
+  log_event(spdlog::level::warn, event, detail);
+}
+
 void log_error(std::string_view event, std::string_view detail) {
   log_event(spdlog::level::err, event, detail);
 }

@@ -14,6 +14,7 @@ bool logs_requests();
 
 void log_request(const http::FinishedRequest& request);
 void log_info(std::string_view event, std::string_view detail);
+void log_warning(std::string_view event, std::string_view detail);
 void log_error(std::string_view event, std::string_view detail);
 
 /// Writes what is buffered; before the process ends.

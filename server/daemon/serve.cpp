@@ -15,6 +15,7 @@
 #include "api/problem.hpp"
 #include "api/routes.hpp"
 #include "api/run_codec.hpp"
+#include "base/forward_clock.hpp"
 #include "base/text.hpp"
 #include "daemon/application_options.hpp"
 #include "daemon/log.hpp"
@@ -152,10 +153,15 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   if (!addresses) return addresses.error();
   prepare_signals();
 
-  const SystemClock clock;
+  const SystemClock machine_clock;
+  ForwardClock clock(machine_clock,
+                     [](const std::string& what) { log_warning("clock_set_back", what); });
   auto opened = app::Application::open(application_options(config), clock);
   if (!opened) return opened.error();
   app::Application& app = **opened;
+  // A page that cannot be read shows in the readiness, and is no reason not to start.
+  const auto newest = app.newest_measurement();
+  if (newest && *newest) clock.begin_after(**newest);
   for (const Error& finding : app.tables().state()->findings) {
     log_error("tables_inconsistent", finding.message);
   }

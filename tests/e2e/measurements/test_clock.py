@@ -1,0 +1,70 @@
+"""A machine clock that is set back: nothing is lost or doubled, order is kept, and the log says so."""
+
+import json
+import pathlib
+import unittest
+
+from support.daemon import Daemon
+
+LIBRARY = next(iter(sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))), None)
+PART = {"designation": "25 H7", "measured_mm": 25.013}
+KEY = {"Idempotency-Key": "before"}
+
+
+@unittest.skipUnless(LIBRARY, "needs libfaketime")
+class SetBack(unittest.TestCase):
+    def setUp(self):
+        self.daemon = Daemon()
+        self.addCleanup(self.daemon.cleanup)
+        self.offset = self.daemon.folder / "offset"
+        self.daemon.environment |= {
+            "LD_PRELOAD": str(LIBRARY), "FAKETIME_TIMESTAMP_FILE": str(self.offset),
+            "FAKETIME_NO_CACHE": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"}
+        self.set_clock("+0")
+
+    def set_clock(self, offset):
+        """Written aside and renamed: the service reads it whenever it asks for the time."""
+        aside = self.offset.with_suffix(".new")
+        aside.write_text(offset + "\n")
+        aside.rename(self.offset)
+
+    def measure(self):
+        answer = self.daemon.measure(PART)
+        self.assertEqual(answer.status, 201, answer)
+        return answer.json
+
+    def warnings(self):
+        lines = map(json.loads, self.daemon.log.splitlines())
+        return [line["detail"] for line in lines if line["event"] == "clock_set_back"]
+
+    def check(self, records):
+        """All are there once, in the order of their ids and of their times."""
+        self.assertEqual([row["id"] for row in self.daemon.stored()], [r["id"] for r in records])
+        times = [r["received_at"] for r in records]
+        self.assertEqual(times, sorted(times))
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+    def test_by_an_hour_while_it_runs(self):
+        self.daemon.start()
+        first = self.daemon.measure(PART, KEY)
+        records = [first.json, self.measure()]
+        self.set_clock("-3600")
+        records += [self.measure() for _ in range(5)]
+        self.assertEqual(self.daemon.measure(PART, KEY).body, first.body)
+        self.set_clock("+3600")
+        records.append(self.measure())
+        self.check(records)
+        warning, = self.warnings()
+        self.assertRegex(warning, "3(599|600) s before")
+        self.assertEqual(self.daemon.stop(), 0)
+
+    def test_by_an_hour_while_it_is_off(self):
+        self.daemon.start()
+        records = [self.measure()]
+        self.daemon.kill()
+        self.set_clock("-3600")
+        self.daemon.start()
+        records.append(self.measure())
+        self.check(records)
+        self.assertEqual(len(self.warnings()), 1)
+        self.assertEqual(self.daemon.stop(), 0)
