@@ -54,8 +54,7 @@ class CsvReader {
   std::deque<std::string> unescaped_;  // cells whose doubled quotes were undone, of every record
 };
 
-/// Appends `text` as a CSV cell, quoted where it has to be. A cell that a spreadsheet would take
-/// for a formula is quoted as text with a leading apostrophe.
+/// Appends `text` as a CSV cell, quoted where it has to be and otherwise as it is.
 void append_csv_cell(std::string& out, std::string_view text);
 
 }  // namespace fitgauge::api
