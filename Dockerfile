@@ -4,7 +4,7 @@ WORKDIR /src
 COPY scripts/install scripts/packages scripts/
 RUN scripts/install build test
 COPY . .
-RUN scripts/test
+RUN scripts/test --no-browser
 RUN strip -o /fitgauged build/release/bin/fitgauged
 
 FROM debian:bookworm-slim
