@@ -1,11 +1,11 @@
-# Build and test, then a runtime image that holds the daemon and the libraries it needs.
+# Build and test, then a runtime image that holds the daemon, its command line and their libraries.
 FROM debian:bookworm-slim AS build
 WORKDIR /src
 COPY scripts/install scripts/packages scripts/
 RUN scripts/install build test
 COPY . .
 RUN scripts/test --no-browser
-RUN strip -o /fitgauged build/release/bin/fitgauged
+RUN mkdir /programs && cp build/release/bin/fitgauged build/release/bin/fitgauge /programs && strip /programs/*
 
 FROM debian:bookworm-slim
 WORKDIR /setup
@@ -14,7 +14,7 @@ RUN scripts/install runtime \
  && rm -rf scripts /var/lib/apt/lists/* /var/log/*.log \
  && install -d -o 8286 -g 8286 -m 0750 /data
 WORKDIR /data
-COPY --from=build --chmod=0755 /fitgauged /usr/local/bin/fitgauged
+COPY --from=build --chmod=0755 /programs/ /usr/local/bin/
 ENV FITGAUGE_LISTEN=0.0.0.0:8286 FITGAUGE_DATA=/data
 USER 8286:8286
 VOLUME /data

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "cli/outcome.hpp"
+
+namespace fitgauge::cli {
+
+/// The address of a service as it is used: `localhost:8286` is http, a stroke at the end goes.
+/// @errors Usage for another scheme or no host.
+Outcome<std::string> service_url(std::string_view text);
+
+/// Whether the address is one of this machine: no proxy leads there.
+bool is_loopback(std::string_view url);
+
+/// `text` as one segment of a path or one value of a query (RFC 3986: all but the unreserved
+/// characters is encoded).
+std::string percent_encoded(std::string_view text);
+
+/// `nc_prog/8255/8255.h` or `TNC:\nc_prog\8255\8255.h` as the service's path of the file.
+std::string file_target(std::string_view path);
+
+/// The same as the control writes it.
+std::string control_path(std::string_view path);
+
+/// The part behind the last stroke of either kind.
+std::string_view base_name(std::string_view path);
+
+}  // namespace fitgauge::cli

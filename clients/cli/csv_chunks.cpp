@@ -1,0 +1,163 @@
+#include "cli/csv_chunks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace fitgauge::cli {
+namespace {
+
+constexpr std::size_t kReadSize = std::size_t{1} << 20;
+
+std::size_t count_lines(std::string_view text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// The offset behind the closing quote of the cell that begins with one; npos when it is not there.
+std::size_t skip_quoted(std::string_view text, std::size_t begin) {
+  std::size_t close = text.find('"', begin + 1);
+  while (close != std::string_view::npos && text.substr(close + 1).starts_with('"')) {
+    close = text.find('"', close + 2);
+  }
+  return close == std::string_view::npos ? close : close + 1;
+}
+
+}  // namespace
+
+std::optional<CsvRecord> first_record(std::string_view text, char separator, bool ended) {
+  std::size_t lines = 0;
+  bool cell_begins = true;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' && cell_begins) {
+      const std::size_t end = skip_quoted(text, i);
+      // At the end of what was read, the quote may be the first of two.
+      if (end >= text.size() && !ended) return std::nullopt;
+      const std::size_t next = std::min(end, text.size());
+      lines += count_lines(text.substr(i, next - i));
+      i = next;
+      cell_begins = false;
+      continue;
+    }
+    if (c == '\n') return CsvRecord{.size = i + 1, .lines = lines + 1, .blank = i == 0};
+    if (c == '\r') {
+      if (i + 1 == text.size() && !ended) return std::nullopt;
+      const std::size_t size = text.substr(i + 1).starts_with('\n') ? i + 2 : i + 1;
+      return CsvRecord{.size = size, .lines = lines + 1, .blank = i == 0};
+    }
+    cell_begins = c == separator;
+    ++i;
+  }
+  if (!ended || text.empty()) return std::nullopt;
+  return CsvRecord{.size = text.size(), .lines = lines + 1, .blank = false};
+}
+
+Outcome<void> CsvChunks::fill() {
+  const std::size_t size = buffer_.size();
+  buffer_.resize(size + kReadSize);
+  const auto count = read_(std::span(buffer_).subspan(size));
+  buffer_.resize(size + (count ? *count : 0));
+  if (!count) return count.error();
+  ended_ = *count == 0;
+  return {};
+}
+
+Outcome<void> CsvChunks::read_header() {
+  std::optional<CsvRecord> header;
+  while (!header && !(ended_ && buffer_.empty())) {
+    const auto filled = fill();
+    if (!filled) return filled.error();
+    const std::string_view line =
+        std::string_view(buffer_).substr(0, buffer_.find_first_of("\r\n"));
+    separator_ = line.find(';') == std::string_view::npos ? ',' : ';';
+    header = first_record(buffer_, separator_, ended_);
+    if (!header && buffer_.size() > limits_.bytes) break;
+  }
+  if (!header) return Failure{ExitCode::LocalFile, "the input has no header line with field names"};
+  header_size_ = header->size;
+  header_lines_ = header->lines;
+  digest_.add(std::string_view(buffer_).substr(0, header_size_));
+  position_ = {.bytes = header_size_, .lines = header_lines_, .sha256 = digest_.digest()};
+  return {};
+}
+
+void CsvChunks::drop_taken() {
+  buffer_.erase(header_size_, taken_);
+  taken_ = 0;
+}
+
+CsvChunk CsvChunks::take(std::size_t size, std::size_t rows, std::uint64_t lines) {
+  CsvChunk chunk{.body = {}, .rows = rows, .begin = position_, .end = {}};
+  digest_.add(rest().substr(0, size));
+  taken_ = size;
+  position_ = {.bytes = position_.bytes + size,
+               .lines = position_.lines + lines,
+               .sha256 = digest_.digest()};
+  chunk.body = std::string_view(buffer_).substr(0, header_size_ + taken_);
+  chunk.end = position_;
+  return chunk;
+}
+
+Outcome<bool> CsvChunks::skip_to(const CsvPosition& place) {
+  if (place.bytes < position_.bytes) return false;
+  std::uint64_t left = place.bytes - position_.bytes;
+  while (left > 0) {
+    if (rest().empty()) {
+      const auto filled = fill();
+      if (!filled) return filled.error();
+      if (ended_) return false;
+    }
+    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left, rest().size()));
+    digest_.add(rest().substr(0, size));
+    taken_ = size;
+    drop_taken();
+    left -= size;
+  }
+  position_ = {.bytes = place.bytes, .lines = place.lines, .sha256 = digest_.digest()};
+  return position_ == place;
+}
+
+Outcome<std::optional<CsvChunk>> CsvChunks::next() {
+  drop_taken();
+  const std::size_t most_bytes = limits_.bytes - std::min(header_size_, limits_.bytes);
+  std::size_t size = 0;
+  std::size_t rows = 0;
+  std::uint64_t lines = 0;
+  while (rows < limits_.rows) {
+    const auto record = first_record(rest().substr(size), separator_, ended_);
+    if (size + (record ? record->size : 0) > most_bytes) break;
+    if (record) {
+      size += record->size;
+      lines += record->lines;
+      if (!record->blank) ++rows;
+      continue;
+    }
+    if (ended_ || rest().size() > most_bytes) break;
+    if (const auto filled = fill(); !filled) return filled.error();
+  }
+  if (rows > 0) return take(size, rows, lines);
+  if (ended_ && size == rest().size()) return std::nullopt;
+  return Failure{ExitCode::LocalFile,
+                 fmt::format("line {}: the row is larger than a request may be; is a quote open?",
+                             position_.lines + lines + 1)};
+}
+
+Outcome<std::optional<CsvChunk>> CsvChunks::next_until(const CsvPosition& end) {
+  drop_taken();
+  if (end.bytes <= position_.bytes) return std::nullopt;
+  const std::uint64_t size = end.bytes - position_.bytes;
+  while (rest().size() < size) {
+    if (const auto filled = fill(); !filled) return filled.error();
+    if (ended_) return std::nullopt;
+  }
+  CsvChunk chunk = take(static_cast<std::size_t>(size), 0, end.lines - position_.lines);
+  if (chunk.end != end) return std::nullopt;
+  return chunk;
+}
+
+std::uint64_t CsvChunks::input_line(const CsvChunk& chunk, std::uint64_t body_line) const {
+  if (body_line <= header_lines_) return body_line;
+  return chunk.begin.lines + (body_line - header_lines_);
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "cli/outcome.hpp"
+#include "cli/sha256.hpp"
+
+namespace fitgauge::cli {
+
+/// One record of a CSV text (RFC 4180), measured only.
+struct CsvRecord {
+  std::size_t size = 0;   ///< bytes, with the line end
+  std::size_t lines = 0;  ///< line ends in it
+  bool blank = false;     ///< nothing but a line end: no row
+};
+
+/// The record `text` begins with, ended by LF, CRLF or CR outside quotes, as the service reads it.
+/// @param ended whether the input ends with `text`
+/// @returns nothing when more has to be read, or when there is nothing.
+std::optional<CsvRecord> first_record(std::string_view text, char separator, bool ended);
+
+/// A place between two rows of the input.
+struct CsvPosition {
+  std::uint64_t bytes = 0;
+  std::uint64_t lines = 0;
+  std::string sha256{};  ///< of everything before it
+
+  friend bool operator==(const CsvPosition&, const CsvPosition&) = default;
+};
+
+/// Some rows with the header line before them: a CSV text of its own.
+struct CsvChunk {
+  std::string_view body;
+  std::size_t rows = 0;
+  CsvPosition begin;
+  CsvPosition end;
+};
+
+/// Cuts a CSV input of any size into texts the service takes, reading it once from front to back.
+/// After a failure it is of no more use.
+class CsvChunks {
+ public:
+  /// Fills the span from its front; 0 at the end of the input.
+  using Read = std::function<Outcome<std::size_t>(std::span<char>)>;
+
+  struct Limits {
+    std::size_t rows = 100'000;
+    std::size_t bytes = std::size_t{30} << 20;
+  };
+
+  CsvChunks(Read read, Limits limits) : read_(std::move(read)), limits_(limits) {}
+
+  /// To be called first. @errors LocalFile when the input is empty or cannot be read.
+  Outcome<void> read_header();
+
+  /// Behind what was taken last: the header at first.
+  const CsvPosition& position() const { return position_; }
+
+  /// Passes over what lies before `place`. @returns false when the input is another one: shorter,
+  /// or with other bytes. @errors LocalFile
+  Outcome<bool> skip_to(const CsvPosition& place);
+
+  /// The next rows, as many as the limits allow; none at the end. The body is valid until the next
+  /// call. @errors LocalFile, also for a row that is larger than a chunk.
+  Outcome<std::optional<CsvChunk>> next();
+
+  /// The rows up to `end`, which a chunk ended at before; nothing when the input is another one.
+  Outcome<std::optional<CsvChunk>> next_until(const CsvPosition& end);
+
+  /// The line of the input that a line of a chunk's body is, both from 1.
+  std::uint64_t input_line(const CsvChunk& chunk, std::uint64_t body_line) const;
+
+ private:
+  Outcome<void> fill();
+  CsvChunk take(std::size_t size, std::size_t rows, std::uint64_t lines);
+  void drop_taken();
+  /// What was read and not yet taken.
+  std::string_view rest() const { return std::string_view(buffer_).substr(header_size_ + taken_); }
+
+  Read read_;
+  Limits limits_;
+  std::string buffer_;  // the header, the rows that were taken last, what was read behind them
+  std::size_t header_size_ = 0;
+  std::size_t header_lines_ = 0;
+  std::size_t taken_ = 0;
+  char separator_ = ',';
+  bool ended_ = false;
+  CsvPosition position_;
+  Sha256 digest_;  // of everything before position_
+};
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,143 @@
+#include "cli/gauge_command.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/length.hpp"
+#include "base/text.hpp"
+#include "cli/address.hpp"
+#include "cli/problem.hpp"
+#include "cli/retry.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+struct VerdictWord {
+  std::string_view word;
+  ExitCode exit_code;
+  Colour colour;
+};
+constexpr std::array<VerdictWord, 4> kVerdicts{{
+    {"good", ExitCode::Good, Colour::Green},
+    {"rework", ExitCode::Rework, Colour::Yellow},
+    {"reject", ExitCode::Reject, Colour::Red},
+    {"indeterminate", ExitCode::Indeterminate, Colour::Blue},
+}};
+
+Length length_of(const JsonValue& document, std::string_view member) {
+  return parse_length_mm(document.text_of(member)).value();
+}
+
+/// `8 µm below the upper limit`: where the value is, seen from the limit that is nearest.
+std::string distance_text(const JsonValue& document, std::string_view unit) {
+  const Length measured = length_of(document, "measured_mm");
+  const Length to_upper = measured - length_of(document, "upper_limit_mm");
+  const Length to_lower = measured - length_of(document, "lower_limit_mm");
+  const auto size = [](Length length) { return length < Length() ? -length : length; };
+  const bool upper = size(to_upper) <= size(to_lower);
+  const Length distance = upper ? to_upper : to_lower;
+  const std::string_view limit = upper ? "upper" : "lower";
+  if (distance == Length()) return fmt::format("on the {} limit", limit);
+  return fmt::format("{} {} {} the {} limit", format_um(size(distance)), unit,
+                     distance > Length() ? "above" : "below", limit);
+}
+
+std::string verdict_query(const GaugeOptions& options, const std::string& measured) {
+  std::string query = "?measured_mm=" + percent_encoded(measured);
+  const auto add = [&query](std::string_view name, const std::string& value) {
+    if (!value.empty()) query.append("&").append(name).append("=").append(percent_encoded(value));
+  };
+  add("rule", options.rule);
+  add("uncertainty_um", options.uncertainty_um);
+  add("coverage_factor", options.coverage_factor);
+  return query;
+}
+
+std::string record_body(const GaugeOptions& options, const std::string& measured) {
+  return JsonObject()
+      .add("designation", options.designation)
+      .add("measured_mm", measured)
+      .add_given("rule", options.rule)
+      .add_given("uncertainty_um", options.uncertainty_um)
+      .add_given("coverage_factor", options.coverage_factor)
+      .add_given("part_id", options.part_id)
+      .add_given("characteristic", options.characteristic)
+      .add_given("order", options.order)
+      .add_given("operation", options.operation)
+      .add_given("machine", options.machine)
+      .add_given("operator", options.operator_name)
+      .add_given("gauge", options.gauge)
+      .add_given("unit", options.unit)
+      .add_given("measured_at", options.measured_at)
+      .add_given("temperature_c", options.temperature_c)
+      .add_given("comment", options.comment)
+      .text();
+}
+
+Outcome<Answer> record(const Context& context, const std::string& body) {
+  const Request request{.method = "POST",
+                        .target = "/v1/measurements",
+                        .headers = {"Idempotency-Key: " + new_idempotency_key()},
+                        .content_type = "application/json",
+                        .body = body};
+  return send_until_answered(
+      context.client, request, Backoff(context.retry_budget),
+      [&context](const Failure& failure, auto) { context.note(failure.message); });
+}
+
+}  // namespace
+
+Outcome<ExitCode> verdict_exit_code(std::string_view word) {
+  const auto found = std::find_if(kVerdicts.begin(), kVerdicts.end(),
+                                  [word](const VerdictWord& v) { return v.word == word; });
+  if (found != kVerdicts.end()) return found->exit_code;
+  return Failure{ExitCode::NoAnswer, fmt::format("the service answers with verdict '{}', which "
+                                                 "this fitgauge does not know",
+                                                 word)};
+}
+
+Colour verdict_colour(std::string_view word) {
+  const auto found = std::find_if(kVerdicts.begin(), kVerdicts.end(),
+                                  [word](const VerdictWord& v) { return v.word == word; });
+  return found == kVerdicts.end() ? Colour::Cyan : found->colour;
+}
+
+std::string format_verdict(const JsonValue& document, const Terminal& terminal) {
+  const std::string_view word = document.text_of("verdict");
+  std::string text = terminal.painted(ascii_upper(word), verdict_colour(word));
+  text += fmt::format("  {} mm  {} ({} to {} mm): {}\n", document.text_of("measured_mm"),
+                      document.text_of("designation"), document.text_of("lower_limit_mm"),
+                      document.text_of("upper_limit_mm"),
+                      distance_text(document, terminal.micrometre()));
+  if (const std::string_view id = document.text_of("id"); !id.empty()) {
+    text += fmt::format("stored as {}\n", id);
+  }
+  return text;
+}
+
+Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
+  const auto measured =
+      parse_length_mm(options.measured, {.decimal_comma = true, .round_to_nearest = true});
+  if (!measured) {
+    return Failure{ExitCode::Usage, fmt::format("'{}' is no measured value in mm: {}",
+                                                options.measured, measured.error().message)};
+  }
+  const std::string text = format_mm(*measured);
+  auto answer =
+      options.record
+          ? record(context, record_body(options, text))
+          : context.client.send({.target = "/v1/verdicts/" + percent_encoded(options.designation) +
+                                           verdict_query(options, text)});
+  answer = expect_ok(std::move(answer), context.client.url());
+  if (!answer) return answer.error();
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  if (context.json) {
+    context.print_document(answer->body);
+  } else {
+    context.print("{}", format_verdict(*document, context.out));
+  }
+  return verdict_exit_code(document->text_of("verdict"));
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "cli/context.hpp"
+#include "cli/json_value.hpp"
+
+namespace fitgauge::cli {
+
+/// The command line of `fitgauge gauge`, as it was typed; an empty text was not given.
+struct GaugeOptions {
+  std::string designation;
+  std::string measured;  ///< mm, with a point or a comma
+  std::string rule{};
+  std::string uncertainty_um{};
+  std::string coverage_factor{};
+  bool record = false;
+  // Fields of a record.
+  std::string part_id{};
+  std::string characteristic{};
+  std::string order{};
+  std::string operation{};
+  std::string machine{};
+  std::string operator_name{};
+  std::string gauge{};
+  std::string unit{};
+  std::string measured_at{};
+  std::string temperature_c{};
+  std::string comment{};
+};
+
+/// `fitgauge gauge 25H7 25.013`: judges a value, and stores it with --record. The exit code is the
+/// verdict.
+Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options);
+
+/// The text of a verdict or of a record: the word, the value, the distance to the nearest limit.
+std::string format_verdict(const JsonValue& document, const Terminal& terminal);
+
+/// @errors NoAnswer for another word.
+Outcome<ExitCode> verdict_exit_code(std::string_view word);
+
+/// The colour a verdict has everywhere in fitgauge.
+Colour verdict_colour(std::string_view word);
+
+}  // namespace fitgauge::cli

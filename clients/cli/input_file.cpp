@@ -1,0 +1,80 @@
+#include "cli/input_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+namespace fitgauge::cli {
+namespace {
+
+constexpr std::size_t kReadSize = std::size_t{64} << 10;
+
+Failure failed(const std::string& name, const char* what) {
+  return {ExitCode::LocalFile, fmt::format("{}: cannot {}: {}", name, what, std::strerror(errno))};
+}
+
+}  // namespace
+
+Outcome<InputFile> InputFile::open(const std::string& path) {
+  if (path == "-") return InputFile("standard input", STDIN_FILENO);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return failed(path, "open it");
+  return InputFile(path, descriptor);
+}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : name_(std::move(other.name_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+InputFile::~InputFile() {
+  if (descriptor_ > STDIN_FILENO) close(descriptor_);
+}
+
+Outcome<std::size_t> InputFile::read(std::span<char> into) {
+  for (;;) {
+    const ssize_t count = ::read(descriptor_, into.data(), into.size());
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EINTR) return failed(name_, "read it");
+  }
+}
+
+std::optional<std::uint64_t> InputFile::size() const {
+  struct stat facts {};
+  if (fstat(descriptor_, &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
+  return static_cast<std::uint64_t>(facts.st_size);
+}
+
+Outcome<std::string> read_file(const std::string& path) {
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  std::string bytes;
+  for (;;) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kReadSize);
+    const auto count = file->read(std::span(bytes).subspan(size));
+    if (!count) return count.error();
+    bytes.resize(size + *count);
+    if (*count == 0) return bytes;
+  }
+}
+
+Outcome<void> write_file(const std::string& path, std::string_view bytes) {
+  if (path == "-") {
+    std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+    return {};
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"),
+                                                             &std::fclose);
+  if (!file) return failed(path, "write it");
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  if (!written || std::fflush(file.get()) != 0) return failed(path, "write it");
+  return {};
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "cli/outcome.hpp"
+
+namespace fitgauge::cli {
+
+/// An open file or standard input, read from front to back. Closed when it goes.
+class InputFile {
+ public:
+  /// @param path `-` is standard input. @errors LocalFile
+  static Outcome<InputFile> open(const std::string& path);
+
+  InputFile(InputFile&& other) noexcept;
+  InputFile& operator=(InputFile&&) = delete;
+  ~InputFile();
+
+  /// 0 at the end. @errors LocalFile
+  Outcome<std::size_t> read(std::span<char> into);
+
+  /// Where it is a regular file.
+  std::optional<std::uint64_t> size() const;
+
+ private:
+  InputFile(std::string name, int descriptor) : name_(std::move(name)), descriptor_(descriptor) {}
+
+  std::string name_;
+  int descriptor_;
+};
+
+/// The whole of a file, or of standard input for `-`. @errors LocalFile
+Outcome<std::string> read_file(const std::string& path);
+
+/// Writes a file in one piece, or standard output for `-`. @errors LocalFile
+Outcome<void> write_file(const std::string& path, std::string_view bytes);
+
+}  // namespace fitgauge::cli

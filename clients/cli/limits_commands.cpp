@@ -1,0 +1,150 @@
+#include "cli/limits_commands.hpp"
+
+#include <array>
+
+#include "base/length.hpp"
+#include "cli/address.hpp"
+#include "cli/input_file.hpp"
+#include "cli/problem.hpp"
+#include "cli/tolerance_zones.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+bool is_hole(const JsonValue& limits) { return limits.text_of("feature") == "hole"; }
+
+/// A deviation of the document, exactly.
+Length deviation(const JsonValue& limits, std::string_view member) {
+  return parse_length_um(limits.text_of(member)).value();
+}
+
+ToleranceZone zone_of(const JsonValue& limits) {
+  const bool hole = is_hole(limits);
+  return {
+      .heading = fmt::format("{} {}", limits.text_of("feature"), limits.text_of("tolerance_class")),
+      .upper_name = hole ? "ES" : "es",
+      .lower_name = hole ? "EI" : "ei",
+      .upper = deviation(limits, "upper_deviation_um"),
+      .lower = deviation(limits, "lower_deviation_um"),
+      .colour = hole ? Colour::Cyan : Colour::Yellow};
+}
+
+/// What the fit leaves between hole and shaft; interference is negative clearance.
+std::string clearances(const JsonValue& fit, std::string_view unit) {
+  const Length most = parse_length_um(fit.text_of("max_clearance_um")).value();
+  const Length least = parse_length_um(fit.text_of("min_clearance_um")).value();
+  if (least >= Length()) {
+    return fmt::format("clearance {} to {} {}", format_um(least), format_um(most), unit);
+  }
+  if (most <= Length()) {
+    return fmt::format("interference {} to {} {}", format_um(-most), format_um(-least), unit);
+  }
+  return fmt::format("clearance up to {} {unit}, interference up to {} {unit}", format_um(most),
+                     format_um(-least), fmt::arg("unit", unit));
+}
+
+Outcome<Answer> get(const Context& context, const std::string& target) {
+  return expect_ok(context.client.send({.target = target}), context.client.url());
+}
+
+/// Asks for a document and prints it, or what `format` makes of it.
+template <class Format>
+Outcome<ExitCode> show(const Context& context, const std::string& target, const Format& format) {
+  const auto answer = get(context, target);
+  if (!answer) return answer.error();
+  if (context.json) {
+    context.print_document(answer->body);
+    return ExitCode::Good;
+  }
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  context.print("{}", format(*document, context.out));
+  return ExitCode::Good;
+}
+
+/// The path and query of a table in the form that is wanted.
+Outcome<std::string> table_target(const TableOptions& options, const std::string& format) {
+  const std::string table = "/v1/tables/" + percent_encoded(options.feature);
+  if (format == "tab") {
+    if (options.classes.empty() && options.revision.empty()) return table + ".tab";
+    return Failure{ExitCode::Usage,
+                   "--classes and --revision go with the formats csv and json: the control's table "
+                   "has every class"};
+  }
+  std::string target = table + "?format=" + format;
+  if (!options.classes.empty()) target += "&classes=" + percent_encoded(options.classes);
+  if (!options.revision.empty()) target += "&revision=" + percent_encoded(options.revision);
+  return target;
+}
+
+}  // namespace
+
+std::string signed_text(std::string_view number) {
+  const bool is_positive = number != "0" && !number.starts_with('-');
+  return (is_positive ? "+" : "") + std::string(number);
+}
+
+std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
+  const ToleranceZone zone = zone_of(limits);
+  const std::string_view unit = terminal.micrometre();
+  const std::array sizes{fmt::format("{} mm", limits.text_of("upper_limit_mm")),
+                         fmt::format("{} mm", limits.text_of("lower_limit_mm")),
+                         fmt::format("{} {}", limits.text_of("tolerance_um"), unit)};
+  std::size_t width = 0;
+  for (const std::string& size : sizes) width = std::max(width, size.size());
+  const JsonValue& range = limits.object("size_range_mm");
+  std::string text =
+      fmt::format("{}  {}{}\n", limits.text_of("designation"), limits.text_of("feature"),
+                  limits.text_of("basis") == "custom" ? ", a column of the shop's own" : "");
+  text += fmt::format("upper limit  {:{}}  {} {} {}\n", sizes[0], width, zone.upper_name,
+                      signed_text(limits.text_of("upper_deviation_um")), unit);
+  text += fmt::format("lower limit  {:{}}  {} {} {}\n", sizes[1], width, zone.lower_name,
+                      signed_text(limits.text_of("lower_deviation_um")), unit);
+  text += fmt::format("tolerance    {:{}}  sizes over {} up to {} mm\n", sizes[2], width,
+                      range.text_of("over"), range.text_of("up_to"));
+  return text;
+}
+
+std::string format_fit(const JsonValue& fit, const Terminal& terminal) {
+  const JsonValue& hole = fit.object("hole");
+  const JsonValue& shaft = fit.object("shaft");
+  const std::array zones{zone_of(hole), zone_of(shaft)};
+  std::string text = fmt::format("{}  {} fit, {}\n\n", fit.text_of("designation"),
+                                 fit.text_of("type"), clearances(fit, terminal.micrometre()));
+  text += draw_zones(zones, fmt::format("{} mm", hole.text_of("nominal_mm")), terminal);
+  text += '\n';
+  for (const JsonValue* part : {&hole, &shaft}) {
+    text += fmt::format("{:5}  {} to {} mm\n", part->text_of("feature"),
+                        part->text_of("lower_limit_mm"), part->text_of("upper_limit_mm"));
+  }
+  return text;
+}
+
+Outcome<ExitCode> run_limits(const Context& context, const std::string& designation) {
+  return show(context, "/v1/limits/" + percent_encoded(designation), format_limits);
+}
+
+Outcome<ExitCode> run_fit(const Context& context, const std::string& designation) {
+  return show(context, "/v1/fits/" + percent_encoded(designation), format_fit);
+}
+
+Outcome<ExitCode> run_tables_export(const Context& context, const TableOptions& options) {
+  std::string format = options.format;
+  if (format.empty()) format = context.json ? "json" : "csv";
+  const auto target = table_target(options, format);
+  if (!target) return target.error();
+  const auto answer = get(context, *target);
+  if (!answer) return answer.error();
+  const auto written = write_file(options.output, answer->body);
+  return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
+}
+
+Outcome<ExitCode> run_version(const Context& context) {
+  if (!context.json) context.print("fitgauge {}\n", FITGAUGE_VERSION);
+  return show(context, "/openapi.json", [&context](const JsonValue& document, const Terminal&) {
+    return fmt::format("fitgauged {} at {}\n", document.object("info").text_of("version"),
+                       context.client.url());
+  });
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "cli/context.hpp"
+#include "cli/json_value.hpp"
+
+namespace fitgauge::cli {
+
+/// `fitgauge limits 25H7`
+Outcome<ExitCode> run_limits(const Context& context, const std::string& designation);
+
+/// `fitgauge fit 25H7/g6`, with the tolerance zones drawn.
+Outcome<ExitCode> run_fit(const Context& context, const std::string& designation);
+
+struct TableOptions {
+  std::string feature;   ///< hole or shaft
+  std::string format{};  ///< json, csv, tab
+  std::string classes{};
+  std::string revision{};
+  std::string output = "-";
+};
+
+/// `fitgauge tables export hole`
+Outcome<ExitCode> run_tables_export(const Context& context, const TableOptions& options);
+
+/// `fitgauge version`: of this program, and of the service with the revision of its tables.
+Outcome<ExitCode> run_version(const Context& context);
+
+/// The text of a limits document. @param terminal the one it is shown on
+std::string format_limits(const JsonValue& limits, const Terminal& terminal);
+
+/// The text of a fit document.
+std::string format_fit(const JsonValue& fit, const Terminal& terminal);
+
+/// `+21`, `0`, `-7` from the document's number.
+std::string signed_text(std::string_view number);
+
+}  // namespace fitgauge::cli

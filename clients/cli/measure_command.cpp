@@ -1,0 +1,272 @@
+#include "cli/measure_command.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "cli/input_file.hpp"
+#include "cli/progress.hpp"
+#include "cli/retry.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::uint64_t number_of(std::string_view digits) {
+  std::uint64_t number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return number;
+}
+
+VerdictCounts counts_of(const JsonValue& accepted) {
+  const JsonValue& verdicts = accepted.object("verdicts");
+  return {.good = number_of(verdicts.text_of("good")),
+          .rework = number_of(verdicts.text_of("rework")),
+          .reject = number_of(verdicts.text_of("reject")),
+          .indeterminate = number_of(verdicts.text_of("indeterminate"))};
+}
+
+std::string summary(const VerdictCounts& counts) {
+  std::string text =
+      fmt::format("{} rows: {} good, {} rework, {} reject", grouped(counts.sum()),
+                  grouped(counts.good), grouped(counts.rework), grouped(counts.reject));
+  if (counts.indeterminate > 0) {
+    text += fmt::format(", {} indeterminate", grouped(counts.indeterminate));
+  }
+  return text;
+}
+
+/// Whether the service has looked at the rows and stores none of them.
+bool rows_are_refused(const Answer& answer) {
+  constexpr long kRefusals[] = {400, 413, 415, 422};
+  return std::find(std::begin(kRefusals), std::end(kRefusals), answer.status) !=
+         std::end(kRefusals);
+}
+
+/// The one input of a run on its way to the service.
+class Upload {
+ public:
+  Upload(const Context& context, const MeasureOptions& options, MeasureJournal journal)
+      : context_(context),
+        options_(options),
+        name_(options.input == "-" ? "standard input" : options.input),
+        journal_(std::move(journal)) {}
+
+  Outcome<ExitCode> run() {
+    if (options_.again) {
+      if (const auto cleared = journal_.clear(); !cleared) return cleared.error();
+    }
+    auto chunks = find_place();
+    if (!chunks) return chunks.error();
+    for (;;) {
+      auto chunk = state_.pending ? pending_chunk(*chunks) : chunks->next();
+      if (!chunk) return chunk.error();
+      if (!*chunk) break;
+      const auto sent = send(*chunks, **chunk);
+      if (!sent) return sent.error();
+    }
+    return finish();
+  }
+
+ private:
+  Outcome<CsvChunks> open_input() {
+    auto opened = InputFile::open(options_.input);
+    if (!opened) return opened.error();
+    const auto file = std::make_shared<InputFile>(std::move(*opened));
+    progress_.bytes_in_all = file->size();
+    CsvChunks chunks([file](std::span<char> into) { return file->read(into); },
+                     {.rows = options_.chunk_rows});
+    if (const auto header = chunks.read_header(); !header) {
+      return Failure{header.error().exit_code,
+                     fmt::format("{}: {}", name_, header.error().message)};
+    }
+    return chunks;
+  }
+
+  void begin_session(const CsvChunks& chunks) {
+    state_ = {.server = context_.client.url(),
+              .session = new_idempotency_key(),
+              .stored = chunks.position()};
+  }
+
+  /// The input at the place where an earlier run stopped, or at its first row.
+  Outcome<CsvChunks> find_place() {
+    auto chunks = open_input();
+    if (!chunks) return chunks;
+    const auto& last = journal_.state();
+    if (!last) {
+      begin_session(*chunks);
+      return chunks;
+    }
+    if (last->server != context_.client.url()) return other_server(*last);
+    const auto same = chunks->skip_to(last->stored);
+    if (!same) return same.error();
+    if (*same) {
+      state_ = *last;
+      state_.complete = false;
+      return chunks;
+    }
+    const bool is_done_with = last->complete || (!last->pending && last->counts.sum() == 0);
+    if (!is_done_with || options_.input == "-") return changed(last->stored.lines);
+    chunks = open_input();
+    if (chunks) begin_session(*chunks);
+    return chunks;
+  }
+
+  Outcome<std::optional<CsvChunk>> pending_chunk(CsvChunks& chunks) {
+    auto chunk = chunks.next_until(*state_.pending);
+    if (chunk && !*chunk) return changed(state_.pending->lines);
+    return chunk;
+  }
+
+  Failure other_server(const MeasureState& last) const {
+    return {ExitCode::LocalFile,
+            fmt::format("{}: the state is that of {}: name another file with --state, or send all "
+                        "rows with --again",
+                        journal_.path(), last.server)};
+  }
+
+  Failure changed(std::uint64_t lines) const {
+    return {ExitCode::LocalFile,
+            fmt::format("{}: the lines up to {} were sent before and are not the same now: put "
+                        "them back, or send all rows with --again",
+                        name_, lines)};
+  }
+
+  Outcome<void> send(const CsvChunks& chunks, const CsvChunk& chunk) {
+    state_.pending = chunk.end;
+    if (const auto kept = journal_.append(state_); !kept) return kept.error();
+    const auto answer = send_until_answered(
+        context_.client,
+        {.method = "POST",
+         .target = "/v1/measurements",
+         .headers = {"Idempotency-Key: " + chunk_key(state_, chunk.end)},
+         .content_type = "text/csv",
+         .body = chunk.body},
+        Backoff(context_.retry_budget),
+        [this](const Failure& failure, std::chrono::milliseconds wait) { notice(failure, wait); });
+    if (!answer) return interrupted(answer.error());
+    if (!answer->ok()) return refused(chunks, chunk, *answer);
+    const auto document = read_document(*answer, context_.client.url());
+    if (!document) return document.error();
+    const VerdictCounts counts = counts_of(*document);
+    state_.counts += counts;
+    state_.stored = chunk.end;
+    state_.pending.reset();
+    rows_sent_ += counts.sum();
+    if (context_.json) {
+      line_.clear();
+      context_.print_document(answer->body);
+    }
+    show_progress();
+    return {};
+  }
+
+  Failure interrupted(const Failure& failure) const {
+    const std::string_view remedy = journal_.path().empty()
+                                        ? "with --state it could have been resumed"
+                                        : "run it again to resume";
+    return {failure.exit_code,
+            fmt::format("{}; {} rows are stored, up to line {}: {}", failure.message,
+                        grouped(state_.counts.sum()), state_.stored.lines, remedy),
+            failure.document};
+  }
+
+  Failure refused(const CsvChunks& chunks, const CsvChunk& chunk, const Answer& answer) {
+    const Failure failure = failure_of(answer, context_.client.url());
+    const auto problem = problem_of(answer);
+    if (!problem || !rows_are_refused(answer)) return interrupted(failure);
+    state_.pending.reset();
+    if (const auto kept = journal_.append(state_); !kept) return kept.error();
+    line_.clear();
+    fmt::print(stderr, "{}", explain_rows(*problem, name_, [&](std::uint64_t line) {
+                 return chunks.input_line(chunk, line);
+               }));
+    const bool explained = problem->fields.empty() && !problem->where.empty();
+    return Failure{
+        failure.exit_code,
+        fmt::format("{}{}; lines {} to {} are not stored, {} rows before them are: correct the "
+                    "lines and run it again",
+                    problem->title, explained ? "" : ": " + problem->detail, chunk.begin.lines + 1,
+                    chunk.end.lines, grouped(state_.counts.sum()))};
+  }
+
+  Outcome<ExitCode> finish() {
+    state_.complete = true;
+    if (const auto kept = journal_.append(state_); !kept) return kept.error();
+    line_.clear();
+    if (state_.counts.sum() == 0) {
+      return Failure{ExitCode::LocalFile, name_ + ": there is no row below the header"};
+    }
+    if (rows_sent_ == 0) {
+      context_.note(name_ + ": every row was stored before; --again stores them once more");
+    }
+    if (!context_.json) context_.print("{}\n", summary(state_.counts));
+    return options_.exit_verdict ? worst_verdict(state_.counts) : ExitCode::Good;
+  }
+
+  void notice(const Failure& failure, std::chrono::milliseconds wait) {
+    line_.clear();
+    context_.note(fmt::format("{}; again in {:.1f} s", failure.message,
+                              std::chrono::duration<double>(wait).count()));
+  }
+
+  void show_progress() {
+    progress_.name = name_;
+    progress_.bytes = state_.stored.bytes;
+    progress_.rows = rows_sent_;
+    progress_.seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+    line_.show(progress_);
+  }
+
+  const Context& context_;
+  const MeasureOptions& options_;
+  const std::string name_;  // of the input
+  MeasureJournal journal_;
+  MeasureState state_;
+  std::uint64_t rows_sent_ = 0;
+  Progress progress_;
+  Clock::time_point began_ = Clock::now();
+  ProgressLine line_{context_.err};
+};
+
+Outcome<MeasureJournal> open_journal(const Context& context, const MeasureOptions& options) {
+  if (!options.state_file.empty()) return MeasureJournal::open(options.state_file);
+  if (options.input == "-") return MeasureJournal::in_memory();
+  const auto path = journal_path(options.input, context.client.url());
+  if (!path) return path.error();
+  return MeasureJournal::open(*path);
+}
+
+}  // namespace
+
+std::string explain_rows(const Problem& problem, const std::string& input,
+                         const std::function<std::uint64_t(std::uint64_t)>& line_of) {
+  constexpr std::string_view kLine = "line ";
+  std::string text;
+  for (const FieldProblem& field : problem.fields) {
+    const std::string name = field.pointer.substr(field.pointer.rfind('/') + 1);
+    text +=
+        fmt::format("{}:{}: {}: {}\n", input, line_of(field.line.value_or(1)), name, field.detail);
+  }
+  if (!problem.fields.empty() || !problem.where.starts_with(kLine)) return text;
+  // A text that is no CSV: the detail begins with the line of the body.
+  std::string_view detail = problem.detail;
+  if (detail.starts_with(problem.where)) detail.remove_prefix(problem.where.size());
+  const std::uint64_t line = number_of(std::string_view(problem.where).substr(kLine.size()));
+  return fmt::format("{}:{}:{}\n", input, line_of(line), detail);
+}
+
+ExitCode worst_verdict(const VerdictCounts& counts) {
+  if (counts.reject > 0) return ExitCode::Reject;
+  if (counts.rework > 0) return ExitCode::Rework;
+  return counts.indeterminate > 0 ? ExitCode::Indeterminate : ExitCode::Good;
+}
+
+Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options) {
+  auto journal = open_journal(context, options);
+  if (!journal) return journal.error();
+  return Upload(context, options, std::move(*journal)).run();
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cli/csv_chunks.hpp"
+
+namespace fitgauge::cli {
+
+/// How many rows got each verdict.
+struct VerdictCounts {
+  std::uint64_t good = 0;
+  std::uint64_t rework = 0;
+  std::uint64_t reject = 0;
+  std::uint64_t indeterminate = 0;
+
+  std::uint64_t sum() const { return good + rework + reject + indeterminate; }
+  VerdictCounts& operator+=(const VerdictCounts& other);
+  friend bool operator==(const VerdictCounts&, const VerdictCounts&) = default;
+};
+
+/// How far the rows of one input are stored.
+struct MeasureState {
+  std::string server;
+  std::string session;                   ///< begins every idempotency key of this input
+  CsvPosition stored{};                  ///< everything before it is stored
+  std::optional<CsvPosition> pending{};  ///< the chunk up to here was sent, its fate is not known
+  VerdictCounts counts{};
+  bool complete = false;  ///< the input had ended there
+
+  friend bool operator==(const MeasureState&, const MeasureState&) = default;
+};
+
+/// One line of JSON. @returns nothing for any other text.
+std::optional<MeasureState> parse_state(std::string_view line);
+std::string format_state(const MeasureState& state);
+
+/// The idempotency key of the rows up to `end`: another one for every place and every content.
+std::string chunk_key(const MeasureState& state, const CsvPosition& end);
+
+/// A file to which every change of a MeasureState is appended, so that it survives a kill and a
+/// power cut; its last whole line counts. Locked against a second process while it is open.
+class MeasureJournal {
+ public:
+  /// Creates the file with its folders. @errors LocalFile, also when another process has it.
+  static Outcome<MeasureJournal> open(const std::string& path);
+
+  /// One without a file: nothing survives.
+  static MeasureJournal in_memory() { return MeasureJournal({}, -1); }
+
+  MeasureJournal(MeasureJournal&& other) noexcept;
+  MeasureJournal& operator=(MeasureJournal&&) = delete;
+  ~MeasureJournal();
+
+  /// Empty where there is no file.
+  const std::string& path() const { return path_; }
+  const std::optional<MeasureState>& state() const { return state_; }
+
+  /// On the disk when it returns. @errors LocalFile
+  Outcome<void> append(const MeasureState& state);
+
+  /// Forgets everything. @errors LocalFile
+  Outcome<void> clear();
+
+ private:
+  MeasureJournal(std::string path, int descriptor)
+      : path_(std::move(path)), descriptor_(descriptor) {}
+  Outcome<void> read_last_line();
+
+  std::string path_;
+  int descriptor_;
+  std::optional<MeasureState> state_;
+};
+
+/// Where the journal of an input is: `fitgauge/<digest>.state` below XDG_STATE_HOME, or below
+/// ~/.local/state. @errors LocalFile when there is no such place.
+Outcome<std::string> journal_path(const std::string& input, const std::string& server);
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,196 @@
+#include "cli/nc_commands.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "cli/address.hpp"
+#include "cli/gauge_command.hpp"
+#include "cli/input_file.hpp"
+#include "cli/json_value.hpp"
+#include "cli/problem.hpp"
+#include "cli/retry.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+Outcome<Answer> send(const Context& context, const Request& request) {
+  return expect_ok(context.client.send(request), context.client.url());
+}
+
+Outcome<Answer> send_persistently(const Context& context, const Request& request) {
+  return send_until_answered(
+      context.client, request, Backoff(context.retry_budget),
+      [&context](const Failure& failure, auto) { context.note(failure.message); });
+}
+
+/// Prints each finding with its block.
+void print_diagnostics(const JsonValue& document, std::FILE* stream) {
+  for (const JsonValue& found : document.items_of("diagnostics")) {
+    fmt::print(stream, "{}:{}:{}: {}: {}\n    {}\n", found.text_of("program"),
+               found.text_of("line"), found.text_of("column"), found.text_of("severity"),
+               found.text_of("message"), found.text_of("source"));
+  }
+}
+
+bool has_errors(const JsonValue& document) {
+  const auto& found = document.items_of("diagnostics");
+  return std::any_of(found.begin(), found.end(), [](const JsonValue& diagnostic) {
+    return diagnostic.text_of("severity") == "error";
+  });
+}
+
+bool names_folder(std::string_view path) { return path.ends_with('/') || path.ends_with('\\'); }
+
+/// A parameter's value as JSON: a QS holds a text, every other one a number.
+Outcome<std::string> parameter_json(std::string_view name, std::string_view value) {
+  if (ascii_iequals(name.substr(0, 2), "QS")) return json_quoted(value);
+  const auto number = parse_json(value);
+  if (number && number->kind == JsonValue::Kind::Number) return std::string(value);
+  return Failure{ExitCode::Usage,
+                 fmt::format("{} takes a number such as 25.5, not '{}'", name, value)};
+}
+
+Outcome<std::string> setup_json(const RunOptions& options) {
+  if (options.setup_file.empty()) return json_quoted(options.setup);
+  auto text = read_file(options.setup_file);
+  if (!text || parse_json(*text)) return text;
+  return Failure{ExitCode::LocalFile, options.setup_file + ": is not JSON"};
+}
+
+void print_messages(const JsonValue& run) {
+  for (const JsonValue& message : run.items_of("messages")) {
+    fmt::print(stderr, "{}:{}: {} {}: {}\n", message.text_of("program"), message.text_of("line"),
+               message.text_of("kind"), message.text_of("number"), message.text_of("text"));
+  }
+}
+
+Failure refused_run(const Context& context, const Answer& answer) {
+  const auto document = parse_json(answer.body);
+  if (document && !context.json) print_diagnostics(*document, stderr);
+  Failure failure = failure_of(answer, context.client.url());
+  if (document && document->find("diagnostics") != nullptr) {
+    failure.exit_code = ExitCode::ProgramFailed;
+  }
+  return failure;
+}
+
+}  // namespace
+
+Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix) {
+  const auto answer =
+      send(context,
+           {.target = "/v1/files" + (prefix.empty() ? "" : "?prefix=" + percent_encoded(prefix))});
+  if (!answer) return answer.error();
+  if (context.json) {
+    context.print_document(answer->body);
+    return ExitCode::Good;
+  }
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  for (const JsonValue& file : document->items_of("files")) {
+    context.print("{:>9}  {}  {}\n", file.text_of("size"), file.text_of("modified_at"),
+                  file.text_of("path"));
+  }
+  return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::string>& files,
+                             const std::string& destination) {
+  if (files.size() > 1 && !names_folder(destination)) {
+    return Failure{ExitCode::Usage,
+                   fmt::format("several files go into a folder: write {}/", destination)};
+  }
+  for (const std::string& file : files) {
+    const auto bytes = read_file(file);
+    if (!bytes) return bytes.error();
+    const std::string path =
+        names_folder(destination) ? destination + std::string(base_name(file)) : destination;
+    const auto answer =
+        expect_ok(send_persistently(context, {.method = "PUT",
+                                              .target = file_target(path),
+                                              .content_type = "application/octet-stream",
+                                              .body = *bytes}),
+                  context.client.url());
+    if (!answer) return answer.error();
+    if (!context.json) context.print("{}  {} bytes\n", control_path(path), bytes->size());
+  }
+  return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_nc_get(const Context& context, const std::string& path,
+                             const std::string& file) {
+  const auto answer = send(context, {.target = file_target(path)});
+  if (!answer) return answer.error();
+  const auto written = write_file(file.empty() ? std::string(base_name(path)) : file, answer->body);
+  return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
+}
+
+Outcome<ExitCode> run_nc_check(const Context& context, const std::string& path) {
+  const auto answer =
+      send(context, {.method = "POST", .target = file_target(path) + "?action=check"});
+  if (!answer) return answer.error();
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  if (context.json) {
+    context.print_document(answer->body);
+  } else {
+    print_diagnostics(*document, stdout);
+  }
+  return has_errors(*document) ? ExitCode::ProgramFailed : ExitCode::Good;
+}
+
+Outcome<std::string> run_order(const RunOptions& options) {
+  JsonObject parameters;
+  for (const std::string& parameter : options.parameters) {
+    const std::size_t equals = parameter.find('=');
+    if (equals == std::string::npos) {
+      return Failure{ExitCode::Usage,
+                     fmt::format("--set takes a parameter such as Q1=25, not '{}'", parameter)};
+    }
+    const std::string name = parameter.substr(0, equals);
+    const auto value = parameter_json(name, std::string_view(parameter).substr(equals + 1));
+    if (!value) return value.error();
+    parameters.add_raw(name, *value);
+  }
+  JsonObject order;
+  order.add("program", control_path(options.program));
+  if (!options.setup.empty() || !options.setup_file.empty()) {
+    const auto setup = setup_json(options);
+    if (!setup) return setup.error();
+    order.add_raw("setup", *setup);
+  }
+  if (!options.parameters.empty()) order.add_raw("parameters", parameters.text());
+  order.add_given("on_stop", options.on_stop).add_given("language", options.language);
+  if (options.block_skip) order.add_raw("block_skip", "true");
+  return order.text();
+}
+
+Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) {
+  const auto order = run_order(options);
+  if (!order) return order.error();
+  const auto answer =
+      send_persistently(context, {.method = "POST",
+                                  .target = "/v1/runs",
+                                  .headers = {"Idempotency-Key: " + new_idempotency_key()},
+                                  .content_type = "application/json",
+                                  .body = *order});
+  if (!answer) return answer.error();
+  if (!answer->ok()) return refused_run(context, *answer);
+  const auto run = read_document(*answer, context.client.url());
+  if (!run) return run.error();
+  if (context.json) {
+    context.print_document(answer->body);
+  } else {
+    for (const JsonValue& line : run->items_of("screen")) context.print("{}\n", line.text);
+    print_messages(*run);
+  }
+  const std::string_view status = run->text_of("status");
+  if (status != "completed") {
+    return Failure{ExitCode::ProgramFailed,
+                   fmt::format("run {} ended as {}", run->text_of("id"), status)};
+  }
+  const std::string_view verdict = run->text_of("verdict");
+  return verdict.empty() ? ExitCode::Good : verdict_exit_code(verdict);
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/context.hpp"
+
+namespace fitgauge::cli {
+
+// `fitgauge nc …`: the control's disk and its programs. A path is written as on the control or
+// with strokes: TNC:\nc_prog\8255.h is nc_prog/8255.h.
+
+/// `nc ls [PREFIX]`
+Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix);
+
+/// `nc put FILE… DESTINATION`: a destination that ends with a stroke is a folder, which several
+/// files need.
+Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::string>& files,
+                             const std::string& destination);
+
+/// `nc get PATH [FILE]`: into a file of its name here, or into FILE; `-` is standard output.
+Outcome<ExitCode> run_nc_get(const Context& context, const std::string& path,
+                             const std::string& file);
+
+/// `nc check PATH`: ProgramFailed when there are errors; warnings are printed too.
+Outcome<ExitCode> run_nc_check(const Context& context, const std::string& path);
+
+struct RunOptions {
+  std::string program;
+  std::string setup{};                    ///< the name of a stored one
+  std::string setup_file{};               ///< or a file that holds one
+  std::vector<std::string> parameters{};  ///< `Q1=25`, `QS1=H7`
+  std::string on_stop{};
+  std::string language{};
+  bool block_skip = false;
+};
+
+/// `nc run PROGRAM`: prints the screen; the exit code is the verdict of the last measuring cycle,
+/// Good without one, ProgramFailed when the program did not complete.
+Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options);
+
+/// The body of a run. @errors Usage for a parameter that cannot be read, LocalFile for the setup.
+Outcome<std::string> run_order(const RunOptions& options);
+
+}  // namespace fitgauge::cli

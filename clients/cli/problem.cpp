@@ -1,0 +1,97 @@
+#include "cli/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace fitgauge::cli {
+namespace {
+
+constexpr long kUnauthorized = 401;
+constexpr long kForbidden = 403;
+constexpr long kServerError = 500;
+
+std::optional<std::size_t> line_of(const JsonValue& entry) {
+  const std::string_view digits = entry.text_of("line");
+  std::size_t line = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), line);
+  return read.ec == std::errc() ? std::optional(line) : std::nullopt;
+}
+
+ExitCode exit_code_of(const Answer& answer) {
+  if (answer.status == kUnauthorized || answer.status == kForbidden) return ExitCode::KeyNeeded;
+  if (answer.status >= kServerError || is_temporary(answer)) return ExitCode::NoAnswer;
+  return ExitCode::Refused;
+}
+
+std::string sentence(const Problem& problem) {
+  std::string text = problem.title;
+  if (!problem.detail.empty()) text += ": " + problem.detail;
+  for (const FieldProblem& field : problem.fields) {
+    text += fmt::format("; {}: {}", field.pointer, field.detail);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<Problem> problem_of(const Answer& answer) {
+  if (!answer.content_type.starts_with("application/problem+json")) return std::nullopt;
+  const auto document = parse_json(answer.body);
+  if (!document) return std::nullopt;
+  Problem problem{.code = std::string(document->text_of("code")),
+                  .title = std::string(document->text_of("title")),
+                  .detail = std::string(document->text_of("detail")),
+                  .where = std::string(document->text_of("where"))};
+  for (const JsonValue& entry : document->items_of("errors")) {
+    problem.fields.push_back({.pointer = std::string(entry.text_of("pointer")),
+                              .line = line_of(entry),
+                              .detail = std::string(entry.text_of("detail"))});
+  }
+  return problem;
+}
+
+Failure failure_of(const Answer& answer, const std::string& url) {
+  const auto problem = problem_of(answer);
+  if (!problem) {
+    return {exit_code_of(answer),
+            fmt::format("{} answers with status {} and no problem document: is it fitgauged?", url,
+                        answer.status)};
+  }
+  std::string text = sentence(*problem);
+  if (answer.status == kUnauthorized) text += "; set FITGAUGE_KEY, or name a file with --key-file";
+  if (answer.status == kForbidden) text += "; use a key of another role";
+  return {exit_code_of(answer), std::move(text), answer.body};
+}
+
+bool is_temporary(const Answer& answer) {
+  constexpr long kTimeout = 408;
+  constexpr long kConflict = 409;
+  constexpr long kTooMany = 429;
+  switch (answer.status) {
+    case kTimeout:
+    case kTooMany:
+    case 502:
+    case 503:
+    case 504: return true;
+    case kConflict: {
+      const auto problem = problem_of(answer);
+      return problem && problem->code == "idempotency.in_progress";
+    }
+    default: return false;
+  }
+}
+
+Outcome<Answer> expect_ok(Outcome<Answer> answer, const std::string& url) {
+  if (!answer || answer->ok()) return answer;
+  return failure_of(*answer, url);
+}
+
+Outcome<JsonValue> read_document(const Answer& answer, const std::string& url) {
+  auto document = parse_json(answer.body);
+  if (document) return *std::move(document);
+  return Failure{ExitCode::NoAnswer,
+                 fmt::format("{} answers with something that is not JSON: is it fitgauged?", url)};
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/http_client.hpp"
+#include "cli/json_value.hpp"
+
+namespace fitgauge::cli {
+
+/// What is wrong with one field of a body.
+struct FieldProblem {
+  std::string pointer;                ///< JSON pointer: `/3/measured_mm`
+  std::optional<std::size_t> line{};  ///< of the body, from 1, where the format has lines
+  std::string detail;
+};
+
+/// A problem document (RFC 9457) of the service.
+struct Problem {
+  std::string code;
+  std::string title;
+  std::string detail;
+  std::string where;  ///< the place in a body that could not be read, or empty
+  std::vector<FieldProblem> fields{};
+};
+
+/// @returns nothing when the answer is something else: a proxy's page, another service.
+std::optional<Problem> problem_of(const Answer& answer);
+
+/// Why a request had no success, in one line with what to do.
+/// @param url the address that answered
+Failure failure_of(const Answer& answer, const std::string& url);
+
+/// Whether the same request may succeed in a moment: the service is busy, starting, or still at it.
+bool is_temporary(const Answer& answer);
+
+/// The answer, if it is a good one. @errors as failure_of().
+Outcome<Answer> expect_ok(Outcome<Answer> answer, const std::string& url);
+
+/// The document of a good answer. @errors NoAnswer when it is not JSON.
+Outcome<JsonValue> read_document(const Answer& answer, const std::string& url);
+
+}  // namespace fitgauge::cli

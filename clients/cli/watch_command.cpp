@@ -1,0 +1,117 @@
+#include "cli/watch_command.hpp"
+
+#include <thread>
+
+#include "base/text.hpp"
+#include "cli/address.hpp"
+#include "cli/gauge_command.hpp"
+#include "cli/json_value.hpp"
+#include "cli/problem.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+constexpr std::chrono::seconds kPause{1};
+
+/// The members that are there, with two blanks between them.
+std::string joined(const JsonValue& document, std::initializer_list<std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) {
+    const std::string_view value = document.text_of(name);
+    if (value.empty()) continue;
+    if (!text.empty()) text += "  ";
+    text += value;
+  }
+  return text;
+}
+
+std::string record_line(const JsonValue& record, const Terminal& terminal) {
+  const std::string_view verdict = record.text_of("verdict");
+  const std::string text = joined(record, {"measured_at", "id", "designation", "measured_mm"});
+  const std::string about = joined(record, {"part_id", "characteristic", "order", "machine"});
+  return fmt::format("{} mm  {}{}{}\n", text,
+                     terminal.painted(ascii_upper(verdict), verdict_colour(verdict)),
+                     about.empty() ? "" : "  ", about);
+}
+
+/// Reads events for as long as the service lets it.
+class Watch {
+ public:
+  Watch(const Context& context, const WatchOptions& options)
+      : context_(context),
+        options_(options),
+        reader_([this](const Event& event) { return show(event); }) {
+    reader_.set_last_id(options.after);
+  }
+
+  Outcome<ExitCode> run() {
+    for (bool connected = false;;) {
+      const auto answer = context_.client.stream(request(), [this, &connected](auto piece) {
+        connected = true;
+        return reader_.feed(piece);
+      });
+      if (done()) return ExitCode::Good;
+      if (answer && !answer->ok() && !(connected && is_temporary(*answer))) {
+        return failure_of(*answer, context_.client.url());
+      }
+      if (!connected && !answer) return answer.error();
+      context_.note(answer ? "the service ended the stream; connecting again"
+                           : answer.error().message + "; connecting again");
+      reader_.reconnect();
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+
+ private:
+  Request request() const {
+    Request request{.target = "/v1/events"};
+    if (!options_.source.empty()) request.target += "?source=" + percent_encoded(options_.source);
+    if (!reader_.last_id().empty()) {
+      request.headers.push_back("Last-Event-ID: " + reader_.last_id());
+    }
+    return request;
+  }
+
+  bool show(const Event& event) {
+    const std::string line = context_.json ? event_json(event) : format_event(event, context_.out);
+    if (line.empty()) return true;
+    context_.print("{}", line);
+    std::fflush(stdout);
+    ++shown_;
+    return !done();
+  }
+
+  bool done() const { return options_.count != 0 && shown_ >= options_.count; }
+
+  const Context& context_;
+  const WatchOptions& options_;
+  EventReader reader_;
+  std::uint64_t shown_ = 0;
+};
+
+}  // namespace
+
+std::string event_json(const Event& event) {
+  return JsonObject()
+             .add("event", event.type)
+             .add("id", event.id)
+             .add_raw("data", event.data)
+             .text() +
+         '\n';
+}
+
+std::string format_event(const Event& event, const Terminal& terminal) {
+  const auto document = parse_json(event.data);
+  if (!document || event.type == "verdict.reject") return {};
+  if (event.type == "measurement.recorded") return record_line(*document, terminal);
+  if (event.type == "run.finished") {
+    return joined(*document, {"finished_at", "id", "program", "status", "verdict"}) + '\n';
+  }
+  return fmt::format("{}  {}\n", event.type, event.data);
+}
+
+Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options) {
+  return Watch(context, options).run();
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,242 @@
+"""fitgauge: what it prints, its exit codes, and who it says it is."""
+
+import json
+import os
+import pty
+import shutil
+import subprocess
+import unittest
+
+from support.cli import FITGAUGE, Client, ClientTest
+from support.control import EXAMPLES
+from support.daemon import Daemon
+
+
+class Tables(ClientTest):
+    def test_limits(self):
+        self.assertEqual(self.assert_runs(0, "limits", "25 H7"), (
+            "25 H7  hole\n"
+            "upper limit  25.021 mm  ES +21 µm\n"
+            "lower limit  25 mm      EI 0 µm\n"
+            "tolerance    21 µm      sizes over 18 up to 30 mm\n"))
+        self.assertEqual(self.assert_runs(0, "limits", "Ø132,5a13"),
+                         self.assert_runs(0, "limits", "132.5 a13"))
+
+    def test_json_is_the_document_of_the_service(self):
+        for arguments, path in ((("limits", "25H7"), "/v1/limits/25H7"),
+                                (("fit", "25H7/g6"), "/v1/fits/25H7/g6"),
+                                (("gauge", "25H7", "25,013"), "/v1/verdicts/25H7?measured_mm=25.013"),
+                                (("nc", "ls"), "/v1/files")):
+            with self.subTest(path):
+                self.assertEqual(self.assert_runs(0, "--json", *arguments),
+                                 self.daemon.get(path).text + "\n")
+
+    def test_a_fit_is_drawn(self):
+        text = self.assert_runs(0, "fit", "25H7/g6")
+        self.assertIn("25 H7/g6  clearance fit, clearance 7 to 41 µm\n", text)
+        self.assertIn("████████ ES +21 µm\n", text)
+        self.assertRegex(text, r"\n─{10} EI 0 µm ─+ 25 mm\n")
+        self.assertRegex(text, r"[█▀▄]{8} ei -20 µm\n")
+        self.assertNotIn("\x1b", text)
+
+    def test_a_terminal_without_unicode_gets_ascii(self):
+        text = self.assert_runs(0, "fit", "25H7/g6", environment={"LC_ALL": "C"})
+        self.assertTrue(text.isascii())
+        self.assertIn("######## ES +21 um\n", text)
+
+    def test_kinds_of_fit(self):
+        self.assertIn("interference 1 to 35 µm\n", self.assert_runs(0, "fit", "25H7/p6"))
+        self.assertIn("clearance up to 28.5 µm, interference up to 12.5 µm\n",
+                      self.assert_runs(0, "fit", "40JS7/h6"))
+
+    def test_tables_are_exported_byte_for_byte(self):
+        csv = self.assert_runs(0, "tables", "export", "hole", "--classes", "H7,JS7")
+        self.assertEqual(csv, self.daemon.get("/v1/tables/hole?format=csv&classes=H7,JS7").text)
+        self.assert_runs(0, "tables", "export", "shaft", "--format", "tab", "-o", "shaft.tab")
+        self.assertEqual((self.client.folder / "shaft.tab").read_bytes(),
+                         self.daemon.get("/v1/tables/shaft.tab").body)
+        document = json.loads(self.assert_runs(0, "--json", "tables", "export", "shaft"))
+        self.assertEqual(document["feature"], "shaft")
+        self.assert_fails(4, "tables", "export", "hole", "--format", "tab", "--classes", "H7")
+
+    def test_version(self):
+        self.assertRegex(self.assert_runs(0, "version"),
+                         r"^fitgauge \d+\.\d+\.\d+\nfitgauged \d+\.\d+\.\d+ at http://127\.0\.0\.1:")
+        self.assertRegex(self.assert_runs(0, "--version"), r"^fitgauge \d+\.\d+\.\d+\n$")
+
+
+class Gauge(ClientTest):
+    def test_the_exit_code_is_the_verdict(self):
+        for measured, code, word in (("25.013", 0, "GOOD"), ("25.021", 0, "GOOD"),
+                                     ("24.999999", 1, "REWORK"), ("25,021001", 2, "REJECT")):
+            with self.subTest(measured):
+                self.assertTrue(self.assert_runs(code, "gauge", "25H7", measured).startswith(word))
+        text = self.assert_runs(3, "gauge", "25H7", "25.0205", "--rule", "guard_band",
+                                "--uncertainty-um", "0.8")
+        self.assertTrue(text.startswith("INDETERMINATE"))
+
+    def test_it_stores_only_when_asked_to(self):
+        self.assert_runs(0, "gauge", "25H7", "25.013")
+        self.assertEqual(self.daemon.stored(), [])
+        text = self.assert_runs(2, "gauge", "25 H7", "25,0215", "--record", "--part-id", "SN \"1\"",
+                                "--operator", "42", "--temperature-c", "20.4", "--comment", "Grüße")
+        record, = self.daemon.stored()
+        self.assertIn(f"stored as {record['id']}\n", text)
+        self.assertEqual((record["measured_mm"], record["part_id"], record["operator"],
+                          record["temperature_c"], record["comment"]),
+                         (25.0215, 'SN "1"', "42", 20.4, "Grüße"))
+        self.assert_fails(4, "gauge", "25H7", "25.013", "--part-id", "SN-1")
+
+    def test_what_is_no_value_is_no_verdict(self):
+        for measured in ("", "NaN", "25.0.1", "2e1", "25,01,3"):
+            with self.subTest(measured):
+                self.assert_fails(4, "gauge", "25H7", measured)
+
+
+class Refusals(ClientTest):
+    def test_a_refusal_is_one_line_with_its_exit_code(self):
+        self.assertIn("'H99' is no class", self.assert_fails(7, "limits", "25H99"))
+        self.assertIn("25", self.assert_fails(7, "limits", "25..5H7"))
+        self.assertIn("--help", self.assert_fails(4, "limits"))
+        self.assert_fails(4, "nonsense")
+        self.assert_fails(4, "--server", "ftp://x", "limits", "25H7")
+        self.assertIn("--server", self.assert_fails(6, "--server", "127.0.0.1:1", "limits", "25H7"))
+        self.assert_fails(5, "measure", "missing.csv")
+        problem = json.loads(self.assert_fails(7, "--json", "limits", "25H99"))
+        self.assertEqual(problem["code"], "class.unknown")
+
+    def test_a_full_standard_output_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([FITGAUGE, "completion", "bash"], stdout=full, check=False,
+                                  stderr=subprocess.PIPE, env=self.client.environment)
+        self.assertEqual(done.returncode, 5, done.stderr)
+
+    def test_colour_is_for_a_terminal_that_wants_it(self):
+        for environment, coloured in (({}, True), ({"NO_COLOR": "1"}, False)):
+            with self.subTest(environment):
+                leader, follower = pty.openpty()
+                process = subprocess.Popen([FITGAUGE, "gauge", "25H7", "25.013"], stdout=follower,
+                                           env={**self.client.environment, "TERM": "xterm",
+                                                **environment})
+                process.wait(30)
+                os.close(follower)
+                self.assertEqual(b"\x1b[32mGOOD" in os.read(leader, 4096), coloured)
+                os.close(leader)
+
+
+class Keys(ClientTest):
+    flags = ("--auth", "keys")
+
+    def make_key(self):
+        made = self.daemon.command("key", "create", "--name", "cli", "--role", "operator")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        return made.stdout.strip()
+
+    def test_the_key_comes_from_the_environment_or_a_file(self):
+        self.assertIn("FITGAUGE_KEY", self.assert_fails(8, "limits", "25H7"))
+        key = self.make_key()
+        self.client.write("key", key + "\n")
+        # A new key is in force within two seconds.
+        for _ in range(200):
+            if self.client.run("limits", "25H7", environment={"FITGAUGE_KEY": key}).returncode == 0:
+                break
+        self.assert_runs(0, "limits", "25H7", environment={"FITGAUGE_KEY": key})
+        self.assert_runs(0, "--key-file", "key", "limits", "25H7")
+        self.assert_fails(5, "--key-file", "missing", "limits", "25H7")
+        self.assert_fails(4, "limits", "25H7", environment={"FITGAUGE_KEY": "a b"})
+
+
+@unittest.skipUnless(shutil.which("openssl"), "needs the openssl command")
+class Tls(unittest.TestCase):
+    def test_it_trusts_the_authorities_it_is_given(self):
+        daemon = Daemon()
+        self.addCleanup(daemon.cleanup)
+        certificate, key = daemon.folder / "tls.pem", daemon.folder / "tls.key"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
+                        "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2", "-subj", "/CN=x",
+                        "-addext", "subjectAltName=DNS:localhost", "-out", certificate,
+                        "-keyout", key], check=True, capture_output=True)
+        daemon.flags = ["--tls-cert", certificate, "--tls-key", key, "--tls-client-ca", certificate]
+        daemon.start()
+        client = Client(f"https://localhost:{daemon.port}")
+        self.addCleanup(client.cleanup)
+        show = ("--cert", certificate, "--cert-key", key)
+        self.assertEqual(client.run("limits", "25H7", *show).returncode, 6)
+        self.assertEqual(client.run("--ca", certificate, "limits", "25H7").returncode, 6)
+        done = client.run("--ca", certificate, *show, "limits", "25H7")
+        self.assertEqual(done.returncode, 0, done.stderr_text)
+
+
+class Programs(ClientTest):
+    def setUp(self):
+        super().setUp()
+        files = [EXAMPLES / "8255" / name for name in ("8255.h", "82551.h", "82552.a")]
+        self.assert_runs(0, "nc", "put", *files, "nc_prog/8255/")
+
+    def test_files_come_back_byte_for_byte(self):
+        self.assertIn("TNC:\\nc_prog\\8255\\82552.a\n", self.assert_runs(0, "nc", "ls", "nc_prog/8255/"))
+        self.assert_runs(0, "nc", "get", "TNC:\\nc_prog\\8255\\8255.h")
+        original = (EXAMPLES / "8255" / "8255.h").read_bytes()
+        self.assertEqual((self.client.folder / "8255.h").read_bytes(), original)
+        self.assertEqual(self.assert_runs(0, "nc", "get", "nc_prog/8255/8255.h", "-").encode(), original)
+        self.assert_fails(7, "nc", "get", "nc_prog/none.h")
+        self.assert_fails(4, "nc", "put", "a", "b", "folder")
+
+    def test_the_exit_code_of_a_run_is_its_verdict(self):
+        for name, code in (("hole-good", 0), ("hole-rework", 1), ("hole-reject", 2)):
+            with self.subTest(name):
+                setup = EXAMPLES / "8255" / "setups" / f"{name}.json"
+                screen = self.assert_runs(code, "nc", "run", "TNC:\\nc_prog\\8255\\8255.h",
+                                          "--setup-file", setup)
+                self.assertIn("CHECKED FIT: 25H7\n", screen)
+
+    def test_parameters_and_stored_setups(self):
+        setup = json.loads((EXAMPLES / "8255" / "setups" / "hole-good.json").read_text())
+        self.daemon.request("PUT", "/v1/setups/hole-good", setup)
+        run = json.loads(self.assert_runs(2, "--json", "nc", "run", "nc_prog/8255/8255.h", "--setup",
+                                          "hole-good", "--set", "Q1=25", "--set", "QS1=H5"))
+        self.assertEqual((run["verdict"], run["parameters"]["QS1"]), ("reject", "H5"))
+        self.assert_fails(4, "nc", "run", "nc_prog/8255/8255.h", "--set", "Q1=x")
+
+    def test_errors_name_their_place(self):
+        self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
+        self.assert_runs(0, "nc", "put", "bad.h", "bad.h")
+        self.assertIn("TNC:\\bad.h:2:", self.assert_runs(9, "nc", "check", "bad.h"))
+        refused = self.client.run("nc", "run", "bad.h")
+        self.assertEqual(refused.returncode, 9)
+        self.assertIn("TNC:\\bad.h:2:", refused.stderr_text)
+        self.client.write("fails.h", "0 BEGIN PGM F MM\n1 CALL PGM GONE.H\n2 END PGM F MM\n")
+        self.assert_runs(0, "nc", "put", "fails.h", "fails.h")
+        self.assertIn("warning", self.assert_runs(0, "nc", "check", "fails.h"))
+        failed = self.client.run("nc", "run", "fails.h")
+        self.assertEqual(failed.returncode, 9)
+        self.assertIn("TNC:\\fails.h:2:", failed.stderr_text)
+        self.assertIn("ended as failed", failed.stderr_text)
+
+
+class Watching(unittest.TestCase):
+    def test_it_goes_on_with_the_next_event_after_a_restart(self):
+        daemon = Daemon()
+        self.addCleanup(daemon.cleanup)
+        daemon.start()
+        client = Client(f"127.0.0.1:{daemon.port}")
+        self.addCleanup(client.cleanup)
+        part = {"designation": "25 H7", "measured_mm": 25.03}
+        daemon.measure({**part, "part_id": "SN-0"})
+        told = client.run("--json", "watch", "--after", "m0.e0", "--count", "2").stdout_text
+        events = [json.loads(line) for line in told.splitlines()]
+        self.assertEqual([event["event"] for event in events],
+                         ["measurement.recorded", "verdict.reject"])
+        watch = client.spawn("watch", "--count", "3", "--after", events[1]["id"])
+        self.addCleanup(watch.kill)
+        for number in (1, 2, 3):
+            daemon.measure({**part, "part_id": f"SN-{number}"})
+            self.assertIn(f"REJECT  SN-{number}\n", watch.stdout.readline().decode())
+            if number == 2:
+                daemon.stop()
+                daemon.listen = f"127.0.0.1:{daemon.port}"
+                daemon.start()
+        self.assertEqual(client.end(watch).returncode, 0)
+        self.assertEqual(client.run("watch", "--source", "none").returncode, 4)
+        daemon.stop()
+        self.assertEqual(client.run("watch").returncode, 6)

@@ -1,0 +1,116 @@
+"""The client's man pages, its completion and its guide say what the programs do."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+from support.cli import FITGAUGE, ClientTest
+from support.daemon import FITGAUGED
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+COMMANDS = ("limits", "fit", "gauge", "measure", "nc", "tables", "watch", "version", "completion")
+SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables")] + [
+    ("nc", name) for name in ("ls", "put", "get", "check", "run")] + [("tables", "export")]
+
+
+def options(program, *command):
+    """The long options that --help names."""
+    done = subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True)
+    return set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", done.stdout))
+
+
+def own_options(*command):
+    return options(FITGAUGE, *command) - options(FITGAUGE) - {"--help"}
+
+
+def completions(*words):
+    """What bash offers for the last word."""
+    script = ('eval "$("$FITGAUGE" completion bash)"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); '
+              '_fitgauge; printf "%s\\n" "${COMPREPLY[@]}"')
+    done = subprocess.run(["bash", "-uc", script, "bash", "fitgauge", *words], capture_output=True,
+                          text=True, check=False, env={**os.environ, "FITGAUGE": FITGAUGE})
+    if done.returncode != 0 or done.stderr:
+        raise AssertionError(done.stderr)
+    return set(done.stdout.split())
+
+
+class Manual(unittest.TestCase):
+    def page(self, name):
+        return (ROOT / "docs/man" / name).read_text(encoding="utf-8")
+
+    def documented(self, name):
+        """The long options of a page: mdoc writes `.Fl -name`, or `, Fl -name` behind another."""
+        return {"-" + option for option in re.findall(r"\bFl (-[a-z][a-z-]+)", self.page(name))}
+
+    @unittest.skipUnless(shutil.which("mandoc"), "needs mandoc")
+    def test_the_pages_are_well_formed(self):
+        for name in ("fitgauge.1", "fitgauged.8"):
+            with self.subTest(name):
+                done = subprocess.run(["mandoc", "-T", "lint", "-W", "warning", ROOT / "docs/man" / name],
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual((done.returncode, done.stdout), (0, ""))
+
+    def test_every_option_is_in_the_manual_and_no_other(self):
+        offered = options(FITGAUGE).union(*(options(FITGAUGE, *command) for command in SUBCOMMANDS))
+        self.assertEqual(self.documented("fitgauge.1"), offered)
+        commands = [(), ("backup",), ("key", "create"), ("key", "revoke"), ("key", "list")]
+        offered = set().union(*(options(FITGAUGED, *command) for command in commands))
+        self.assertEqual(self.documented("fitgauged.8"), offered)
+
+    def test_every_exit_code_is_in_the_manual(self):
+        source = (ROOT / "clients/cli/outcome.hpp").read_text(encoding="utf-8")
+        codes = re.findall(r"^  \w+ = (\d+),", source, re.MULTILINE)
+        section = self.page("fitgauge.1").split(".Sh EXIT STATUS")[1].split(".Sh ")[0]
+        self.assertEqual(re.findall(r"^\.It (\d+)$", section, re.MULTILINE), codes)
+
+
+class Completion(unittest.TestCase):
+    def test_every_command_is_offered(self):
+        self.assertEqual(completions(""), set(COMMANDS))
+        self.assertEqual(completions("me"), {"measure"})
+        self.assertEqual(completions("nc", ""), {"check", "run", "put", "get", "ls"})
+        self.assertEqual(completions("--server", "x", "--json", "tables", ""), {"export"})
+
+    def test_every_option_is_offered_where_it_is_taken(self):
+        common = options(FITGAUGE)
+        self.assertEqual(completions("--"), common)
+        for command in SUBCOMMANDS:
+            with self.subTest(command):
+                self.assertEqual(completions(*command, "--"),
+                                 own_options(*command) | common - {"--version"})
+
+    def test_words_that_an_option_or_a_command_takes(self):
+        self.assertEqual(completions("tables", "export", ""), {"hole", "shaft"})
+        self.assertEqual(completions("tables", "export", "hole", ""), set())
+        self.assertEqual(completions("tables", "export", "hole", "--format", ""), {"csv", "json", "tab"})
+        self.assertEqual(completions("watch", "--source", "s"), {"simulation"})
+        self.assertEqual(completions("completion", ""), {"bash"})
+        self.assertEqual(completions("gauge", "25H7", "--part-id", ""), set())
+
+    def test_files_are_offered_where_a_file_is_wanted(self):
+        folder = str(ROOT / "docs/man") + "/"
+        pages = {folder + "fitgauge.1", folder + "fitgauged.8"}
+        for words in (("measure",), ("nc", "put"), ("nc", "put", "x"), ("--key-file",),
+                      ("nc", "run", "x", "--setup-file")):
+            with self.subTest(words):
+                self.assertEqual(completions(*words, folder + "f"), pages)
+
+
+class Guide(ClientTest):
+    def test_the_commands_of_the_guide_do_what_it_says(self):
+        guide = (ROOT / "docs/guide/command-line.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"^```sh\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
+        self.assertGreater(len(blocks), 5)
+        (self.client.folder / "clients").symlink_to(ROOT / "clients")
+        environment = {**self.client.environment, "HOME": str(self.client.folder),
+                       "PATH": f"{pathlib.Path(FITGAUGE).resolve().parent}:{os.environ['PATH']}"}
+        for block in blocks:
+            with self.subTest(block):
+                done = subprocess.run(["bash", "-u", "-c", block], cwd=self.client.folder, text=True,
+                                      capture_output=True, timeout=60, env=environment, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                for line in re.findall(r"#→ (.*)$", block, re.MULTILINE):
+                    self.assertIn(line, done.stdout)

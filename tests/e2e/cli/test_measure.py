@@ -1,0 +1,168 @@
+"""fitgauge measure: every row is stored once, however often it is stopped.
+
+$MEASURE_ROUNDS sets how often a run is stopped, 12 when absent; $SEED repeats the moments of a run.
+"""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+import unittest
+
+from support.cli import Client, ClientTest
+from support.daemon import Daemon
+
+ROUNDS = int(os.environ.get("MEASURE_ROUNDS", "12"))
+SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
+HEADER = "nominal_mm;tolerance_class;measured_mm;part_id\n"
+
+
+def rows(count, prefix="SN-", value="25,013"):
+    return "".join(f"25;H7;{value};{prefix}{i}\n" for i in range(count))
+
+
+class Measure(ClientTest):
+    def stored_parts(self, prefix):
+        return [record["part_id"] for record in self.daemon.stored() if record["part_id"].startswith(prefix)]
+
+    def test_it_stores_every_row_in_order(self):
+        self.client.write("a.csv", HEADER + rows(25, "A-") + "25;H7;25,03;A-25\n25;H7;24,9;A-26\n")
+        self.assertEqual(self.assert_runs(0, "measure", "a.csv", "--chunk", "10"),
+                         "27 rows: 25 good, 1 rework, 1 reject\n")
+        self.assertEqual(self.stored_parts("A-"), [f"A-{i}" for i in range(27)])
+        self.assert_runs(2, "measure", "a.csv", "--exit-verdict")
+
+    def test_what_was_stored_is_not_stored_again_unless_asked_for(self):
+        self.client.write("b.csv", HEADER + rows(3, "B-"))
+        self.assert_runs(0, "measure", "b.csv")
+        again = self.client.run("measure", "b.csv")
+        self.assertEqual((again.returncode, again.stdout_text), (0, "3 rows: 3 good, 0 rework, 0 reject\n"))
+        self.assertIn("--again", again.stderr_text)
+        self.assertEqual(len(self.stored_parts("B-")), 3)
+        self.assert_runs(0, "measure", "b.csv", "--again")
+        self.assertEqual(len(self.stored_parts("B-")), 6)
+
+    def test_equal_chunks_are_all_stored(self):
+        self.client.write("c.csv", HEADER + "25;H7;25,013;C-1\n" * 6)
+        self.assert_runs(0, "measure", "c.csv", "--chunk", "2")
+        self.assertEqual(len(self.stored_parts("C-")), 6)
+
+    def test_a_file_that_grows_is_followed_and_a_new_one_is_new(self):
+        self.client.write("d.csv", HEADER + rows(2, "D-"))
+        self.assert_runs(0, "measure", "d.csv")
+        self.client.write("d.csv", HEADER + rows(5, "D-"))
+        self.assert_runs(0, "measure", "d.csv")
+        self.assertEqual(self.stored_parts("D-"), [f"D-{i}" for i in range(5)])
+        self.client.write("d.csv", HEADER + rows(2, "DD-"))
+        self.assert_runs(0, "measure", "d.csv")
+        self.assertEqual(len(self.stored_parts("DD-")), 2)
+
+    def test_bad_rows_are_named_by_their_line_and_the_corrected_file_goes_on(self):
+        good = [f"25;H7;25,013;E-{i}\n" for i in range(10)]
+        bad = list(good)
+        bad[6] = "25;H7;;E-6\n"
+        bad[7] = "25;H99;25,013;E-7\n"
+        self.client.write("e.csv", HEADER + "".join(bad))
+        done = self.client.run("measure", "e.csv", "--chunk", "5")
+        self.assertEqual(done.returncode, 7)
+        lines = done.stderr_text.splitlines()
+        self.assertTrue(lines[0].startswith("e.csv:8: measured_mm: "), lines)
+        self.assertTrue(lines[1].startswith("e.csv:9: tolerance_class: "), lines)
+        self.assertIn("lines 7 to 11 are not stored, 5 rows before them are", lines[-1])
+        bad[6:8] = good[6:8]
+        bad[8] = "25;H7\n"  # no CSV
+        self.client.write("e.csv", HEADER + "".join(bad))
+        done = self.client.run("measure", "e.csv", "--chunk", "5")
+        self.assertTrue(done.stderr_text.startswith("e.csv:10: has 2 cells"), done.stderr_text)
+        self.client.write("e.csv", HEADER + "".join(good))
+        self.assert_runs(0, "measure", "e.csv")
+        self.assertEqual(self.stored_parts("E-"), [f"E-{i}" for i in range(10)])
+
+    def test_a_file_that_was_changed_halfway_is_refused(self):
+        self.client.write("f.csv", HEADER + rows(4, "F-") + "25;H7;;F-x\n")
+        self.assertEqual(self.client.run("measure", "f.csv", "--chunk", "2").returncode, 7)
+        self.client.write("f.csv", HEADER + rows(4, "G-"))
+        self.assertIn("--again", self.assert_fails(5, "measure", "f.csv"))
+        self.assert_runs(0, "measure", "f.csv", "--again")
+        self.assertEqual((len(self.stored_parts("F-")), len(self.stored_parts("G-"))), (4, 4))
+
+    def test_standard_input(self):
+        text = HEADER + rows(5, "H-")
+        self.assert_runs(0, "measure", "-", "--chunk", "2", stdin=text)
+        self.assertEqual(len(self.stored_parts("H-")), 5)
+        for _ in range(2):
+            self.assert_runs(0, "measure", "-", "--state", "h.state", stdin=text.replace("H-", "I-"))
+        self.assertEqual(len(self.stored_parts("I-")), 5)
+
+    def test_json_is_an_answer_a_line(self):
+        self.client.write("j.csv", HEADER + rows(4, "J-"))
+        answers = [json.loads(line) for line in
+                   self.assert_runs(0, "--json", "measure", "j.csv", "--chunk", "3").splitlines()]
+        self.assertEqual([answer["accepted"] for answer in answers], [3, 1])
+
+    def test_a_file_without_rows_is_an_error(self):
+        self.client.write("k.csv", HEADER)
+        self.assert_fails(5, "measure", "k.csv")
+        self.client.write("k.csv", "")
+        self.assert_fails(5, "measure", "k.csv")
+
+
+class Stopped(unittest.TestCase):
+    ROWS = 6_000
+
+    def setUp(self):
+        print(f"seed {SEED}, {ROUNDS} rounds")
+        self.random = random.Random(SEED)
+        self.daemon = Daemon()
+        self.addCleanup(self.daemon.cleanup)
+        self.daemon.start()
+        self.client = Client(f"127.0.0.1:{self.daemon.port}")
+        self.addCleanup(self.client.cleanup)
+        self.client.write("night.csv", HEADER + rows(self.ROWS))
+        self.command = ("measure", "night.csv", "--chunk", "100")
+
+    def assert_every_row_is_stored_once(self):
+        parts = [record["part_id"] for record in self.daemon.stored()]
+        self.assertEqual(parts, [f"SN-{i}" for i in range(self.ROWS)])
+
+    def test_a_client_that_is_stopped_goes_on_and_doubles_nothing(self):
+        stopped = 0
+        for number in range(ROUNDS):
+            process = self.client.spawn(*self.command)
+            try:
+                process.communicate(timeout=self.random.uniform(0.02, 0.25))
+            except subprocess.TimeoutExpired:
+                process.send_signal(signal.SIGTERM if number % 2 else signal.SIGKILL)
+                process.communicate(timeout=30)
+                stopped += 1
+        self.assertGreater(stopped, 0)
+        self.assertEqual(self.client.run(*self.command).returncode, 0)
+        self.assert_every_row_is_stored_once()
+
+    def test_a_service_that_is_killed_is_waited_for(self):
+        self.daemon.listen = f"127.0.0.1:{self.daemon.port}"
+        process = self.client.spawn(*self.command)
+        for _ in range(4):
+            time.sleep(self.random.uniform(0.02, 0.2))
+            self.daemon.kill()
+            time.sleep(self.random.uniform(0, 0.3))
+            self.daemon.start()
+        self.client.end(process)
+        self.assertEqual(process.returncode, 0, process.stderr_text)
+        self.assertIn(f"{self.ROWS:,} rows: {self.ROWS:,} good", process.stdout_text)
+        self.assert_every_row_is_stored_once()
+
+    def test_it_gives_up_when_it_was_told_to_and_resumes_later(self):
+        self.daemon.listen = f"127.0.0.1:{self.daemon.port}"
+        process = self.client.spawn(*self.command, "--retry", "0")
+        while not self.daemon.get("/v1/measurements?limit=1").json["measurements"]:
+            time.sleep(0.005)
+        self.daemon.kill()
+        self.client.end(process)
+        self.assertEqual(process.returncode, 6, process.stderr_text)
+        self.assertIn("run it again to resume", process.stderr_text)
+        self.daemon.start()
+        self.assertEqual(self.client.run(*self.command).returncode, 0)
+        self.assert_every_row_is_stored_once()

@@ -1,0 +1,123 @@
+#include "cli/measure_journal.hpp"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/input_file.hpp"
+#include "cli/measure_command.hpp"
+
+using namespace fitgauge::cli;
+
+namespace {
+
+struct Folder {
+  Folder()
+      : path(std::filesystem::temp_directory_path() /
+             ("fitgauge-cli-" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { std::filesystem::remove_all(path); }
+
+  std::string file(const char* name) const { return (path / name).string(); }
+
+  std::filesystem::path path;
+};
+
+MeasureState example() {
+  return {.server = "http://127.0.0.1:8286",
+          .session = "5e55",
+          .stored = {.bytes = 1'000, .lines = 11, .sha256 = "abc"},
+          .pending = CsvPosition{.bytes = 2'000, .lines = 21, .sha256 = "def"},
+          .counts = {.good = 7, .rework = 2, .reject = 1, .indeterminate = 0}};
+}
+
+}  // namespace
+
+TEST_CASE("a state comes back as it was written") {
+  MeasureState state = example();
+  CHECK(parse_state(format_state(state)) == state);
+  state.pending.reset();
+  state.complete = true;
+  CHECK(parse_state(format_state(state)) == state);
+}
+
+TEST_CASE("a text that is no state is refused") {
+  for (const char* text : {"", "{}", "no", "{\"session\":\"x\",\"stored\":{\"bytes\":-1}}"}) {
+    CHECK_FALSE(parse_state(text));
+  }
+}
+
+TEST_CASE("a key names the session and all that was read") {
+  const MeasureState state = example();
+  CHECK(chunk_key(state, *state.pending) == "5e55-def");
+  CHECK(chunk_key(state, *state.pending) != chunk_key(state, state.stored));
+}
+
+TEST_CASE("the journal gives the last state") {
+  const Folder folder;
+  const std::string path = folder.file("new/of/input.state");
+  MeasureState state = example();
+  {
+    auto journal = MeasureJournal::open(path);
+    REQUIRE(journal.has_value());
+    CHECK_FALSE(journal->state());
+    REQUIRE(journal->append(state).has_value());
+    state.complete = true;
+    REQUIRE(journal->append(state).has_value());
+  }
+  auto journal = MeasureJournal::open(path);
+  CHECK(journal->state() == state);
+  REQUIRE(journal->clear().has_value());
+  CHECK_FALSE(journal->state());
+}
+
+TEST_CASE("a line that was cut off by a power cut is as if it had not been begun") {
+  const Folder folder;
+  const std::string path = folder.file("torn");
+  MeasureState state = example();
+  REQUIRE(MeasureJournal::open(path)->append(state).has_value());
+  std::ofstream(path, std::ios::app) << "{\"server\":\"http://127.0";
+  auto journal = MeasureJournal::open(path);
+  CHECK(journal->state() == state);
+  state.complete = true;
+  REQUIRE(journal->append(state).has_value());
+  CHECK(*read_file(path) == format_state(example()) + '\n' + format_state(state) + '\n');
+}
+
+TEST_CASE("two runs do not have one journal at the same time") {
+  const Folder folder;
+  const auto first = MeasureJournal::open(folder.file("x"));
+  REQUIRE(first.has_value());
+  const auto second = MeasureJournal::open(folder.file("x"));
+  REQUIRE(!second);
+  CHECK(second.error().exit_code == ExitCode::LocalFile);
+}
+
+TEST_CASE("another file is not taken for a journal") {
+  const Folder folder;
+  std::ofstream(folder.file("notes")) << "milk\n";
+  CHECK(MeasureJournal::open(folder.file("notes")).error().exit_code == ExitCode::LocalFile);
+  CHECK(*read_file(folder.file("notes")) == "milk\n");
+}
+
+TEST_CASE("an input has one journal for each service") {
+  setenv("XDG_STATE_HOME", "/state", 1);
+  const std::string path = *journal_path("night.csv", "http://a");
+  CHECK(path.starts_with("/state/fitgauge/"));
+  CHECK(path == *journal_path("./night.csv", "http://a"));
+  CHECK(path != *journal_path("night.csv", "http://b"));
+  CHECK(path != *journal_path("day.csv", "http://a"));
+}
+
+TEST_CASE("the worst verdict is the one that costs most") {
+  CHECK(worst_verdict({.good = 5}) == ExitCode::Good);
+  CHECK(worst_verdict({.good = 5, .indeterminate = 1}) == ExitCode::Indeterminate);
+  CHECK(worst_verdict({.good = 5, .rework = 1, .indeterminate = 1}) == ExitCode::Rework);
+  CHECK(worst_verdict({.good = 5, .rework = 1, .reject = 1}) == ExitCode::Reject);
+}
