@@ -155,7 +155,7 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .summary = "Store a program, mask or table as it is on the control",
       .parameters = {kPath},
       .body = {.use = http::BodyUse::Required, .limit = kBodyLimit},
-      .access = "operator",
+      .access = "admin",
   });
   routes.push_back({
       .method = http::Method::Delete,
@@ -163,7 +163,7 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .handler = with(services, delete_file),
       .summary = "Delete a file",
       .parameters = {kPath},
-      .access = "operator",
+      .access = "admin",
   });
   routes.push_back({
       .method = http::Method::Post,

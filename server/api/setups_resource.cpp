@@ -108,7 +108,7 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .summary = "Store a machine, its tools and the workpiece on its table",
       .parameters = {name},
       .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
-      .access = "operator",
+      .access = "admin",
   });
   routes.push_back({
       .method = http::Method::Delete,
@@ -116,7 +116,7 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .handler = with(services, delete_setup),
       .summary = "Delete a setup",
       .parameters = {name},
-      .access = "operator",
+      .access = "admin",
   });
 }
 

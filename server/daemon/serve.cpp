@@ -18,6 +18,7 @@
 #include "base/forward_clock.hpp"
 #include "base/text.hpp"
 #include "daemon/application_options.hpp"
+#include "daemon/file_limit.hpp"
 #include "daemon/log.hpp"
 
 namespace fitgauge::daemon {
@@ -81,12 +82,23 @@ Result<void> provide_first_key(const Config& config, app::KeyService& keys) {
   return {};
 }
 
+/// The connections that can be open at once. Beyond them a client gets 503 rather than no answer.
+std::size_t connections_allowed(const Config& config) {
+  const std::int64_t allowed = allow_connections(config.max_connections);
+  if (allowed < config.max_connections) {
+    log_warning("connections_limited",
+                fmt::format("{} of {}: the hard limit of open files allows no more", allowed,
+                            config.max_connections));
+  }
+  return static_cast<std::size_t>(allowed);
+}
+
 http::ServerOptions server_options(const Config& config,
                                    std::vector<http::ListenAddress> addresses) {
   http::ServerOptions options;
   options.listen = std::move(addresses);
   options.io_threads = static_cast<unsigned>(config.io_threads);
-  options.max_connections = static_cast<std::size_t>(config.max_connections);
+  options.max_connections = connections_allowed(config);
   if (!config.tls_cert.empty()) {
     options.tls = http::TlsOptions{.certificate_file = config.tls_cert,
                                    .key_file = config.tls_key,

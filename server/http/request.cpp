@@ -64,7 +64,8 @@ bool Request::is_local() const {
 }
 
 std::string Request::own_origin() const {
-  return fmt::format("{}://{}", peer_->tls ? "https" : "http", ascii_lower(head_->host));
+  const bool tls = peer_->tls || ascii_iequals(header("X-Forwarded-Proto").value_or(""), "https");
+  return fmt::format("{}://{}", tls ? "https" : "http", ascii_lower(head_->host));
 }
 
 }  // namespace fitgauge::http

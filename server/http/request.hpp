@@ -72,7 +72,8 @@ class Request {
   bool is_tls() const { return peer_->tls; }
   /// The subject of the client's certificate (RFC 2253), verified against the client CA; or empty.
   std::string_view client_certificate() const { return peer_->client_certificate; }
-  /// `https://host:port` or `http://…` as the client addressed it, for comparing Origin.
+  /// `https://host:port` or `http://…` as the client addressed it, for comparing Origin. A proxy
+  /// that ends TLS says so in X-Forwarded-Proto, which a page of another site cannot send unasked.
   std::string own_origin() const;
 
   /// The route found, or null where the request was refused before one was.

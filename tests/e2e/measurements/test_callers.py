@@ -54,6 +54,15 @@ class Open(Callers):
         self.assertEqual(self.daemon.request("GET", "/v1/limits/25H7",
                                              headers={"Origin": "http://evil.example"}).status, 200)
 
+    def test_a_page_behind_a_proxy_that_ends_tls_may_write(self):
+        proxied = {"X-Forwarded-Proto": "https", "X-Forwarded-For": "10.0.0.9", "Host": "gauge.example"}
+        key = self.make_key("page", "operator")
+        headers = {**proxied, "Origin": "https://gauge.example", "Authorization": f"Bearer {key}"}
+        self.wait_for(lambda: self.daemon.measure(PART, headers).status != 401)
+        self.assertEqual(self.daemon.measure(PART, headers).status, 201)
+        for origin in ("https://evil.example", "http://gauge.example"):
+            self.assert_problem(self.daemon.measure(PART, {**headers, "Origin": origin}), 403, "origin.refused")
+
     def test_a_name_that_was_made_to_resolve_here_is_remote(self):
         self.assert_needs_a_key(self.daemon.measure(PART, {"Host": "rebound.example"}))
 
@@ -99,22 +108,25 @@ class Keys(Callers):
 
     def test_roles(self):
         tokens = {role: self.make_key(f"{role}-1", role) for role in ("viewer", "operator", "admin")}
-        calls = {
-            "viewer": lambda h: self.daemon.request("GET", "/v1/measurements", headers=h),
-            "operator": lambda h: self.daemon.measure(PART, h),
-            "admin": lambda h: self.daemon.request("PUT", "/v1/tables/hole/classes/Shop1", COLUMN, h),
-        }
-        order = list(calls)
+        calls = [("viewer", "GET", "/v1/measurements", None), ("operator", "POST", "/v1/measurements", PART),
+                 ("admin", "PUT", "/v1/tables/hole/classes/Shop1", COLUMN),
+                 ("admin", "PUT", "/v1/setups/mill-1", {}), ("admin", "DELETE", "/v1/setups/mill-1", None),
+                 ("admin", "PUT", "/v1/files/p.h", "0 BEGIN PGM p MM\n1 END PGM p MM\n"),
+                 ("operator", "POST", "/v1/runs", {"program": "TNC:\\p.h"}),
+                 ("viewer", "POST", "/v1/files/p.h?action=check", None), ("admin", "DELETE", "/v1/files/p.h", None)]
+        order = ["viewer", "operator", "admin"]
         self.wait_for(lambda: self.daemon.get(
             "/v1/measurements", Authorization=f"Bearer {tokens['admin']}").status == 200)
-        for role, token in tokens.items():
-            for needed, call in calls.items():
-                answer = call({"Authorization": f"Bearer {token}"})
-                with self.subTest(role=role, needed=needed):
-                    if order.index(role) >= order.index(needed):
-                        self.assertIn(answer.status, (200, 201), answer)
-                    else:
+        for needed, method, path, body in calls:
+            for role in order:
+                answer = self.daemon.request(method, path, body, {"Authorization": f"Bearer {tokens[role]}"})
+                with self.subTest(role=role, method=method, path=path):
+                    if order.index(role) < order.index(needed):
                         self.assert_problem(answer, 403, "auth.forbidden")
+                    elif role == needed:
+                        self.assertIn(answer.status, (200, 201, 204), answer)
+                    else:
+                        self.assertNotEqual(answer.status, 403, answer)
         record = self.daemon.measure(PART, {"X-API-Key": tokens["operator"]}).json
         self.assertEqual(record["caller"], "operator-1")
 

@@ -1,0 +1,145 @@
+"""Many connections: senders that stop half-way, idle ones, and more than the system's limit of files."""
+
+import pathlib
+import selectors
+import socket
+import unittest
+
+from support.daemon import Daemon
+
+PART = {"designation": "25 H7", "measured_mm": 25.013}
+MEGABYTE = 1 << 20
+
+
+def raise_own_limit():
+    """This process holds the other end of every connection."""
+    import resource
+    _, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
+
+
+class ConnectionTest(unittest.TestCase):
+    def start(self, *flags, **named):
+        raise_own_limit()
+        daemon = Daemon(*flags, **named)
+        self.addCleanup(daemon.cleanup)
+        return daemon.start()
+
+    def connect(self, daemon, count):
+        sockets = []
+        for _ in range(count):
+            sockets.append(socket.create_connection(("127.0.0.1", daemon.port), timeout=30))
+            self.addCleanup(sockets[-1].close)
+        return sockets
+
+    def memory(self, daemon, name):
+        """A figure of /proc/PID/status in bytes."""
+        status = pathlib.Path(f"/proc/{daemon.process.pid}/status").read_text()
+        return int(status.split(f"{name}:")[1].split()[0]) * 1024
+
+
+def read_head(connection):
+    """The head of an answer that has no body, or of which the body does not matter."""
+    answer = b""
+    while b"\r\n\r\n" not in answer:
+        piece = connection.recv(65536)
+        if not piece:
+            raise EOFError(answer)
+        answer += piece
+    return answer
+
+
+class HalfSentBodies(ConnectionTest):
+    def send_as_much_as_is_taken(self, sockets, payload, attentive):
+        """Sends until nothing has been taken for a second; `attentive` is called meanwhile."""
+        left = {connection: memoryview(payload) for connection in sockets}
+        with selectors.DefaultSelector() as selector:
+            for connection in sockets:
+                connection.setblocking(False)
+                selector.register(connection, selectors.EVENT_WRITE)
+            while left:
+                ready = selector.select(timeout=1)
+                if not ready:
+                    break
+                for key, _ in ready:
+                    try:
+                        sent = key.fileobj.send(left[key.fileobj][:65536])
+                        left[key.fileobj] = left[key.fileobj][sent:]
+                    except ConnectionError:  # given up by the service, so that others have room
+                        left[key.fileobj] = left[key.fileobj][:0]
+                    if not left[key.fileobj]:
+                        selector.unregister(key.fileobj)
+                        del left[key.fileobj]
+                attentive()
+
+    def test_500_of_them_take_no_memory_and_harm_nobody(self):
+        daemon = self.start()
+        statuses = []
+        client = daemon.connect()
+        whole = '[{"designation":"25 H7","measured_mm":25.01}' + " " * (MEGABYTE - 100) + "]"
+
+        def attentive():
+            statuses.append(daemon.measure(PART, connection=client).status)
+
+        head = (b"POST /v1/measurements HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+                b"Content-Length: %d\r\n\r\n" % MEGABYTE)
+        sockets = self.connect(daemon, 500)
+        self.send_as_much_as_is_taken(sockets, head + b"[" + b" " * (MEGABYTE // 2), attentive)
+        for _ in range(5):
+            attentive()
+            answer = daemon.measure(whole, {"Content-Type": "application/json"})
+            statuses.append(answer.status)
+        self.assertEqual(set(statuses), {201})
+        self.assertLess(self.memory(daemon, "VmHWM"), 128 * MEGABYTE)
+        client.close()
+        for connection in sockets:
+            connection.close()
+        self.assertEqual(daemon.get("/livez").status, 200)
+        self.assertEqual(daemon.stop(), 0)
+
+
+class IdleConnections(ConnectionTest):
+    def test_each_takes_at_most_8_kilobytes(self):
+        daemon = self.start()
+        request = b"GET /v1/limits/25H7 HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        for connection in self.connect(daemon, 100):  # what is allocated once is not theirs
+            connection.sendall(request)
+            read_head(connection)
+        before = self.memory(daemon, "VmRSS")
+        sockets = self.connect(daemon, 1000)
+        for connection in sockets:
+            connection.sendall(request)
+            self.assertTrue(read_head(connection).startswith(b"HTTP/1.1 200"))
+        self.assertLess((self.memory(daemon, "VmRSS") - before) / len(sockets), 8192)
+
+
+class FileLimit(ConnectionTest):
+    def answered(self, sockets):
+        """How many of the connections get an answer, and how many are told that there are too many."""
+        counts = {b"200": 0, b"503": 0}
+        for connection in sockets:
+            connection.sendall(b"GET /livez HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        for connection in sockets:
+            counts[read_head(connection).split()[1]] += 1
+        return counts
+
+    def limits(self, daemon):
+        limits = pathlib.Path(f"/proc/{daemon.process.pid}/limits").read_text()
+        soft, hard = limits.split("Max open files")[1].split()[:2]
+        return int(soft), int(hard)
+
+    def test_the_soft_limit_is_raised_to_what_the_connections_need(self):
+        daemon = self.start("--max-connections", 600, wrapper=["prlimit", "--nofile=64:2048"])
+        self.assertEqual(self.answered(self.connect(daemon, 600)), {b"200": 600, b"503": 0})
+        soft, hard = self.limits(daemon)
+        self.assertTrue(600 <= soft <= hard == 2048, (soft, hard))
+        self.assertNotIn("connections_limited", daemon.log)
+        self.assertEqual(daemon.stop(), 0)
+
+    def test_a_hard_limit_that_is_too_low_is_said_and_kept(self):
+        daemon = self.start(wrapper=["prlimit", "--nofile=64:400"])
+        self.assertIn("connections_limited", daemon.log)
+        self.assertEqual(self.limits(daemon), (400, 400))
+        counts = self.answered(self.connect(daemon, 300))
+        self.assertEqual(counts, {b"200": 144, b"503": 156})
+        self.assertEqual(daemon.stop(), 0)
