@@ -28,7 +28,7 @@ import json
 import os
 import random
 import re
-import select
+import selectors
 import ssl
 import time
 import urllib.parse
@@ -388,7 +388,9 @@ def _control_path(path: str) -> str:
 
 def _events(pieces: Iterable[bytes]) -> Iterator[Event]:
     """Server-Sent Events (WHATWG HTML, 9.2.6); one without data only tells its id."""
-    kind, last, data = "message", None, []  # type: str, str | None, list[str]
+    kind = "message"
+    last: str | None = None
+    data: list[str] = []
     for line in _lines(pieces):
         name, _, value = line.partition(":")
         value = value[1:] if value.startswith(" ") else value
@@ -520,7 +522,10 @@ class Client:
         with suppress(IndexError):  # no idle one, or another thread has taken the last
             while True:
                 connection = self._idle.pop()
-                if not select.select([connection.sock], [], [], 0)[0]:
+                with selectors.DefaultSelector() as selector:
+                    selector.register(connection.sock, selectors.EVENT_READ)
+                    closed = selector.select(0)
+                if not closed:
                     connection.sock.settimeout(timeout)
                     return connection
                 connection.close()
@@ -528,7 +533,11 @@ class Client:
             connection = http.client.HTTPSConnection(self._host, self._port, timeout=timeout, context=self._tls)
         else:
             connection = http.client.HTTPConnection(self._host, self._port, timeout=timeout)
-        connection.connect()
+        try:
+            connection.connect()
+        except BaseException:
+            connection.close()
+            raise
         return connection
 
     def _give_back(self, answer: _Answer) -> None:
@@ -696,7 +705,7 @@ class Client:
     def measure_many(self, measurements: Iterable[NewMeasurement], *, idempotency_key: str | None = None,
                      rows: int = 5_000, progress: Callable[[Accepted], object] | None = None) -> Accepted:
         """Stores any number of values, taken from the iterator as they are sent, `rows` a request, each
-        all or none. Begun again with the same key and the same values it stores none twice.
+        all or none. Begun again with the same key, values and `rows` it stores none twice.
         `progress` is called with the sum after each request. Bad rows are counted over all."""
         records = (dumps(measurement) + "\n" for measurement in measurements)
         return self._post_batches(_batches(records, "", rows), "application/x-ndjson", idempotency_key, progress)

@@ -1,16 +1,14 @@
-"""The client's man pages, its completion and its guide say what the programs do."""
+"""The client's man pages and its completion say what the programs do."""
 
 import os
-import pathlib
 import re
 import shutil
 import subprocess
 import unittest
 
-from support.cli import FITGAUGE, ClientTest
-from support.daemon import FITGAUGED
+from support.cli import FITGAUGE
+from support.daemon import FITGAUGED, ROOT
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
 COMMANDS = ("limits", "fit", "gauge", "measure", "nc", "tables", "watch", "version", "completion")
 SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables")] + [
     ("nc", name) for name in ("ls", "put", "get", "check", "run")] + [("tables", "export")]
@@ -97,20 +95,3 @@ class Completion(unittest.TestCase):
                       ("nc", "run", "x", "--setup-file")):
             with self.subTest(words):
                 self.assertEqual(completions(*words, folder + "f"), pages)
-
-
-class Guide(ClientTest):
-    def test_the_commands_of_the_guide_do_what_it_says(self):
-        guide = (ROOT / "docs/guide/command-line.md").read_text(encoding="utf-8")
-        blocks = re.findall(r"^```sh\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
-        self.assertGreater(len(blocks), 5)
-        (self.client.folder / "clients").symlink_to(ROOT / "clients")
-        environment = {**self.client.environment, "HOME": str(self.client.folder),
-                       "PATH": f"{pathlib.Path(FITGAUGE).resolve().parent}:{os.environ['PATH']}"}
-        for block in blocks:
-            with self.subTest(block):
-                done = subprocess.run(["bash", "-u", "-c", block], cwd=self.client.folder, text=True,
-                                      capture_output=True, timeout=60, env=environment, check=False)
-                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-                for line in re.findall(r"#→ (.*)$", block, re.MULTILINE):
-                    self.assertIn(line, done.stdout)

@@ -1,34 +1,72 @@
 """What the documents say is what the service does."""
 
-import pathlib
 import re
-import shlex
 import subprocess
 import sys
+import unittest
 
-from support.daemon import FITGAUGED, DaemonTest
+from support.daemon import FITGAUGED, ROOT, DaemonTest
+from support.documents import Reader, agrees, blocks
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+DOCUMENTS = [ROOT / "README.md", ROOT / "clients/python/README.md", *sorted((ROOT / "docs").glob("guide/*.md"))]
+LANGUAGES = {"sh", "console", "python", "json", "nginx", ""}
 
 
-class Documents(DaemonTest):
+class Reference(DaemonTest):
     def test_the_reference_pages_are_what_the_service_says(self):
         done = subprocess.run([sys.executable, ROOT / "scripts/docs", "--check", "--daemon", FITGAUGED],
                               capture_output=True, text=True, timeout=120, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
-    def test_the_curl_lines_of_the_readme_succeed(self):
-        readme = (ROOT / "README.md").read_text(encoding="utf-8")
-        commands = re.findall(r"^curl .*$", readme, re.MULTILINE)
-        self.assertEqual(len(commands), 5)
-        for command in commands:
-            with self.subTest(command):
-                arguments = shlex.split(command.replace("localhost:8286", f"127.0.0.1:{self.daemon.port}"))
-                done = subprocess.run([*arguments, "--fail-with-body", "-sS"], capture_output=True, text=True,
-                                      timeout=30, check=False)
-                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-
     def test_the_answer_in_the_readme_is_the_answer(self):
         readme = (ROOT / "README.md").read_text(encoding="utf-8")
         shown = re.search(r"```json\n(.*?)```", readme, re.DOTALL).group(1)
         self.assertEqual(re.sub(r"\s*\n\s*", "", shown), self.daemon.get("/v1/limits/25H7").text)
+
+
+class Commands(unittest.TestCase):
+    def test_the_commands_of_each_document_do_what_it_says(self):
+        for path in DOCUMENTS:
+            with self.subTest(path.relative_to(ROOT)):
+                self.follow(path)
+
+    def follow(self, path):
+        reader = Reader()
+        self.addCleanup(reader.close)
+        for block in blocks(path):
+            self.assertIn(block.language, LANGUAGES, f"{path.name}:{block.line}")
+            try:
+                reader.run(block)
+            except AssertionError as error:
+                raise AssertionError(f"{path.name}:{block.line}: {error}") from None
+
+    def test_few_blocks_are_not_run(self):
+        not_run = [block for path in DOCUMENTS for block in blocks(path) if "not-run" in block.flags]
+        self.assertLessEqual(len(not_run), 5)
+        for block in not_run:
+            self.assertRegex(block.text, r"^(docker|scripts/(run|test)) ", "it could be run")
+
+    def test_links_lead_to_files(self):
+        for path in [*DOCUMENTS, ROOT / "docs/README.md", ROOT / "CONTRIBUTING.md"]:
+            text = re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+            for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text):
+                self.assertTrue((path.parent / target).exists(), f"{path.name}: {target}")
+
+    def test_the_index_names_every_document(self):
+        index = (ROOT / "docs/README.md").read_text(encoding="utf-8")
+        for path in (ROOT / "docs").rglob("*.md"):
+            if path.name != "README.md":
+                self.assertIn(f"({path.relative_to(ROOT / 'docs')})", index)
+
+    def test_what_is_shown_is_compared(self):
+        self.assertTrue(agrees('{"a":1,…\n "c":3}\n', '{"a":1,"b":2,"c":3}'))
+        self.assertFalse(agrees('{"a":1,…"c":3}', '{"a":1,"b":2,"c":4}'))
+        self.assertFalse(agrees("", "something"))
+        reader = Reader()
+        self.addCleanup(reader.close)
+        for command in ("false", "curl localhost:8286/v1/limits/7H", "true | false"):
+            with self.assertRaises(AssertionError):
+                reader.shell(command)
+        with self.assertRaises(AssertionError):
+            reader.python("assert 1 == 2")
+        self.assertEqual(reader.shell("cd clients && x=1") + reader.shell("echo $(basename $PWD)"), "clients\n")

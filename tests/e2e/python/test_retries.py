@@ -248,8 +248,8 @@ class OnTheService(unittest.TestCase):
     def test_keys_and_roles(self):
         self.daemon.flags = ["--auth", "keys"]
         self.daemon.start()
-        with self.assertRaises(fitgauge.Unauthorized):
-            self.daemon.client().limits("25H7")
+        with self.daemon.client() as client, self.assertRaises(fitgauge.Unauthorized):
+            client.limits("25H7")
         token = self.daemon.command("key", "create", "--name", "press-3", "--role", "operator").stdout.strip()
         self.restart()
         with self.daemon.client(key=token) as client:

@@ -1,20 +1,21 @@
 """Writers as a shop has them: each sends its values with an idempotency key until they are taken."""
 
-import http.client
 import itertools
 import threading
 import time
 
+from support.daemon import fitgauge
+
 
 class Writers:
     """Threads that post single measurements and small arrays. A part id is used once; what was
-    acknowledged is in `acknowledged`: the part id with the id of its record or of its last one."""
+    acknowledged is in `acknowledged`: the part id with the id of its record."""
 
     def __init__(self, daemon, count=8, prefix=""):
         self.daemon = daemon
         self.prefix = prefix
         self.acknowledged = {}
-        self.refused = []  # answers that are neither success nor "try again"
+        self.refused = []  # problems that do not pass
         self.stopping = threading.Event()
         self.threads = [threading.Thread(target=self.run, args=(n,)) for n in range(count)]
 
@@ -38,21 +39,19 @@ class Writers:
 
     def post(self, parts):
         """Sends the values until they are acknowledged; false when the service is gone for good."""
-        body = [{"designation": "25 H7", "measured_mm": 25.013, "part_id": part} for part in parts]
+        rows = [{"designation": "25 H7", "measured_mm": "25.013", "part_id": part} for part in parts]
         while not self.gave_up():
             try:
-                answer = self.daemon.measure(body, {"Idempotency-Key": parts[0]})
-            except (OSError, http.client.HTTPException):
-                time.sleep(0.01)
-                continue
-            if answer.status == 201:
-                last = int(answer.json["last_id"][1:])
-                for offset, part in enumerate(reversed(parts)):
-                    self.acknowledged[part] = f"m{last - offset}"
+                with self.daemon.client(retries=0) as client:
+                    records = client.measure_all(rows, idempotency_key=parts[0])
+                self.acknowledged.update((record["part_id"], record["id"]) for record in records)
                 return True
-            if answer.status not in (409, 503):
-                self.refused.append(answer)
-                return False
+            except fitgauge.Problem as problem:
+                if not problem.passes:
+                    self.refused.append(problem)
+                    return False
+            except fitgauge.NoAnswer:
+                pass
             time.sleep(0.01)
         return False
 
