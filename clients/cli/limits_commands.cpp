@@ -141,10 +141,21 @@ Outcome<ExitCode> run_tables_export(const Context& context, const TableOptions& 
 
 Outcome<ExitCode> run_version(const Context& context) {
   if (!context.json) context.print("fitgauge {}\n", FITGAUGE_VERSION);
-  return show(context, "/openapi.json", [&context](const JsonValue& document, const Terminal&) {
-    return fmt::format("fitgauged {} at {}\n", document.object("info").text_of("version"),
-                       context.client.url());
-  });
+  const auto answer = get(context, "/openapi.json");
+  if (!answer) return answer.error();
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  const std::string_view service = document->object("info").text_of("version");
+  if (context.json) {
+    context.print_document(JsonObject()
+                               .add("fitgauge", FITGAUGE_VERSION)
+                               .add("fitgauged", service)
+                               .add("server", context.client.url())
+                               .text());
+  } else {
+    context.print("fitgauged {} at {}\n", service, context.client.url());
+  }
+  return ExitCode::Good;
 }
 
 }  // namespace fitgauge::cli

@@ -62,6 +62,8 @@ class Tables(ClientTest):
     def test_version(self):
         self.assertRegex(self.assert_runs(0, "version"),
                          r"^fitgauge \d+\.\d+\.\d+\nfitgauged \d+\.\d+\.\d+ at http://127\.0\.0\.1:")
+        versions = json.loads(self.assert_runs(0, "--json", "version"))
+        self.assertEqual(versions["fitgauge"], versions["fitgauged"])
         self.assertRegex(self.assert_runs(0, "--version"), r"^fitgauge \d+\.\d+\.\d+\n$")
 
 

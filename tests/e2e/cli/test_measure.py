@@ -3,11 +3,13 @@
 $MEASURE_ROUNDS sets how often a run is stopped, 12 when absent; $SEED repeats the moments of a run.
 """
 
+import http.server
 import json
 import os
 import random
 import signal
 import subprocess
+import threading
 import time
 import unittest
 
@@ -166,3 +168,68 @@ class Stopped(unittest.TestCase):
         self.daemon.start()
         self.assertEqual(self.client.run(*self.command).returncode, 0)
         self.assert_every_row_is_stored_once()
+
+
+class Busy(unittest.TestCase):
+    """A service that says to try later, as one does whose disk is slow."""
+
+    def serve(self, answers):
+        """Gives each POST the next of these answers: status, headers, body. The requests are kept."""
+        requests = []
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            protocol_version = "HTTP/1.1"
+
+            def do_POST(self):
+                body = self.rfile.read(int(self.headers["Content-Length"]))
+                requests.append((self.headers["Idempotency-Key"], body))
+                status, headers, answer = answers[len(requests) - 1]
+                self.send_response(status)
+                for name, value in headers.items():
+                    self.send_header(name, value)
+                self.send_header("Content-Length", str(len(answer)))
+                self.end_headers()
+                self.wfile.write(answer)
+
+            def log_message(self, *_):
+                pass
+
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        threading.Thread(target=server.serve_forever).start()
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        client = Client(f"127.0.0.1:{server.server_port}")
+        self.addCleanup(client.cleanup)
+        client.write("a.csv", HEADER + rows(2))
+        return client, requests
+
+    PROBLEM = {"Content-Type": "application/problem+json"}
+    STORED = (201, {"Content-Type": "application/json"},
+              b'{"accepted":2,"verdicts":{"good":2,"rework":0,"reject":0,"indeterminate":0}}')
+
+    def test_it_waits_as_long_as_it_is_asked_to_and_repeats_the_same_request(self):
+        client, requests = self.serve([
+            (503, {**self.PROBLEM, "Retry-After": "1"}, b'{"title":"Overloaded","code":"storage.busy"}'),
+            (409, self.PROBLEM, b'{"title":"Running","code":"idempotency.in_progress"}'),
+            self.STORED])
+        done = client.run("measure", "a.csv")
+        self.assertEqual((done.returncode, done.stdout_text), (0, "2 rows: 2 good, 0 rework, 0 reject\n"))
+        self.assertEqual(done.stderr_text.splitlines(), ["fitgauge: Overloaded; again in 1.0 s",
+                                                         "fitgauge: Running; again in 0.4 s"])
+        self.assertEqual(len(requests), 3)
+        self.assertEqual(len(set(requests)), 1)
+
+    def test_a_wait_that_is_longer_than_its_budget_is_not_begun(self):
+        client, requests = self.serve([(503, {**self.PROBLEM, "Retry-After": "100"}, b'{"title":"Full"}'),
+                                       self.STORED])
+        stopped = client.run("measure", "a.csv")
+        self.assertEqual(stopped.returncode, 6, stopped.stderr_text)
+        self.assertEqual(client.run("measure", "a.csv").returncode, 0)
+        self.assertEqual(len(set(requests)), 1)  # resumed with the same key and the same bytes
+
+    def test_another_refusal_is_final(self):
+        client, requests = self.serve([(404, {"Content-Type": "text/html"}, b"<p>not here")])
+        done = client.run("measure", "a.csv")
+        self.assertEqual(done.returncode, 7)
+        self.assertIn("is it fitgauged?", done.stderr_text)
+        self.assertEqual(len(requests), 1)

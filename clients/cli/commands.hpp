@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+
+#include "cli/context.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace fitgauge::cli {
+
+/// What a command line asks for.
+using Action = std::function<Outcome<ExitCode>(const Context&)>;
+
+/// Registers every command with its options. Parsing puts what the chosen one does into `chosen`,
+/// which outlives `app`.
+void add_commands(CLI::App& app, Action& chosen);
+
+}  // namespace fitgauge::cli
