@@ -13,6 +13,8 @@ std::size_t count_lines(std::string_view text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
 /// The offset behind the closing quote of the cell that begins with one; npos when it is not there.
 std::size_t skip_quoted(std::string_view text, std::size_t begin) {
   std::size_t close = text.find('"', begin + 1);
@@ -62,6 +64,11 @@ Outcome<void> CsvChunks::fill() {
   return {};
 }
 
+Outcome<void> CsvChunks::fill_empty() {
+  if (!rest().empty() || ended_) return {};
+  return fill();
+}
+
 Outcome<void> CsvChunks::read_header() {
   std::optional<CsvRecord> header;
   while (!header && !(ended_ && buffer_.empty())) {
@@ -98,23 +105,27 @@ CsvChunk CsvChunks::take(std::size_t size, std::size_t rows, std::uint64_t lines
   return chunk;
 }
 
-Outcome<bool> CsvChunks::skip_to(const CsvPosition& place) {
-  if (place.bytes < position_.bytes) return false;
+Outcome<CsvMatch> CsvChunks::skip_to(const CsvPosition& place) {
+  if (place.bytes < position_.bytes) return CsvMatch::Different;
+  bool at_line_end = true;  // of the header, else there is nothing behind it
   std::uint64_t left = place.bytes - position_.bytes;
   while (left > 0) {
-    if (rest().empty()) {
-      const auto filled = fill();
-      if (!filled) return filled.error();
-      if (ended_) return false;
-    }
+    if (const auto filled = fill_empty(); !filled) return filled.error();
+    if (rest().empty()) return CsvMatch::Different;
     const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left, rest().size()));
+    at_line_end = is_line_end(rest()[size - 1]);
     digest_.add(rest().substr(0, size));
     taken_ = size;
     drop_taken();
     left -= size;
   }
   position_ = {.bytes = place.bytes, .lines = place.lines, .sha256 = digest_.digest()};
-  return position_ == place;
+  if (position_ != place) return CsvMatch::Different;
+  if (at_line_end) return CsvMatch::Same;
+  if (const auto filled = fill_empty(); !filled) return filled.error();
+  if (!rest().empty() && !is_line_end(rest().front())) return CsvMatch::RowHasGrown;
+  --position_.lines;  // its end was counted, and is yet to be read
+  return CsvMatch::Same;
 }
 
 Outcome<std::optional<CsvChunk>> CsvChunks::next() {

@@ -42,6 +42,13 @@ struct CsvChunk {
   CsvPosition end;
 };
 
+/// What an input has at a place where another run was.
+enum class CsvMatch : std::uint8_t {
+  Same,
+  Different,   ///< it is shorter, or has other bytes before the place
+  RowHasGrown  ///< the same bytes, and no line end where the input had ended
+};
+
 /// Cuts a CSV input of any size into texts the service takes, reading it once from front to back.
 /// After a failure it is of no more use.
 class CsvChunks {
@@ -62,9 +69,8 @@ class CsvChunks {
   /// Behind what was taken last: the header at first.
   const CsvPosition& position() const { return position_; }
 
-  /// Passes over what lies before `place`. @returns false when the input is another one: shorter,
-  /// or with other bytes. @errors LocalFile
-  Outcome<bool> skip_to(const CsvPosition& place);
+  /// Passes over what lies before `place`, unless the input is another one. @errors LocalFile
+  Outcome<CsvMatch> skip_to(const CsvPosition& place);
 
   /// The next rows, as many as the limits allow; none at the end. The body is valid until the next
   /// call. @errors LocalFile, also for a row that is larger than a chunk.
@@ -78,6 +84,8 @@ class CsvChunks {
 
  private:
   Outcome<void> fill();
+  /// Reads on where nothing is left of what was read.
+  Outcome<void> fill_empty();
   CsvChunk take(std::size_t size, std::size_t rows, std::uint64_t lines);
   void drop_taken();
   /// What was read and not yet taken.

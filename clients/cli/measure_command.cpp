@@ -53,9 +53,6 @@ class Upload {
         journal_(std::move(journal)) {}
 
   Outcome<ExitCode> run() {
-    if (options_.again) {
-      if (const auto cleared = journal_.clear(); !cleared) return cleared.error();
-    }
     auto chunks = find_place();
     if (!chunks) return chunks.error();
     for (;;) {
@@ -83,34 +80,35 @@ class Upload {
     return chunks;
   }
 
-  void begin_session(const CsvChunks& chunks) {
-    state_ = {.server = context_.client.url(),
-              .session = new_idempotency_key(),
-              .stored = chunks.position()};
+  Outcome<CsvChunks> begin_session() {
+    if (const auto cleared = journal_.clear(); !cleared) return cleared.error();
+    auto chunks = open_input();
+    if (chunks) {
+      state_ = {.server = context_.client.url(),
+                .session = new_idempotency_key(),
+                .stored = chunks->position()};
+    }
+    return chunks;
   }
 
   /// The input at the place where an earlier run stopped, or at its first row.
   Outcome<CsvChunks> find_place() {
+    const auto& last = journal_.state();
+    if (options_.again || !last) return begin_session();
+    if (last->server != context_.client.url()) return other_server(*last);
     auto chunks = open_input();
     if (!chunks) return chunks;
-    const auto& last = journal_.state();
-    if (!last) {
-      begin_session(*chunks);
-      return chunks;
-    }
-    if (last->server != context_.client.url()) return other_server(*last);
-    const auto same = chunks->skip_to(last->stored);
-    if (!same) return same.error();
-    if (*same) {
+    const auto match = chunks->skip_to(last->stored);
+    if (!match) return match.error();
+    if (*match == CsvMatch::RowHasGrown) return row_has_grown(last->stored.lines);
+    if (*match == CsvMatch::Same) {
       state_ = *last;
       state_.complete = false;
       return chunks;
     }
     const bool is_done_with = last->complete || (!last->pending && last->counts.sum() == 0);
     if (!is_done_with || options_.input == "-") return changed(last->stored.lines);
-    chunks = open_input();
-    if (chunks) begin_session(*chunks);
-    return chunks;
+    return begin_session();
   }
 
   Outcome<std::optional<CsvChunk>> pending_chunk(CsvChunks& chunks) {
@@ -124,6 +122,14 @@ class Upload {
             fmt::format("{}: the state is that of {}: name another file with --state, or send all "
                         "rows with --again",
                         journal_.path(), last.server)};
+  }
+
+  Failure row_has_grown(std::uint64_t line) const {
+    return {
+        ExitCode::LocalFile,
+        fmt::format("{}: line {} was stored before its end was written: correct its record, put "
+                    "the line back as it was, and write the next row on a line of its own",
+                    name_, line)};
   }
 
   Failure changed(std::uint64_t lines) const {

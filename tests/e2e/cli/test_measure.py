@@ -90,6 +90,15 @@ class Measure(ClientTest):
         self.assert_runs(0, "measure", "f.csv", "--again")
         self.assertEqual((len(self.stored_parts("F-")), len(self.stored_parts("G-"))), (4, 4))
 
+    def test_a_row_that_grows_after_it_was_stored_is_reported(self):
+        self.client.write("l.csv", "designation,part_id,measured_mm\n25 H7,L-1,25.0")
+        self.assert_runs(0, "measure", "l.csv")
+        self.client.write("l.csv", "designation,part_id,measured_mm\n25 H7,L-1,25.03\n")
+        self.assertIn("line 2", self.assert_fails(5, "measure", "l.csv"))
+        self.client.write("l.csv", "designation,part_id,measured_mm\n25 H7,L-1,25.0\n25 H7,L-2,25.01\n")
+        self.assert_runs(0, "measure", "l.csv")
+        self.assertEqual(self.stored_parts("L-"), ["L-1", "L-2"])
+
     def test_standard_input(self):
         text = HEADER + rows(5, "H-")
         self.assert_runs(0, "measure", "-", "--chunk", "2", stdin=text)

@@ -154,13 +154,27 @@ TEST_CASE("the bodies without their headers are the input, whatever it is") {
 TEST_CASE("it goes on at the place where another run was") {
   const CsvPosition place = cut(opened(kThree, {.rows = 2}))[0].end;
   auto chunks = opened(kThree, {}, 3);
-  CHECK(*chunks.skip_to(place));
+  CHECK(*chunks.skip_to(place) == CsvMatch::Same);
   CHECK((*chunks.next())->body == "a,b\n5,6\n");
 
   auto other = opened("a,b\n1,2\n9,4\n5,6\n");
-  CHECK_FALSE(*other.skip_to(place));
+  CHECK(*other.skip_to(place) == CsvMatch::Different);
   auto shorter = opened("a,b\n1,2\n");
-  CHECK_FALSE(*shorter.skip_to(place));
+  CHECK(*shorter.skip_to(place) == CsvMatch::Different);
+}
+
+TEST_CASE("a last row without a line end may get one, and nothing else") {
+  const CsvPosition place = cut(opened("a,b\n1,2"))[0].end;
+  const auto match = [&place](const char* text) { return *opened(text).skip_to(place); };
+  CHECK(match("a,b\n1,2") == CsvMatch::Same);
+  CHECK(match("a,b\n1,2\n3,4\n") == CsvMatch::Same);
+  CHECK(match("a,b\n1,25\n") == CsvMatch::RowHasGrown);
+  auto chunks = opened("a,b\n1,2\n3,4\n");
+  CHECK(*chunks.skip_to(place) == CsvMatch::Same);
+  const auto chunk = *chunks.next();
+  CHECK(chunk->body == "a,b\n\n3,4\n");
+  CHECK(chunks.input_line(*chunk, 3) == 3);
+  CHECK(chunk->end.lines == 3);
 }
 
 TEST_CASE("what was sent before is cut in the same way again") {
