@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "base/text.hpp"
+#include "tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {
 namespace {
@@ -98,12 +99,23 @@ ColumnDescriptions read_table_description(std::string_view text) {
   }
 }
 
+namespace {
+
+/// Whether a column has what its name and its place in the line do not tell.
+bool is_described(const TabTable& table, const TabColumn& column) {
+  const bool is_last = &column == &table.columns().back();
+  return !column.type.empty() || column.decimals != 0 ||
+         (is_last && column.width > count_characters(column.name));
+}
+
+}  // namespace
+
 std::string write_description(const TabTable& table) {
   std::string out;
   if (table.header().form == HeaderForm::StructBlock) {
     out += "#STRUCTBEGIN\n";
     for (const TabColumn& column : table.columns()) {
-      if (column.type.empty()) continue;
+      if (!is_described(table, column)) continue;
       out += fmt::format("   NAME = {}\n     TYPE = {}\n     WIDTH = {}\n     DEC = {}\n",
                          column.name, column.type, column.width, column.decimals);
     }
@@ -112,7 +124,7 @@ std::string write_description(const TabTable& table) {
   if (table.header().form == HeaderForm::TableDescription) {
     out += "TableDescription (\n  columns:=[\n";
     for (const TabColumn& column : table.columns()) {
-      if (column.type.empty()) continue;
+      if (!is_described(table, column)) continue;
       out += fmt::format(
           "    CfgColumnDescription ( key:=\"{}\", width:={}, decimals:={}, unit:=\"{}\" ),\n",
           column.name, column.width, column.decimals, column.type);

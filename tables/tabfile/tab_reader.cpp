@@ -32,6 +32,11 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
+bool is_control_character(char c) { return static_cast<unsigned char>(c) < ' ' && c != '\t'; }
+
+/// Of a name or type: what would end it in a description.
+bool ends_a_word(char c) { return c == '"' || c == '(' || c == ')' || c == ','; }
+
 /// The next word of `text`, which is shortened by it.
 std::string_view take_word(std::string_view& text) {
   text = trim(text);
@@ -68,6 +73,11 @@ class Reader {
   explicit Reader(std::string_view text) : lines_(lines_of(text)) {}
 
   Result<TabTable> read() {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (std::any_of(lines_[i].begin(), lines_[i].end(), is_control_character)) {
+        return malformed(i, "a control character");
+      }
+    }
     if (lines_.empty() || !lines_[0].starts_with(kBegin)) {
       return malformed(0, "a table file begins with BEGIN and its name");
     }
@@ -148,8 +158,13 @@ class Reader {
       const auto described = descriptions.find(name);
       columns.push_back(described == descriptions.end() ? TabColumn{.name = name}
                                                         : described->second);
-      if (!names_.insert(name).second)
+      if (!names_.insert(name).second) {
         return malformed(next_, "column " + name + " is there twice");
+      }
+      const std::string written = name + columns.back().type;
+      if (std::any_of(written.begin(), written.end(), ends_a_word)) {
+        return malformed(next_, "name or type of column " + name + " is not a word");
+      }
       places_.push_back({count_characters(line.substr(0, at)), std::string_view::npos});
       at = line.find_first_not_of(' ', end);
     }
@@ -217,5 +232,9 @@ class Reader {
 }  // namespace
 
 Result<TabTable> read_tab(std::string_view text) { return Reader(text).read(); }
+
+Result<TabTable> read_tab_file(std::string_view bytes) {
+  return is_utf8(bytes) ? read_tab(bytes) : read_tab(utf8_from_windows1252(bytes));
+}
 
 }  // namespace fitgauge::tabfile

@@ -17,4 +17,7 @@ namespace fitgauge::tabfile {
 ///   after [END].
 Result<TabTable> read_tab(std::string_view text);
 
+/// The same for the bytes of a file: UTF-8, or else Windows-1252 as older controls write it.
+Result<TabTable> read_tab_file(std::string_view bytes);
+
 }  // namespace fitgauge::tabfile

@@ -54,6 +54,15 @@ std::string refusal(std::string_view text) {
 
 }  // namespace
 
+TEST_CASE("a column that is described without a type keeps its width and decimals") {
+  const TabTable wide = table(
+      "BEGIN A\n#STRUCTBEGIN\n NAME = X\n DEC = 2\n NAME = Y\n WIDTH = 20\n#STRUCTEND\n"
+      "NR X   Y\n0  1   text that is long\n[END]\n");
+  CHECK(wide.columns()[1].decimals == 2);
+  CHECK(wide.columns()[2].width == 20);
+  CHECK(table(write_tab(wide)) == wide);
+}
+
 TEST_CASE("an iTNC table is cut where the names of its columns begin") {
   const TabTable points = table(kItnc);
   CHECK(points.header() == TabHeader{"82101_IT .TAB", "MM", "", HeaderForm::StructBlock});
@@ -114,6 +123,9 @@ TEST_CASE("a file that cannot be trusted is refused with its line") {
         "line 3: the cell of column 2 runs into the next one");
   CHECK(refusal("BEGIN A\n  NR X\n0 1 2\n[END]\n") == "line 3: text before the first column");
   CHECK(refusal("BEGIN A\nNR X\n[END]\nmore\n") == "line 4: text after [END]");
+  CHECK(refusal("BEGIN A\nNR X\n0  1\r \n[END]\n") == "line 3: a control character");
+  CHECK(refusal("BEGIN A\nNR X(1)\n[END]\n") ==
+        "line 2: name or type of column X(1) is not a word");
 }
 
 TEST_CASE("a hostile file is bounded") {
