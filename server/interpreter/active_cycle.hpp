@@ -1,12 +1,10 @@
 #pragma once
 
 #include <map>
-#include <memory>
-#include <optional>
 #include <variant>
 
+#include "interpreter/control_path.hpp"
 #include "interpreter/cycle_names.hpp"
-#include "interpreter/linked_program.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -25,7 +23,7 @@ struct DrillingDefinition {
 /// What CYCL CALL, M99 and M89 run: the last call-active cycle, a drilling cycle or a program
 /// (CYCL DEF 12).
 struct ActiveCycle {
-  std::variant<std::monostate, DrillingDefinition, std::shared_ptr<const LinkedProgram>> definition;
+  std::variant<std::monostate, DrillingDefinition, ControlPath> definition;
   bool after_every_block = false;  ///< M89
   /// Numbers for FN 18 ID 10: the last call-active cycle and the last TCH PROBE.
   int number = -1;

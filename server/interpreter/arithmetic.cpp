@@ -50,59 +50,33 @@ double compute(Operator op, double a, double b) {
   // Not left to the functions: pow(NaN, 0) and pow(1, NaN) are 1.
   if (std::isnan(a) || std::isnan(b)) return kUndefined;
   switch (op) {
-    case Operator::Add:
-      return a + b;
-    case Operator::Subtract:
-      return a - b;
-    case Operator::Multiply:
-      return a * b;
-    case Operator::Divide:
-      return a / b;
-    case Operator::Modulo:
-      return modulo(a, b);
-    case Operator::Power:
-      return std::pow(a, b);
-    case Operator::Length:
-      return std::sqrt(a * a + b * b);
-    case Operator::Angle:
-      return full_angle(a, b);
+    case Operator::Add: return a + b;
+    case Operator::Subtract: return a - b;
+    case Operator::Multiply: return a * b;
+    case Operator::Divide: return a / b;
+    case Operator::Modulo: return modulo(a, b);
+    case Operator::Power: return std::pow(a, b);
+    case Operator::Length: return std::sqrt(a * a + b * b);
+    case Operator::Angle: return full_angle(a, b);
     case Operator::Minus:
-    case Operator::Neg:
-      return -a;
-    case Operator::Sq:
-      return a * a;
-    case Operator::Sqrt:
-      return std::sqrt(a);
-    case Operator::Sin:
-      return sine_cosine(a).sine;
-    case Operator::Cos:
-      return sine_cosine(a).cosine;
-    case Operator::Tan:
-      return tangent(a);
-    case Operator::Asin:
-      return degrees(std::asin(a));
-    case Operator::Acos:
-      return degrees(std::acos(a));
-    case Operator::Atan:
-      return degrees(std::atan(a));
-    case Operator::Ln:
-      return std::log(a);
-    case Operator::Log:
-      return std::log10(a);
-    case Operator::Exp:
-      return std::exp(a);
-    case Operator::Abs:
-      return std::abs(a);
-    case Operator::Int:
-      return std::trunc(a);
-    case Operator::Frac:
-      return a - std::trunc(a);
-    case Operator::Sgn:
-      return sign(a);
-    case Operator::Pi:
-      return machine::kPi;
-    default:
-      return kUndefined;
+    case Operator::Neg: return -a;
+    case Operator::Sq: return a * a;
+    case Operator::Sqrt: return std::sqrt(a);
+    case Operator::Sin: return sine_cosine(a).sine;
+    case Operator::Cos: return sine_cosine(a).cosine;
+    case Operator::Tan: return tangent(a);
+    case Operator::Asin: return degrees(std::asin(a));
+    case Operator::Acos: return degrees(std::acos(a));
+    case Operator::Atan: return degrees(std::atan(a));
+    case Operator::Ln: return std::log(a);
+    case Operator::Log: return std::log10(a);
+    case Operator::Exp: return std::exp(a);
+    case Operator::Abs: return std::abs(a);
+    case Operator::Int: return std::trunc(a);
+    case Operator::Frac: return a - std::trunc(a);
+    case Operator::Sgn: return sign(a);
+    case Operator::Pi: return machine::kPi;
+    default: return kUndefined;
   }
 }
 
@@ -112,22 +86,16 @@ std::string failure(Operator op, double a, double b) {
     case Operator::Modulo:
       if (b == 0) return fmt::format("division by zero ({} / 0)", a);
       break;
-    case Operator::Sqrt:
-      return fmt::format("SQRT of the negative number {}", a);
-    case Operator::Asin:
-      return fmt::format("ASIN of {}, which is not in -1 to 1", a);
-    case Operator::Acos:
-      return fmt::format("ACOS of {}, which is not in -1 to 1", a);
+    case Operator::Sqrt: return fmt::format("SQRT of the negative number {}", a);
+    case Operator::Asin: return fmt::format("ASIN of {}, which is not in -1 to 1", a);
+    case Operator::Acos: return fmt::format("ACOS of {}, which is not in -1 to 1", a);
     case Operator::Ln:
-    case Operator::Log:
-      return fmt::format("logarithm of {}, which is not positive", a);
-    case Operator::Tan:
-      return fmt::format("TAN of {} degrees is not defined", a);
+    case Operator::Log: return fmt::format("logarithm of {}, which is not positive", a);
+    case Operator::Tan: return fmt::format("TAN of {} degrees is not defined", a);
     case Operator::Power:
       if (a <= 0) return fmt::format("{} ^ {} is not defined", a, b);
       break;
-    default:
-      break;
+    default: break;
   }
   return "the result is too large";
 }

@@ -30,10 +30,13 @@ NcResult<ControlPath> Channel::resolve(std::string_view written) const {
   return *std::move(path);
 }
 
-NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(std::string_view written) {
-  const auto resolved = resolve(written);
-  if (!resolved) return resolved.error();
-  const ControlPath path = resolved->with_default_extension(kProgramExtension);
+NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
+  const auto path = resolve(written);
+  if (!path) return path;
+  return path->with_default_extension(kProgramExtension);
+}
+
+NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const ControlPath& path) {
   const auto file = files.find(path);
   if (!file) return nc_error(fmt::format("program {} does not exist", path.text()));
   std::shared_ptr<const LinkedProgram>& known = loaded_[path.key() + '|' + file->revision];
@@ -48,13 +51,6 @@ NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(std::string
                                 first->range.begin.line, first->message));
   }
   return known = linked->program;
-}
-
-NcResult<ControlFile> Channel::load_file(const ControlPath& path, std::string_view what) {
-  auto file = files.find(path);
-  if (!file) return nc_error(fmt::format("{} {} does not exist", what, path.text()));
-  if (auto used = budget.use_memory(file->bytes->size()); !used) return used.error();
-  return *std::move(file);
 }
 
 }  // namespace fitgauge::interpreter

@@ -47,11 +47,11 @@ class Channel {
 
   /// A path as the program that runs names it.
   NcResult<ControlPath> resolve(std::string_view written) const;
-  /// The program of that name, linked; each file is loaded once in a run.
+  /// A program as the one that runs names it; `.H` where it has no extension.
+  NcResult<ControlPath> resolve_program(std::string_view written) const;
+  /// The program, linked; each file is loaded once in a run.
   /// @errors it does not exist, it has errors, limit (memory).
-  NcResult<std::shared_ptr<const LinkedProgram>> load_program(std::string_view written);
-  /// The bytes of a table or mask. @errors it does not exist, limit (memory).
-  NcResult<ControlFile> load_file(const ControlPath& path, std::string_view what);
+  NcResult<std::shared_ptr<const LinkedProgram>> load_program(const ControlPath& path);
 
   const RunEnvironment& environment;
   const RunOptions& options;
@@ -68,8 +68,8 @@ class Channel {
   FormattedPrinter printer;
   TableAccess tables;
   probing::CycleMemory cycle_memory;
-  std::optional<machine::ContactPoint> last_touch;        ///< FN 18 ID 360
-  std::shared_ptr<const LinkedProgram> selected_program;  ///< SEL PGM
+  std::optional<machine::ContactPoint> last_touch;  ///< FN 18 ID 360
+  std::optional<ControlPath> selected_program;      ///< SEL PGM
   bool stop_after_block = false;  ///< Q281 = 2 with on_stop=end: the run ends after this block
 
  private:

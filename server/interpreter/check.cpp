@@ -13,17 +13,16 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Diagnostic;
-using klartext::DiagnosticCode;
 using klartext::Severity;
+
+/// Programs beyond this many bytes are not looked into.
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
 std::string_view word(FileReference::Kind kind) {
   switch (kind) {
-    case FileReference::Kind::Program:
-      return "program";
-    case FileReference::Kind::Table:
-      return "table";
-    case FileReference::Kind::Mask:
-      return "mask";
+    case FileReference::Kind::Program: return "program";
+    case FileReference::Kind::Table: return "table";
+    case FileReference::Kind::Mask: return "mask";
   }
   return {};
 }
@@ -35,13 +34,10 @@ class Walk {
 
   void visit(const ControlFile& file) {
     if (!seen_.insert(file.path.key()).second) return;
+    bytes_ += file.bytes->size();
     const auto linked = programs_.get(file);
     add(linked->diagnostics);
-    if (linked->program != nullptr) {
-      for (const FileReference& reference : linked->program->references()) {
-        follow(*linked->program, reference);
-      }
-    }
+    for (const FileReference& reference : linked->references) follow(file.path, reference);
   }
 
   void visit_all(const ControlFile& main) {
@@ -62,28 +58,33 @@ class Walk {
                         found.begin() + static_cast<std::ptrdiff_t>(std::min(room, found.size())));
   }
 
-  void follow(const LinkedProgram& program, const FileReference& reference) {
+  void follow(const ControlPath& program, const FileReference& reference) {
     const bool is_program = reference.kind == FileReference::Kind::Program;
-    const auto path = ControlPath::resolve(reference.written, program.path());
-    if (path.has_error()) {
-      warn(program, reference, path.error().message);
-      return;
-    }
+    const auto path = ControlPath::resolve(reference.written, program);
+    if (path.has_error()) return warn(reference, path.error().message);
     const auto file =
         disk_.find(is_program ? path->with_default_extension(kProgramExtension) : *path);
     if (!file) {
-      warn(program, reference,
-           fmt::format("{} '{}' does not exist: the run fails when it reaches this block",
-                       word(reference.kind), reference.written));
-    } else if (is_program) {
-      pending_.push_back(*file);
+      return warn(reference,
+                  fmt::format("{} '{}' does not exist: the run fails when it reaches this block",
+                              word(reference.kind), reference.written));
     }
+    if (!is_program) return;
+    if (bytes_ <= kMostBytes) {
+      pending_.push_back(*file);
+      return;
+    }
+    warn(reference,
+         "the programs named are too many to check at once; this one is checked when it is called",
+         klartext::DiagnosticCode::ProgramTooLarge);
   }
 
-  void warn(const LinkedProgram& program, const FileReference& reference, std::string message) {
-    const auto& source = program.program();
-    add({diagnose(source, source.blocks()[reference.block], Severity::Warning,
-                  DiagnosticCode::FileMissing, std::move(message))});
+  void warn(const FileReference& reference, std::string message,
+            klartext::DiagnosticCode code = klartext::DiagnosticCode::FileMissing) {
+    Diagnostic warning = reference.place;
+    warning.code = code;
+    warning.message = std::move(message);
+    add({std::move(warning)});
   }
 
   const ControlDisk& disk_;
@@ -91,6 +92,7 @@ class Walk {
   std::set<std::string> seen_;
   std::deque<ControlFile> pending_;
   std::vector<Diagnostic> diagnostics_;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace

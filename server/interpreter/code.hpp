@@ -17,12 +17,9 @@ inline constexpr std::uint32_t kFirstConstant = kFirstQl + parameter_count(klart
 /// The cell of a numeric parameter. @pre not a QS.
 constexpr std::uint32_t cell_of(klartext::QRef parameter) {
   switch (parameter.space) {
-    case klartext::QSpace::Qr:
-      return kFirstQr + parameter.number;
-    case klartext::QSpace::Ql:
-      return kFirstQl + parameter.number;
-    default:
-      return kFirstQ + parameter.number;
+    case klartext::QSpace::Qr: return kFirstQr + parameter.number;
+    case klartext::QSpace::Ql: return kFirstQl + parameter.number;
+    default: return kFirstQ + parameter.number;
   }
 }
 

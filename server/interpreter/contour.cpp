@@ -143,9 +143,7 @@ NcResult<void> Contour::approach(Channel& channel, Vec2 contour_direction) {
   Vec2 auxiliary = first;
   bool is_arc = false;
   switch (approach.path) {
-    case Path::ApprLt:
-      auxiliary = first - contour_direction * approach.length;
-      break;
+    case Path::ApprLt: auxiliary = first - contour_direction * approach.length; break;
     case Path::ApprLn:
       auxiliary = first + left_of(contour_direction) * (approach.side * approach.length);
       break;

@@ -8,12 +8,9 @@ namespace fitgauge::interpreter {
 
 std::string_view word(FileSource source) {
   switch (source) {
-    case FileSource::Stored:
-      return "stored";
-    case FileSource::Live:
-      return "live";
-    case FileSource::Run:
-      return "run";
+    case FileSource::Stored: return "stored";
+    case FileSource::Live: return "live";
+    case FileSource::Run: return "run";
   }
   return {};
 }

@@ -8,12 +8,9 @@ namespace fitgauge::interpreter {
 double scale_of(probing::Unit unit, bool is_inch) {
   if (!is_inch) return 1;
   switch (unit) {
-    case probing::Unit::Length:
-      return kMillimetresPerInch;
-    case probing::Unit::Feed:
-      return kMillimetresPerInch / 10;
-    default:
-      return 1;
+    case probing::Unit::Length: return kMillimetresPerInch;
+    case probing::Unit::Feed: return kMillimetresPerInch / 10;
+    default: return 1;
   }
 }
 
@@ -21,14 +18,10 @@ std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
                                               const klartext::CycleParameter& written,
                                               const probing::CycleParameter& parameter) {
   switch (written.kind) {
-    case klartext::CycleValue::Expression:
-      break;
-    case klartext::CycleValue::Max:
-      return std::numeric_limits<double>::infinity();
-    case klartext::CycleValue::Predef:
-      return std::monostate{};
-    default:
-      return std::nullopt;
+    case klartext::CycleValue::Expression: break;
+    case klartext::CycleValue::Max: return std::numeric_limits<double>::infinity();
+    case klartext::CycleValue::Predef: return std::monostate{};
+    default: return std::nullopt;
   }
   if (const auto* number = std::get_if<double>(&written.value)) {
     const bool is_inch = program.unit() == klartext::Unit::Inch;

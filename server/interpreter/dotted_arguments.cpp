@@ -48,16 +48,11 @@ class DottedReader {
 
   NcResult<void> read(const Word& word, int part) {
     switch (word.letter) {
-      case Letter::Result:
-        return read_result(word, part);
-      case Letter::F:
-        return read_as(ParameterId::WordFeed, word, part);
-      case Letter::Mb:
-        return read_as(ParameterId::WordRetract, word, part);
-      case Letter::Value:
-        return read_value(word, part);
-      default:
-        return is_axis(word.letter) ? read_axis(word, part) : NcResult<void>();
+      case Letter::Result: return read_result(word, part);
+      case Letter::F: return read_as(ParameterId::WordFeed, word, part);
+      case Letter::Mb: return read_as(ParameterId::WordRetract, word, part);
+      case Letter::Value: return read_value(word, part);
+      default: return is_axis(word.letter) ? read_axis(word, part) : NcResult<void>();
     }
   }
 

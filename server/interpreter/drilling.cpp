@@ -53,7 +53,7 @@ class Hole {
   }
 
   NcResult<void> move(double height, const machine::Feed& at) {
-    if (auto ticked = channel_.budget.tick(); !ticked) return ticked;
+    if (auto allowed = channel_.budget.check(); !allowed) return allowed;
     machine::AxisWords target;
     target[axis_] = height;
     return checked(channel_.machine().move({target, at}));

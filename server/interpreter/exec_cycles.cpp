@@ -35,18 +35,14 @@ bool is_text(const klartext::Expr& expr) {
 NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& written) {
   const machine::Modes& modes = channel.machine().state().modes;
   switch (written.kind) {
-    case CycleValue::Max:
-      return std::numeric_limits<double>::infinity();
-    case CycleValue::Auto:
-      return channel.contour.tool_feed;
+    case CycleValue::Max: return std::numeric_limits<double>::infinity();
+    case CycleValue::Auto: return channel.contour.tool_feed;
     case CycleValue::Fu: {
       const auto value = number(channel, written.value);
       return value ? NcResult<double>(*value * channel.length_unit() * modes.spindle_rpm) : value;
     }
-    case CycleValue::Fz:
-      return nc_error("a feed FZ is not available in cycles");
-    default:
-      return number(channel, written.value);
+    case CycleValue::Fz: return nc_error("a feed FZ is not available in cycles");
+    default: return number(channel, written.value);
   }
 }
 
@@ -91,15 +87,12 @@ probing::Unit unit_of_drilling(int parameter) {
     case 258:
     case 259:
     case 344:
-    case 379:
-      return probing::Unit::Length;
+    case 379: return probing::Unit::Length;
     case 206:
     case 207:
     case 208:
-    case 253:
-      return probing::Unit::Feed;
-    default:
-      return probing::Unit::None;
+    case 253: return probing::Unit::Feed;
+    default: return probing::Unit::None;
   }
 }
 
@@ -163,8 +156,8 @@ NcResult<void> execute_parts(Channel& channel, std::uint32_t first, std::uint32_
 
 NcResult<Next> call_active_cycle(Channel& channel) {
   const auto& definition = channel.active_cycle.definition;
-  if (const auto* program = std::get_if<std::shared_ptr<const LinkedProgram>>(&definition)) {
-    return Next{Next::Kind::CallProgram, 0, *program};
+  if (const auto* program = std::get_if<ControlPath>(&definition)) {
+    return call_program(channel, *program);
   }
   const auto* drilling = std::get_if<DrillingDefinition>(&definition);
   if (drilling == nullptr) return nc_error(1027);

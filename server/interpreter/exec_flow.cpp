@@ -35,12 +35,6 @@ NcResult<std::uint32_t> find_label(Channel& channel, const Label& label) {
       fmt::format("label {} of {} is not defined in this program", shown, name(parameter)));
 }
 
-NcResult<Next> enter_program(Channel& channel, std::string_view written) {
-  auto program = channel.load_program(written);
-  if (!program) return program.error();
-  return Next{Next::Kind::CallProgram, 0, *std::move(program)};
-}
-
 }  // namespace
 
 NcResult<Next> execute(Channel& channel, const klartext::ConditionalJump& jump) {
@@ -70,26 +64,35 @@ NcResult<Next> execute(Channel& channel, const klartext::LabelCall& call, std::u
   return Next{Next::Kind::Jump, *target};
 }
 
-NcResult<Next> execute(Channel& channel, const klartext::CallProgram& call) {
-  const auto path = text(channel, call.path);
-  if (!path) return path.error();
-  return enter_program(channel, *path);
+NcResult<Next> call_program(Channel& channel, const ControlPath& path) {
+  auto program = channel.load_program(path);
+  if (!program) return program.error();
+  return Next{Next::Kind::CallProgram, 0, *std::move(program)};
 }
 
-NcResult<void> execute(Channel& channel, const klartext::SelectProgram& select) {
-  const auto path = text(channel, select.path);
+NcResult<Next> execute(Channel& channel, const klartext::CallProgram& call) {
+  const auto written = text(channel, call.path);
+  if (!written) return written.error();
+  const auto path = channel.resolve_program(*written);
   if (!path) return path.error();
-  auto program = channel.load_program(*path);
-  if (!program) return program.error();
-  channel.selected_program = *std::move(program);
+  return call_program(channel, *path);
+}
+
+/// Whether the program exists shows when it is called.
+NcResult<void> execute(Channel& channel, const klartext::SelectProgram& select) {
+  const auto written = text(channel, select.path);
+  if (!written) return written.error();
+  auto path = channel.resolve_program(*written);
+  if (!path) return path.error();
+  channel.selected_program = *std::move(path);
   return {};
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::CallSelectedProgram&) {
-  if (channel.selected_program == nullptr) {
+  if (!channel.selected_program) {
     return nc_error("CALL SELECTED PGM needs a program selected by SEL PGM before it");
   }
-  return Next{Next::Kind::CallProgram, 0, channel.selected_program};
+  return call_program(channel, *channel.selected_program);
 }
 
 }  // namespace fitgauge::interpreter

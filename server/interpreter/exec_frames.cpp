@@ -113,10 +113,8 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Word
       const Vec3 third = get(words, Letter::P3x, Letter::P3y, Letter::P3z) - first;
       return plane_of(cross(x, third), x);
     }
-    case PlaneKind::Axial:
-      return axial(channel, words);
-    case PlaneKind::Reset:
-      break;
+    case PlaneKind::Axial: return axial(channel, words);
+    case PlaneKind::Reset: break;
   }
   return Matrix3{};
 }
@@ -177,8 +175,7 @@ NcResult<void> execute(Channel& channel, const klartext::Trans& trans) {
   const auto words = read_plane_words(channel, trans.words);
   if (!words) return words.error();
   switch (trans.kind) {
-    case Transformation::DatumTable:
-      return execute_datum_table(channel, trans, *words);
+    case Transformation::DatumTable: return execute_datum_table(channel, trans, *words);
     case Transformation::Rotation: {
       bool incremental = false;
       for (const klartext::Word& word : channel.program().view(trans.words)) {

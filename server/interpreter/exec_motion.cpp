@@ -26,32 +26,25 @@ class Positioning {
 
   NcResult<void> run() {
     switch (motion_.path) {
-      case Path::Cc:
-        return set_pole();
-      case Path::Rnd:
-        return corner(words_.r, false);
-      case Path::Chf:
-        return corner(words_.chamfer, true);
+      case Path::Cc: return set_pole();
+      case Path::Rnd: return corner(words_.r, false);
+      case Path::Chf: return corner(words_.chamfer, true);
       case Path::L:
       case Path::Ln:
         if (words_.has_m(91) || words_.has_m(92)) return machine_line();
         [[fallthrough]];
-      case Path::Lp:
-        return line();
+      case Path::Lp: return line();
       case Path::C:
       case Path::Cp:
       case Path::Cr:
       case Path::Ct:
-      case Path::Ctp:
-        return arc();
+      case Path::Ctp: return arc();
       case Path::DepLt:
       case Path::DepLn:
       case Path::DepCt:
       case Path::DepLct:
-      case Path::DepPlct:
-        return depart();
-      default:
-        return approach();
+      case Path::DepPlct: return depart();
+      default: return approach();
     }
   }
 
@@ -82,10 +75,8 @@ class Positioning {
       case Path::ApprPln:
       case Path::ApprPct:
       case Path::ApprPlct:
-      case Path::DepPlct:
-        return true;
-      default:
-        return false;
+      case Path::DepPlct: return true;
+      default: return false;
     }
   }
 
@@ -223,16 +214,11 @@ class Positioning {
 
   Path cartesian() const {
     switch (motion_.path) {
-      case Path::ApprPlt:
-        return Path::ApprLt;
-      case Path::ApprPln:
-        return Path::ApprLn;
-      case Path::ApprPct:
-        return Path::ApprCt;
-      case Path::ApprPlct:
-        return Path::ApprLct;
-      default:
-        return motion_.path;
+      case Path::ApprPlt: return Path::ApprLt;
+      case Path::ApprPln: return Path::ApprLn;
+      case Path::ApprPct: return Path::ApprCt;
+      case Path::ApprPlct: return Path::ApprLct;
+      default: return motion_.path;
     }
   }
 
@@ -244,16 +230,14 @@ class Positioning {
     const Vec2 centre = start_ + left_of(direction) * (side() * radius);
     const bool left = side() > 0;
     switch (motion_.path) {
-      case Path::DepLt:
-        return leave({start_, start_ + direction * length, std::nullopt, 0});
+      case Path::DepLt: return leave({start_, start_ + direction * length, std::nullopt, 0});
       case Path::DepLn:
         return leave({start_, start_ + left_of(direction) * (side() * length), std::nullopt, 0});
       case Path::DepCt: {
         const double angle = side() * words_.cca.value_or(0);
         return leave({start_, centre + turned(start_ - centre, angle), centre, angle});
       }
-      default:
-        break;
+      default: break;
     }
     const auto end = end_point();
     if (!end) return end.error();

@@ -60,20 +60,11 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
     const auto value = number(channel, word.value);
     if (!value) return value.error();
     switch (word.letter) {
-      case Letter::S:
-        command.spindle_rpm = *value;
-        break;
-      case Letter::Dl:
-        command.dl = *value * unit;
-        break;
-      case Letter::Dr:
-        command.dr = *value * unit;
-        break;
-      case Letter::Dr2:
-        command.dr2 = *value * unit;
-        break;
-      default:
-        break;
+      case Letter::S: command.spindle_rpm = *value; break;
+      case Letter::Dl: command.dl = *value * unit; break;
+      case Letter::Dr: command.dr = *value * unit; break;
+      case Letter::Dr2: command.dr2 = *value * unit; break;
+      default: break;
     }
   }
   if (auto done = checked(channel.machine().call_tool(command)); !done) return done;

@@ -184,21 +184,17 @@ const Instruction* Executor<kFollowed>::repeat(const Instruction* pc) {
 template <bool kFollowed>
 const Instruction* Executor<kFollowed>::statement(const Instruction* pc) {
   enter(pc);
-  if (auto ticked = channel_.budget.tick(); !ticked) return fail(ticked.error());
+  if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
   if constexpr (!kFollowed) channel_.environment.observer.entered(channel_.place());
   auto next = execute_statement(channel_, *pc);
   if (!next) return fail(next.error());
   switch (next->kind) {
-    case Next::Kind::Block:
-      return pc + 1;
-    case Next::Kind::Jump:
-      return code_ + next->target;
-    case Next::Kind::CallLabel:
-      return call_label(next->target, pc);
+    case Next::Kind::Block: return pc + 1;
+    case Next::Kind::Jump: return code_ + next->target;
+    case Next::Kind::CallLabel: return call_label(next->target, pc);
     case Next::Kind::CallProgram:
       return call_program(std::move(next->program), index_of(pc + 1)) ? code_ : nullptr;
-    case Next::Kind::EndRun:
-      break;
+    case Next::Kind::EndRun: break;
   }
   return nullptr;
 }
@@ -223,7 +219,8 @@ const Instruction* Executor<kFollowed>::end_program() {
 // The table of labels and the jump through it are the extension.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpedantic"
-// clang-format off: macros that are labels and statements confuse it
+// Macros that are labels and statements confuse the formatter.
+// clang-format off
 
 #if FITGAUGE_THREADED
 #define FITGAUGE_OP(name) op_##name

@@ -28,24 +28,14 @@ struct Printed {
 
 void apply(const MaskControl& control, Printed& printed, EmptyLines& empty) {
   switch (control.kind) {
-    case MaskControlKind::Close:
-      printed.close = true;
-      break;
+    case MaskControlKind::Close: printed.close = true; break;
     case MaskControlKind::AppendMax:
       printed.most_bytes = static_cast<std::size_t>(control.kilobytes) * 1024;
       [[fallthrough]];
-    case MaskControlKind::Append:
-      printed.append = true;
-      break;
-    case MaskControlKind::Truncate:
-      printed.truncate = true;
-      break;
-    case MaskControlKind::EmptyHide:
-      empty = EmptyLines::Hide;
-      break;
-    case MaskControlKind::EmptyShow:
-      empty = EmptyLines::Show;
-      break;
+    case MaskControlKind::Append: printed.append = true; break;
+    case MaskControlKind::Truncate: printed.truncate = true; break;
+    case MaskControlKind::EmptyHide: empty = EmptyLines::Hide; break;
+    case MaskControlKind::EmptyShow: empty = EmptyLines::Show; break;
   }
 }
 
@@ -63,6 +53,7 @@ NcResult<Printed> run_mask(Channel& channel, const klartext::MaskFile& mask) {
   Printed printed;
   EmptyLines empty = EmptyLines::Unspecified;
   bool is_spoken = true;
+  std::size_t bytes = 0;
   for (const klartext::MaskLine& line : mask.lines) {
     if (const auto* control = std::get_if<MaskControl>(&line.content)) {
       apply(*control, printed, empty);
@@ -75,7 +66,11 @@ NcResult<Printed> run_mask(Channel& channel, const klartext::MaskFile& mask) {
         error.text = fmt::format("mask {} line {}: {}", mask.file_name, line.line, error.text);
         return error;
       }
-      if (*text) add_lines(**text, printed.lines);
+      if (!*text) continue;
+      bytes += (*text)->size();
+      // A short mask can make long lines: what exceeds the budget is not even kept.
+      if (bytes > channel.output.left()) return channel.output.charge(bytes).error();
+      add_lines(**text, printed.lines);
     }
   }
   return printed;

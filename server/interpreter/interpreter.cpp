@@ -20,14 +20,10 @@ NcResult<void> preset(QParameters& parameters, const std::vector<ParameterValue>
 
 RunStatus status_of(NcErrorKind kind) {
   switch (kind) {
-    case NcErrorKind::Stop:
-      return RunStatus::Stopped;
-    case NcErrorKind::Limit:
-      return RunStatus::LimitExceeded;
-    case NcErrorKind::Cancelled:
-      return RunStatus::Cancelled;
-    case NcErrorKind::Error:
-      break;
+    case NcErrorKind::Stop: return RunStatus::Stopped;
+    case NcErrorKind::Limit: return RunStatus::LimitExceeded;
+    case NcErrorKind::Cancelled: return RunStatus::Cancelled;
+    case NcErrorKind::Error: break;
   }
   return RunStatus::Failed;
 }

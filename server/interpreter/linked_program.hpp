@@ -17,14 +17,6 @@ namespace fitgauge::interpreter {
 /// What a program is called when it is named without one: `CALL PGM 82551`.
 inline constexpr std::string_view kProgramExtension = ".H";
 
-/// A file that a program names literally, and where.
-struct FileReference {
-  enum class Kind : std::uint8_t { Program, Table, Mask };
-  Kind kind = Kind::Program;
-  std::string written;
-  std::uint32_t block = 0;  ///< index
-};
-
 /// What the linker fills and a LinkedProgram freezes.
 struct LinkedParts {
   std::vector<Instruction> code;        ///< ends with Op::End
@@ -34,7 +26,6 @@ struct LinkedParts {
   std::uint32_t temporaries = 0;        ///< cells after the counters
   std::unordered_map<std::string, std::uint32_t> named_labels;  ///< upper-case name, instruction
   std::unordered_map<std::uint32_t, std::uint32_t> numbered_labels;
-  std::vector<FileReference> references;
 };
 
 /// A program with labels, cycles and jumps resolved and its formulas lowered to flat code.
@@ -53,7 +44,6 @@ class LinkedProgram {
   const std::vector<Instruction>& code() const { return parts_.code; }
   const std::vector<double>& constants() const { return parts_.constants; }
   std::uint32_t counters() const { return parts_.counters; }
-  const std::vector<FileReference>& references() const { return parts_.references; }
 
   /// All cells a run of this program needs, those of other programs included.
   std::size_t cells() const {

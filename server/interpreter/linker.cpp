@@ -22,6 +22,13 @@ using klartext::QRef;
 using klartext::Severity;
 using klartext::Text;
 
+/// Their counters are put aside with each call of a program.
+constexpr std::uint32_t kMostRepeats = 65'535;
+/// Files that a check looks at.
+constexpr std::size_t kMostReferences = 1000;
+/// Memory of the pools of a parsed program for each byte of its source, about.
+constexpr std::size_t kPoolBytes = 16;
+
 bool is_dynamic(const Label& label) { return std::holds_alternative<QRef>(label); }
 
 bool is_string(const Expr& expr) {
@@ -32,8 +39,8 @@ bool is_string(const Expr& expr) {
 /// Turns the blocks of one program into code, in one pass, and fills in the jumps afterwards.
 class Linker {
  public:
-  Linker(const klartext::Program& program, std::vector<klartext::Diagnostic>& diagnostics)
-      : program_(program), diagnostics_(diagnostics), writer_(program) {}
+  Linker(const klartext::Program& program, LinkedFile& file)
+      : program_(program), file_(file), writer_(program) {}
 
   LinkedParts link() {
     const auto blocks = program_.blocks();
@@ -57,8 +64,8 @@ class Linker {
   };
 
   void report(Severity severity, DiagnosticCode code, const Block& block, std::string message) {
-    if (diagnostics_.size() >= kMostFindings) return;
-    diagnostics_.push_back(diagnose(program_, block, severity, code, std::move(message)));
+    if (file_.diagnostics.size() >= kMostFindings) return;
+    file_.diagnostics.push_back(diagnose(program_, block, severity, code, std::move(message)));
   }
 
   std::string shown(const Label& label) const {
@@ -68,7 +75,7 @@ class Linker {
 
   void link_block(std::uint32_t index, const Block& block) {
     writer_.begin_block(index);
-    check_block(program_, index, diagnostics_);
+    check_block(program_, index, file_.diagnostics);
     if (const auto* label = std::get_if<klartext::LabelDefinition>(&block.statement)) {
       define_label(block, label->label);
     }
@@ -120,7 +127,7 @@ class Linker {
     } else if (std::holds_alternative<klartext::EndProgram>(statement)) {
       writer_.add({.op = Op::End});
     } else {
-      collect_reference(index, block);
+      collect_reference(block);
       writer_.add({.op = Op::Statement, .a = index, .b = first_part(program_, index)});
     }
   }
@@ -140,24 +147,22 @@ class Linker {
 
   static Op jump_of(Operator condition) {
     switch (condition) {
-      case Operator::Equal:
-        return Op::JumpEqual;
-      case Operator::NotEqual:
-        return Op::JumpNotEqual;
-      case Operator::Greater:
-        return Op::JumpGreater;
-      case Operator::Less:
-        return Op::JumpLess;
-      case Operator::IsDefined:
-        return Op::JumpDefined;
-      default:
-        return Op::JumpUndefined;
+      case Operator::Equal: return Op::JumpEqual;
+      case Operator::NotEqual: return Op::JumpNotEqual;
+      case Operator::Greater: return Op::JumpGreater;
+      case Operator::Less: return Op::JumpLess;
+      case Operator::IsDefined: return Op::JumpDefined;
+      default: return Op::JumpUndefined;
     }
   }
 
   void lower_call(std::uint32_t index, const Block& block, const klartext::LabelCall& call) {
     const bool repeats = !is_absent(call.repeat);
     const std::uint32_t counter = repeats ? writer_.counter(parts_.counters++) : 0;
+    if (parts_.counters == kMostRepeats + 1) {
+      report(Severity::Error, DiagnosticCode::ProgramTooLarge, block,
+             fmt::format("a program has at most {} calls with REP", kMostRepeats));
+    }
     if (is_dynamic(call.label)) {
       writer_.add({.op = Op::Statement, .a = index, .b = counter});
       return;
@@ -201,11 +206,13 @@ class Linker {
     }
   }
 
-  void collect_reference(std::uint32_t index, const Block& block) {
+  void collect_reference(const Block& block) {
     const auto add = [&](FileReference::Kind kind, const Expr& path) {
-      if (const auto* text = std::get_if<Text>(&path)) {
-        parts_.references.push_back({kind, std::string(program_.text(*text)), index});
-      }
+      const auto* text = std::get_if<Text>(&path);
+      if (text == nullptr || file_.references.size() == kMostReferences) return;
+      file_.references.push_back(
+          {kind, std::string(program_.text(*text)),
+           diagnose(program_, block, Severity::Warning, DiagnosticCode::FileMissing, {})});
     };
     using Kind = FileReference::Kind;
     const auto& statement = block.statement;
@@ -227,14 +234,14 @@ class Linker {
   }
 
   const klartext::Program& program_;
-  std::vector<klartext::Diagnostic>& diagnostics_;
+  LinkedFile& file_;
   CodeWriter writer_;
   LinkedParts parts_;
   std::vector<Jump> jumps_;
 };
 
 std::size_t memory_of(const klartext::Program& program, const LinkedParts& parts) {
-  return program.source().size() * 2 + program.blocks().size() * sizeof(Block) +
+  return program.source().size() * kPoolBytes + program.blocks().size() * sizeof(Block) +
          parts.code.size() * (sizeof(Instruction) + sizeof(std::uint32_t)) +
          parts.constants.size() * sizeof(double);
 }
@@ -244,7 +251,7 @@ std::size_t memory_of(const klartext::Program& program, const LinkedParts& parts
 LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
   LinkedFile file;
   file.diagnostics = std::move(parsed.diagnostics);
-  LinkedParts parts = Linker(parsed.program, file.diagnostics).link();
+  LinkedParts parts = Linker(parsed.program, file).link();
   std::stable_sort(file.diagnostics.begin(), file.diagnostics.end(),
                    [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
   file.memory_bytes = memory_of(parsed.program, parts);

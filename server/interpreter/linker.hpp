@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "interpreter/linked_program.hpp"
@@ -9,10 +11,19 @@
 
 namespace fitgauge::interpreter {
 
+/// A file that a program names literally.
+struct FileReference {
+  enum class Kind : std::uint8_t { Program, Table, Mask };
+  Kind kind = Kind::Program;
+  std::string written;
+  klartext::Diagnostic place;  ///< the warning where the file is missing, without its message
+};
+
 /// A program file, ready to run, with all that was found in it.
 struct LinkedFile {
   std::shared_ptr<const LinkedProgram> program;   ///< null when a diagnostic is an error
   std::vector<klartext::Diagnostic> diagnostics;  ///< of the parser and the linker
+  std::vector<FileReference> references;          ///< the first 1000
   std::size_t memory_bytes = 0;                   ///< about what it occupies
 };
 

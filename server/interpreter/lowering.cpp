@@ -73,23 +73,14 @@ void CodeWriter::lower_node(std::uint32_t target, NodeIndex index) {
   // Where there is no second operand, any defined cell will do.
   instruction.b = operands.size() > 1 ? value(operands[1]) : instruction.a;
   switch (node.op) {
-    case Operator::Add:
-      instruction.op = Op::Add;
-      break;
-    case Operator::Subtract:
-      instruction.op = Op::Subtract;
-      break;
-    case Operator::Multiply:
-      instruction.op = Op::Multiply;
-      break;
-    case Operator::Divide:
-      instruction.op = Op::Divide;
-      break;
+    case Operator::Add: instruction.op = Op::Add; break;
+    case Operator::Subtract: instruction.op = Op::Subtract; break;
+    case Operator::Multiply: instruction.op = Op::Multiply; break;
+    case Operator::Divide: instruction.op = Op::Divide; break;
     case Operator::Pi:
       instruction = {.op = Op::Copy, .a = constant(compute(Operator::Pi, 0, 0)), .c = target};
       break;
-    default:
-      break;
+    default: break;
   }
   add(instruction);
   used_temporaries_ = used;  // those of the operands are free again

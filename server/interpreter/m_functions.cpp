@@ -30,12 +30,9 @@ NcResult<void> set_modes(Channel& channel, const machine::Modes& modes) {
 
 SpindleState stopped(SpindleState state) {
   switch (state) {
-    case SpindleState::Clockwise:
-      return SpindleState::StoppedAfterM3;
-    case SpindleState::CounterClockwise:
-      return SpindleState::StoppedAfterM4;
-    default:
-      return state;
+    case SpindleState::Clockwise: return SpindleState::StoppedAfterM3;
+    case SpindleState::CounterClockwise: return SpindleState::StoppedAfterM4;
+    default: return state;
   }
 }
 
@@ -52,14 +49,16 @@ double room(const machine::MachineState& state, const machine::Vec3& direction) 
   return std::max(room, 0.0);
 }
 
-/// M140 MB: away from the workpiece along the tool axis.
-NcResult<void> retract(Channel& channel, const MCall& call, const machine::Feed& feed) {
+/// M140 MB: away from the workpiece along the tool axis, in rapid traverse without a feed of its
+/// own.
+NcResult<void> retract(Channel& channel, const MCall& call) {
   const machine::MachineState& state = channel.machine().state();
   const machine::Vec3 direction = state.tool_direction(machine::CoordinateSystem::Reference);
   const double length = call.to_limit ? room(state, direction) : call.length.value_or(0);
   const machine::Vec3 target = state.nose.linear + direction * length;
-  return checked(channel.machine().move(
-      {machine::AxisWords::linear(target), feed, machine::CoordinateSystem::Reference}));
+  return checked(channel.machine().move({machine::AxisWords::linear(target),
+                                         call.feed.value_or(machine::Feed::rapid()),
+                                         machine::CoordinateSystem::Reference}));
 }
 
 }  // namespace
@@ -70,35 +69,16 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
   machine::Modes modes = channel.machine().state().modes;
   for (const MCall& call : calls) {
     switch (call.number) {
-      case 13:
-        modes.coolant = true;
-        [[fallthrough]];
-      case 3:
-        modes.spindle = SpindleState::Clockwise;
-        break;
-      case 14:
-        modes.coolant = true;
-        [[fallthrough]];
-      case 4:
-        modes.spindle = SpindleState::CounterClockwise;
-        break;
-      case 8:
-        modes.coolant = true;
-        break;
-      case 128:
-        modes.tcpm = true;
-        break;
-      case 129:
-        modes.tcpm = false;
-        break;
-      case 136:
-        channel.contour.feed_per_revolution = true;
-        break;
-      case 137:
-        channel.contour.feed_per_revolution = false;
-        break;
-      default:
-        break;
+      case 13: modes.coolant = true; [[fallthrough]];
+      case 3: modes.spindle = SpindleState::Clockwise; break;
+      case 14: modes.coolant = true; [[fallthrough]];
+      case 4: modes.spindle = SpindleState::CounterClockwise; break;
+      case 8: modes.coolant = true; break;
+      case 128: modes.tcpm = true; break;
+      case 129: modes.tcpm = false; break;
+      case 136: channel.contour.feed_per_revolution = true; break;
+      case 137: channel.contour.feed_per_revolution = false; break;
+      default: break;
     }
   }
   return set_modes(channel, modes);
@@ -112,34 +92,23 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
   for (const MCall& call : words.m) {
     switch (call.number) {
       case 0:
-      case 1:
-        stops = true;
-        break;
+      case 1: stops = true; break;
       case 2:
-      case 30:
-        ends = true;
-        [[fallthrough]];
+      case 30: ends = true; [[fallthrough]];
       case 5:
         modes.spindle = stopped(modes.spindle);
         if (call.number != 5) modes.coolant = false;
         break;
-      case 9:
-        modes.coolant = false;
-        break;
-      case 89:
-        channel.active_cycle.after_every_block = calls_cycle = true;
-        break;
+      case 9: modes.coolant = false; break;
+      case 89: channel.active_cycle.after_every_block = calls_cycle = true; break;
       case 99:
         calls_cycle = true;
         channel.active_cycle.after_every_block = false;
         break;
-      case 140: {
-        const auto feed = words.feed.value_or(machine::Feed::rapid());
-        if (auto done = retract(channel, call, feed); !done) return done.error();
+      case 140:
+        if (auto done = retract(channel, call); !done) return done.error();
         break;
-      }
-      default:
-        break;
+      default: break;
     }
   }
   if (calls_cycle) {

@@ -24,24 +24,15 @@ using Value = std::variant<double, std::string>;
 Value keyword_value(const Channel& channel, MaskKeyword keyword) {
   const CivilTime time = civil_time(channel.now());
   switch (keyword) {
-    case MaskKeyword::CallPath:
-      return channel.linked().path().text();
-    case MaskKeyword::Hour:
-      return double(time.hour);
-    case MaskKeyword::Minute:
-      return double(time.minute);
-    case MaskKeyword::Second:
-      return double(time.second);
-    case MaskKeyword::Day:
-      return double(time.day);
-    case MaskKeyword::Month:
-      return double(time.month);
-    case MaskKeyword::MonthName:
-      return std::string(month_name(time.month));
-    case MaskKeyword::Year2:
-      return double(time.year % 100);
-    case MaskKeyword::Year4:
-      return double(time.year);
+    case MaskKeyword::CallPath: return channel.linked().path().text();
+    case MaskKeyword::Hour: return double(time.hour);
+    case MaskKeyword::Minute: return double(time.minute);
+    case MaskKeyword::Second: return double(time.second);
+    case MaskKeyword::Day: return double(time.day);
+    case MaskKeyword::Month: return double(time.month);
+    case MaskKeyword::MonthName: return std::string(month_name(time.month));
+    case MaskKeyword::Year2: return double(time.year % 100);
+    case MaskKeyword::Year4: return double(time.year);
   }
   return 0.0;
 }
@@ -104,14 +95,10 @@ NcResult<std::string> formatted(const Value& value, const MaskPlaceholder& place
   const auto* number = std::get_if<double>(&value);
   if (number == nullptr) return string_text(std::get<std::string>(value), placeholder);
   switch (placeholder.conversion) {
-    case MaskConversion::Float:
-      return float_text(*number, placeholder);
-    case MaskConversion::Integer:
-      return integer_text(*number, placeholder);
-    case MaskConversion::Character:
-      return character_text(*number, placeholder);
-    default:
-      return string_text(to_char(*number, -1), placeholder);
+    case MaskConversion::Float: return float_text(*number, placeholder);
+    case MaskConversion::Integer: return integer_text(*number, placeholder);
+    case MaskConversion::Character: return character_text(*number, placeholder);
+    default: return string_text(to_char(*number, -1), placeholder);
   }
 }
 

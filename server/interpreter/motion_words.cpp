@@ -65,16 +65,25 @@ NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& ca
   if (!value) return value.error();
   const auto called = static_cast<int>(*value);
   if (!is_m_function(called)) return nc_error(fmt::format("M{} is not available", called));
-  calls.push_back({called, std::nullopt, false});
+  calls.push_back({.number = called});
   return {};
 }
 
 /// What follows an M function; most of it has no effect on a simulated machine.
 NcResult<void> read_argument(Channel& channel, const Word& word, std::vector<MCall>& calls) {
-  if (calls.empty()) return {};
-  if (word.letter == Letter::MbMax) calls.back().to_limit = true;
-  if (word.letter != Letter::Mb) return {};
-  return read_number(channel, word, channel.length_unit(), calls.back().length);
+  if (calls.empty() || calls.back().number != 140) return {};
+  MCall& retraction = calls.back();
+  if (word.letter == Letter::MbMax) {
+    retraction.to_limit = true;
+    return {};
+  }
+  if (word.letter == Letter::Mb) {
+    return read_number(channel, word, channel.length_unit(), retraction.length);
+  }
+  const auto feed = read_feed(channel, word);
+  if (!feed) return feed.error();
+  retraction.feed = *feed;
+  return {};
 }
 
 NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
@@ -87,20 +96,13 @@ NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
                            out.axes[machine::index(*axis)]);
   }
   switch (word.letter) {
-    case Letter::Pr:
-      return read_coordinate(channel, word, unit, out.pr);
-    case Letter::Pa:
-      return read_coordinate(channel, word, 1, out.pa);
-    case Letter::R:
-      return read_number(channel, word, unit, out.r);
-    case Letter::Len:
-      return read_number(channel, word, unit, out.len);
-    case Letter::Cca:
-      return read_number(channel, word, 1, out.cca);
-    case Letter::Chamfer:
-      return read_number(channel, word, unit, out.chamfer);
-    case Letter::M:
-      return read_m(channel, word, out.m);
+    case Letter::Pr: return read_coordinate(channel, word, unit, out.pr);
+    case Letter::Pa: return read_coordinate(channel, word, 1, out.pa);
+    case Letter::R: return read_number(channel, word, unit, out.r);
+    case Letter::Len: return read_number(channel, word, unit, out.len);
+    case Letter::Cca: return read_number(channel, word, 1, out.cca);
+    case Letter::Chamfer: return read_number(channel, word, unit, out.chamfer);
+    case Letter::M: return read_m(channel, word, out.m);
     case Letter::F:
     case Letter::FMax:
     case Letter::FAuto:
@@ -111,8 +113,7 @@ NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
       out.feed = *feed;
       return {};
     }
-    default:
-      return {};  // normal vectors of LN
+    default: return {};  // normal vectors of LN
   }
 }
 

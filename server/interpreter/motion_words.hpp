@@ -18,11 +18,12 @@ struct Coordinate {
   bool incremental = false;
 };
 
-/// An M function with what follows it: `M140 MB50`, `M128 F1000`.
+/// An M function with what follows it: `M140 MB50 F750`, `M128 F1000`.
 struct MCall {
   int number = 0;
-  std::optional<double> length;  ///< MB, mm
-  bool to_limit = false;         ///< MB MAX
+  std::optional<double> length{};       ///< MB, mm
+  bool to_limit = false;                ///< MB MAX
+  std::optional<machine::Feed> feed{};  ///< of M140
 };
 
 /// The words of a positioning block as numbers, in mm, degrees and mm/min.

@@ -11,14 +11,10 @@ namespace {
 
 constexpr std::string_view prefix(klartext::QSpace space) {
   switch (space) {
-    case klartext::QSpace::Q:
-      return "Q";
-    case klartext::QSpace::Ql:
-      return "QL";
-    case klartext::QSpace::Qr:
-      return "QR";
-    case klartext::QSpace::Qs:
-      return "QS";
+    case klartext::QSpace::Q: return "Q";
+    case klartext::QSpace::Ql: return "QL";
+    case klartext::QSpace::Qr: return "QR";
+    case klartext::QSpace::Qs: return "QS";
   }
   return {};
 }

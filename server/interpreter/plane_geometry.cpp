@@ -96,12 +96,9 @@ Vec2 turned(Vec2 a, double angle_deg) {
 
 WorkingPlane WorkingPlane::across(machine::Axis tool_axis) {
   switch (tool_axis) {
-    case machine::Axis::X:
-      return {1, 2, machine::Axis::X};
-    case machine::Axis::Y:
-      return {2, 0, machine::Axis::Y};
-    default:
-      return {0, 1, machine::Axis::Z};
+    case machine::Axis::X: return {1, 2, machine::Axis::X};
+    case machine::Axis::Y: return {2, 0, machine::Axis::Y};
+    default: return {0, 1, machine::Axis::Z};
   }
 }
 

@@ -26,7 +26,6 @@ NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed)
 }
 
 NcResult<void> RunBudget::check() {
-  ticks_ = kTicks;
   if (stop_.stop_requested()) {
     return NcError{NcErrorKind::Cancelled, 0, "the run was cancelled"};
   }

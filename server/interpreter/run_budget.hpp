@@ -11,7 +11,7 @@ namespace fitgauge::interpreter {
 
 /// Blocks, wall-clock time, memory and cancellation of a run. The executor takes blocks in portions
 /// and counts them down itself; time and cancellation are looked at with each portion, and with
-/// every few blocks that are more than arithmetic.
+/// each block that is more than arithmetic.
 class RunBudget {
  public:
   RunBudget(const RunLimits& limits, std::stop_token stop);
@@ -20,10 +20,7 @@ class RunBudget {
   /// @errors limit (blocks, time), cancelled.
   NcResult<std::int64_t> refuel(std::int64_t left, std::int64_t needed);
   /// To be called for each block that is more than arithmetic. @errors limit (time), cancelled.
-  NcResult<void> tick() {
-    if (--ticks_ > 0) return {};
-    return check();
-  }
+  NcResult<void> check();
   /// @errors limit.
   NcResult<void> use_memory(std::size_t bytes);
 
@@ -34,16 +31,12 @@ class RunBudget {
 
  private:
   static constexpr std::int64_t kPortion = 8192;
-  static constexpr int kTicks = 16;
-
-  NcResult<void> check();
 
   const RunLimits limits_;
   const std::stop_token stop_;
   const std::chrono::steady_clock::time_point deadline_;
   std::uint64_t granted_ = 0;
   std::size_t memory_ = 0;
-  int ticks_ = kTicks;
 };
 
 }  // namespace fitgauge::interpreter

@@ -6,32 +6,22 @@ namespace fitgauge::interpreter {
 
 std::string_view word(RunStatus status) {
   switch (status) {
-    case RunStatus::Completed:
-      return "completed";
-    case RunStatus::Stopped:
-      return "stopped";
-    case RunStatus::Failed:
-      return "failed";
-    case RunStatus::LimitExceeded:
-      return "limit_exceeded";
-    case RunStatus::Cancelled:
-      return "cancelled";
+    case RunStatus::Completed: return "completed";
+    case RunStatus::Stopped: return "stopped";
+    case RunStatus::Failed: return "failed";
+    case RunStatus::LimitExceeded: return "limit_exceeded";
+    case RunStatus::Cancelled: return "cancelled";
   }
   return {};
 }
 
 std::string_view word(MessageKind kind) {
   switch (kind) {
-    case MessageKind::Error:
-      return "error";
-    case MessageKind::Stop:
-      return "stop";
-    case MessageKind::Limit:
-      return "limit";
-    case MessageKind::Cancelled:
-      return "cancelled";
-    case MessageKind::Note:
-      return "note";
+    case MessageKind::Error: return "error";
+    case MessageKind::Stop: return "stop";
+    case MessageKind::Limit: return "limit";
+    case MessageKind::Cancelled: return "cancelled";
+    case MessageKind::Note: return "note";
   }
   return {};
 }
@@ -68,14 +58,10 @@ NcResult<void> RunLog::note(std::string text, const Place& place) {
 void RunLog::finish(const NcError& error, const Place& place) {
   const auto kind = [&] {
     switch (error.kind) {
-      case NcErrorKind::Stop:
-        return MessageKind::Stop;
-      case NcErrorKind::Limit:
-        return MessageKind::Limit;
-      case NcErrorKind::Cancelled:
-        return MessageKind::Cancelled;
-      case NcErrorKind::Error:
-        break;
+      case NcErrorKind::Stop: return MessageKind::Stop;
+      case NcErrorKind::Limit: return MessageKind::Limit;
+      case NcErrorKind::Cancelled: return MessageKind::Cancelled;
+      case NcErrorKind::Error: break;
     }
     return MessageKind::Error;
   }();

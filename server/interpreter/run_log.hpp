@@ -19,6 +19,7 @@ class OutputBudget {
   explicit OutputBudget(std::size_t bytes) : total_(bytes), left_(bytes) {}
   /// @errors limit when it is used up; nothing is charged then.
   NcResult<void> charge(std::size_t bytes);
+  std::size_t left() const { return left_; }
 
  private:
   std::size_t total_;

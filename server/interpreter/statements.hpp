@@ -30,7 +30,8 @@ NcResult<Next> execute(Channel& channel, const klartext::LabelCall& call, std::u
 NcResult<Next> execute(Channel& channel, const klartext::CallProgram& call);
 NcResult<Next> execute(Channel& channel, const klartext::CallSelectedProgram& call);
 NcResult<void> execute(Channel& channel, const klartext::SelectProgram& select);
-NcResult<Next> execute(Channel& channel, const klartext::Stop& stop);
+/// Goes on in a program. @errors it does not exist or has errors.
+NcResult<Next> call_program(Channel& channel, const ControlPath& path);
 
 // exec_parameters.cpp
 NcResult<void> execute(Channel& channel, const klartext::Assignment& assignment);
@@ -58,6 +59,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definit
 // exec_motion.cpp
 NcResult<Next> execute(Channel& channel, const klartext::Motion& motion);
 NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions);
+NcResult<Next> execute(Channel& channel, const klartext::Stop& stop);
 
 // exec_cycles.cpp
 NcResult<void> execute(Channel& channel, const klartext::Cycle& cycle);

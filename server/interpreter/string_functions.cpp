@@ -19,6 +19,8 @@ using klartext::NodeIndex;
 using klartext::Operator;
 using Operands = std::span<const Expr>;
 
+/// Bytes that the characters of a string parameter take at most.
+constexpr std::size_t kLongestText = 4 * kLongestString;
 /// Digits that TOCHAR gives at most.
 constexpr int kMostDecimals = 15;
 
@@ -39,6 +41,7 @@ NcResult<std::string> concatenate(Channel& channel, Operands operands) {
     const auto part = text(channel, operand);
     if (!part) return part;
     joined += *part;
+    if (joined.size() > kLongestText) return nc_error("a text has more than 255 characters");
   }
   return joined;
 }
@@ -146,16 +149,11 @@ std::string to_char(double value, int decimals) {
 NcResult<std::string> string_value(Channel& channel, NodeIndex index) {
   const auto operands = channel.program().operands(index);
   switch (channel.program().node(index).op) {
-    case Operator::Concat:
-      return concatenate(channel, operands);
-    case Operator::ToChar:
-      return number_text(channel, operands);
-    case Operator::SubString:
-      return sub_string(channel, operands);
-    case Operator::SystemString:
-      return system_string(channel, operands);
-    default:
-      return nc_error("a text is needed here, not a number");
+    case Operator::Concat: return concatenate(channel, operands);
+    case Operator::ToChar: return number_text(channel, operands);
+    case Operator::SubString: return sub_string(channel, operands);
+    case Operator::SystemString: return system_string(channel, operands);
+    default: return nc_error("a text is needed here, not a number");
   }
 }
 
@@ -170,20 +168,16 @@ NcResult<double> string_number(Channel& channel, NodeIndex index) {
   auto source = text(channel, operands[0]);
   if (!source) return source.error();
   switch (op) {
-    case Operator::ToNumber:
-      return to_number(*std::move(source));
-    case Operator::InString:
-      return in_string(channel, *source, operands);
-    case Operator::StringLength:
-      return static_cast<double>(tabfile::count_characters(*source));
+    case Operator::ToNumber: return to_number(*std::move(source));
+    case Operator::InString: return in_string(channel, *source, operands);
+    case Operator::StringLength: return static_cast<double>(tabfile::count_characters(*source));
     case Operator::StringCompare: {
       const auto other = text(channel, operands[1]);
       if (!other) return other.error();
       const int order = source->compare(*other);
       return order == 0 ? 0.0 : order < 0 ? -1.0 : 1.0;
     }
-    default:
-      return nc_error("a number is needed here, not a text");
+    default: return nc_error("a number is needed here, not a text");
   }
 }
 

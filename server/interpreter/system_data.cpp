@@ -57,12 +57,9 @@ using Answer = std::optional<double>;
 
 Answer program_data(const Channel& channel, const Address& address) {
   switch (address.nr) {
-    case 1:
-      return channel.calls.main_program().is_inch() ? 1 : 0;
-    case 3:
-      return channel.active_cycle.number;
-    case 6:
-      return channel.active_cycle.last_probing;
+    case 1: return channel.calls.main_program().is_inch() ? 1 : 0;
+    case 3: return channel.active_cycle.number;
+    case 6: return channel.active_cycle.last_probing;
     case 8: {
       const LinkedProgram* caller = channel.calls.caller();
       return caller != nullptr && caller->is_inch() ? 1 : 0;
@@ -82,32 +79,22 @@ Answer program_data(const Channel& channel, const Address& address) {
                  ? 1
                  : 0;
     }
-    default:
-      return std::nullopt;
+    default: return std::nullopt;
   }
 }
 
 Answer machine_data(const MachineState& state, const Address& address) {
   const machine::Modes& modes = state.modes;
   switch (address.nr) {
-    case 1:
-      return state.tool.number;
-    case 2:
-      return 0;  // no tool is prepared: changes take no time
-    case 3:
-      return axis_number(state.tool.axis);
-    case 4:
-      return modes.spindle_rpm;
-    case 5:
-      return static_cast<int>(modes.spindle);
-    case 8:
-      return modes.coolant ? 1 : 0;
-    case 9:
-      return modes.feed_mm_min;
-    case 11:
-      return 0;  // no indexed tools
-    default:
-      return std::nullopt;
+    case 1: return state.tool.number;
+    case 2: return 0;  // no tool is prepared: changes take no time
+    case 3: return axis_number(state.tool.axis);
+    case 4: return modes.spindle_rpm;
+    case 5: return static_cast<int>(modes.spindle);
+    case 8: return modes.coolant ? 1 : 0;
+    case 9: return modes.feed_mm_min;
+    case 11: return 0;  // no indexed tools
+    default: return std::nullopt;
   }
 }
 
@@ -119,33 +106,22 @@ Answer tool_data(const MachineState& state, const Address& address) {
 
 Answer tool_call_data(const MachineState& state, const Address& address) {
   switch (address.nr) {
-    case 1:
-      return state.tool.number;
-    case 2:
-      return axis_number(state.tool.axis);
-    case 3:
-      return state.modes.spindle_rpm;
-    case 4:
-      return state.tool.dl;
-    case 5:
-      return state.tool.dr;
-    case 6:
-      return 0;  // automatic TOOL CALL off
-    case 7:
-      return state.tool.dr2;
-    default:
-      return std::nullopt;
+    case 1: return state.tool.number;
+    case 2: return axis_number(state.tool.axis);
+    case 3: return state.modes.spindle_rpm;
+    case 4: return state.tool.dl;
+    case 5: return state.tool.dr;
+    case 6: return 0;  // automatic TOOL CALL off
+    case 7: return state.tool.dr2;
+    default: return std::nullopt;
   }
 }
 
 Answer active_tool_data(const MachineState& state, const Address& address) {
   switch (address.nr) {
-    case 1:
-      return state.tool_radius();
-    case 2:
-      return state.tool_length();
-    default:
-      return std::nullopt;
+    case 1: return state.tool_radius();
+    case 2: return state.tool_length();
+    default: return std::nullopt;
   }
 }
 
@@ -154,27 +130,21 @@ Answer transformation_data(const MachineState& state, const Address& address) {
   const auto axis = axis_of(address);
   const bool is_linear = axis && !machine::is_rotary(*axis);
   switch (address.nr) {
-    case 1:
-      return frames.preset().basic_rotation_deg.z;
-    case 2:
-      return frames.rotation().angle_deg;
+    case 1: return frames.preset().basic_rotation_deg.z;
+    case 2: return frames.rotation().angle_deg;
     case 3: {
       double bits = 0;
       for (std::size_t i = 0; i < 3; ++i) bits += frames.mirror()[i] ? double(1U << i) : 0;
       return bits;
     }
-    case 4:
-      return is_linear ? frames.scaling().factor[machine::index(*axis)] : 1;
+    case 4: return is_linear ? frames.scaling().factor[machine::index(*axis)] : 1;
     case 5: {
       if (!is_linear) return std::nullopt;
       return frames.plane() ? frames.plane()->spatial_deg[machine::index(*axis)] : 0;
     }
-    case 6:
-      return frames.is_tilted() ? -1 : 0;
-    case 7:
-      return 0;  // not tilted in Manual
-    default:
-      return std::nullopt;
+    case 6: return frames.is_tilted() ? -1 : 0;
+    case 7: return 0;  // not tilted in Manual
+    default: return std::nullopt;
   }
 }
 
@@ -182,17 +152,14 @@ Answer shift_data(const MachineState& state, const Address& address) {
   const auto axis = axis_of(address);
   if (!axis) return std::nullopt;
   switch (address.nr) {
-    case 2:
-      return state.frames.datum_shift()[*axis];
+    case 2: return state.frames.datum_shift()[*axis];
     case 3: {
       const auto& preset = state.frames.preset();
       const std::size_t i = machine::index(*axis);
       return machine::is_rotary(*axis) ? preset.rotary_offsets_deg[i - 3] : preset.origin[i];
     }
-    case 4:
-      return 0;  // no PLC shift
-    default:
-      return std::nullopt;
+    case 4: return 0;  // no PLC shift
+    default: return std::nullopt;
   }
 }
 
@@ -202,12 +169,9 @@ Answer limit_data(const MachineState& state, const Address& address) {
   if (!axis || !state.ranges[machine::index(*axis)]) return std::nullopt;
   const machine::AxisRange& range = *state.ranges[machine::index(*axis)];
   switch (address.nr) {
-    case 2:
-      return range.min;
-    case 3:
-      return range.max;
-    default:
-      return std::nullopt;
+    case 2: return range.min;
+    case 3: return range.max;
+    default: return std::nullopt;
   }
 }
 
@@ -219,12 +183,9 @@ Answer position_data(const MachineState& state, const Address& address, Coordina
 
 Answer tcpm_data(const MachineState& state, const Address& address) {
   switch (address.nr) {
-    case 1:
-      return state.modes.tcpm ? -1 : 0;
-    case 2:
-      return state.modes.feed_mm_min;
-    default:
-      return std::nullopt;
+    case 1: return state.modes.tcpm ? -1 : 0;
+    case 2: return state.modes.feed_mm_min;
+    default: return std::nullopt;
   }
 }
 
@@ -232,35 +193,24 @@ Answer probe_data(const MachineState& state, const Address& address) {
   const auto probe = state.probe_system();
   if (!probe) return std::nullopt;
   const machine::ProbeRow& row = probe->data;
+  const bool is_second = address.index == 2;
   switch (address.nr) {
-    case 10:
-      return axis_number(state.tool_axis());
-    case 11:
-      return probe->radius;
-    case 12:
-      return probe->length;
-    case 14:
-      return address.index.value_or(1) == 2 ? row.cal_of2 : row.cal_of1;
-    case 15:
-      return row.cal_ang;
-    case 50:
-      return row.number;
-    case 51:
-      return probe->length;
-    case 52:
-      return address.index.value_or(1) == 2 ? probe->data.cal_of2 : probe->radius;
-    case 53:
-      return address.index.value_or(1) == 2 ? row.cal_of2 : row.cal_of1;
-    case 54:
-      return row.cal_ang;
-    case 55:
-      return address.index.value_or(1) == 2 ? row.feed : row.rapid;
-    case 56:
-      return address.index.value_or(1) == 2 ? row.set_up : row.distance;
-    case 57:
-      return row.track ? 1 : 0;
-    default:
-      return std::nullopt;
+    case 10: return axis_number(state.tool_axis());
+    case 11: return probe->radius;
+    case 12: return probe->length;
+    case 14: return is_second ? row.cal_of2 : row.cal_of1;
+    case 15: return row.cal_ang;
+    case 50:  // IDX1: the type's number, which TYPE does not give; IDX2: the row of tchprobe.tp
+      return is_second ? row.number : 0;
+    case 51: return probe->length;
+    case 52:  // IDX2: the rounding radius, which a ball does not have
+      return is_second ? 0 : probe->radius;
+    case 53: return is_second ? row.cal_of2 : row.cal_of1;
+    case 54: return row.cal_ang;
+    case 55: return is_second ? row.feed : row.rapid;
+    case 56: return is_second ? row.set_up : row.distance;
+    case 57: return row.track ? 1 : 0;
+    default: return std::nullopt;
   }
 }
 
@@ -271,14 +221,10 @@ Answer touch_data(const Channel& channel, const Address& address) {
   const bool is_linear = !machine::is_rotary(*axis);
   const std::size_t i = machine::index(*axis);
   switch (address.nr) {
-    case 1:
-      return is_linear ? Answer(touch.surface[i]) : std::nullopt;
-    case 2:
-      return touch.nose[*axis];
-    case 3:
-      return is_linear ? Answer(touch.tip[i]) : std::nullopt;
-    default:
-      return std::nullopt;
+    case 1: return is_linear ? Answer(touch.surface[i]) : std::nullopt;
+    case 2: return touch.nose[*axis];
+    case 3: return is_linear ? Answer(touch.tip[i]) : std::nullopt;
+    default: return std::nullopt;
   }
 }
 
@@ -304,45 +250,33 @@ NcResult<double> preset_data(const MachineState& state, const Address& address) 
 Answer find(Channel& channel, const Address& address) {
   const MachineState& state = channel.machine().state();
   switch (address.id) {
-    case 10:
-      return program_data(channel, address);
-    case 20:
-      return machine_data(state, address);
-    case 50:
-      return tool_data(state, address);
-    case 60:
-      return tool_call_data(state, address);
-    case 200:
-      return active_tool_data(state, address);
-    case 210:
-      return transformation_data(state, address);
-    case 220:
-      return shift_data(state, address);
-    case 230:
-      return limit_data(state, address);
+    case 10: return program_data(channel, address);
+    case 20: return machine_data(state, address);
+    case 50: return tool_data(state, address);
+    case 60: return tool_call_data(state, address);
+    case 200: return active_tool_data(state, address);
+    case 210: return transformation_data(state, address);
+    case 220: return shift_data(state, address);
+    case 230: return limit_data(state, address);
     case 240:  // the spindle nose, as M91 (decision 22)
       if (address.nr != 1 && address.nr != 8) return std::nullopt;
       return position_data(state, address, CoordinateSystem::Reference);
     case 270:
       if (address.nr != 1) return std::nullopt;
       return position_data(state, address, CoordinateSystem::Input);
-    case 280:
-      return tcpm_data(state, address);
+    case 280: return tcpm_data(state, address);
     case 320:
       if (address.nr != 1) return std::nullopt;
       return std::floor(static_cast<double>(channel.now().nanoseconds) / 1e9);
-    case 350:
-      return probe_data(state, address);
-    case 360:
-      return touch_data(channel, address);
+    case 350: return probe_data(state, address);
+    case 360: return touch_data(channel, address);
     case 505:
       if (address.nr != 1) return std::nullopt;
       return channel.tables.has_datum_table() ? 1 : 0;
     case 990:  // NR 6: cycle 3 probes with the touch probe; NR 16: no block scan
       if (address.nr == 6 || address.nr == 16) return 0;
       return std::nullopt;
-    default:
-      return std::nullopt;
+    default: return std::nullopt;
   }
 }
 
@@ -390,8 +324,7 @@ NcResult<void> write_system_data(Channel& channel, klartext::NodeIndex node, dou
   const auto address = read_address(channel, node);
   if (!address) return address.error();
   switch (address->id) {
-    case 50:
-      return write_tool(channel, *address, value);
+    case 50: return write_tool(channel, *address, value);
     case 500: {
       const auto axis = axis_of(*address);
       if (!axis) return unknown(*address);
@@ -399,10 +332,8 @@ NcResult<void> write_system_data(Channel& channel, klartext::NodeIndex node, dou
       words[*axis] = value;
       return channel.tables.write_datum(channel, address->nr, words);
     }
-    case 503:
-      return write_preset(channel, *address, value);
-    default:
-      return unknown(*address);
+    case 503: return write_preset(channel, *address, value);
+    default: return unknown(*address);
   }
 }
 

@@ -72,11 +72,10 @@ NcResult<TableAccess::Table> TableAccess::load(Channel& channel, const ControlPa
     if (auto used = channel.budget.use_memory(file->bytes->size()); !used) return used.error();
     known = {file->revision, file->table};
     if (known.content == nullptr) {
-      auto read = tabfile::read_tab(is_utf8(*file->bytes) ? *file->bytes
-                                                          : utf8_from_windows1252(*file->bytes));
+      auto read = tabfile::read_tab_file(*file->bytes);
       if (read.has_error()) {
-        return nc_error(fmt::format("{} {} cannot be read: {}: {}", what, path.text(),
-                                    read.error().where, read.error().message));
+        return nc_error(
+            fmt::format("{} {} cannot be read: {}", what, path.text(), read.error().message));
       }
       known.content = std::make_shared<const TabTable>(*std::move(read));
     }

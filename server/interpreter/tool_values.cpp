@@ -47,18 +47,12 @@ const Column* column(std::int64_t nr) {
 std::optional<double> tool_value(const Tool& tool, std::int64_t nr) {
   if (const Column* plain = column(nr)) return tool.*plain->value;
   switch (nr) {
-    case 7:
-      return tool.locked ? 1 : 0;
-    case 8:
-      return tool.replacement;
-    case 15:
-      return tool.teeth;
-    case 18:
-      return tool.clockwise ? 0 : 1;
-    case 36:
-      return tool.type;
-    default:
-      return std::nullopt;
+    case 7: return tool.locked ? 1 : 0;
+    case 8: return tool.replacement;
+    case 15: return tool.teeth;
+    case 18: return tool.clockwise ? 0 : 1;
+    case 36: return tool.type;
+    default: return std::nullopt;
   }
 }
 

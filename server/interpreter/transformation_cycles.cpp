@@ -109,7 +109,7 @@ NcResult<void> program_call(Channel& channel, Words words) {
   if (path == nullptr) return nc_error(1017, "CYCL DEF 12 needs a program");
   const auto written = text(channel, path->value);
   if (!written) return written.error();
-  auto program = channel.load_program(*written);
+  auto program = channel.resolve_program(*written);
   if (!program) return program.error();
   channel.active_cycle.definition = *std::move(program);
   channel.active_cycle.number = 12;
@@ -120,24 +120,15 @@ NcResult<void> program_call(Channel& channel, Words words) {
 
 NcResult<void> execute_transformation(Channel& channel, int cycle, Words words) {
   switch (cycle) {
-    case 7:
-      return datum_shift(channel, words);
-    case 8:
-      return mirror_axes(channel, words);
-    case 9:
-      return dwell(channel, words);
-    case 10:
-      return rotation(channel, words);
-    case 11:
-      return scaling(channel, words);
-    case 12:
-      return program_call(channel, words);
-    case 19:
-      return working_plane_cycle(channel, words);
-    case 26:
-      return axis_scaling(channel, words);
-    default:
-      return {};  // 13 and 32 have no effect on a simulated path
+    case 7: return datum_shift(channel, words);
+    case 8: return mirror_axes(channel, words);
+    case 9: return dwell(channel, words);
+    case 10: return rotation(channel, words);
+    case 11: return scaling(channel, words);
+    case 12: return program_call(channel, words);
+    case 19: return working_plane_cycle(channel, words);
+    case 26: return axis_scaling(channel, words);
+    default: return {};  // 13 and 32 have no effect on a simulated path
   }
 }
 

@@ -129,14 +129,10 @@ NcResult<bool> condition(Channel& channel, NodeIndex index) {
   const auto b = number(channel, operands[1]);
   if (!b) return b.error();
   switch (op) {
-    case Operator::Equal:
-      return are_equal(*a, *b);
-    case Operator::NotEqual:
-      return !are_equal(*a, *b);
-    case Operator::Greater:
-      return *a > *b;
-    default:
-      return *a < *b;
+    case Operator::Equal: return are_equal(*a, *b);
+    case Operator::NotEqual: return !are_equal(*a, *b);
+    case Operator::Greater: return *a > *b;
+    default: return *a < *b;
   }
 }
 

@@ -1,0 +1,210 @@
+#include <algorithm>
+
+#include "run_fixture.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+/// A control with a cutter 5 (length 100, radius 4) and rotary axes A and C.
+class Mill : public Control {
+ public:
+  Mill() {
+    machine::ToolSetup cutter;
+    cutter.row = {.number = 5, .name = "MILL", .l = 100, .r = 4};
+    cutter.row.teeth = 2;
+    setup.machine.tools.push_back(cutter);
+    for (const machine::Axis axis : {machine::Axis::A, machine::Axis::C}) {
+      setup.machine.axes[machine::index(axis)] = machine::AxisSetup::of(axis);
+      setup.machine.axes[machine::index(axis)]->direction = machine::unit_vector(axis);
+    }
+  }
+
+  /// The moves of a program that follows TOOL CALL 5, as lines of the trace.
+  std::vector<std::string> moves(std::string_view body) {
+    program("TOOL CALL 5 Z S1000 F500\n" + std::string(body));
+    last = run();
+    std::vector<std::string> moves;
+    for (std::string line : tracing->lines()) {
+      if (!line.starts_with("L ") && !line.starts_with("ARC ")) continue;
+      constexpr std::string_view kUnturned = " A+0.0000 C+0.0000";
+      if (const auto at = line.find(kUnturned); at != std::string::npos) {
+        line.erase(at, kUnturned.size());
+      }
+      moves.push_back(std::move(line));
+    }
+    return moves;
+  }
+
+  RunResult last;
+};
+
+using Lines = std::vector<std::string>;
+
+TEST_CASE("coordinates are absolute or incremental, omitted axes stay") {
+  Mill mill;
+  CHECK(mill.moves("L X+10 Y+20 Z+30 FMAX\nL IX-5 FMAX\nL IZ+2,5 F100\nL Y+0") ==
+        Lines{"L X+10.0000 Y+20.0000 Z+30.0000 FMAX", "L X+5.0000 Y+20.0000 Z+30.0000 FMAX",
+              "L X+5.0000 Y+20.0000 Z+32.5000 F100", "L X+5.0000 Y+0.0000 Z+32.5000 F100"});
+}
+
+TEST_CASE("FMAX is not modal, F AUTO is the feed of TOOL CALL, FU and FZ follow the spindle") {
+  Mill mill;
+  CHECK(mill.moves("L X+1 F100\nL X+2 FMAX\nL X+3\nL X+4 F AUTO\nL X+5 FU0.2\nL X+6 FZ0.1") ==
+        Lines{"L X+1.0000 Y+0.0000 Z+400.0000 F100", "L X+2.0000 Y+0.0000 Z+400.0000 FMAX",
+              "L X+3.0000 Y+0.0000 Z+400.0000 F100", "L X+4.0000 Y+0.0000 Z+400.0000 F500",
+              "L X+5.0000 Y+0.0000 Z+400.0000 F200", "L X+6.0000 Y+0.0000 Z+400.0000 F200"});
+}
+
+TEST_CASE("an undefined parameter leaves its axis out of a positioning block") {
+  Mill mill;
+  CHECK(mill.moves("L X+Q1 Y+7 FMAX\nL X-Q2 FMAX") == Lines{"L X+0.0000 Y+7.0000 Z+400.0000 FMAX"});
+  CHECK(outcome(mill.last) == "completed");
+  mill.moves("L X+1 FQ3");
+  CHECK(outcome(mill.last) ==
+        "failed line 3: parameter Q3 is undefined; assign it before this block reads it");
+}
+
+TEST_CASE("an INCH program moves in millimetres") {
+  Mill mill;
+  mill.program("TOOL CALL 5 Z S1000\nL X+1 FMAX\nL X+2 F20", "main.h", true);
+  const RunResult result = mill.run();
+  CHECK(outcome(result) == "completed");
+  const auto& moves = mill.tracing->moves();
+  REQUIRE(moves.size() == 2);
+  CHECK(moves[0].end[machine::Axis::X] == doctest::Approx(25.4));
+  CHECK(moves[1].feed_mm_min == doctest::Approx(50.8));
+}
+
+TEST_CASE("M91 positions the spindle nose from the machine datum") {
+  Mill mill;
+  CHECK(mill.moves("CYCL DEF 7.0 X\nCYCL DEF 7.1 X+10\nL X+50 Z+200 FMAX M91").back() ==
+        "L X+40.0000 Y+0.0000 Z+100.0000 FMAX");
+}
+
+TEST_CASE("M140 retracts along the tool axis") {
+  Mill mill;
+  CHECK(mill.moves("L Z+10 FMAX\nL M140 MB50 F300").back() == "L X+0.0000 Y+0.0000 Z+60.0000 F300");
+  CHECK(mill.moves("L Z+10 FMAX\nM140 MB MAX").back() == "L X+0.0000 Y+0.0000 Z+400.0000 FMAX");
+}
+
+TEST_CASE("arcs") {
+  Mill mill;
+  CHECK(mill.moves("L X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\nC X+0 Y+10 DR+ F100").back() ==
+        "ARC X+0.0000 Y+10.0000 Z+0.0000 CC X+0.0000 Y+0.0000 Z+0.0000 +90.0000 F100");
+  CHECK(mill.moves("L X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\nC DR- F100").back() ==
+        "ARC X+10.0000 Y+0.0000 Z+0.0000 CC X+0.0000 Y+0.0000 Z+0.0000 -360.0000 F100");
+  CHECK(mill.moves("L X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\nCP IPA+3600 IZ-5 DR+ F100").back() ==
+        "ARC X+10.0000 Y+0.0000 Z-5.0000 CC X+0.0000 Y+0.0000 Z-5.0000 +3600.0000 F100");
+  CHECK(mill.moves("L X+10 Y+0 Z+0 FMAX\nCR X+0 Y+10 R-10 DR- F100").back() ==
+        "ARC X+0.0000 Y+10.0000 Z+0.0000 CC X+0.0000 Y+0.0000 Z+0.0000 -270.0000 F100");
+}
+
+TEST_CASE("arcs that are none are errors") {
+  Mill mill;
+  const auto outcome_of = [&](std::string_view body) {
+    mill.moves(body);
+    return outcome(mill.last);
+  };
+  CHECK(outcome_of("C X+1 Y+1 DR+") == "failed line 3: an arc needs a centre: CC stands before it");
+  CHECK(outcome_of("L X+10 FMAX\nCC X+0 Y+0\nC X+0 Y+11 DR+") ==
+        "failed line 5: the end of the arc lies 1.0000 mm beside its circle");
+  CHECK(outcome_of("CR X+30 Y+0 R+10 DR+") ==
+        "failed line 3: CR: no arc of radius 10 mm joins two points 30.0000 mm apart");
+  CHECK(outcome_of("LP PR+5 PA+3") ==
+        "failed line 3: polar coordinates need a pole: CC stands before them");
+  CHECK(outcome_of("L X+10 FMAX\nRND R50\nL Y+10 FMAX") ==
+        "failed line 5: Rounding radius too large: it does not fit between the two blocks");
+  CHECK(outcome_of("L X+10 FMAX\nRND R5\nM8") ==
+        "failed line 5: Rounding-off undefined: RND or CHF must be followed by a contour element");
+}
+
+TEST_CASE("a rounding between a line and an arc is tangential to both") {
+  Mill mill;
+  CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nL X+20 F100\nRND R2\nCC X+10 Y+0\nC X+0 Y+0 DR+\nL Y-5") ==
+        Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+17.7460 Y+0.0000 Z+0.0000 F100",
+              "ARC X+19.6825 Y+2.5000 Z+0.0000 CC X+17.7460 Y+2.0000 Z+0.0000 +104.4775 F100",
+              "ARC X+0.0000 Y+0.0000 Z+0.0000 CC X+10.0000 Y+0.0000 Z+0.0000 +165.5225 F100",
+              "L X+0.0000 Y-5.0000 Z+0.0000 F100"});
+}
+
+TEST_CASE("elements that follow each other tangentially have no corner to round") {
+  Mill mill;
+  CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nL X+20 F100\nRND R2\nCC X+20 Y-20\nC X+40 Y-20 DR-\n"
+                   "L Y-50")
+            .size() == 4);
+  CHECK(outcome(mill.last) == "completed");
+  mill.moves("L X+0 Y+0 Z+0 FMAX\nL X+20 F100\nRND R2\nCC X+20 Y+20\nC X+20 Y+40 DR-\nL X+30");
+  CHECK(mill.last.messages.back().number == 1023);  // the arc goes back along the line
+}
+
+TEST_CASE("APPR and DEP by lines and arcs") {
+  Mill mill;
+  CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nAPPR LN X+10 Y+10 LEN5 RL F100\nL X+30\nDEP LN LEN6") ==
+        Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+10.0000 Y+15.0000 Z+0.0000 F100",
+              "L X+10.0000 Y+10.0000 Z+0.0000 F100", "L X+30.0000 Y+10.0000 Z+0.0000 F100",
+              "L X+30.0000 Y+16.0000 Z+0.0000 F100"});
+  CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nAPPR CT X+10 Y+10 CCA90 R5 RL F100\nL X+30\n"
+                   "DEP CT CCA90 R5") ==
+        Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+5.0000 Y+15.0000 Z+0.0000 F100",
+              "ARC X+10.0000 Y+10.0000 Z+0.0000 CC X+10.0000 Y+15.0000 Z+0.0000 +90.0000 F100",
+              "L X+30.0000 Y+10.0000 Z+0.0000 F100",
+              "ARC X+35.0000 Y+15.0000 Z+0.0000 CC X+30.0000 Y+15.0000 Z+0.0000 +90.0000 F100"});
+  CHECK(mill.moves("L X+0 Y+30 Z+0 FMAX\nAPPR LCT X+10 Y+10 R5 RL F100\nL X+30\n"
+                   "DEP LCT X+35 Y+40 R5") ==
+        Lines{"L X+0.0000 Y+30.0000 Z+0.0000 FMAX", "L X+5.2337 Y+13.4892 Z+0.0000 F100",
+              "ARC X+10.0000 Y+10.0000 Z+0.0000 CC X+10.0000 Y+15.0000 Z+0.0000 +72.4120 F100",
+              "L X+30.0000 Y+10.0000 Z+0.0000 F100",
+              "ARC X+35.0000 Y+15.0000 Z+0.0000 CC X+30.0000 Y+15.0000 Z+0.0000 +90.0000 F100",
+              "L X+35.0000 Y+40.0000 Z+0.0000 F100"});
+}
+
+TEST_CASE("PLANE turns the axes and the coordinates") {
+  Mill mill;
+  mill.moves(
+      "PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY\nPLANE SPATIAL SPA+30 SPB+0 SPC+0 TURN FMAX\n"
+      "FN 18: SYSREAD Q1 = ID210 NR5 IDX1\nFN 18: SYSREAD Q2 = ID210 NR6\nQ3 = Q120\n"
+      "PLANE RESET TURN FMAX\nFN 18: SYSREAD Q4 = ID210 NR6\n"
+      "FN 18: SYSREAD Q5 = ID240 NR1 IDX4");
+  CHECK(outcome(mill.last) == "completed");
+  CHECK(value(mill.last, "Q1") == "30");
+  CHECK(value(mill.last, "Q2") == "-1");
+  CHECK(std::abs(number_of(mill.last, "Q3")) == doctest::Approx(30));
+  CHECK(value(mill.last, "Q4") == "0");
+  CHECK(value(mill.last, "Q5") == "0");
+}
+
+TEST_CASE("the datum shift before a tilted plane is its origin and comes back with PLANE RESET") {
+  Mill mill;
+  mill.moves(
+      "TRANS DATUM AXIS X+10 Y+5\nPLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY\n"
+      "FN 18: SYSREAD Q1 = ID220 NR2 IDX1\nTRANS DATUM AXIS X+2\nPLANE RESET STAY\n"
+      "FN 18: SYSREAD Q2 = ID220 NR2 IDX1");
+  CHECK(outcome(mill.last) == "completed");
+  CHECK(value(mill.last, "Q1") == "0");
+  CHECK(value(mill.last, "Q2") == "10");
+}
+
+TEST_CASE("machine faults are errors of the run with their place") {
+  Mill mill;
+  mill.moves("L X+1000 FMAX");
+  CHECK(mill.last.status == RunStatus::Failed);
+  CHECK(mill.last.messages.back().line == 3);
+  mill.moves("L U+1 FMAX");
+  CHECK(mill.last.status == RunStatus::Failed);
+}
+
+TEST_CASE("a note is given once for what the simulation leaves out") {
+  Mill mill;
+  mill.moves("L X+1 RL F100\nL X+2 RL\nL X+3 R0");
+  CHECK(mill.last.messages.size() == 1);
+  CHECK(mill.last.messages[0].kind == MessageKind::Note);
+}
+
+TEST_CASE("a cycle call without a cycle is an error") {
+  Mill mill;
+  mill.moves("CYCL CALL");
+  CHECK(mill.last.messages.back().number == 1027);
+}
+
+}  // namespace
+}  // namespace fitgauge::interpreter

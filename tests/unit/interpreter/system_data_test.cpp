@@ -1,0 +1,94 @@
+#include "run_fixture.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+/// The value that `FN 18: SYSREAD` gives after `before` ran, or the outcome of a failed run.
+std::string system_data(std::string_view address, std::string_view before = "Q1 = 0") {
+  Control control;
+  control.setup.machine.probes[0].row.distance = 17;
+  const RunResult result =
+      control.run(std::string(before) + "\nFN 18: SYSREAD Q5 = " + std::string(address));
+  return result.status == RunStatus::Completed ? value(result, "Q5") : outcome(result);
+}
+
+TEST_CASE("FN 18 reads the state of the machine") {
+  CHECK(system_data("ID10 NR1") == "0");
+  CHECK(system_data("ID20 NR1") == "0");
+  CHECK(system_data("ID20 NR3") == "-1");
+  const char* probe = "TOOL CALL 30 Z S1200 F350 DL+0.5 DR+0.1\nM13";
+  CHECK(system_data("ID20 NR1", probe) == "30");
+  CHECK(system_data("ID20 NR3", probe) == "2");
+  CHECK(system_data("ID20 NR4", probe) == "1200");
+  CHECK(system_data("ID20 NR5", probe) == "0");
+  CHECK(system_data("ID20 NR5", "TOOL CALL 30 Z S1\nM4\nM5") == "3");
+  CHECK(system_data("ID20 NR8", probe) == "1");
+  CHECK(system_data("ID20 NR9", probe) == "350");
+  CHECK(system_data("ID50 NR1 IDX30") == "120");
+  CHECK(system_data("ID50 NR2", probe) == "2");
+  CHECK(system_data("ID50 NR7 IDX30") == "0");
+  CHECK(system_data("ID60 NR4", probe) == "0.5");
+  CHECK(system_data("ID200 NR1", probe) == "2.1");
+  CHECK(system_data("ID200 NR2", probe) == "120.5");
+  CHECK(system_data("ID230 NR2 IDX1") == "-500");
+  CHECK(system_data("ID230 NR3 IDX3") == "500");
+  CHECK(system_data("ID240 NR1 IDX3") == "500");
+  CHECK(system_data("ID270 NR1 IDX3", probe) == "379.5");
+  CHECK(system_data("ID280 NR1", "M128") == "-1");
+  CHECK(system_data("ID320 NR1") == "1795161909");
+  CHECK(system_data("ID350 NR11", "TOOL CALL 30 Z") == "2");
+  CHECK(system_data("ID350 NR56 IDX1", "TOOL CALL 30 Z") == "17");
+  CHECK(system_data("ID503 NR1 IDX1") == "0");
+  CHECK(system_data("ID505 NR1") == "0");
+}
+
+TEST_CASE("FN 18 reads transformations") {
+  CHECK(system_data("ID220 NR2 IDX2", "TRANS DATUM AXIS Y+12.5") == "12.5");
+  CHECK(system_data("ID210 NR2", "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+30") == "30");
+  CHECK(system_data("ID210 NR3", "TRANS MIRROR AXIS X Z") == "5");
+  CHECK(system_data("ID210 NR4 IDX2", "CYCL DEF 26.0 S\nCYCL DEF 26.1 X2 Y3 CCX+1 CCY+1") == "3");
+}
+
+TEST_CASE("an unknown system datum is an error, never 0") {
+  CHECK(system_data("ID20 NR99") == "failed line 3: ID20 NR99 is not available");
+  CHECK(system_data("ID999 NR1 IDX2") == "failed line 3: ID999 NR1 IDX2 is not available");
+  CHECK(system_data("ID50 NR1 IDX7") == "failed line 3: ID50 NR1 IDX7 is not available");
+  CHECK(system_data("ID240 NR1 IDX9") == "failed line 3: ID240 NR1 IDX9 is not available");
+  CHECK(system_data("ID360 NR1 IDX1") == "failed line 3: ID360 NR1 IDX1 is not available");
+  CHECK(system_data("ID20 NR1.5").starts_with("failed line 3: Input value incorrect"));
+}
+
+TEST_CASE("FN 17 writes tools, presets and the datum table") {
+  Control control;
+  control.file("zero.d", "BEGIN ZERO .D MM\nNR      X         Y\n3       +0        +0\n[END]\n");
+  const RunResult result = control.run(
+      "FN 17: SYSWRITE ID50 NR1 IDX30 = +130.5\nFN 18: SYSREAD Q1 = ID50 NR1 IDX30\n"
+      "FN 17: SYSWRITE ID503 NR7 IDX2 = -12\nFN 18: SYSREAD Q2 = ID503 NR7 IDX2\n"
+      "SEL TABLE \"zero.d\"\nFN 17: SYSWRITE ID500 NR3 IDX1 = +4.5\n"
+      "FN 18: SYSREAD Q3 = ID500 NR3 IDX1");
+  CHECK(outcome(result) == "completed");
+  CHECK(value(result, "Q1") == "130.5");
+  CHECK(value(result, "Q2") == "-12");
+  CHECK(value(result, "Q3") == "4.5");
+  REQUIRE(result.files.size() == 1);
+  CHECK(result.files[0].path.text() == "TNC:\\nc_prog\\zero.d");
+  CHECK(outcome(control.run("FN 17: SYSWRITE ID20 NR1 = 5")) ==
+        "failed line 2: ID20 NR1 is not available");
+}
+
+TEST_CASE("tables: missing rows, columns and values are errors that name them") {
+  Control control;
+  control.file("t.tab", "BEGIN T .TAB MM\nNR      X         Y\n0       +1\n[END]\n");
+  const auto read = [&](const std::string& cell) {
+    return outcome(control.run("FN 26: TABOPEN t.tab\nFN 28: TABREAD Q1 = " + cell));
+  };
+  CHECK(read("0/\"X\"") == "completed");
+  CHECK(read("5/\"X\"").starts_with("failed line 3: table TNC:\\nc_prog\\t.tab: "));
+  CHECK(read("0/\"Z\"").starts_with("failed line 3: table TNC:\\nc_prog\\t.tab: "));
+  CHECK(read("0/\"Y\"").starts_with("failed line 3: table TNC:\\nc_prog\\t.tab: "));
+  control.file("t.tab", "BEGIN T .TAB MM\nNR      X\n0       +1\n");
+  CHECK(read("0/\"X\"").starts_with("failed line 2: table TNC:\\nc_prog\\t.tab cannot be read"));
+}
+
+}  // namespace
+}  // namespace fitgauge::interpreter
