@@ -151,10 +151,6 @@ std::string_view Lexer::letters() {
 double Lexer::number() {
   skip_blanks();
   double value = 0;
-  if (const char* end = scan_plain_number(at_, value)) {
-    at_ = end;
-    return value;
-  }
   if (!at_number()) {
     fail_expected("a number");
     return 0;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,29 +17,52 @@ inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') <= 9; }
 inline bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
-/// Scans a number of at most 15 digits with or without a point, as nearly all are, that is in the
-/// range of the control. The digits are gathered in an integer, which a double holds exactly as it
-/// does the power of ten: their quotient is the double nearest to the literal.
-/// @returns the end of the number, or nullptr when it is none of this form.
-inline const char* scan_plain_number(const char* begin, double& value) {
-  constexpr std::ptrdiff_t kMostDigits = 15;
-  constexpr double kPowersOfTen[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                     1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  constexpr std::uint64_t kLargest = 1'000'000'000;
-  std::uint64_t mantissa = 0;
-  const char* at = begin;
-  for (; is_digit(*at); ++at) mantissa = mantissa * 10 + static_cast<unsigned char>(*at - '0');
-  const std::ptrdiff_t whole = at - begin;
-  if (whole == 0 || whole > kMostDigits || mantissa >= kLargest || *at == ',') return nullptr;
-  std::ptrdiff_t decimals = 0;
-  if (*at == '.') {
-    const char* fraction = ++at;
-    for (; is_digit(*at); ++at) mantissa = mantissa * 10 + static_cast<unsigned char>(*at - '0');
-    decimals = at - fraction;
-    if (whole + decimals > kMostDigits) return nullptr;
+/// Up to seven digits at the begin of a text.
+struct DigitRun {
+  std::uint64_t value = 0;
+  unsigned count = 0;  ///< 8: eight digits or more
+};
+
+/// Reads the digits among the next eight bytes at once, which must exist: each byte is tested for
+/// being a digit, then neighbours are joined to numbers of two, four and eight digits.
+inline DigitRun scan_digits(const char* at) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, at, sizeof bytes);
+  bytes ^= 0x3030303030303030;  // digits become 0 to 9
+  const std::uint64_t others = ((bytes + 0x7676767676767676) | bytes) & 0x8080808080808080;
+  const auto count = static_cast<unsigned>(std::countr_zero(others)) / 8;
+  if (count == 0 || count == 8) return {0, count};
+  bytes <<= 64 - 8 * count;  // zeros before the first digit
+  bytes = (bytes * 10 + (bytes >> 8)) & 0x00FF00FF00FF00FF;
+  bytes = (bytes * 100 + (bytes >> 16)) & 0x0000FFFF0000FFFF;
+  bytes = (bytes * 10'000 + (bytes >> 32)) & 0x00000000FFFFFFFF;
+  return {bytes, count};
+}
+
+/// Scans a number of one to seven digits with at most seven decimals, as nearly all are. The digits
+/// are gathered in an integer, which a double holds exactly as it does the power of ten: their
+/// quotient is the double nearest to the literal.
+/// @returns the end of the number, or nullptr when it is none of this form or near the end.
+inline const char* scan_plain_number(const char* at, const char* end, double& value) {
+  constexpr std::ptrdiff_t kLongest = 7 + 1 + 8;
+  constexpr unsigned kMostDigits = 7;
+  constexpr std::uint64_t kPowersOfTen[] = {1,      10,      100,       1'000,
+                                            10'000, 100'000, 1'000'000, 10'000'000};
+  if (end - at < kLongest) return nullptr;
+  const DigitRun whole = scan_digits(at);
+  if (whole.count == 0 || whole.count > kMostDigits) return nullptr;
+  at += whole.count;
+  if (*at == ',') return nullptr;
+  if (*at != '.') {
+    value = static_cast<double>(whole.value);
+    return at;
   }
-  value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
-  return at;
+  const DigitRun fraction = scan_digits(++at);
+  if (fraction.count > kMostDigits) return nullptr;
+  const std::uint64_t power = kPowersOfTen[fraction.count];
+  value = static_cast<double>(whole.value * power + fraction.value) / static_cast<double>(power);
+  return at + fraction.count;
 }
 
 /// What kept a block from being read.
@@ -89,6 +114,7 @@ class Lexer {
 
   const char* at() const { return at_; }
   const char* end() const { return end_; }
+  const char* source_end() const { return source_.data() + source_.size(); }
   void move_to(const char* place) { at_ = place; }
   char peek(std::size_t ahead = 0) const { return at_ + ahead < end_ ? at_[ahead] : '\0'; }
   Slice<char> place(const char* begin, const char* end) const;

@@ -50,6 +50,7 @@ class Parser {
   BlockReader in_;
   DiagnosticList diagnostics_;
   std::optional<BeginProgram> begin_;
+  bool wraps_on_ = false;  ///< the block's last line ends with `~`, and so does the file
   bool begun_ = false;
   bool ended_ = false;
 };
@@ -71,7 +72,7 @@ bool Parser::wraps(std::size_t begin, std::size_t end) const {
 std::size_t Parser::find_block_end(std::size_t begin) {
   parts_.line_starts.push_back(static_cast<std::uint32_t>(begin));
   std::size_t end = find_line_end(begin);
-  while (wraps(begin, end) && end != parts_.source.size()) {
+  while ((wraps_on_ = wraps(begin, end)) && end != parts_.source.size()) {
     begin = end + 1;
     parts_.line_starts.push_back(static_cast<std::uint32_t>(begin));
     end = find_line_end(begin);
@@ -128,7 +129,7 @@ void Parser::report_failure(Block& block, const char* body) {
 
 void Parser::parse_body(Block& block) {
   const char* body = in_.at();
-  if (wraps(block.written.first, std::size_t{block.written.first} + block.written.count)) {
+  if (wraps_on_) {
     in_.fail(DiagnosticCode::ContinuationMissing, in_.place(in_.end(), in_.end()),
              "'~' continues the block, but the file ends here");
   } else if (!in_.at_end()) {
@@ -149,7 +150,9 @@ void Parser::parse_body(Block& block) {
     report(Severity::Warning, DiagnosticCode::ErrorBlockPresent, block,
            "the control stored this block as faulty: the program stops here");
   }
-  check_frame(block, failed);
+  const bool is_frame = std::holds_alternative<BeginProgram>(block.statement) ||
+                        std::holds_alternative<EndProgram>(block.statement);
+  if (!begun_ || is_frame) check_frame(block, failed);
 }
 
 void Parser::check_frame(const Block& block, bool failed) {

@@ -76,7 +76,8 @@ bool WordReader::read_plain_words() {
     if (!plain_.contains(letter)) break;
     const char sign = at[1];
     double value = 0;
-    const char* end = scan_plain_number(at + (sign == '+' || sign == '-' ? 2 : 1), value);
+    const char* number = at + (sign == '+' || sign == '-' ? 2 : 1);
+    const char* end = scan_plain_number(number, in_.source_end(), value);
     if (end == nullptr) break;
     in_.add_word({.letter = letter, .value = sign == '-' ? -value : value});
     plain_.erase(letter);
