@@ -157,10 +157,12 @@ Outcome<std::optional<CsvChunk>> CsvChunks::next_until(const CsvPosition& end) {
   drop_taken();
   if (end.bytes <= position_.bytes) return std::nullopt;
   const std::uint64_t size = end.bytes - position_.bytes;
-  while (rest().size() < size) {
+  while (rest().size() <= size && !ended_) {
     if (const auto filled = fill(); !filled) return filled.error();
-    if (ended_) return std::nullopt;
   }
+  if (rest().size() < size) return std::nullopt;
+  const bool goes_on = rest().size() > size && !is_line_end(rest()[size]);
+  if (goes_on && !is_line_end(rest()[size - 1])) return std::nullopt;  // in the middle of a row
   CsvChunk chunk = take(static_cast<std::size_t>(size), 0, end.lines - position_.lines);
   if (chunk.end != end) return std::nullopt;
   return chunk;

@@ -190,6 +190,13 @@ TEST_CASE("what was sent before is cut in the same way again") {
   CHECK_FALSE(*changed.next_until(sent));
   auto cut_off = opened("a,b\n1,2\n");
   CHECK_FALSE(*cut_off.next_until(sent));
+
+  const CsvPosition open_row = cut(opened("a,b\n1,2"))[0].end;
+  for (const std::size_t piece : {1U, 100U}) {
+    CHECK(*opened("a,b\n1,2", {}, piece).next_until(open_row));
+    CHECK(*opened("a,b\n1,2\n3,4", {}, piece).next_until(open_row));
+    CHECK_FALSE(*opened("a,b\n1,25", {}, piece).next_until(open_row));
+  }
 }
 
 TEST_CASE("a line of a chunk is found in the input") {
