@@ -8,7 +8,7 @@ import { enterKey } from './key_dialog.js';
 import { queue } from './queue.js';
 import { currentRoute, lastOf, remember } from './route.js';
 
-const VIEWS = ['gauge', 'fit'];
+const VIEWS = ['gauge', 'fit', 'trend', 'programs', 'tables'];
 const main = document.getElementById('main');
 let leave = () => {};
 

@@ -15,6 +15,9 @@ function preferred() {
   return navigator.languages.map((tag) => tag.slice(0, 2)).find((tag) => tag in LANGUAGES) ?? 'en';
 }
 
+/** For dates: English is British, which writes the day first. */
+const locale = () => (language === 'en' ? 'en-GB' : language);
+
 export async function loadLanguage(wanted = preferred()) {
   words = { ...en, ...(await import(`./lang/${wanted}.js`)).default };
   language = wanted;
@@ -44,16 +47,17 @@ export function number(text) {
 export const signed = (text) => (/^[-0]*$|^-/.test(String(text)) ? number(text) : `+${number(text)}`);
 
 export function time(date) {
-  return date.toLocaleTimeString(language, { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
+  return date.toLocaleTimeString(locale(), { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
 }
 
 export function dateTime(date) {
-  return `${date.toLocaleDateString(language, { day: 'numeric', month: 'short', year: 'numeric' })}, ${time(date)}`;
+  return `${date.toLocaleDateString(locale(), { day: 'numeric', month: 'short', year: 'numeric' })}, ${time(date)}`;
 }
 
 /** Why a call failed, in the reader's language where the page knows the reason. */
 export function explain(problem) {
-  if (problem.status === undefined) return t('error.away');
+  if (problem instanceof TypeError || problem instanceof DOMException) return t('error.away');
+  if (!problem.status) return problem.message;
   const codes = [problem.errors[0]?.code, problem.code];
   const known = codes.find((code) => has(`error.${code}`));
   return known ? t(`error.${known}`) : problem.reason;

@@ -1,0 +1,48 @@
+/** The path of a run and its contacts in plan (X, Y) and from the side (X, Z), true to scale. */
+
+import { h, s } from '../dom.js';
+import { t } from '../i18n.js';
+import { outlines } from './workpiece_outline.js';
+
+const SIZE = 480;
+const MARGIN = 0.12;
+const KINDS = ['rapid', 'feed', 'arc', 'probe'];
+
+/** @param moves of the trace; @param features of the workpiece, drawn behind them */
+export function pathFigure(moves, features) {
+  const contacts = moves.map((move) => move.contact_mm).filter(Boolean);
+  const views = [['Y', 'programs.plan'], ['Z', 'programs.side']];
+  return h('div.paths',
+    views.map(([up, name]) => h('figure', h('figcaption', t(name)), view(up, moves, contacts, features, t(name)))),
+    h('ul.legend', KINDS.filter((kind) => moves.some((move) => move.kind === kind)).map((kind) =>
+      h('li', s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' }, s(`path.${kind}`, { d: 'M0 6H32' })), t(`programs.kind.${kind}`))),
+    contacts.length > 0 && h('li', s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' }, s('circle.contact', { cx: 16, cy: 6, r: 5 })), t('programs.kind.contact'))));
+}
+
+function view(up, moves, contacts, features, name) {
+  const behind = outlines(features, up);
+  const frame = frameOf(up, moves, contacts, behind);
+  const at = (point) => [SIZE * (point.X - frame.left) / frame.size, SIZE * (frame.top - point[up]) / frame.size].map((value) => value.toFixed(1)).join(' ');
+  const scale = SIZE / frame.size;
+  return s('svg.path-view', { viewBox: `0 0 ${SIZE} ${SIZE}`, role: 'img', 'aria-label': `${name}: ${t('programs.path_summary', { moves: moves.length, contacts: contacts.length })}` },
+    behind.map(({ kind, points, round }) => (round
+      ? s(`circle.${kind}`, { cx: at(round.centre).split(' ')[0], cy: at(round.centre).split(' ')[1], r: (round.radius * scale).toFixed(1) })
+      : s(`path.${kind}`, { d: `M${points.map(at).join('L')}Z` }))),
+    KINDS.map((kind) => s(`path.${kind}`, {
+      d: moves.filter((move) => move.kind === kind).map((move) => `M${at(move.start_mm)}L${at(move.end_mm)}`).join(''),
+    })),
+    contacts.map((contact) => s('circle.contact', { cx: at(contact).split(' ')[0], cy: at(contact).split(' ')[1], r: 5 })),
+    s('text', { x: SIZE - 6, y: SIZE - 8, 'text-anchor': 'end' }, `X → ${up} ↑`));
+}
+
+/** A square around what matters: the workpiece, the contacts and the probing moves, else every move. */
+function frameOf(up, moves, contacts, behind) {
+  const probed = moves.filter((move) => move.kind === 'probe').flatMap((move) => [move.start_mm, move.end_mm]);
+  const near = [...contacts, ...probed, ...behind.flatMap((outline) => outline.points)];
+  const points = near.length ? near : moves.flatMap((move) => [move.start_mm, move.end_mm]);
+  const bounds = (axis) => points.reduce(([low, high], point) => [Math.min(low, point[axis]), Math.max(high, point[axis])], [Infinity, -Infinity]);
+  const [left, right] = bounds('X');
+  const [bottom, top] = bounds(up);
+  const size = Math.max(right - left, top - bottom, 1) * (1 + 2 * MARGIN);
+  return { size, left: (left + right - size) / 2, top: (bottom + top + size) / 2 };
+}

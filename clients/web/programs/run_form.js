@@ -1,0 +1,115 @@
+/** A run: the setup it runs on, the parameters set before it, and how it goes. */
+
+import { request, url } from '../api.js';
+import { field, h } from '../dom.js';
+import { readEvents } from '../events.js';
+import { toJson } from '../exact.js';
+import { explain, t } from '../i18n.js';
+import { listSetups, onControl, readParameters, readSetup, writeSetup } from './disk.js';
+import { runReport, screenOf } from './run_report.js';
+
+export class RunForm {
+  /** @param onDiagnostics takes what a refused program has wrong; @param onRun the id of a run */
+  constructor({ onDiagnostics, onRun }) {
+    this.onDiagnostics = onDiagnostics;
+    this.onRun = onRun;
+    this.setup = h('select', { onchange: () => this.#loadSetup() });
+    this.setupText = h('textarea', { rows: 8, spellcheck: 'false', placeholder: '{"machine": {}, "workpiece": {"features": []}}' });
+    this.setupName = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false' });
+    this.parameters = h('textarea', { rows: 2, spellcheck: 'false', placeholder: 'Q1 = 25\nQS1 = H7' });
+    this.note = h('p.note', { role: 'alert' });
+    this.start = h('button.primary', { type: 'submit' }, t('programs.run'));
+    this.cancel = h('button', { type: 'button', hidden: true, onclick: () => this.#cancel() }, t('programs.cancel'));
+    this.report = h('div.report', { role: 'status' });
+    this.element = h('section.run', h('h2', t('programs.run_title')),
+      h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#run(); } },
+        h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters)),
+        h('details', h('summary', t('programs.setup_text')), field(t('programs.setup_json'), this.setupText),
+          h('div.line', field(t('programs.setup_name'), this.setupName),
+            h('button', { type: 'button', onclick: () => this.#storeSetup() }, t('programs.store_setup')))),
+        h('p.actions', this.start, this.cancel), this.note),
+      this.report);
+  }
+
+  /** @param chosen the name of a setup */
+  async show(program, chosen) {
+    this.program = program;
+    const names = await listSetups();
+    this.setup.replaceChildren(h('option', { value: '' }, t('programs.own_setup')), ...names.map((name) => h('option', { value: name }, name)));
+    this.setup.value = names.includes(chosen) ? chosen : '';
+    if (this.setup.value) await this.#loadSetup();
+  }
+
+  async showRun(id) {
+    const run = await (await request('GET', url(['runs', id]))).json();
+    this.report.replaceChildren(...await runReport(run));
+  }
+
+  async #loadSetup() {
+    this.setupName.value = this.setup.value;
+    await this.#try(async () => {
+      if (this.setup.value) this.setupText.value = JSON.stringify(JSON.parse(await readSetup(this.setup.value)), null, 1);
+    });
+  }
+
+  #storeSetup() {
+    return this.#try(async () => {
+      const name = this.setupName.value.trim();
+      await writeSetup(name, this.setupText.value);
+      await this.show(this.program, name);
+      this.note.textContent = t('programs.setup_stored', { name });
+    });
+  }
+
+  /** The order of a run. A setup that is chosen goes by its name, one that is typed by its text. */
+  #order() {
+    const parameters = toJson(readParameters(this.parameters.value, (text) => t('programs.parameter_malformed', { text })));
+    const setup = this.setup.value ? JSON.stringify(this.setup.value) : this.setupText.value.trim() || '{}';
+    if (!this.setup.value) JSON.parse(setup);
+    return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters}}`;
+  }
+
+  #run() {
+    return this.#try(async () => {
+      const response = await request('POST', url(['runs']), {
+        body: this.#order(), headers: { 'Content-Type': 'application/json', Prefer: 'respond-async' },
+      });
+      const run = await response.json();
+      this.running = run.id;
+      this.cancel.hidden = false;
+      this.start.disabled = true;
+      this.onRun(run.id, this.setup.value);
+      await this.#followRun(run.id);
+    });
+  }
+
+  async #followRun(id) {
+    const lines = [];
+    const state = h('p.headline', t('run.running'));
+    for await (const event of readEvents(url(['runs', id, 'events']))) {
+      const data = JSON.parse(event.data);
+      if (event.type === 'output') lines.push(data.line);
+      if (event.type === 'progress') state.textContent = t(`run.${data.status}`);
+      if (event.type === 'end') return this.report.replaceChildren(...await runReport(data));
+      this.report.replaceChildren(state, screenOf(lines));
+    }
+    return this.showRun(id);
+  }
+
+  #cancel() {
+    return this.#try(() => request('DELETE', url(['runs', this.running])));
+  }
+
+  async #try(action) {
+    this.note.textContent = '';
+    try {
+      await action();
+    } catch (problem) {
+      this.note.textContent = problem instanceof SyntaxError ? t('programs.setup_malformed', { reason: problem.message }) : explain(problem);
+      if (problem.diagnostics?.length) this.onDiagnostics(problem.diagnostics);
+    } finally {
+      this.cancel.hidden = true;
+      this.start.disabled = false;
+    }
+  }
+}

@@ -1,0 +1,60 @@
+/** What a run did: verdict, messages, screen, measurements, path, parameters, files. */
+
+import { getJson, url } from '../api.js';
+import { h } from '../dom.js';
+import { pathFigure } from '../figures/path_figure.js';
+import { explain, number, t } from '../i18n.js';
+import { verdictMark } from '../verdict.js';
+import { logFrame } from './log_frame.js';
+
+const fileName = (path) => path.slice(path.lastIndexOf('\\') + 1);
+
+export const screenOf = (lines) => h('pre.screen', { tabindex: 0, 'aria-label': t('programs.screen') }, lines.join('\n') || ' ');
+
+export async function runReport(run) {
+  const path = h('div');
+  drawPath(run, path);
+  return [
+    h('div.line', h('p.headline', t(`run.${run.status}`)), run.verdict && verdictMark(run.verdict),
+      h('p.aside', t('programs.ran', { blocks: run.blocks_executed, seconds: number((run.machining_time_s ?? 0).toFixed(1)) }))),
+    run.messages?.length > 0 && h('ul.messages', run.messages.map((message) => h('li',
+      h('strong', message.number ? `${message.number} ` : '', message.text),
+      h('span.aside', [fileName(message.program ?? ''), message.line && t('programs.line', { line: message.line })].filter(Boolean).join(' · '))))),
+    run.screen?.length > 0 && screenOf(run.screen),
+    run.measurements?.length > 0 && measured(run.measurements),
+    path,
+    files(run),
+    parameters(run.parameters ?? {}),
+  ].filter(Boolean);
+}
+
+function measured(measurements) {
+  const rows = measurements.flatMap(({ cycle, sizes }) => sizes.map((size) => h('tr', h('td', String(cycle)), h('td', size.characteristic),
+    h('td', number(size.nominal_mm)), h('td', number(size.measured_mm)), h('td', size.verdict ? verdictMark(size.verdict) : ''))));
+  const head = ['programs.cycle', 'field.characteristic', 'programs.nominal', 'programs.measured', 'trend.verdict'];
+  return h('table', h('caption', t('programs.measurements')),
+    h('thead', h('tr', head.map((name) => h('th', { scope: 'col' }, t(name))))), h('tbody', rows));
+}
+
+async function drawPath(run, place) {
+  try {
+    const [trace, order] = await Promise.all([
+      getJson(url(['runs', run.id, 'trace'])), getJson(url(['runs', run.id, 'request']))]);
+    if (trace.moves.length) place.replaceChildren(pathFigure(trace.moves, order.setup?.workpiece?.features ?? []));
+  } catch (problem) {
+    place.replaceChildren(h('p.aside', explain(problem)));
+  }
+}
+
+function files(run) {
+  const place = h('div');
+  const show = async (name) => place.replaceChildren(await logFrame(run.id, name).catch((problem) => h('p.note', explain(problem))));
+  return run.files?.length > 0 && h('section', h('h2', t('programs.written')),
+    h('p.actions', run.files.map(({ path }) => h('button', { type: 'button', onclick: () => show(fileName(path)) }, fileName(path)))), place);
+}
+
+function parameters(values) {
+  const names = Object.keys(values);
+  return names.length > 0 && h('details', h('summary', t('programs.parameters_end', { count: names.length })),
+    h('dl.parameters', names.map((name) => h('div', h('dt', name), h('dd', number(values[name]))))));
+}

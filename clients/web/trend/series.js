@@ -1,0 +1,39 @@
+/** What a trend shows: deviations in nm with their limits, the newest last. */
+
+import { nmFromUm } from '../exact.js';
+import { VERDICTS } from '../verdict.js';
+
+/** Values farther out than this many tolerances are drawn at the edge. */
+const FARTHEST = 3;
+
+export const pointOf = (record) => ({
+  record,
+  deviation: nmFromUm(record.deviation_um),
+  upper: nmFromUm(record.upper_deviation_um),
+  lower: nmFromUm(record.lower_deviation_um),
+});
+
+/** The range of the vertical axis. */
+export function rangeOf(points) {
+  const upper = Math.max(...points.map((point) => point.upper));
+  const lower = Math.min(...points.map((point) => point.lower));
+  const tolerance = Math.max(upper - lower, 1);
+  const near = points.map(({ deviation }) => Math.min(Math.max(deviation, lower - FARTHEST * tolerance), upper + FARTHEST * tolerance));
+  const high = Math.max(upper, ...near);
+  const low = Math.min(lower, ...near);
+  const margin = (high - low) / 12;
+  return { high: high + margin, low: low - margin, upper, lower };
+}
+
+export function countVerdicts(points) {
+  const counts = Object.fromEntries(VERDICTS.map((verdict) => [verdict, 0]));
+  for (const { record } of points) ++counts[record.verdict];
+  return counts;
+}
+
+/** Mean and standard deviation in nm; for the eye, so plain numbers do. */
+export function statisticsOf(points) {
+  const mean = points.reduce((sum, { deviation }) => sum + deviation, 0) / points.length;
+  const squares = points.reduce((sum, { deviation }) => sum + (deviation - mean) ** 2, 0);
+  return { mean, deviation: points.length > 1 ? Math.sqrt(squares / (points.length - 1)) : NaN };
+}

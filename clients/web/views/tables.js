@@ -1,0 +1,117 @@
+/** The tables: search by size and class, copy as CSV, the shop's own columns. */
+
+import { get, url } from '../api.js';
+import { copyText, field, h } from '../dom.js';
+import { nmFromMm, parseMeasured } from '../exact.js';
+import { explain, number, signed, t } from '../i18n.js';
+import { go } from '../route.js';
+import { classNames, isoClass, tableRows } from '../tables/catalogue.js';
+import { OwnColumns } from '../tables/own_columns.js';
+
+const USUAL = {
+  hole: ['F8', 'G7', 'H6', 'H7', 'H8', 'H9', 'H11', 'JS7', 'K7', 'N7', 'P7'],
+  shaft: ['f7', 'g6', 'h5', 'h6', 'h7', 'h9', 'h11', 'js6', 'k6', 'n6', 'p6', 's6'],
+};
+const MOST_CLASSES = 24;
+const FEATURES = ['hole', 'shaft'];
+
+export function mount(main, route) {
+  let feature = FEATURES.includes(route.path[0]) ? route.path[0] : 'hole';
+  let names = null;
+  let shown = { classes: [], sizes: [] };
+  const find = h('input', { id: 'find', type: 'search', autocomplete: 'off', spellcheck: 'false', oninput: () => refresh() });
+  find.value = route.options.find ?? '';
+  const note = h('p.note', { role: 'status' });
+  const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('view.tables') });
+  const features = h('div.switch', { role: 'group', 'aria-label': t('tables.feature') });
+  const own = new OwnColumns({ onChange: () => reload(), onShow: (name) => { find.value = name; refresh(); } });
+
+  main.replaceChildren(h('div.desk.tables', h('h1.unseen', t('view.tables')),
+    h('form.line', { onsubmit: (event) => event.preventDefault() }, features, field(t('tables.find'), find),
+      h('button', { type: 'button', onclick: copy }, t('tables.copy')),
+      h('a.button', { href: '/v1/tables/hole?format=csv', download: 'hole.csv', id: 'whole-table' }, t('tables.whole'))),
+    note, table, own.element));
+
+  /** Numbers in the search are sizes, the rest are classes or letters that classes begin with. */
+  function understand() {
+    const words = find.value.split(/[\s;]+/).filter(Boolean);
+    const sizes = words.map(parseMeasured).filter((text) => text !== null).map(nmFromMm);
+    const wanted = words.filter((word) => parseMeasured(word) === null);
+    const classes = wanted.flatMap((word) => {
+      const exact = names[feature].filter((name) => name.toLowerCase() === word.toLowerCase());
+      return exact.length ? exact : names[feature].filter((name) => isoClass(name)?.letters.toLowerCase() === word.toLowerCase());
+    });
+    const usual = USUAL[feature].filter((name) => names[feature].includes(name));
+    return { sizes, classes: wanted.length ? [...new Set(classes)].slice(0, MOST_CLASSES) : usual };
+  }
+
+  async function refresh() {
+    const wanted = understand();
+    shown = wanted;
+    go({ view: 'tables', path: [feature], options: { find: find.value.trim() } }, { refine: true });
+    if (!wanted.classes.length) {
+      note.textContent = t('tables.none');
+      return table.replaceChildren();
+    }
+    try {
+      const { rows } = await tableRows(feature, wanted.classes);
+      if (shown !== wanted) return null;
+      note.textContent = '';
+      const matching = rows.filter((row) => holds(row, wanted.sizes));
+      if (!matching.length) note.textContent = t('error.size.out_of_range');
+      return table.replaceChildren(grid(matching, wanted.classes));
+    } catch (problem) {
+      note.textContent = explain(problem);
+      return null;
+    }
+  }
+
+  const holds = (row, sizes) => !sizes.length || sizes.some((size) => nmFromMm(row.over_mm) < size && size <= nmFromMm(row.up_to_mm));
+
+  async function copy() {
+    try {
+      const csv = await (await get(url(['tables', feature], { classes: shown.classes.join(','), format: 'csv' }))).text();
+      const [head, ...rows] = csv.trim().split(/\r?\n/);
+      const kept = rows.filter((row) => {
+        const [over_mm, up_to_mm] = row.split(',');
+        return holds({ over_mm, up_to_mm }, shown.sizes);
+      });
+      await copyText([head, ...kept, ''].join('\n'));
+      note.textContent = t('tables.copied', { count: kept.length });
+    } catch (problem) {
+      note.textContent = explain(problem);
+    }
+  }
+
+  function drawFeatures() {
+    features.replaceChildren(...FEATURES.map((each) => h('button', {
+      type: 'button', 'aria-pressed': String(each === feature), onclick: () => { feature = each; reload(); },
+    }, t(`tables.${each}`))));
+    const whole = main.querySelector('#whole-table');
+    whole.href = url(['tables', feature], { format: 'csv' });
+    whole.download = `${feature}.csv`;
+  }
+
+  async function reload() {
+    drawFeatures();
+    try {
+      names = await classNames();
+      own.show(feature, names[feature].filter((name) => !isoClass(name)));
+      await refresh();
+    } catch (problem) {
+      note.textContent = explain(problem);
+    }
+  }
+
+  reload();
+}
+
+function grid(rows, classes) {
+  const cell = (limits) => limits && [h('span', signed(limits.upper_um)), h('span', signed(limits.lower_um))];
+  return h('table.grid',
+    h('caption', t('tables.caption')),
+    h('thead', h('tr', h('th', { scope: 'col' }, t('tables.over')), h('th', { scope: 'col' }, t('tables.up_to')),
+      classes.map((name) => h('th', { scope: 'col' }, name)))),
+    h('tbody', rows.map((row) => h('tr', h('th', { scope: 'row' }, number(row.over_mm)), h('td.up-to', number(row.up_to_mm)),
+      classes.map((name) => h('td', cell(row.limits[name])))))));
+}

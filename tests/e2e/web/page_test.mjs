@@ -1,0 +1,206 @@
+/** What holds for the whole page: its size, its policy, languages, keys, and that everybody can use it. */
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import http from 'node:http';
+import path from 'node:path';
+import { after, before, describe, it } from 'node:test';
+
+import { close, findings, launch, open, picture } from './support/browser.mjs';
+import { Daemon } from './support/daemon.mjs';
+
+const FOLDER = 'clients/web';
+const LARGEST_BYTES = 80000;
+const SMALLEST_TARGET = 44;
+const VIEWS = {
+  gauge: '#/gauge/25H7', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', programs: '#/programs/nc_prog/8255.h?setup=bore',
+  tables: '#/tables/hole?find=25+H',
+};
+
+const files = fs.readdirSync(FOLDER, { recursive: true, withFileTypes: true })
+  .filter((entry) => entry.isFile())
+  .map((entry) => path.relative(FOLDER, path.join(entry.parentPath ?? entry.path, entry.name)));
+
+/** An answer as it is sent, not unpacked. */
+const rawGet = (daemon, target, headers = {}) => new Promise((resolve, reject) => {
+  http.get(daemon.url + target, { headers }, (response) => {
+    const pieces = [];
+    response.on('data', (piece) => pieces.push(piece));
+    response.on('end', () => resolve({ status: response.statusCode, headers: response.headers, body: Buffer.concat(pieces) }));
+  }).on('error', reject);
+});
+
+describe('the page', () => {
+  let browser;
+  let daemon;
+
+  before(async () => {
+    browser = await launch();
+    daemon = await new Daemon().start();
+    for (const name of ['8255.h', '82551.h', '82552.a']) {
+      await daemon.send('PUT', `/v1/files/nc_prog/${name}`, fs.readFileSync(`clients/nc/8255/${name}`, 'utf8'), 'text/plain');
+    }
+    await daemon.send('PUT', '/v1/setups/bore', fs.readFileSync('clients/nc/8255/setups/hole-good.json', 'utf8'));
+    await daemon.send('POST', '/v1/measurements', ['24.999', '25.0131', '25.02', '25.0215'].map((text) => ({ designation: '25 H7', measured_mm: text })));
+  });
+  after(async () => {
+    await browser.close();
+    await daemon.cleanup();
+  });
+
+  /** A view with something in it. */
+  async function openView(view, options) {
+    const page = await open(browser, daemon, VIEWS[view], options);
+    if (view === 'gauge') {
+      await page.waitForSelector('.echo .figures');
+      await page.keyboard.type('25.0131\n');
+      await page.waitForSelector('.recent .mark-of');
+    }
+    if (view === 'fit') await page.waitForSelector('.class-zones :checked');
+    if (view === 'trend') await page.waitForSelector('.point');
+    if (view === 'tables') await page.waitForSelector('.grid');
+    if (view === 'programs') {
+      await page.waitForFunction(() => document.querySelector('.run select')?.value === 'bore');
+      await page.click('.run button[type="submit"]');
+      await page.waitForSelector('.path-view');
+    }
+    return page;
+  }
+
+  it('is under 80 kB, gzipped', async (test) => {
+    let bytes = 0;
+    for (const name of files) {
+      const answer = await rawGet(daemon, `/web/${name}`, { 'Accept-Encoding': 'gzip' });
+      assert.equal(answer.headers['content-encoding'], 'gzip', name);
+      bytes += answer.body.length;
+    }
+    test.diagnostic(`${files.length} files, ${bytes} bytes gzipped`);
+    assert.ok(bytes < LARGEST_BYTES, `${bytes} bytes`);
+  });
+
+  it('is served as it is in the tree, with its policy and its tag', async () => {
+    for (const name of files) {
+      const plain = await rawGet(daemon, `/web/${name}`);
+      assert.deepEqual(plain.body, fs.readFileSync(path.join(FOLDER, name)), name);
+      assert.match(plain.headers['content-security-policy'], /^default-src 'self'/);
+      assert.equal(plain.headers['x-content-type-options'], 'nosniff');
+      const again = await rawGet(daemon, `/web/${name}`, { 'If-None-Match': plain.headers.etag });
+      assert.equal(again.status, 304);
+    }
+    assert.deepEqual((await rawGet(daemon, '/')).body, fs.readFileSync(path.join(FOLDER, 'index.html')));
+    assert.equal((await rawGet(daemon, '/web/none.js')).status, 404);
+    assert.equal((await rawGet(daemon, '/', { 'Accept-Encoding': 'gzip;q=0' })).headers['content-encoding'], undefined);
+  });
+
+  it('has every text in every language, with the same places', async () => {
+    const texts = {};
+    for (const code of ['en', 'de', 'nl', 'it']) texts[code] = (await import(path.resolve(FOLDER, `lang/${code}.js`))).default;
+    const places = (text) => (text.match(/\{\w+\}/g) ?? []).sort();
+    for (const [code, own] of Object.entries(texts)) {
+      assert.deepEqual(Object.keys(own), Object.keys(texts.en), code);
+      for (const name of Object.keys(own)) assert.deepEqual(places(own[name]), places(texts.en[name]), `${code} ${name}`);
+    }
+    const used = files.filter((name) => name.endsWith('.js')).flatMap((name) =>
+      [...fs.readFileSync(path.join(FOLDER, name), 'utf8').matchAll(/\bt\('([^']+)'/g)].map((match) => match[1]));
+    assert.ok(used.length > 100);
+    assert.deepEqual(used.filter((name) => !(name in texts.en)), []);
+  });
+
+  for (const view of Object.keys(VIEWS)) {
+    for (const colorScheme of ['light', 'dark']) {
+      it(`${view}, ${colorScheme}: axe-core finds nothing serious`, async () => {
+        const page = await openView(view, { colorScheme });
+        assert.deepEqual(await findings(page), []);
+        await picture(page, `${view}-${colorScheme}`, { fullPage: true });
+        if (colorScheme === 'light') {
+          const small = await smallTargets(page);
+          assert.deepEqual(small, []);
+          assert.deepEqual(await unreached(page), []);
+          await page.emulateMedia({ media: 'print' });
+          assert.equal(await page.isVisible('#views'), false);
+          await picture(page, `${view}-print`, { fullPage: true });
+        }
+        await close(page);
+      });
+    }
+  }
+
+  /** What can be used but is smaller than a finger. */
+  const smallTargets = (page) => page.evaluate((smallest) => [...document.querySelectorAll('a, button, input, select, summary, textarea')]
+    .map((element) => element.closest('label:has([type="radio"])') ?? element)
+    .filter((element) => !element.matches('.unseen, .skip') && element.checkVisibility())
+    .map((element) => ({ element, box: element.getBoundingClientRect() }))
+    .filter(({ box }) => box.height < smallest || box.width < smallest)
+    .map(({ element, box }) => `${element.outerHTML.slice(0, 90)} ${box.width} x ${box.height}`), SMALLEST_TARGET);
+
+  /** What the tabulator key does not reach. */
+  async function unreached(page) {
+    await page.evaluate(() => {
+      document.activeElement.blur();
+      globalThis.reached = new Set();
+      document.addEventListener('focusin', ({ target }) => globalThis.reached.add(target));
+    });
+    const count = await page.$$eval('a, button, input, select, summary, textarea', (elements) => elements.length);
+    for (let i = 0; i < count + 10; ++i) await page.keyboard.press('Tab');
+    return page.evaluate(() => [...document.querySelectorAll('a, button, input, select, summary, textarea')]
+      .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0)
+      // Of a group of choices the chosen one is a stop; the arrows reach the others.
+      .filter((element) => element.type !== 'radio' || element.checked)
+      .filter((element) => !globalThis.reached.has(element)).map((element) => element.outerHTML.slice(0, 90)));
+  }
+
+  it('speaks the language of the browser, and another by the switch', async () => {
+    for (const [locale, word] of [['de-DE', 'Gut'], ['nl-NL', 'Goed'], ['it-IT', 'Buono'], ['fr-FR', 'Good']]) {
+      const page = await openView('gauge', { locale });
+      assert.equal(await page.textContent('.verdict .word'), word);
+      assert.equal(await page.getAttribute('html', 'lang'), locale === 'fr-FR' ? 'en' : locale.slice(0, 2));
+      if (locale === 'de-DE') {
+        assert.equal(await page.textContent('.verdict .measured'), '25,0131 mm');
+        await page.selectOption('#language', 'it');
+        await page.waitForFunction(() => document.documentElement.lang === 'it');
+        await page.reload();
+        await page.waitForFunction(() => document.querySelector('#views [aria-current]')?.textContent === 'Misura');
+        assert.equal(await page.inputValue('#designation'), '25H7');
+      }
+      await close(page);
+    }
+  });
+
+  it('tells verdicts and the state of the service to those who listen', async () => {
+    const page = await openView('gauge');
+    assert.equal(await page.getAttribute('.verdict', 'role'), 'status');
+    assert.equal(await page.getAttribute('#link', 'role'), 'status');
+    assert.equal(await page.getAttribute('#entry-note', 'role'), 'alert');
+    await close(page);
+  });
+
+  it('asks for a key where the service wants one, and uses it for events too', async () => {
+    const locked = await new Daemon('--auth', 'read-open').start();
+    try {
+      const key = locked.command('key', 'create', '--name', 'station', '--role', 'operator');
+      const page = await open(browser, locked, '#/gauge/25H7');
+      await page.waitForSelector('.echo .figures');
+      await page.keyboard.type('25.0131\n');
+      await page.fill('dialog input', 'fg_wrong');
+      await page.click('dialog .primary');
+      await page.waitForFunction(() => document.querySelector('dialog input')?.value === '');
+      await picture(page, 'key');
+      await page.fill('dialog input', key);
+      await page.press('dialog input', 'Enter');
+      await page.waitForSelector('.verdict[data-verdict="good"]');
+      await page.click('#views a[href^="#/trend"]');
+      await page.waitForFunction(() => document.querySelectorAll('.point').length === 1);
+      const stored = await page.evaluate(() => [Object.values(localStorage), Object.values(sessionStorage)].map((values) => values.join()));
+      assert.ok(!stored[0].includes(key) && stored[1].includes(key));
+      const answer = await fetch(`${locked.url}/v1/measurements`, {
+        method: 'POST', body: '{"designation":"25 H7","measured_mm":25.02}',
+        headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` },
+      });
+      assert.equal(answer.status, 201);
+      await page.waitForFunction(() => document.querySelectorAll('.point').length === 2);
+      await close(page);
+    } finally {
+      await locked.cleanup();
+    }
+  });
+});

@@ -1,0 +1,198 @@
+/** Fit, trend, programs and tables. */
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { after, afterEach, before, describe, it } from 'node:test';
+
+import { close, launch, open, openIn, picture } from './support/browser.mjs';
+import { Daemon } from './support/daemon.mjs';
+
+const EXAMPLE = 'clients/nc/8255';
+const PROGRAM = 'nc_prog/8255/8255.h';
+const LOGGING = `BEGIN PGM LOG MM
+TOOL CALL 30 Z
+TCH PROBE 444 PROBING IN 3-D ~
+    Q263=+50 ~
+    Q264=+40 ~
+    Q294=+0 ~
+    Q581=+0 ~
+    Q582=+0 ~
+    Q583=+1 ~
+    Q320=+0 ~
+    Q260=+50 ~
+    QS400="0.1-0.1" ~
+    Q309=+0
+END PGM LOG MM
+`;
+const PLATE = { workpiece: { features: [{ type: 'block', min_mm: [0, 0, -40], max_mm: [100, 80, 0.02] }] } };
+
+let browser;
+let daemon;
+let page;
+
+before(async () => {
+  browser = await launch();
+  daemon = await new Daemon().start();
+});
+after(async () => {
+  await browser.close();
+  await daemon.cleanup();
+});
+afterEach(() => close(page));
+
+const hash = () => decodeURIComponent(new URL(page.url()).hash);
+
+describe('the fit', () => {
+  it('shows the zones, the clearances and a measured pair, and the URL is the state', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6?hole=25.013&shaft=24,985');
+    await page.waitForSelector('.limits .mark-of');
+    assert.equal(await page.textContent('.fit .headline'), 'Clearance fit');
+    assert.deepEqual(await page.$$eval('.zones .um', (texts) => texts.map((text) => text.textContent)), ['+21', '0', '−7', '−20']);
+    assert.deepEqual(await page.$$eval('.fit dd', (values) => values.map((value) => value.textContent)), ['41 µm', '7 µm', '28 µm']);
+    assert.equal((await page.$$('.zones .measured')).length, 2);
+    await page.click('.preferred button:has-text("H7/s6")');
+    await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Interference fit');
+    assert.equal(hash(), '#/fit/25H7/s6?hole=25.013&shaft=24,985');
+    await page.goBack();
+    await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Clearance fit');
+  });
+
+  it('draws a zone where the deviations say, to scale', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/k6');
+    await page.waitForSelector('.zones .shaft rect');
+    const [hole, shaft, zero] = await page.$$eval('.zones .hole rect, .zones .shaft rect, .zones .zero',
+      (shapes) => shapes.map((shape) => shape.getBBox()).map(({ y, height }) => ({ y, height })));
+    assert.ok(Math.abs(hole.y + hole.height - zero.y) < 0.2); // H begins at zero
+    assert.ok(Math.abs(shaft.height / hole.height - 13 / 21) < 0.01);
+    assert.ok(Math.abs((zero.y - shaft.y - shaft.height) / hole.height - 2 / 21) < 0.01);
+  });
+
+  it('offers every class of the size, also by the arrow keys', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.class-zones :checked');
+    await page.focus('.class-map:nth-child(2) input:checked');
+    await page.keyboard.press('ArrowRight');
+    await page.waitForFunction(() => decodeURIComponent(location.hash) === '#/fit/25H7/h6');
+    await page.waitForFunction(() => document.activeElement.value === 'h6');
+    await page.fill('#fit', '132,5 P7/h6');
+    await page.press('#fit', 'Enter');
+    await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Interference fit');
+    assert.equal(hash(), '#/fit/132.5P7/h6');
+    await page.fill('#fit', '25 H7');
+    await page.press('#fit', 'Enter');
+    assert.notEqual(await page.textContent('.fit .note'), '');
+  });
+});
+
+describe('the trend', () => {
+  it('shows the last values and those that come', async () => {
+    const values = Array.from({ length: 30 }, (_, i) => (25.001 + i / 1000).toFixed(3));
+    await daemon.send('POST', '/v1/measurements', values.map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'bore-A' })));
+    await daemon.send('POST', '/v1/measurements', { designation: '10 f7', measured_mm: '9.98' });
+    page = await open(browser, daemon, '#/trend?characteristic=bore-A&count=50');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 30);
+    const counts = () => page.$$eval('.tiles dd', (tiles) => tiles.slice(0, 3).map((tile) => Number(tile.textContent)));
+    assert.deepEqual(await counts(), [21, 0, 9]);
+    await daemon.send('POST', '/v1/measurements', [
+      { designation: '25 H7', measured_mm: '24.999', characteristic: 'bore-A' },
+      { designation: '25 H7', measured_mm: '24.998', characteristic: 'bore-B' }]);
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 31);
+    assert.deepEqual(await counts(), [21, 1, 9]);
+    const [corrected] = (await daemon.json('/v1/measurements?characteristic=bore-A&verdict=rework')).measurements;
+    await daemon.send('POST', `/v1/measurements/${corrected.id}/corrections`, { measured_mm: '25.01', reason: 'test' });
+    await page.waitForFunction(() => document.querySelector('.tiles dd').textContent === '22');
+    assert.deepEqual(await counts(), [22, 0, 9]);
+    await picture(page, 'trend', { fullPage: true });
+  });
+});
+
+describe('the programs', () => {
+  before(() => daemon.send('PUT', '/v1/setups/hole-good', fs.readFileSync(`${EXAMPLE}/setups/hole-good.json`, 'utf8')));
+
+  it('are uploaded, checked and run, and show what they did', async () => {
+    page = await open(browser, daemon, '#/programs');
+    await page.waitForSelector('.files .aside');
+    await page.fill('.upload input[type="text"]', 'nc_prog/8255');
+    await page.setInputFiles('.upload input[type="file"]', ['8255.h', '82551.h', '82552.a'].map((name) => `${EXAMPLE}/${name}`));
+    await page.waitForFunction(() => document.querySelectorAll('.source li').length > 10);
+    const stored = await (await fetch(`${daemon.url}/v1/files/${PROGRAM}`)).text();
+    assert.equal(stored, fs.readFileSync(`${EXAMPLE}/8255.h`, 'utf8'));
+    await page.click('.program .actions button');
+    await page.waitForFunction(() => document.querySelector('.program .note').textContent !== '');
+    assert.equal((await page.$$('.finding')).length, 0);
+    await page.selectOption('.run select', 'hole-good');
+    await page.fill('.run .pair textarea', 'Q1 = 25\nQS1 = H7');
+    await page.click('.run button[type="submit"]');
+    await page.waitForSelector('.path-view .contact');
+    assert.match(await page.textContent('.screen'), /STATUS OF THE FIT: GOOD/);
+    assert.equal(await page.textContent('.report .mark-of'), 'Good');
+    assert.equal((await page.$$('.path-view:first-of-type .contact')).length, 8); // four touches, in two views
+    assert.match(hash(), /run=r\d+/);
+    const again = await openIn(page.context(), daemon, new URL(page.url()).hash);
+    await again.waitForSelector('.path-view .contact');
+    await picture(again, 'programs', { fullPage: true });
+    await again.close();
+  });
+
+  it('carry what a check finds in their text', async () => {
+    await daemon.send('PUT', '/v1/files/nc_prog/bad.h', 'BEGIN PGM BAD MM\n1 CALL LBL 7\n2 FOO\nEND PGM BAD MM\n', 'text/plain');
+    page = await open(browser, daemon, '#/programs/nc_prog/bad.h');
+    await page.waitForFunction(() => document.querySelectorAll('.source li').length === 4);
+    await page.click('.run button[type="submit"]'); // a run is refused for the same reasons
+    await page.waitForSelector('.finding');
+    const found = () => page.$$eval('.source li.error', (lines) => lines.map((line) => line.querySelector('code').textContent));
+    assert.deepEqual(await found(), ['1 CALL LBL 7', '2 FOO']);
+    await page.click('.program .actions button');
+    await page.waitForFunction(() => /2/.test(document.querySelector('.program .note').textContent));
+    assert.deepEqual(await found(), ['1 CALL LBL 7', '2 FOO']);
+    assert.equal((await page.textContent('.source li:nth-child(3) .caret')).indexOf('^'), 2);
+  });
+
+  it('show the log of cycle 444 in a frame that may do nothing', async () => {
+    await daemon.send('PUT', '/v1/files/nc_prog/log.h', LOGGING, 'text/plain');
+    await daemon.send('PUT', '/v1/setups/plate', PLATE);
+    page = await open(browser, daemon, '#/programs/nc_prog/log.h?setup=plate');
+    await page.waitForFunction(() => document.querySelector('.run select')?.value === 'plate');
+    await page.click('.run button[type="submit"]');
+    await page.click('.report .actions button');
+    const frame = await (await page.waitForSelector('.report iframe')).contentFrame();
+    await frame.waitForSelector('table');
+    assert.equal(await page.getAttribute('.report iframe', 'sandbox'), '');
+    assert.match(await page.getAttribute('.report iframe', 'src'), /^\/v1\/runs\/r\d+\/files\/TCHPR444/i);
+    await picture(page, 'programs-444', { fullPage: true });
+  });
+});
+
+describe('the tables', () => {
+  it('are searched by size and class, and copied as CSV', async () => {
+    page = await open(browser, daemon, '#/tables/hole?find=25+H7', { permissions: ['clipboard-read', 'clipboard-write'] });
+    await page.waitForSelector('.grid td');
+    assert.deepEqual(await page.$$eval('.grid tbody tr', (rows) => rows.map((row) => row.textContent)), ['2430+210']);
+    await page.click('text=Copy as CSV');
+    await page.waitForFunction(() => document.querySelector('.tables .note').textContent !== '');
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), 'over_mm,up_to_mm,H7_upper_um,H7_lower_um\n24,30,21,0\n');
+    await page.fill('#find', 'js');
+    await page.waitForFunction(() => document.querySelectorAll('.grid thead th').length === 22);
+    assert.equal((await page.$$('.grid tbody tr')).length, 41);
+    await page.fill('#find', 'Q9');
+    await page.waitForFunction(() => !document.querySelector('.grid'));
+  });
+
+  it('take columns of the shop’s own and give them back', async () => {
+    page = await open(browser, daemon, '#/tables/shaft');
+    await page.waitForSelector('.own-list');
+    await page.click('.own summary');
+    await page.fill('.own input', 'press1');
+    await page.fill('.own textarea', '18; 30; -3,5; -10\n30; 50; oops; 1');
+    await page.click('.own button[type="submit"]');
+    await page.waitForFunction(() => /oops/.test(document.querySelector('.own .note').textContent));
+    await page.fill('.own textarea', '18; 30; -3,5; -10\n30\t50\t-4\t-12');
+    await page.click('.own button[type="submit"]');
+    await page.waitForSelector('.own-list >> text=press1');
+    const limits = await daemon.json('/v1/limits/25press1');
+    assert.deepEqual([limits.upper_deviation_um, limits.lower_deviation_um, limits.basis], [-3.5, -10, 'custom']);
+    await page.click('.own-list [aria-label]');
+    await page.waitForFunction(() => !/press1/.test(document.querySelector('.own-list').textContent));
+    assert.equal((await fetch(`${daemon.url}/v1/limits/25press1`)).status, 404);
+  });
+});
