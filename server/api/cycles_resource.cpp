@@ -85,7 +85,8 @@ void write_cycle(JsonWriter& json, const CycleDescriptor& cycle) {
         .member("unit", symbol(result.unit))
         .end_object();
   }
-  json.end_array().member("simulated", cycle.simulated).end_object();
+  json.end_array().member("simulated", cycle.simulated);
+  json.member("not_simulated", cycle.not_simulated).end_object();
 }
 
 http::Response list_cycles() {

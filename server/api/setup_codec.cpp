@@ -209,6 +209,8 @@ machine::ToolSetup read_tool(SetupReader& reader) {
   reader.mm("radius_tolerance_mm", row.r_tolerance);
   reader.mm("length_breakage_mm", row.l_breakage);
   reader.mm("radius_breakage_mm", row.r_breakage);
+  reader.mm("length_offset_mm", row.l_offset);
+  reader.mm("radius_offset_mm", row.r_offset);
   reader.integer("teeth", row.teeth, 0, 1000);
   reader.boolean("locked", row.locked);
   reader.integer("probe", row.probe, 0, kHighestNumber);
@@ -256,6 +258,37 @@ void read_start(SetupReader& reader, machine::AxisWords& start) {
   }
 }
 
+void read_tool_touch_probe(SetupReader& reader, machine::ToolTouchProbeSetup& tt) {
+  reader.mm("center_mm", tt.known.centre);
+  reader.mm("radius_mm", tt.known.radius);
+  if (const auto shape = reader.fields().optional_text("shape")) {
+    if (*shape != "disc" && *shape != "cube") {
+      reader.fields().report(ErrorCode::FieldInvalid, "shape", "shape takes \"disc\" or \"cube\"");
+    }
+    tt.shape = *shape == "cube" ? machine::ContactPlate::Cube : machine::ContactPlate::Disc;
+  }
+  reader.mm("height_mm", tt.height);
+  if (reader.fields().has("actual_center_mm")) {
+    reader.mm("actual_center_mm", tt.actual_centre.emplace(tt.known.centre));
+  }
+  reader.mm("actual_radius_mm", tt.actual_radius);
+  reader.um("repeatability_um", tt.repeatability_um);
+}
+
+/// The members that a boss, a stud and a ring have in common.
+template <class Cylinder>
+void read_cylinder(SetupReader& reader, Cylinder& cylinder) {
+  reader.required_mm("center_mm", cylinder.centre);
+  reader.mm("top_mm", cylinder.top);
+  reader.mm("height_mm", cylinder.height);
+  reader.required_mm("diameter_mm", cylinder.diameter);
+}
+
+void read_calibration_ring(SetupReader& reader, machine::CalibrationRing& ring) {
+  read_cylinder(reader, ring);
+  reader.mm("outer_diameter_mm", ring.outer_diameter);
+}
+
 machine::MachineSetup read_machine(SetupReader& reader) {
   machine::MachineSetup machine;
   reader.object("axes", [&machine](SetupReader& axes) {
@@ -269,9 +302,13 @@ machine::MachineSetup read_machine(SetupReader& reader) {
   reader.number("rapid_mm_min", machine.rapid_mm_min);
   reader.array("tools", machine.tools, read_tool);
   reader.array("probes", machine.probes, read_probe);
-  reader.object("tt", [&machine](SetupReader& tt) {
-    tt.mm("center_mm", machine.tt.centre);
-    tt.mm("radius_mm", machine.tt.radius);
+  reader.object("tt", [&machine](SetupReader& tt) { read_tool_touch_probe(tt, machine.tt); });
+  reader.object("calibration_ring", [&machine](SetupReader& ring) {
+    read_calibration_ring(ring, machine.calibration_ring.emplace());
+  });
+  reader.object("calibration_stud", [&machine](SetupReader& stud) {
+    machine.calibration_stud = machine::Boss{.height = 20};
+    read_cylinder(stud, *machine.calibration_stud);
   });
   reader.object("calibration_sphere", [&machine](SetupReader& fields) {
     machine::CalibrationSphere& sphere = machine.calibration_sphere.emplace();
@@ -309,10 +346,7 @@ machine::Feature read_boss(SetupReader& reader) {
   machine::Boss boss;
   boss.top = 10;
   boss.height = 10;
-  reader.required_mm("center_mm", boss.centre);
-  reader.mm("top_mm", boss.top);
-  reader.mm("height_mm", boss.height);
-  reader.required_mm("diameter_mm", boss.diameter);
+  read_cylinder(reader, boss);
   return boss;
 }
 

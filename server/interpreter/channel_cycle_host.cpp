@@ -33,6 +33,15 @@ probing::CycleResult<void> ChannelCycleHost::write_log(std::string_view name,
   return reported(channel_.files.write(channel_.linked().path().beside(name), std::string(text)));
 }
 
+void ChannelCycleHost::stop(std::string_view reason) {
+  channel_.machine().stop(reason);
+  if (channel_.options.on_stop == OnStop::End) {
+    channel_.stop_after_block = true;
+  } else {
+    keep(channel_.log.report(MessageKind::Stop, 0, std::string(reason), channel_.place()));
+  }
+}
+
 void ChannelCycleHost::show_and_stop(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
@@ -40,13 +49,7 @@ void ChannelCycleHost::show_and_stop(std::string_view text) {
     if (end == std::string_view::npos) break;
     text.remove_prefix(end + 1);
   }
-  constexpr std::string_view kReason = "measuring log shown on the screen";
-  channel_.machine().stop(kReason);
-  if (channel_.options.on_stop == OnStop::End) {
-    channel_.stop_after_block = true;
-  } else {
-    keep(channel_.log.report(MessageKind::Stop, 0, std::string(kReason), channel_.place()));
-  }
+  stop("measuring log shown on the screen");
 }
 
 void ChannelCycleHost::record(const probing::MeasuringRecord& record) {

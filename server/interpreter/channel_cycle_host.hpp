@@ -19,6 +19,7 @@ class ChannelCycleHost final : public probing::CycleHost {
   Timestamp now() const override { return channel_.now(); }
   probing::CycleResult<void> append_log(std::string_view name, std::string_view text) override;
   probing::CycleResult<void> write_log(std::string_view name, std::string_view text) override;
+  void stop(std::string_view reason) override;
   void show_and_stop(std::string_view text) override;
   void record(const probing::MeasuringRecord& record) override;
   void touched(const machine::ContactPoint& contact) override;

@@ -190,6 +190,12 @@ Answer tcpm_data(const MachineState& state, const Address& address) {
 }
 
 Answer probe_data(const MachineState& state, const Address& address) {
+  if (address.nr == 20) {
+    const auto axis = axis_of(address);
+    return axis && !machine::is_rotary(*axis) ? Answer(state.tt.centre[machine::index(*axis)])
+                                              : std::nullopt;
+  }
+  if (address.nr == 21) return state.tt.radius;
   const auto probe = state.probe_system();
   if (!probe) return std::nullopt;
   const machine::ProbeRow& row = probe->data;

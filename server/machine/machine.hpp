@@ -113,12 +113,13 @@ class Machine {
   /// @faults ToolUnknown, ToolLocked, ToolAxisMissing (no axis now or before).
   virtual MachineResult<void> call_tool(const ToolCall& call) = 0;
 
-  /// Writes a row of tool.t, tchprobe.tp or preset.pr, new or replaced. A tool or probe in the
-  /// spindle changes at once (the nose stays), the active preset with the next activation.
-  /// @faults PresetLocked, ValueInvalid.
+  /// Writes a row of tool.t, tchprobe.tp or preset.pr, new or replaced, or the data of the TT. A
+  /// tool or probe in the spindle changes at once (the nose stays), the active preset with the next
+  /// activation. @faults PresetLocked, ValueInvalid.
   virtual MachineResult<void> write_tool(const Tool& tool) = 0;
   virtual MachineResult<void> write_probe(const ProbeRow& row) = 0;
   virtual MachineResult<void> write_preset(const Preset& preset) = 0;
+  virtual MachineResult<void> write_tool_touch_probe(const ToolTouchProbe& tt) = 0;
 
   /// Cycle 247: the row becomes active and datum shift, mirror, rotation and scaling are reset.
   /// @faults PresetUnknown.
@@ -130,7 +131,7 @@ class Machine {
   /// @faults ValueInvalid (not finite, or a scaling factor of 0).
   virtual MachineResult<void> set_frames(const Frames& frames) = 0;
 
-  /// Spindle, coolant, feed, TCPM and operating mode. @faults ValueInvalid.
+  /// Spindle, its orientation, coolant, feed, TCPM and operating mode. @faults ValueInvalid.
   virtual MachineResult<void> set_modes(const Modes& modes) = 0;
 
   /// Replaces the control's kinematic model (cycles 450 to 452). @faults AxisMissing, ValueInvalid.

@@ -13,6 +13,7 @@
 #include "machine/preset_table.hpp"
 #include "machine/probe_table.hpp"
 #include "machine/tool_table.hpp"
+#include "machine/tool_touch_probe.hpp"
 
 namespace fitgauge::machine {
 
@@ -52,13 +53,40 @@ struct ProbeSetup {
   ProbeRow row;
   double repeatability_um = 0;  ///< standard deviation of a contact along the probing direction
   double pretravel_um = 0;      ///< travel from touching to the trigger
-  std::array<double, 2> centre_offset{};  ///< center_offset_mm: real ball centre to spindle axis
+  /// center_offset_mm: spindle axis to the real ball centre, main and secondary axis, with the
+  /// spindle at 0 degrees.
+  std::array<double, 2> centre_offset{};
 };
 
-/// The tool touch probe: a disc whose upper side is at `centre.z`, in machine coordinates.
-struct ToolTouchProbe {
-  Vec3 centre{300, 0, 50};
-  double radius = 20;
+enum class ContactPlate : std::uint8_t { Disc, Cube };
+
+/// The tool touch probe as the control's parameters have it, together with the real one.
+struct ToolTouchProbeSetup {
+  ToolTouchProbe known;                     ///< center_mm, radius_mm
+  ContactPlate shape = ContactPlate::Disc;  ///< the edges of a cube lie along X and Y
+  double height = 10;                       ///< of the contact plate, in mm
+  std::optional<Vec3> actual_centre;        ///< actual_center_mm; default: as known
+  std::optional<double> actual_radius;      ///< actual_radius_mm; default: as known
+  double repeatability_um = 0;  ///< standard deviation of a contact along the probing direction
+};
+
+/// Material: an upright cylinder down from `top`.
+struct Boss {
+  std::array<double, 2> centre{};
+  double top = 0;
+  double height = 0;
+  double diameter = 0;
+};
+
+/// A ring gauge: a cylinder with a hole through it.
+struct CalibrationRing {
+  std::array<double, 2> centre{};
+  double top = 0;
+  double height = 20;
+  double diameter = 50;                  ///< of the hole
+  std::optional<double> outer_diameter;  ///< default: 40 mm more
+
+  double outside() const { return outer_diameter.value_or(diameter + 40); }
 };
 
 /// The calibration sphere that is clamped to the table for cycles 451 to 453 and 460: the touch
@@ -78,7 +106,10 @@ struct MachineSetup {
   double rapid_mm_min = 15000;
   std::vector<ToolSetup> tools{default_probe_tool()};
   std::vector<ProbeSetup> probes{ProbeSetup{}};
-  ToolTouchProbe tt;
+  ToolTouchProbeSetup tt;
+  /// What the touch probe is calibrated against; fixed to the table.
+  std::optional<CalibrationRing> calibration_ring;
+  std::optional<Boss> calibration_stud;
   std::optional<CalibrationSphere> calibration_sphere;
   std::vector<Preset> presets{default_preset()};
   int active_preset = 1;
@@ -105,14 +136,6 @@ struct Bore {
   double lobe_phase_deg = 0;
   double taper_um_per_mm = 0;        ///< change of the diameter per mm of depth (ISO 3040)
   std::array<double, 2> tilt_deg{};  ///< around X, then around Y, at the centre of the opening
-};
-
-/// Material: an upright cylinder down from `top`.
-struct Boss {
-  std::array<double, 2> centre{};
-  double top = 0;
-  double height = 0;
-  double diameter = 0;
 };
 
 /// Material everywhere behind the plane.

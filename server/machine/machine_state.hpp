@@ -10,6 +10,7 @@
 #include "machine/preset_table.hpp"
 #include "machine/probe_table.hpp"
 #include "machine/tool_table.hpp"
+#include "machine/tool_touch_probe.hpp"
 
 namespace fitgauge::machine {
 
@@ -26,6 +27,7 @@ enum class OperatingMode : std::uint8_t { Mill, Turn };
 struct Modes {
   SpindleState spindle = SpindleState::Undefined;
   double spindle_rpm = 0;
+  double spindle_deg = 0;  ///< angle of the oriented spindle, counter-clockwise seen from above
   bool coolant = false;    ///< M8
   double feed_mm_min = 0;  ///< the modal feed F, 0 when none is programmed
   bool tcpm = false;       ///< M128, FUNCTION TCPM: the tip follows the workpiece
@@ -65,6 +67,7 @@ class MachineState {
   Kinematics kinematics;  ///< the control's model, which cycle 451 corrects
   ToolTable tools;
   ProbeTable probes;
+  ToolTouchProbe tt;
   PresetTable presets;
   std::array<std::optional<AxisRange>, kAxes> ranges;  ///< an axis without one does not exist
   int active_preset = 0;

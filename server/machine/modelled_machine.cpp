@@ -32,6 +32,7 @@ ModelledMachine::ModelledMachine(const MachineSetup& setup) {
   state_.kinematics = Kinematics(std::move(rotary));
   for (const ToolSetup& tool : setup.tools) state_.tools.write(tool.row);
   for (const ProbeSetup& probe : setup.probes) state_.probes.write(probe.row);
+  state_.tt = setup.tt.known;
   for (const Preset& preset : setup.presets) state_.presets.write(preset);
   state_.active_preset = setup.active_preset;
   if (const Preset* preset = state_.presets.find(setup.active_preset)) {
@@ -93,6 +94,14 @@ MachineResult<void> ModelledMachine::write_preset(const Preset& preset) {
   return {};
 }
 
+MachineResult<void> ModelledMachine::write_tool_touch_probe(const ToolTouchProbe& tt) {
+  if (!is_finite(tt.centre) || !std::isfinite(tt.radius) || tt.radius <= 0) {
+    return make_fault(FaultKind::ValueInvalid, "centre and radius of the tool touch probe");
+  }
+  state_.tt = tt;
+  return {};
+}
+
 MachineResult<void> ModelledMachine::activate_preset(int number) {
   const Preset* preset = state_.presets.find(number);
   if (preset == nullptr) return make_fault(FaultKind::PresetUnknown, fmt::format("row {}", number));
@@ -114,6 +123,9 @@ MachineResult<void> ModelledMachine::set_frames(const Frames& frames) {
 MachineResult<void> ModelledMachine::set_modes(const Modes& modes) {
   if (!(modes.spindle_rpm >= 0) || !(modes.feed_mm_min >= 0)) {
     return make_fault(FaultKind::ValueInvalid, "spindle speed and feed are 0 or more");
+  }
+  if (!std::isfinite(modes.spindle_deg)) {
+    return make_fault(FaultKind::ValueInvalid, "the spindle is oriented to a finite angle");
   }
   state_.modes = modes;
   refresh_table();

@@ -20,6 +20,7 @@ class ModelledMachine : public Machine {
   MachineResult<void> write_tool(const Tool& tool) final;
   MachineResult<void> write_probe(const ProbeRow& row) final;
   MachineResult<void> write_preset(const Preset& preset) final;
+  MachineResult<void> write_tool_touch_probe(const ToolTouchProbe& tt) final;
   MachineResult<void> activate_preset(int number) final;
   MachineResult<void> set_frames(const Frames& frames) final;
   MachineResult<void> set_modes(const Modes& modes) final;

@@ -68,7 +68,7 @@ ContactPoint ModelledMachine::contact_point(const Vec3& direction) const {
   const Frames& frames = state_.frames;
   Vec3 centre = state_.ball_centre(CoordinateSystem::Machine);
   if (const auto probe = state_.probe_system()) {
-    centre = centre + probe->centre_offset(state_.tool_axis());
+    centre = centre + probe->centre_offset(state_.tool_axis(), state_.modes.spindle_deg);
   }
   ContactPoint point;
   point.tip_machine =

@@ -20,11 +20,43 @@ Kinematics as_built(const MachineSetup& setup) {
   return Kinematics(std::move(axes));
 }
 
-/// The workpiece and, beside it, the calibration sphere.
-std::vector<Feature> on_the_table(const Setup& setup) {
-  std::vector<Feature> features = setup.features;
+/// What stands on the table: the workpiece and the calibration standards. Only the ring has a hole,
+/// so it comes first.
+std::vector<Feature> on_table(const Setup& setup) {
+  std::vector<Feature> features;
+  if (const auto& ring = setup.machine.calibration_ring) {
+    features.emplace_back(Boss{ring->centre, ring->top, ring->height, ring->outside()});
+    Bore hole;
+    hole.centre = ring->centre;
+    hole.top = ring->top;
+    hole.depth = ring->height;
+    hole.diameter = ring->diameter;
+    features.emplace_back(hole);
+  }
+  features.insert(features.end(), setup.features.begin(), setup.features.end());
+  if (setup.machine.calibration_stud) features.emplace_back(*setup.machine.calibration_stud);
   if (const auto& sphere = setup.machine.calibration_sphere) {
     features.emplace_back(Sphere{sphere->centre, 2 * sphere->radius});
+  }
+  return features;
+}
+
+/// A cutter against the tool touch probe is a cylinder against a contact plate: the centre of its
+/// tip against the plate grown by the cylinder's radius.
+std::vector<Feature> around_plate(const ToolTouchProbeSetup& tt, double tool_radius) {
+  const Vec3 top = tt.actual_centre.value_or(tt.known.centre);
+  const double half = tt.actual_radius.value_or(tt.known.radius);
+  const double grown = half + tool_radius;
+  if (tt.shape == ContactPlate::Disc) return {Boss{{top.x, top.y}, top.z, tt.height, 2 * grown}};
+  const auto block = [&](double x, double y) {
+    return Block{{top.x - x, top.y - y, top.z - tt.height}, {top.x + x, top.y + y, top.z}};
+  };
+  std::vector<Feature> features{block(grown, half), block(half, grown)};
+  if (tool_radius == 0) return features;
+  for (const double x : {top.x - half, top.x + half}) {
+    for (const double y : {top.y - half, top.y + half}) {
+      features.emplace_back(Boss{{x, y}, top.z, tt.height, 2 * tool_radius});
+    }
   }
   return features;
 }
@@ -34,7 +66,7 @@ std::vector<Feature> on_the_table(const Setup& setup) {
 SimulatedMachine::SimulatedMachine(const Setup& setup)
     : ModelledMachine(setup.machine),
       setup_(setup.machine),
-      workpiece_(on_the_table(setup)),
+      workpiece_(on_table(setup)),
       kinematics_(as_built(setup.machine)),
       rest_{},
       random_(setup.seed) {}
@@ -64,9 +96,7 @@ SimulatedMachine::RealTool SimulatedMachine::real_tool() const {
                                   [=](const ProbeSetup& p) { return p.row.number == row; });
   if (probe == setup_.probes.end()) return real;
   real.probe = &*probe;
-  const std::size_t up = index(state().tool_axis());
-  real.offset[(up + 1) % 3] = probe->centre_offset[0];
-  real.offset[(up + 2) % 3] = probe->centre_offset[1];
+  real.offset = turned_offset(probe->centre_offset, state().tool_axis(), state().modes.spindle_deg);
   return real;
 }
 
@@ -139,19 +169,19 @@ MachineResult<double> SimulatedMachine::probe_contact(const Vec3& direction, dou
   return std::max(way, 0.0);
 }
 
-/// A cutter against the tool touch probe: a cylinder against a disc, which is the tip's centre
-/// against a disc of both radii.
 MachineResult<double> SimulatedMachine::plate_contact(const Vec3& direction, double distance,
                                                       const RealTool& tool) {
-  constexpr double kThickness = 10;  // mm
-  const ToolTouchProbe& tt = setup_.tt;
-  const Workpiece disc(
-      {Boss{{tt.centre.x, tt.centre.y}, tt.centre.z, kThickness, 2 * (tt.radius + tool.radius)}});
+  const Workpiece plate(around_plate(setup_.tt, tool.radius));
   const Vec3 tip = real_tool_point(state().nose, tool.length);
-  if (disc.clearance(tip, 0) < -kTouching) return make_fault(FaultKind::StylusDeflected);
-  const auto touched = disc.contact(tip, direction, 0, distance);
+  if (plate.clearance(tip, 0) < -kTouching) return make_fault(FaultKind::StylusDeflected);
+  const auto touched = plate.contact(tip, direction, 0, distance);
   if (!touched) return make_fault(FaultKind::NoContact);
-  return *touched;
+  double way = *touched;
+  if (setup_.tt.repeatability_um != 0) {
+    way += setup_.tt.repeatability_um * kMillimetresPerMicrometre * random_.normal();
+  }
+  if (way > distance) return make_fault(FaultKind::NoContact);
+  return std::max(way, 0.0);
 }
 
 }  // namespace fitgauge::machine

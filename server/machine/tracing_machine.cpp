@@ -184,6 +184,12 @@ MachineResult<void> TracingMachine::write_preset(const Preset& preset) {
   return result;
 }
 
+MachineResult<void> TracingMachine::write_tool_touch_probe(const ToolTouchProbe& tt) {
+  auto result = inner_.write_tool_touch_probe(tt);
+  write(result, [&] { return fmt::format("TT {} R{:+.4f}", text_of(tt.centre), tt.radius); });
+  return result;
+}
+
 MachineResult<void> TracingMachine::activate_preset(int number) {
   auto result = inner_.activate_preset(number);
   write(result, [&] { return fmt::format("PRESET {}", number); });
@@ -199,10 +205,12 @@ MachineResult<void> TracingMachine::set_frames(const Frames& frames) {
 MachineResult<void> TracingMachine::set_modes(const Modes& modes) {
   auto result = inner_.set_modes(modes);
   write(result, [&] {
-    return fmt::format("MODES SPINDLE {} S{:g} COOLANT {} F{:g} TCPM {} {}",
-                       static_cast<int>(modes.spindle), modes.spindle_rpm, modes.coolant ? 1 : 0,
-                       modes.feed_mm_min, modes.tcpm ? 1 : 0,
-                       modes.mode == OperatingMode::Mill ? "MILL" : "TURN");
+    std::string text = fmt::format("MODES SPINDLE {} S{:g} COOLANT {} F{:g} TCPM {} {}",
+                                   static_cast<int>(modes.spindle), modes.spindle_rpm,
+                                   modes.coolant ? 1 : 0, modes.feed_mm_min, modes.tcpm ? 1 : 0,
+                                   modes.mode == OperatingMode::Mill ? "MILL" : "TURN");
+    if (modes.spindle_deg != 0) text += fmt::format(" ORIENTED {:g}", modes.spindle_deg);
+    return text;
   });
   return result;
 }

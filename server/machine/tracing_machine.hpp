@@ -54,6 +54,7 @@ class TracingMachine final : public Machine {
   MachineResult<void> write_tool(const Tool& tool) override;
   MachineResult<void> write_probe(const ProbeRow& row) override;
   MachineResult<void> write_preset(const Preset& preset) override;
+  MachineResult<void> write_tool_touch_probe(const ToolTouchProbe& tt) override;
   MachineResult<void> activate_preset(int number) override;
   MachineResult<void> set_frames(const Frames& frames) override;
   MachineResult<void> set_modes(const Modes& modes) override;

@@ -111,6 +111,8 @@ void check_tools(Findings& findings, const MachineSetup& setup) {
     findings.point(at + "/delta_mm", {row.dl, row.dr, row.dr2}, 1000);
     findings.within(at + "/actual_length_mm", length.value_or(0), 0, 10000);
     findings.within(at + "/actual_radius_mm", radius.value_or(0), 0, 1000);
+    findings.within(at + "/length_offset_mm", row.l_offset, -1000, 1000);
+    findings.within(at + "/radius_offset_mm", row.r_offset, -1000, 1000);
     if (!row.is_probe()) continue;
     const auto same = [&row = row](const ProbeSetup& p) { return p.row.number == row.probe; };
     if (std::none_of(setup.probes.begin(), setup.probes.end(), same)) {
@@ -244,6 +246,34 @@ struct CheckFeature {
   }
 };
 
+void check_tool_touch_probe(Findings& findings, const ToolTouchProbeSetup& tt) {
+  constexpr double kLargest = 1000;
+  findings.point("/machine/tt/center_mm", tt.known.centre);
+  findings.positive("/machine/tt/radius_mm", tt.known.radius, kLargest);
+  findings.positive("/machine/tt/height_mm", tt.height, kLargest);
+  findings.point("/machine/tt/actual_center_mm", tt.actual_centre.value_or(Vec3{}));
+  findings.positive("/machine/tt/actual_radius_mm", tt.actual_radius.value_or(kLargest), kLargest);
+  findings.within("/machine/tt/repeatability_um", tt.repeatability_um, 0, 1e4);
+}
+
+void check_standards(Findings& findings, const MachineSetup& setup) {
+  if (const auto& ring = setup.calibration_ring) {
+    const std::string at = "/machine/calibration_ring";
+    CheckFeature{findings, at}(Boss{ring->centre, ring->top, ring->height, ring->diameter});
+    if (!(ring->outside() > ring->diameter && ring->outside() <= kLongestMm)) {
+      findings.add(at + "/outer_diameter_mm", "Must be more than the diameter of the hole.",
+                   ErrorCode::FieldConflict);
+    }
+  }
+  if (setup.calibration_stud) {
+    CheckFeature{findings, "/machine/calibration_stud"}(*setup.calibration_stud);
+  }
+  if (const auto& sphere = setup.calibration_sphere) {
+    findings.point("/machine/calibration_sphere/center_mm", sphere->centre);
+    findings.positive("/machine/calibration_sphere/radius_mm", sphere->radius, 1000);
+  }
+}
+
 }  // namespace
 
 Result<void> validate(const Setup& setup) {
@@ -260,12 +290,8 @@ Result<void> validate(const Setup& setup) {
   findings.positive("/machine/rapid_mm_min", machine.rapid_mm_min);
   check_tools(findings, machine);
   check_probes(findings, machine);
-  findings.point("/machine/tt/center_mm", machine.tt.centre);
-  findings.positive("/machine/tt/radius_mm", machine.tt.radius, 1000);
-  if (const auto& sphere = machine.calibration_sphere) {
-    findings.point("/machine/calibration_sphere/center_mm", sphere->centre);
-    findings.positive("/machine/calibration_sphere/radius_mm", sphere->radius, 1000);
-  }
+  check_tool_touch_probe(findings, machine.tt);
+  check_standards(findings, machine);
   check_presets(findings, machine);
   for (std::size_t k = 0; k < setup.features.size(); ++k) {
     std::visit(CheckFeature{findings, fmt::format("/workpiece/features/{}", k)}, setup.features[k]);

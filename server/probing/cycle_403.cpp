@@ -72,7 +72,8 @@ constinit const TouchProbeCycle kCycle403{
      .kind = CycleKind::Alignment,
      .parameters = kParameters,
      .results = kResults,
-     .simulated = "All parameters, for axes of the table. Q380 counts in the working plane."},
+     .simulated = "All parameters. Q380 counts in the working plane.",
+     .not_simulated = "Rotary axes of a head: they cannot turn the workpiece."},
     align};
 
 }  // namespace fitgauge::probing

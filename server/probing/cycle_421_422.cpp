@@ -24,8 +24,8 @@ constexpr auto k421Parameters =
 constexpr auto k422Parameters =
     parameters(277, "Maximum size of the stud", 278, "Minimum size of the stud");
 
-constexpr std::string_view kSimulated =
-    "All parameters; Q498 and Q531 concern turning tools and change nothing.";
+constexpr std::string_view kNotSimulated =
+    "Turning tools, which Q498 and Q531 concern: the values are checked and change nothing.";
 
 CycleResult<void> measure(const CycleContext& context, Side side) {
   const Arguments& arguments = context.arguments;
@@ -62,7 +62,8 @@ constinit const TouchProbeCycle kCycle421{
      .kind = CycleKind::Measuring,
      .parameters = k421Parameters,
      .results = kCircleResults,
-     .simulated = kSimulated},
+     .simulated = "All other parameters.",
+     .not_simulated = kNotSimulated},
     [](const CycleContext& context) { return measure(context, Side::Inside); }};
 
 constinit const TouchProbeCycle kCycle422{
@@ -71,7 +72,8 @@ constinit const TouchProbeCycle kCycle422{
      .kind = CycleKind::Measuring,
      .parameters = k422Parameters,
      .results = kCircleResults,
-     .simulated = kSimulated},
+     .simulated = "All other parameters.",
+     .not_simulated = kNotSimulated},
     [](const CycleContext& context) { return measure(context, Side::Outside); }};
 
 }  // namespace fitgauge::probing

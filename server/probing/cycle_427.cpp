@@ -62,8 +62,10 @@ constinit const TouchProbeCycle kCycle427{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kResults,
-     .simulated = "All parameters; Q498 and Q531 concern turning tools and change nothing. The "
-                  "nominal coordinate is that of the point (Q263, Q264, Q261)."},
+     .simulated = "All other parameters. The nominal coordinate is that of the point (Q263, Q264, "
+                  "Q261).",
+     .not_simulated = "Turning tools, which Q498 and Q531 concern: the values are checked and "
+                      "change nothing."},
     measure};
 
 }  // namespace fitgauge::probing

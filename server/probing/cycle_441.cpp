@@ -38,8 +38,9 @@ constinit const TouchProbeCycle kCycle441{
      .kind = CycleKind::Other,
      .parameters = kParameters,
      .simulated = "Positioning feed, rapid and interruption hold for the cycles after it until the "
-                  "program ends. The simulated probe needs no angle tracking; Q371 changes "
-                  "nothing."},
+                  "program ends.",
+     .not_simulated = "Angle tracking (Q399), which the simulated probe needs none of, and Q371: "
+                      "the values are checked and change nothing."},
     set_fast_probing};
 
 }  // namespace fitgauge::probing

@@ -180,8 +180,8 @@ constinit const TouchProbeCycle kCycle444{
      .results = kResults,
      .simulated =
          "All parameters. QS400 is in the unit of the program. After contact the probe goes back "
-         "to "
-         "the start (MB), then to the clearance height. A basic rotation stays active. In a tilted "
+         "to the start (MB), then to the clearance height. A basic rotation stays active. In a "
+         "tilted "
          "plane the rotary axes must stand square to it, except with TCPM. The points of a run "
          "share one log."},
     measure};

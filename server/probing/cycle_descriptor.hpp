@@ -102,7 +102,8 @@ struct CycleDescriptor {
   bool dotted = false;  ///< one block per sub-line, `0.0`, `0.1`; its parameters are words
   std::span<const CycleParameter> parameters{};  ///< in the order of the control's dialog
   std::span<const CycleOutput> results{};
-  std::string_view simulated{};  ///< what is simulated and what is not
+  std::string_view simulated{};      ///< what the simulation does
+  std::string_view not_simulated{};  ///< what of the control's cycle changes nothing; may be empty
 
   const CycleParameter* find(ParameterId id) const;
 };

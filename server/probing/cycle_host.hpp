@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/clock.hpp"
 #include "machine/axis.hpp"
@@ -31,12 +32,12 @@ struct FastProbing {
 struct CycleMemory {
   FastProbing fast_probing;
   std::map<std::string, machine::Kinematics> saved_kinematics;  ///< cycle 450, by name
-  /// The programs whose log of cycle 444 this run has begun: further points join it.
-  std::set<std::string, std::less<>> programs_with_log_444;
+  /// The HTML logs that this run has begun, by file name and program: further sections join them.
+  std::set<std::pair<std::string, std::string>> begun_logs;
 
   void end_program() {
     fast_probing = {};
-    programs_with_log_444.clear();
+    begun_logs.clear();
   }
 };
 
@@ -65,8 +66,9 @@ class CycleHost {
   virtual CycleResult<void> append_log(std::string_view name, std::string_view text) = 0;
   /// Writes a whole file there, new or replaced: `TCHPR444.html`.
   virtual CycleResult<void> write_log(std::string_view name, std::string_view text) = 0;
-  /// Q281 = 2: shows the log on the screen and stops until NC Start. Returns at once; where a stop
-  /// ends the run, it ends after the cycle.
+  /// Stops until NC Start. Returns at once; where a stop ends the run, it ends after the cycle.
+  virtual void stop(std::string_view reason) = 0;
+  /// Q281 = 2: shows the log on the screen and stops.
   virtual void show_and_stop(std::string_view text) = 0;
 
   virtual void record(const MeasuringRecord& record) = 0;

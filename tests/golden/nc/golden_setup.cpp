@@ -50,6 +50,26 @@ machine::ToolSetup tool(std::istringstream& in) {
   return tool;
 }
 
+/// The real tool, with the number of its row: `actual 30 120.1 1.98`.
+void add_actual(std::istringstream& in, machine::MachineSetup& machine) {
+  const Numbers n(in);
+  for (machine::ToolSetup& tool : machine.tools) {
+    if (tool.row.number != static_cast<int>(n[0])) continue;
+    tool.actual_length = n[1];
+    tool.actual_radius = n[2];
+  }
+}
+
+/// LTOL RTOL LBREAK RBREAK CUT of the last tool.
+void add_limits(std::istringstream& in, machine::Tool& row) {
+  const Numbers n(in);
+  row.l_tolerance = n[0];
+  row.r_tolerance = n[1];
+  row.l_breakage = n[2];
+  row.r_breakage = n[3];
+  row.teeth = static_cast<int>(n[4]);
+}
+
 void add_rotary(std::istringstream& in, machine::MachineSetup& machine) {
   std::string name;
   in >> name;
@@ -79,6 +99,35 @@ bool read_feature(const std::string& word, std::istringstream& in, machine::Setu
     machine::Surface surface;
     for (std::size_t i = 0; i + 2 < n.size(); i += 3) surface.points.push_back(n.vector(i));
     setup.features.emplace_back(surface);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// What the probe and the tools are calibrated against, and how they really are.
+bool read_standard(const std::string& word, std::istringstream& in,
+                   machine::MachineSetup& machine) {
+  if (word == "actual") {
+    add_actual(in, machine);
+  } else if (word == "limits") {
+    add_limits(in, machine.tools.back().row);
+  } else if (word == "offset") {
+    const Numbers n(in);
+    machine.probes.at(0).centre_offset = {n[0], n[1]};
+  } else if (word == "ring") {
+    const Numbers n(in);
+    machine.calibration_ring = machine::CalibrationRing{{n[0], n[1]}, n[2], n[3], n[4], {}};
+  } else if (word == "stud") {
+    const Numbers n(in);
+    machine.calibration_stud = machine::Boss{{n[0], n[1]}, n[2], n[3], n[4]};
+  } else if (word == "sphere") {
+    const Numbers n(in);
+    machine.calibration_sphere = machine::CalibrationSphere{n.vector(0), n[3]};
+  } else if (word == "tt") {
+    const Numbers n(in);
+    machine.tt.actual_centre = n.vector(0);
+    machine.tt.actual_radius = n[3];
   } else {
     return false;
   }
@@ -135,7 +184,8 @@ CaseSetup read_setup(const std::string& text) {
     std::string word;
     words >> word;
     if (!read_feature(word, words, setup.machine) &&
-        !read_machine(word, words, setup.machine.machine) && !read_option(word, words, setup)) {
+        !read_machine(word, words, setup.machine.machine) &&
+        !read_standard(word, words, setup.machine.machine) && !read_option(word, words, setup)) {
       throw std::runtime_error("setup.txt: cannot read '" + line + "'");
     }
   }

@@ -46,7 +46,7 @@ TEST_CASE("the default setup is valid and has the defaults of the contract") {
   CHECK(machine.tools.at(0).row.l == 120);
   CHECK(machine.tools.at(0).row.r == 2);
   CHECK(machine.probes.at(0).row.distance == 20);
-  CHECK(machine.tt.centre == Vec3{300, 0, 50});
+  CHECK(machine.tt.known.centre == Vec3{300, 0, 50});
   CHECK(machine.presets.at(0).number == 1);
   CHECK(machine.active_preset == 1);
 }
@@ -93,8 +93,20 @@ TEST_CASE("each bad field of the machine is named") {
   setup.machine.presets[0].frame.origin.y = kNan;
   CHECK(refuses_only(setup, "/machine/presets/0/y_mm"));
   setup = {};
-  setup.machine.tt.radius = 0;
+  setup.machine.tt.known.radius = 0;
   CHECK(refuses_only(setup, "/machine/tt/radius_mm"));
+  setup = {};
+  setup.machine.tt.actual_radius = -1;
+  CHECK(refuses_only(setup, "/machine/tt/actual_radius_mm"));
+  setup = {};
+  setup.machine.tools[0].row.r_offset = kNan;
+  CHECK(refuses_only(setup, "/machine/tools/0/radius_offset_mm"));
+  setup = {};
+  setup.machine.calibration_stud = Boss{{0, 0}, 10, 0, 20};
+  CHECK(refuses_only(setup, "/machine/calibration_stud/height_mm"));
+  setup = {};
+  setup.machine.calibration_ring = CalibrationRing{{0, 0}, 0, 20, 50, 50};
+  CHECK(refuses_only(setup, "/machine/calibration_ring/outer_diameter_mm"));
 }
 
 TEST_CASE("each bad field of the workpiece is named") {

@@ -337,6 +337,53 @@ TEST_CASE("what the control compensates is its table, what touches is the real b
   check_near(contact->ball_centre, {50 + expected + 0.01, 39.98, -10});
 }
 
+TEST_CASE("the ball goes round with the spindle, and CAL_OF with it") {
+  Setup setup = bore_setup();
+  setup.machine.probes[0].centre_offset = {0.01, -0.02};
+  setup.machine.probes[0].row.cal_of1 = 0.01;
+  setup.machine.probes[0].row.cal_of2 = -0.02;
+  SimulatedMachine machine(setup);
+  REQUIRE(ok(machine.call_tool(probe_call())));
+  REQUIRE(ok(machine.move(to({20, 20, 5}))));
+  const auto nose_at_contact = [&](double spindle_deg) {
+    Modes modes = machine.state().modes;
+    modes.spindle_deg = spindle_deg;
+    REQUIRE(ok(machine.set_modes(modes)));
+    REQUIRE(ok(machine.move(to({50, 40, 5}))));
+    REQUIRE(ok(machine.move(to({50, 40, -12}))));
+    const auto contact = machine.probe(towards({1, 0, 0}));
+    const double reach = 25.013 / 2 - 2;
+    const Vec3& ball = contact->ball_centre;
+    CHECK(near(std::hypot(ball.x - 50, ball.y - 40), reach));
+    return contact->nose.linear.x;
+  };
+  const double straight = nose_at_contact(0);
+  CHECK(near(nose_at_contact(180), straight + 0.02));
+  CHECK(near(nose_at_contact(90), straight + 0.01 - 0.02, 1e-4));
+}
+
+TEST_CASE("the contact plate of the tool touch probe may be a cube") {
+  Setup setup;
+  setup.machine.tt.shape = ContactPlate::Cube;
+  ToolSetup mill;
+  mill.row.number = 5;
+  mill.row.l = 100;
+  mill.row.r = 6;
+  setup.machine.tools.push_back(mill);
+  SimulatedMachine machine(setup);
+  ToolCall call = probe_call();
+  call.number = 5;
+  REQUIRE(ok(machine.call_tool(call)));
+  const auto touch_x = [&](double y) {
+    REQUIRE(ok(machine.move(to({340, y, 60}))));
+    REQUIRE(ok(machine.move(to({340, y, 45}))));
+    return machine.probe(towards({-1, 0, 0}))->tip.x;
+  };
+  CHECK(near(touch_x(0), 326));
+  CHECK(near(touch_x(19), 326));              // a disc is narrower there
+  CHECK(near(touch_x(20 + 3.6), 320 + 4.8));  // the cylinder meets the edge
+}
+
 TEST_CASE("a cutter is measured by the tool touch probe") {
   Setup setup;
   ToolSetup mill;

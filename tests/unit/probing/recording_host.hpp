@@ -26,6 +26,7 @@ class RecordingHost final : public CycleHost {
     files[std::string(name)] = text;
     return {};
   }
+  void stop(std::string_view reason) override { stops.emplace_back(reason); }
   void show_and_stop(std::string_view text) override { shown.emplace_back(text); }
   void record(const MeasuringRecord& record) override { records.push_back(record); }
   void touched(const machine::ContactPoint& contact) override { touches.push_back(contact); }
@@ -42,6 +43,7 @@ class RecordingHost final : public CycleHost {
   std::string path = "TNC:\\nc_prog\\test\\part.h";
   std::map<std::string, std::string> files;
   std::vector<std::string> shown;
+  std::vector<std::string> stops;
   std::vector<MeasuringRecord> records;
   std::vector<machine::ContactPoint> touches;
   bool has_datum_table = false;

@@ -1,0 +1,275 @@
+#include "nominal_parts.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using machine::Block;
+using machine::Bore;
+using machine::Boss;
+using machine::Feature;
+using machine::Vec3;
+
+const Block kPlate{{0, 0, -40}, {200, 160, 0}};
+const machine::Plane kFace{};
+const Vec3 kAbove{100, 80, 60};
+const Vec3 kBeside{-10, 40, -10};
+constexpr double kFirstResult = 1600;
+
+int word(ParameterId id) { return static_cast<int>(id); }
+const int kResult = word(ParameterId::WordResult);
+const int kAxis = word(ParameterId::WordAxis);
+const int kSign = word(ParameterId::WordDirection);
+const int kX = word(ParameterId::WordX);
+const int kY = word(ParameterId::WordY);
+const int kZ = word(ParameterId::WordZ);
+const int kAngle = word(ParameterId::WordAngle);
+const int kDistance = word(ParameterId::WordDistance);
+
+std::vector<Feature> plate_with(const std::vector<std::array<double, 2>>& holes, double diameter) {
+  std::vector<Feature> part{kPlate};
+  for (const auto& centre : holes) {
+    part.emplace_back(Bore{.centre = centre, .top = 0, .depth = 30, .diameter = diameter});
+  }
+  return part;
+}
+std::vector<Feature> plate_with_studs(const std::vector<std::array<double, 2>>& studs,
+                                      double diameter) {
+  std::vector<Feature> part{kPlate};
+  for (const auto& centre : studs) part.emplace_back(Boss{centre, 10, 10, diameter});
+  return part;
+}
+/// 60 by 40 mm around (100, 80).
+const std::vector<Feature> kPocket{
+    Block{{0, 0, -40}, {70, 160, 0}}, Block{{130, 0, -40}, {200, 160, 0}},
+    Block{{70, 0, -40}, {130, 60, 0}}, Block{{70, 100, -40}, {130, 160, 0}}};
+const std::vector<Feature> kRectangle{Block{{0, 0, -60}, {200, 160, -20}},
+                                      Block{{70, 60, -20}, {130, 100, 0}}};
+const std::vector<Feature> kHole = plate_with({{100, 80}}, 25);
+const std::vector<Feature> kStud = plate_with_studs({{100, 80}}, 25);
+const std::vector<Feature> kBolts = plate_with({{130, 80}, {100, 110}, {70, 80}}, 10);
+
+const Values kClear{{260, 30.0}, {320, 0.0}};
+const Values kQuiet = with(kClear, {{281, 0.0}});
+const Values kRow = with(kClear, {{305, 9.0}});
+const Values kEdge{{263, 20.0}, {264, 0.0}, {265, 180.0}, {266, 0.0},
+                   {272, 2.0},  {267, 1.0}, {261, -5.0}};
+const Values kRound{{262, 25.0}, {247, 90.0}};
+const Values kBoltCircle{{273, 100.0}, {274, 80.0},  {262, 60.0}, {291, 0.0},
+                         {292, 90.0},  {293, 180.0}, {261, -5.0}};
+const Values kTwoHoles{{268, 50.0}, {269, 40.0}, {270, 150.0}, {271, 40.0}};
+
+using Results = std::vector<std::pair<int, double>>;
+Results join(Results first, const Results& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+const Results kGood{{180, 1}, {181, 0}, {182, 0}};
+const Results kCentre{{151, 100}, {152, 80}, {161, 0}, {162, 0}};
+const Results kCircle = join(kCentre, {{153, 25}, {163, 0}});
+const Results kSides = join(kCentre, {{154, 60}, {155, 40}, {164, 0}, {165, 0}});
+
+void add_touches(std::vector<NominalCase>& cases) {
+  cases.push_back(
+      {0,
+       {kPlate},
+       kAbove,
+       {{kResult, kFirstResult}, {kAxis, 2.0}, {kSign, -1.0}, {kX, 50.0}, {kY, 40.0}, {kZ, 5.0}},
+       {{1600, 0}},
+       Vec3{50, 40, 0}});
+  cases.push_back({1,
+                   {kPlate},
+                   kBeside,
+                   {{kAxis, 0.0}, {kAngle, 0.0}, {kX, -10.0}, {kY, 40.0}, {kZ, -10.0}},
+                   {},
+                   Vec3{0, 40, -8}});
+  cases.push_back({3,
+                   {kPlate},
+                   kBeside,
+                   {{kResult, kFirstResult}, {kAxis, 0.0}, {kAngle, 0.0}, {kDistance, 15.0}},
+                   {{1603, 0}},
+                   Vec3{0, 40, -8}});
+  cases.push_back({4,
+                   {kPlate},
+                   kBeside,
+                   {{kResult, kFirstResult}, {kX, 1.0}, {kDistance, 15.0}},
+                   {{1603, 0}},
+                   Vec3{0, 40, -8}});
+  for (NominalCase& touch : cases) touch.only_right_angles = true;
+}
+
+void add_measuring(std::vector<NominalCase>& cases) {
+  cases.push_back({420, {kPlate}, {20, -30, 60}, with(kEdge, kQuiet), {{150, 0}}});
+  cases.push_back({421, kHole, kAbove,
+                   with(with(kRound, kQuiet),
+                        {{273, 100.0}, {274, 80.0}, {261, -5.0}, {275, 25.021}, {276, 25.0}}),
+                   join(kCircle, kGood)});
+  cases.push_back({422, kStud, kAbove,
+                   with(with(kRound, kQuiet),
+                        {{273, 100.0}, {274, 80.0}, {261, 5.0}, {277, 25.0}, {278, 24.979}}),
+                   join(kCircle, kGood)});
+  for (const int cycle : {423, 424}) {
+    cases.push_back({cycle, cycle == 423 ? kPocket : kRectangle, kAbove,
+                     with(kQuiet, {{273, 100.0},
+                                   {274, 80.0},
+                                   {282, 60.0},
+                                   {283, 40.0},
+                                   {261, -5.0},
+                                   {284, 60.0},
+                                   {285, 60.0},
+                                   {286, 40.0},
+                                   {287, 40.0}}),
+                     join(kSides, kGood)});
+  }
+  const Results width = join({{156, 40}, {157, 80}, {166, 0}}, kGood);
+  cases.push_back({425, kPocket, kAbove,
+                   with(kQuiet, {{328, 100.0},
+                                 {329, 80.0},
+                                 {310, 0.0},
+                                 {272, 2.0},
+                                 {261, -5.0},
+                                 {311, 40.0},
+                                 {288, 40.0},
+                                 {289, 40.0}}),
+                   width});
+  cases.push_back({426, kRectangle, kAbove,
+                   with(kQuiet, {{263, 100.0},
+                                 {264, 100.0},
+                                 {265, 100.0},
+                                 {266, 60.0},
+                                 {272, 2.0},
+                                 {261, -5.0},
+                                 {311, 40.0},
+                                 {288, 40.0},
+                                 {289, 40.0}}),
+                   width});
+  cases.push_back({427,
+                   {kFace},
+                   kAbove,
+                   with(kQuiet, {{263, 20.0},
+                                 {264, 20.0},
+                                 {261, 0.0},
+                                 {272, 3.0},
+                                 {267, -1.0},
+                                 {288, 0.001},
+                                 {289, 0.0}}),
+                   join({{160, 0}, {168, 0}}, kGood)});
+  cases.push_back({430, kBolts, kAbove,
+                   with(kBoltCircle, {{260, 30.0}, {281, 0.0}, {288, 60.0}, {289, 60.0}}),
+                   join(join(kCentre, {{153, 60}, {163, 0}}), kGood)});
+  cases.push_back(
+      {431,
+       {kFace},
+       kAbove,
+       with(kQuiet, {{263, 20.0},
+                     {264, 20.0},
+                     {294, 0.0},
+                     {265, 150.0},
+                     {266, 20.0},
+                     {295, 0.0},
+                     {296, 20.0},
+                     {297, 120.0},
+                     {298, 0.0}}),
+       {{158, 0}, {159, 0}, {170, 0}, {171, 0}, {172, 0}, {173, 0}, {174, 0}, {175, 0}}});
+  cases.push_back(
+      {444,
+       {kFace},
+       kAbove,
+       with(kClear, {{263, 20.0},
+                     {264, 30.0},
+                     {294, 0.0},
+                     {581, 0.0},
+                     {582, 0.0},
+                     {583, 1.0},
+                     {400, std::string("0.1-0.1")}}),
+       {{151, 20}, {152, 30}, {153, 0}, {161, 0}, {162, 0}, {163, 0}, {164, 0}, {183, 0}}});
+  for (NominalCase& measuring : cases) {
+    const int n = measuring.cycle;
+    measuring.only_right_angles = n < 421 || (n > 422 && n < 427);
+  }
+}
+
+void add_datums(std::vector<NominalCase>& cases) {
+  const Values centre = with(kRow, {{321, 100.0}, {322, 80.0}, {261, -5.0}});
+  const Results middle{{157, 80}, {166, 40}};
+  cases.push_back({408, kPocket, kAbove, with(centre, {{311, 40.0}, {272, 2.0}}), middle});
+  cases.push_back({409, kRectangle, kAbove, with(centre, {{311, 40.0}, {272, 2.0}}), middle});
+  const Results sides{{151, 100}, {152, 80}, {154, 60}, {155, 40}};
+  cases.push_back({410, kPocket, kAbove, with(centre, {{323, 60.0}, {324, 40.0}}), sides});
+  cases.push_back({411, kRectangle, kAbove, with(centre, {{323, 60.0}, {324, 40.0}}), sides});
+  const Results circle{{151, 100}, {152, 80}, {153, 25}};
+  cases.push_back({412, kHole, kAbove, with(centre, kRound), circle});
+  cases.push_back({413, kStud, kAbove, with(with(centre, kRound), {{261, 5.0}}), circle});
+  cases.push_back({414,
+                   {Block{{100, 80, -40}, {200, 160, 0}}},
+                   {60, 60, 60},
+                   with(kRow, {{263, 110.0},
+                               {264, 80.0},
+                               {326, 40.0},
+                               {296, 100.0},
+                               {297, 90.0},
+                               {327, 30.0},
+                               {261, -5.0}}),
+                   {{151, 100}, {152, 80}}});
+  cases.push_back(
+      {415,
+       kPocket,
+       kAbove,
+       with(kRow, {{263, 70.0}, {264, 60.0}, {326, 30.0}, {327, 20.0}, {308, 1.0}, {261, -5.0}}),
+       {{151, 70}, {152, 60}}});
+  cases.push_back(
+      {416, kBolts, kAbove, with(kBoltCircle, kRow), {{151, 100}, {152, 80}, {153, 60}}});
+  cases.push_back(
+      {417, {kPlate}, kAbove, with(kRow, {{263, 20.0}, {264, 20.0}, {294, 0.0}}), {{160, 0}}});
+  cases.push_back({418,
+                   plate_with({{60, 50}, {140, 50}, {140, 110}, {60, 110}}, 10),
+                   kAbove,
+                   with(Values{{260, 30.0}, {305, 9.0}}, {{268, 60.0},
+                                                          {269, 50.0},
+                                                          {270, 140.0},
+                                                          {271, 50.0},
+                                                          {316, 140.0},
+                                                          {317, 110.0},
+                                                          {318, 60.0},
+                                                          {319, 110.0},
+                                                          {261, -5.0}}),
+                   {{151, 100}, {152, 80}}});
+  cases.push_back({419,
+                   {kPlate},
+                   {-40, 40, 60},
+                   with(kRow, {{263, 0.0}, {264, 40.0}, {261, -5.0}, {272, 1.0}, {267, 1.0}}),
+                   {{160, 0}}});
+}
+
+void add_alignment(std::vector<NominalCase>& cases) {
+  cases.push_back({400, {kPlate}, {20, -30, 60}, with(kEdge, kClear), {}});
+  cases.push_back({401,
+                   plate_with({{50, 40}, {150, 40}}, 10),
+                   kAbove,
+                   with(with(kTwoHoles, {{261, -5.0}}), {{260, 30.0}}),
+                   {}});
+  cases.push_back({402,
+                   plate_with_studs({{50, 40}, {150, 40}}, 10),
+                   kAbove,
+                   with(with(kTwoHoles, kClear),
+                        {{313, 10.0}, {314, 10.0}, {261, 5.0}, {315, 5.0}, {301, 1.0}}),
+                   {}});
+  cases.push_back({403, {kPlate}, {20, -30, 60}, with(kEdge, kClear), {{150, 0}}});
+  cases.push_back({405,
+                   plate_with({{100, 80}}, 25),
+                   kAbove,
+                   with(with(kRound, kClear), {{321, 100.0}, {322, 80.0}, {261, -5.0}}),
+                   {{150, 0}}});
+}
+
+}  // namespace
+
+std::vector<NominalCase> nominal_cases() {
+  std::vector<NominalCase> cases;
+  add_touches(cases);
+  add_measuring(cases);
+  add_datums(cases);
+  add_alignment(cases);
+  return cases;
+}
+
+}  // namespace fitgauge::probing
