@@ -267,7 +267,6 @@ void read_tool_touch_probe(SetupReader& reader, machine::ToolTouchProbeSetup& tt
     }
     tt.shape = *shape == "cube" ? machine::ContactPlate::Cube : machine::ContactPlate::Disc;
   }
-  reader.mm("height_mm", tt.height);
   if (reader.fields().has("actual_center_mm")) {
     reader.mm("actual_center_mm", tt.actual_centre.emplace(tt.known.centre));
   }

@@ -64,7 +64,6 @@ enum class ContactPlate : std::uint8_t { Disc, Cube };
 struct ToolTouchProbeSetup {
   ToolTouchProbe known;                     ///< center_mm, radius_mm
   ContactPlate shape = ContactPlate::Disc;  ///< the edges of a cube lie along X and Y
-  double height = 10;                       ///< of the contact plate, in mm
   std::optional<Vec3> actual_centre;        ///< actual_center_mm; default: as known
   std::optional<double> actual_radius;      ///< actual_radius_mm; default: as known
   double repeatability_um = 0;  ///< standard deviation of a contact along the probing direction

@@ -42,20 +42,22 @@ std::vector<Feature> on_table(const Setup& setup) {
 }
 
 /// A cutter against the tool touch probe is a cylinder against a contact plate: the centre of its
-/// tip against the plate grown by the cylinder's radius.
+/// tip against the plate grown by the cylinder's radius, and down, since the flank touches it with
+/// the tip below.
 std::vector<Feature> around_plate(const ToolTouchProbeSetup& tt, double tool_radius) {
   const Vec3 top = tt.actual_centre.value_or(tt.known.centre);
   const double half = tt.actual_radius.value_or(tt.known.radius);
   const double grown = half + tool_radius;
-  if (tt.shape == ContactPlate::Disc) return {Boss{{top.x, top.y}, top.z, tt.height, 2 * grown}};
+  constexpr double kDown = 1e4;  // mm
+  if (tt.shape == ContactPlate::Disc) return {Boss{{top.x, top.y}, top.z, kDown, 2 * grown}};
   const auto block = [&](double x, double y) {
-    return Block{{top.x - x, top.y - y, top.z - tt.height}, {top.x + x, top.y + y, top.z}};
+    return Block{{top.x - x, top.y - y, top.z - kDown}, {top.x + x, top.y + y, top.z}};
   };
   std::vector<Feature> features{block(grown, half), block(half, grown)};
   if (tool_radius == 0) return features;
   for (const double x : {top.x - half, top.x + half}) {
     for (const double y : {top.y - half, top.y + half}) {
-      features.emplace_back(Boss{{x, y}, top.z, tt.height, 2 * tool_radius});
+      features.emplace_back(Boss{{x, y}, top.z, kDown, 2 * tool_radius});
     }
   }
   return features;

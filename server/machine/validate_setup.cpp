@@ -250,7 +250,6 @@ void check_tool_touch_probe(Findings& findings, const ToolTouchProbeSetup& tt) {
   constexpr double kLargest = 1000;
   findings.point("/machine/tt/center_mm", tt.known.centre);
   findings.positive("/machine/tt/radius_mm", tt.known.radius, kLargest);
-  findings.positive("/machine/tt/height_mm", tt.height, kLargest);
   findings.point("/machine/tt/actual_center_mm", tt.actual_centre.value_or(Vec3{}));
   findings.positive("/machine/tt/actual_radius_mm", tt.actual_radius.value_or(kLargest), kLargest);
   findings.within("/machine/tt/repeatability_um", tt.repeatability_um, 0, 1e4);

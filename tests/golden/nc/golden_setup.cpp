@@ -90,6 +90,10 @@ bool read_feature(const std::string& word, std::istringstream& in, machine::Setu
     bore.top = n[2];
     bore.depth = n[3];
     bore.diameter = n[4];
+    if (n.size() > 5) {
+      bore.lobes = static_cast<int>(n[5]);
+      bore.lobe_amplitude_um = n[6];
+    }
     setup.features.emplace_back(bore);
   } else if (word == "boss") {
     const Numbers n(in);

@@ -40,6 +40,13 @@ std::string number_text(double value) {
   return text == "-0" ? "0" : text;
 }
 
+std::string describe(const std::optional<probing::Form>& form) {
+  if (!form) return {};
+  std::string out = form->assessable ? "form assessable" : "form not assessable";
+  if (form->residual_mm) out += fmt::format(", residual {}", number_text(*form->residual_mm));
+  return fmt::format("{}: {}\n", out, form->reason);
+}
+
 std::string describe(const RunResult& result, const machine::TracingMachine& machine, bool trace) {
   std::string out = fmt::format("status {}\n", word(result.status));
   for (const RunMessage& message : result.messages) {
@@ -54,6 +61,7 @@ std::string describe(const RunResult& result, const machine::TracingMachine& mac
   }
   for (const Measurement& measurement : result.measurements) {
     out += fmt::format("measured cycle {} line {}\n", measurement.record.cycle, measurement.line);
+    out += describe(measurement.record.form);
   }
   if (result.verdict) out += fmt::format("verdict {}\n", gauging::word(*result.verdict));
   for (const WrittenFile& file : result.files) {

@@ -15,8 +15,9 @@ struct NominalCase {
   machine::Vec3 start;  ///< of the tip
   Values block;
   std::vector<std::pair<int, double>> results;
-  std::optional<machine::Vec3> touched{};  ///< the last touched point, of cycles without results
-  bool only_right_angles = false;          ///< the part has faces along the axes
+  /// The face that was touched last, of cycles without results: an axis and the coordinate.
+  std::optional<std::pair<std::size_t, double>> touched{};
+  bool only_right_angles = false;  ///< the part has faces along the axes
 };
 
 /// One for each cycle that touches the workpiece to measure, set a datum or align.

@@ -1,0 +1,8 @@
+; run: failed line 6: MIRROR IMAGE not permitted: reset cycle 8 before this cycle
+BEGIN PGM BAD MM
+TOOL CALL 30 Z
+CYCL DEF 8.0 MIRROR IMAGE
+CYCL DEF 8.1 X
+TCH PROBE 462 CALIBRATION OF TS IN RING ~
+    Q407=+25
+END PGM BAD MM

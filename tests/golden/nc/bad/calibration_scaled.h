@@ -1,0 +1,8 @@
+; run: failed line 6: SCALING FACTOR not permitted: reset cycles 11 and 26 before this cycle
+BEGIN PGM BAD MM
+TOOL CALL 30 Z
+CYCL DEF 11.0 SCALING
+CYCL DEF 11.1 SCL 2
+TCH PROBE 463 TS CALIBRATION ON STUD ~
+    Q407=+20
+END PGM BAD MM

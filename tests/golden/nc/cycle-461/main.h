@@ -1,0 +1,43 @@
+BEGIN PGM LENGTHCAL MM
+; The length by one touch on the ring gauge, whose upper side is Z+0.
+TOOL CALL 30 Z
+TCH PROBE 427 MEASURE COORDINATE ~
+    Q263=+20 ~
+    Q264=+20 ~
+    Q261=+0 ~
+    Q320=+0 ~
+    Q272=+3 ~
+    Q267=-1 ~
+    Q260=+30 ~
+    Q281=+0 ~
+    Q288=+0 ~
+    Q289=+0 ~
+    Q309=+0 ~
+    Q330=+0
+Q1600 = Q160
+L Z+200 FMAX
+L X-165 Y+100 FMAX
+L Z+5 FMAX
+TCH PROBE 461 TS CALIBRATION OF TOOL LENGTH ~
+    Q434=+0
+FN 18: SYSREAD Q1610 = ID350 NR11
+FN 18: SYSREAD Q1611 = ID350 NR12
+FN 18: SYSREAD Q1612 = ID350 NR14 IDX1
+FN 18: SYSREAD Q1613 = ID350 NR14 IDX2
+L Z+200 FMAX
+; the same face again
+TCH PROBE 427 MEASURE COORDINATE ~
+    Q263=+20 ~
+    Q264=+20 ~
+    Q261=+0 ~
+    Q320=+0 ~
+    Q272=+3 ~
+    Q267=-1 ~
+    Q260=+30 ~
+    Q281=+0 ~
+    Q288=+0 ~
+    Q289=+0 ~
+    Q309=+0 ~
+    Q330=+0
+Q1601 = Q160
+END PGM LENGTHCAL MM
