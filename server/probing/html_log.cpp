@@ -44,7 +44,7 @@ std::string beginning(const CycleHost& host, const HtmlLog& log) {
       "<title>{}</title>\n{}<body>\n"
       "<header>\n<h1>{}</h1>\n<p>Measuring program: {}</p>\n<p>Lengths in {}.{}{}</p>\n</header>\n",
       log.title, kStyle, log.heading, escape_html(host.program_path()),
-      host.is_inch() ? "inch" : "mm", log.note.empty() ? "" : " ", log.note);
+      host.is_inch() && !log.is_metric ? "inch" : "mm", log.note.empty() ? "" : " ", log.note);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ struct HtmlLog {
   std::string_view title;      ///< of the window
   std::string_view heading;    ///< of the page
   std::string_view note;       ///< in the header, after the program and the unit
+  bool is_metric = false;      ///< lengths are in mm in an INCH program too
 };
 
 /// Adds a `<section>`: the first one of a program in a run begins the page, each further one joins

@@ -1,4 +1,4 @@
-"""The example programs 8255, 8210 and 8025 with their setups."""
+"""The example programs 8255, 8210, 8025 and 451 with their setups."""
 
 from support.control import ControlTest, setup
 
@@ -105,6 +105,33 @@ class Examples(ControlTest):
             self.assertAlmostEqual(move["seconds"], 45 / 6 / move["feed_mm_min"] * 60, places=6)
         self.assertAlmostEqual(ramp[-1]["end_mm"]["X"], -5 + 45, places=9)
 
+    def measure_axes(self, name):
+        run = self.run_example("451", setup(f"451/{name}"))
+        self.assertEqual(run["status"], "completed", run["messages"])
+        return run
+
+    def test_451_leaves_a_machine_alone_that_is_as_modelled(self):
+        run = self.measure_axes("as-modelled")
+        self.assertEqual(run["screen"], ["AS FOUND", "STANDARD DEVIATION A:   0.0000",
+                                         "STANDARD DEVIATION C:   0.0000",
+                                         "KINEMATICS: GOOD AS FOUND"])
+
+    def test_451_corrects_axes_that_lie_elsewhere(self):
+        run = self.measure_axes("off-centre")
+        found, corrected = run["screen"].index("AS FOUND"), run["screen"].index("AS CORRECTED")
+        before, after = (max(float(line.rsplit(":", 1)[1]) for line in run["screen"][at + 1:at + 3])
+                         for at in (found, corrected))
+        self.assertGreater(before, 0.03)
+        self.assertLess(after, 0.006)
+        self.assertEqual(run["screen"][-1], "KINEMATICS: CORRECTED")
+        log = self.daemon.get(f"/v1/runs/{run['id']}/files/tchpr451.html")
+        self.assertEqual(log.text.count("<h3>Axis C</h3>"), 3)
+        self.assertEqual(log.text.count("<!DOCTYPE"), 1)
+
+    def test_451_restores_the_kinematics_of_a_machine_that_scatters(self):
+        self.assertEqual(self.measure_axes("worn")["screen"][-1],
+                         "KINEMATICS: RESTORED: THE AXES SCATTER")
+
     def test_trace_as_csv_has_a_row_for_every_move(self):
         run = self.gauge("hole-good")
         path = f"/v1/runs/{run['id']}/trace"
@@ -120,6 +147,6 @@ class Examples(ControlTest):
 
     def test_a_check_finds_no_fault_with_the_examples(self):
         for path in ("8255/8255.h", "8255/82551.h", "8255/82552.a", "8210/8210.h",
-                     "8210/82101.tab", "8025/8025.h"):
+                     "8210/82101.tab", "8025/8025.h", "451/451.h", "451/4511.a"):
             answer = self.daemon.request("POST", f"/v1/files/nc_prog/{path}?action=check")
             self.assertEqual(answer.json, {"diagnostics": []}, path)

@@ -138,6 +138,31 @@ bool read_standard(const std::string& word, std::istringstream& in,
   return true;
 }
 
+machine::AxisSetup& rotary_axis(std::istringstream& in, machine::MachineSetup& machine) {
+  std::string name;
+  in >> name;
+  return machine.axes.at(static_cast<std::size_t>(name.at(0) - 'A' + 3)).value();
+}
+
+/// How the rotary axes really are, and where the sphere is expected.
+bool read_kinematics(const std::string& word, std::istringstream& in,
+                     machine::MachineSetup& machine) {
+  if (word == "error") {
+    machine::AxisSetup& axis = rotary_axis(in, machine);
+    const Numbers n(in);
+    axis.centre_error = n.vector(0);
+    axis.tilt_error_deg = n.vector(3);
+  } else if (word == "hirth") {
+    in >> rotary_axis(in, machine).hirth_grid_deg;
+  } else if (word == "preset") {
+    const Numbers n(in);
+    machine.presets.front().frame.origin = n.vector(0);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 bool read_machine(const std::string& word, std::istringstream& in, machine::MachineSetup& machine) {
   if (word == "tool") {
     machine.tools.push_back(tool(in));
@@ -189,7 +214,8 @@ CaseSetup read_setup(const std::string& text) {
     words >> word;
     if (!read_feature(word, words, setup.machine) &&
         !read_machine(word, words, setup.machine.machine) &&
-        !read_standard(word, words, setup.machine.machine) && !read_option(word, words, setup)) {
+        !read_standard(word, words, setup.machine.machine) &&
+        !read_kinematics(word, words, setup.machine.machine) && !read_option(word, words, setup)) {
       throw std::runtime_error("setup.txt: cannot read '" + line + "'");
     }
   }

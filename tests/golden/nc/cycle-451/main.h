@@ -1,0 +1,38 @@
+0 BEGIN PGM main MM
+1 ; Checks, optimises and checks again; the preset is set into the sphere.
+2 TOOL CALL 30 Z
+3 L X+0 Y+0 FMAX
+4 L Z+30 FMAX
+5 Q1 = 0
+6 CALL LBL 1
+7 Q1 = 2
+8 CALL LBL 1
+9 Q1 = 0
+10 CALL LBL 1
+11 M30
+12 LBL 1
+13 TCH PROBE 451 MEASURE KINEMATICS ~
+    Q406=+Q1  ;MODE ~
+    Q407=+15  ;SPHERE RADIUS ~
+    Q320=+0   ;SET-UP CLEARANCE ~
+    Q408=+100 ;RETR. HEIGHT ~
+    Q253=MAX  ;F PRE-POSITIONING ~
+    Q380=+30  ;REFERENCE ANGLE ~
+    Q411=-30  ;START ANGLE A ~
+    Q412=+90  ;END ANGLE A ~
+    Q413=+0   ;INCID. ANGLE A ~
+    Q414=+4   ;MEAS. POINTS A ~
+    Q415=-90  ;START ANGLE B ~
+    Q416=+90  ;END ANGLE B ~
+    Q417=+0   ;INCID. ANGLE B ~
+    Q418=+2   ;MEAS. POINTS B ~
+    Q419=+90  ;START ANGLE C ~
+    Q420=+270 ;END ANGLE C ~
+    Q421=+0   ;INCID. ANGLE C ~
+    Q422=+3   ;MEAS. POINTS C ~
+    Q423=+4   ;NO. OF PROBE POINTS ~
+    Q431=+3   ;PRESET ~
+    Q432=+0   ;BACKLASH, ANG. RANGE
+14 L Z+30 FMAX
+15 LBL 0
+16 END PGM main MM

@@ -1,0 +1,371 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "kinematics_bench.hpp"
+#include "probing/kinematics_positions.hpp"
+#include "probing/measured_value.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using machine::Axis;
+using machine::RotaryAxis;
+using machine::Setup;
+using machine::Vec3;
+
+const std::string& log_of(ProbingBench& bench) { return bench.host.files.at("TCHPR451.html"); }
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+const RotaryAxis& model_of(const ProbingBench& bench, Axis axis) {
+  return *bench.machine.state().kinematics.find(axis);
+}
+
+/// A and C over wide ranges.
+Values both_axes(double points) {
+  return with(with(kinematics_block(), measured(Axis::A, -90, 90, points)),
+              measured(Axis::C, -90, 180, points));
+}
+
+/// How far a modelled axis lies from the real one at the height of the sphere, in mm.
+double distance(const ProbingBench& bench, const Setup& setup, Axis axis) {
+  const RotaryAxis real = setup.machine.axes[index(axis)]->built(axis);
+  const Vec3 on_real = point_of(real, kSphere);
+  return norm(point_of(model_of(bench, axis), on_real) - on_real);
+}
+
+Setup with_location_errors() {
+  Setup setup = trunnion();
+  setup.machine.axes[index(Axis::A)]->centre_error = {0, 0.04, -0.03};
+  setup.machine.axes[index(Axis::C)]->centre_error = {-0.02, 0.05, 0};
+  return setup;
+}
+
+}  // namespace
+
+TEST_CASE("measuring positions are evenly spaced") {
+  CHECK(measuring_positions(90, -90, 4, 0) == std::vector<double>{90, 30, -30, -90});
+  CHECK(measuring_positions(90, 270, 4, 0) == std::vector<double>{90, 150, 210, 270});
+  CHECK(measuring_positions(45, 90, 1, 0) == std::vector<double>{45});
+  CHECK(measuring_positions(45, 90, 0, 0).empty());
+}
+
+TEST_CASE("a Hirth axis is measured on its grid") {
+  CHECK(measuring_positions(-30, 90, 4, 3) == std::vector<double>{-30, 9, 51, 90});
+  // Of two teeth that are equally near the one away from zero.
+  CHECK(measuring_positions(-1.5, 1.5, 2, 3) == std::vector<double>{-3, 3});
+}
+
+TEST_CASE("a machine that is as modelled has no errors") {
+  const Setup setup = trunnion();
+  for (const double touches : {3.0, 4.0, 8.0}) {
+    SphereBench bench(setup);
+    const machine::Kinematics before = bench.machine.state().kinematics;
+    REQUIRE(bench.run(451, with(both_axes(4), {{406, 2.0}, {423, touches}})) == 0);
+    CHECK(bench.host.q[142] == -1);
+    CHECK(bench.host.q[145] == -1);
+    for (const int q : {141, 143, 144, 146, 147, 148, 149}) CHECK(same(bench.host.q[q], 0));
+    for (const Axis axis : {Axis::A, Axis::C}) {
+      CHECK(norm(model_of(bench, axis).centre - before.find(axis)->centre) < 1e-9);
+      CHECK(norm(model_of(bench, axis).direction - before.find(axis)->direction) < 1e-10);
+    }
+    CHECK(bench.machine.state().nose.rotary == Vec3{});
+  }
+}
+
+TEST_CASE("checking finds the errors of the axes and leaves the model as it is") {
+  const Setup setup = with_location_errors();
+  SphereBench bench(setup);
+  const machine::Kinematics before = bench.machine.state().kinematics;
+  REQUIRE(bench.run(451, with(both_axes(4), {{406, 0.0}})) == 0);
+  CHECK(bench.machine.state().kinematics == before);
+  CHECK(bench.host.q[141] > 0.01);
+  CHECK(bench.host.q[143] > 0.01);
+  CHECK(same(bench.host.q[144], 0));
+  CHECK(same(bench.host.q[146], 0));
+  // Of C, the axis measured last.
+  CHECK(same(bench.host.q[147], -0.02));
+  CHECK(same(bench.host.q[148], 0.05));
+  CHECK(same(bench.host.q[149], 0));
+  CHECK(contains(log_of(bench), "X 0.0000, Y 0.0400, Z -0.0300"));
+  CHECK(contains(log_of(bench), "X -0.0200, Y 0.0500, Z 0.0000"));
+}
+
+TEST_CASE("after optimising a second measurement finds nothing more") {
+  const Setup setup = with_location_errors();
+  SphereBench bench(setup);
+  REQUIRE(bench.run(451, with(both_axes(4), {{406, 1.0}})) == 0);
+  CHECK(distance(bench, setup, Axis::A) < 1e-8);
+  CHECK(distance(bench, setup, Axis::C) < 1e-8);
+  REQUIRE(bench.run(451, both_axes(4)) == 0);
+  for (const int q : {141, 143, 144, 146, 147, 148, 149}) CHECK(same(bench.host.q[q], 0));
+}
+
+TEST_CASE("directions are corrected in mode 2 alone") {
+  Setup setup = trunnion();
+  setup.machine.axes[index(Axis::A)]->tilt_error_deg = {0, 0.02, -0.01};
+  setup.machine.axes[index(Axis::C)]->tilt_error_deg = {-0.015, 0.01, 0};
+  SphereBench first(setup);
+  REQUIRE(first.run(451, with(both_axes(4), {{406, 1.0}})) == 0);
+  CHECK(model_of(first, Axis::A).direction == Vec3{1, 0, 0});
+  CHECK(first.host.q[144] > 1e-3);
+  SphereBench second(setup);
+  REQUIRE(second.run(451, with(both_axes(4), {{406, 2.0}})) == 0);
+  CHECK(same(second.host.q[144], 0));
+  for (const Axis axis : {Axis::A, Axis::C}) {
+    const RotaryAxis real = setup.machine.axes[index(axis)]->built(axis);
+    CHECK(norm(model_of(second, axis).direction - real.direction) < 1e-10);
+    CHECK(distance(second, setup, axis) < 1e-8);
+  }
+  CHECK(contains(log_of(second), "X -0.0150, Y 0.0100, Z 0.0000"));
+}
+
+// One axis scatters at a time: what A comes to rest with counts as location of C, which it carries.
+TEST_CASE("random errors are found within three times the scatter, which is what remains") {
+  constexpr double kScatter = 0.002;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    CAPTURE(seed);
+    machine::Random random(seed);
+    const auto up_to = [&random](double limit) { return limit * random.normal() / 6; };
+    Setup setup = trunnion();
+    setup.seed = seed;
+    const Axis scattering = seed % 2 == 0 ? Axis::A : Axis::C;
+    for (const Axis axis : {Axis::A, Axis::C}) {
+      machine::AxisSetup& real = *setup.machine.axes[index(axis)];
+      real.centre_error = {up_to(0.3), up_to(0.3), up_to(0.3)};
+      real.tilt_error_deg = {up_to(0.1), up_to(0.1), up_to(0.1)};
+    }
+    setup.machine.axes[index(scattering)]->scatter_um = kScatter * 1000;
+    SphereBench bench(setup);
+    REQUIRE(bench.run(451, with(both_axes(12), {{406, 2.0}})) == 0);
+    for (const Axis axis : {Axis::A, Axis::C}) {
+      CHECK(distance(bench, setup, axis) < 3 * kScatter);
+      const RotaryAxis real = setup.machine.axes[index(axis)]->built(axis);
+      const double radius = norm(kSphere - point_of(real, kSphere));
+      CHECK(norm(model_of(bench, axis).direction - real.direction) * radius < 3 * kScatter);
+    }
+    const auto is_scatter = [&](int first) {
+      const double found = bench.host.q[first + static_cast<int>(index(scattering)) - 3];
+      return found > 0.6 * kScatter && found < 1.5 * kScatter;
+    };
+    CHECK(is_scatter(144));
+    REQUIRE(bench.run(451, both_axes(12)) == 0);
+    CHECK(is_scatter(141));
+  }
+}
+
+TEST_CASE("a head is measured like a table") {
+  Setup setup = sphere_setup();
+  machine::AxisSetup& head = add_axis(setup, Axis::B);
+  head.mount = machine::AxisMount::Head;
+  head.centre_error = {0.03, 0, -0.05};
+  head.tilt_error_deg = {0.01, 0, 0.02};
+  SphereBench bench(setup);
+  set_tcpm(bench.machine, true);
+  const Values block =
+      with(with(kinematics_block(), measured(Axis::B, -60, 60, 5)), {{406, 2.0}, {408, 0.0}});
+  REQUIRE(bench.run(451, block) == 0);
+  CHECK(same(bench.host.q[147], 0.03));
+  CHECK(same(bench.host.q[148], 0));
+  CHECK(same(bench.host.q[149], -0.05));
+  CHECK(bench.host.q[142] > 0.01);
+  CHECK(same(bench.host.q[145], 0));
+  CHECK(norm(model_of(bench, Axis::B).direction - head.built(Axis::B).direction) < 1e-9);
+}
+
+TEST_CASE("the other axes stand at their angle of incidence") {
+  const Setup setup = with_location_errors();
+  SphereBench bench(setup);
+  const Values block = with(both_axes(4), {{406, 2.0}, {413, 30.0}, {421, -45.0}});
+  REQUIRE(bench.run(451, block) == 0);
+  CHECK(distance(bench, setup, Axis::A) < 1e-8);
+  CHECK(distance(bench, setup, Axis::C) < 1e-8);
+  bool inclined = false;
+  for (const auto& touch : bench.host.touches) {
+    inclined = inclined || touch.nose.rotary == Vec3{30, 0, 180};
+  }
+  CHECK(inclined);
+}
+
+TEST_CASE("a turned preset gives the same results") {
+  Setup setup = with_location_errors();
+  setup.machine.presets.front().frame.basic_rotation_deg = {0, 0, 30};
+  SphereBench bench(setup);
+  REQUIRE(bench.run(451, with(both_axes(4), {{380, 17.0}})) == 0);
+  CHECK(same(bench.host.q[147], -0.02));
+  CHECK(same(bench.host.q[148], 0.05));
+  CHECK(same(bench.host.q[144], 0));
+}
+
+TEST_CASE("of one position the error is known, and no direction is invented") {
+  const Setup setup = with_location_errors();
+  SphereBench bench(setup);
+  const Values block = with(with(kinematics_block(), measured(Axis::C, 180, 0, 1)), {{406, 2.0}});
+  REQUIRE(bench.run(451, block) == 0);
+  // Half a turn shows the location error twice.
+  CHECK(same(bench.host.q[143], to_length(2 * std::hypot(0.02, 0.05)).to_mm()));
+  CHECK(same(bench.host.q[146], 0));
+  CHECK(same(bench.host.q[147], -0.02));
+  CHECK(model_of(bench, Axis::C).direction == Vec3{0, 0, 1});
+  CHECK(contains(log_of(bench), "cannot see the direction"));
+  CHECK(contains(log_of(bench), "Measured error of the position"));
+}
+
+TEST_CASE("what the positions cannot see is left as it is") {
+  const Setup setup = with_location_errors();
+  SphereBench bench(setup);
+  const machine::Kinematics before = bench.machine.state().kinematics;
+  const Values block =
+      with(with(kinematics_block(), measured(Axis::C, 0, 359.9999, 2)), {{406, 2.0}});
+  REQUIRE(bench.run(451, block) == 0);
+  CHECK(bench.machine.state().kinematics == before);
+  CHECK(contains(log_of(bench), "cannot see the location"));
+  for (const int q : {147, 148, 149}) CHECK(bench.host.q[q] == 0);
+}
+
+TEST_CASE("a narrow range is called poor") {
+  SphereBench bench(with_location_errors());
+  const auto block = [](double range) {
+    return with(kinematics_block(), measured(Axis::A, -range, range, 4));
+  };
+  REQUIRE(bench.run(451, block(10)) == 0);
+  CHECK(contains(log_of(bench), "Poor positions"));
+  CHECK_FALSE(contains(log_of(bench), "Usable positions"));
+  REQUIRE(bench.run(451, block(90)) == 0);
+  CHECK(contains(log_of(bench), "Usable positions"));
+}
+
+TEST_CASE("backlash is measured from both sides of each position") {
+  Setup setup = trunnion();
+  setup.machine.axes[index(Axis::C)]->backlash_deg = 0.01;
+  for (const double angle : {2.0, -2.0}) {
+    SphereBench bench(setup);
+    const Values block =
+        with(with(kinematics_block(), measured(Axis::C, -60, 120, 3)), {{432, angle}});
+    REQUIRE(bench.run(451, block) == 0);
+    CHECK(contains(log_of(bench), "<th scope=\"row\">Backlash in degrees</th><td>0.0100</td>"));
+    CHECK(same(bench.host.q[143], 0));
+  }
+  setup.machine.axes[index(Axis::C)]->hirth_grid_deg = 5;
+  SphereBench bench(setup);
+  REQUIRE(bench.run(451, with(with(kinematics_block(), measured(Axis::C, -60, 120, 3)),
+                              {{432, 2.0}})) == 0);
+  CHECK(contains(log_of(bench), "not possible on a Hirth axis"));
+}
+
+TEST_CASE("with TCPM the probe circles the sphere instead of retracting") {
+  const Setup setup = with_location_errors();
+  SphereBench retracting(setup);
+  REQUIRE(retracting.run(451, both_axes(4)) == 0);
+  SphereBench circling(setup);
+  set_tcpm(circling.machine, true);
+  REQUIRE(circling.run(451, with(both_axes(4), {{408, 0.0}})) == 0);
+  for (int q = 141; q <= 149; ++q) CHECK(same(circling.host.q[q], retracting.host.q[q]));
+  CHECK_FALSE(circling.machine.state().modes.tcpm);
+}
+
+TEST_CASE("Q408 = 0 needs TCPM and no Hirth axis, and a height must clear the sphere") {
+  Setup setup = trunnion();
+  SphereBench bench(setup);
+  CHECK(bench.run(451, with(both_axes(3), {{408, 0.0}})) == 1082);
+  CHECK(bench.run(451, with(both_axes(3), {{408, 10.0}})) == 1082);
+  setup.machine.axes[index(Axis::A)]->hirth_grid_deg = 3;
+  SphereBench hirth(setup);
+  set_tcpm(hirth.machine, true);
+  CHECK(hirth.run(451, with(both_axes(3), {{408, 0.0}})) == 1082);
+}
+
+TEST_CASE("Q431 sets the preset into the sphere") {
+  for (const double when : {0.0, 1.0, 2.0, 3.0}) {
+    CAPTURE(when);
+    Setup setup = with_location_errors();
+    const Vec3 rough = kSphere + Vec3{0.3, -0.2, 0.5};
+    setup.machine.presets.front().frame.origin = rough;
+    SphereBench bench(setup);
+    // The preset before is found where the probe stands, so the tip is over the sphere.
+    REQUIRE(bench.machine
+                .move({machine::AxisWords::linear(kSphere + Vec3{0.5, 0.5, 30}),
+                       {},
+                       machine::CoordinateSystem::Machine})
+                .has_value());
+    REQUIRE(bench.run(451, with(both_axes(4), {{406, 2.0}, {431, when}})) == 0);
+    const Vec3 origin = bench.machine.state().presets.find(1)->frame.origin;
+    const Vec3 expected = when == 0 ? rough : kSphere;
+    for (std::size_t k = 0; k < 3; ++k) CHECK(same(origin[k], expected[k]));
+    CHECK(bench.machine.state().frames.preset().origin == origin);
+    CHECK(distance(bench, setup, Axis::C) < 1e-8);
+  }
+}
+
+TEST_CASE("a preset before finds the sphere with the axes anywhere") {
+  const Setup setup = trunnion();
+  ProbingBench bench(setup);
+  machine::AxisWords turned;
+  turned[Axis::A] = 20;
+  turned[Axis::C] = 70;
+  REQUIRE(bench.machine.move({turned, {}}).has_value());
+  const Vec3 there = bench.machine.state().kinematics.table({20, 0, 70}).point(kSphere);
+  REQUIRE(bench.machine
+              .move({machine::AxisWords::linear(there + Vec3{0, 0, 25}),
+                     {},
+                     machine::CoordinateSystem::Machine})
+              .has_value());
+  REQUIRE(bench.run(451, with(both_axes(3), {{431, 1.0}})) == 0);
+  CHECK(norm(bench.machine.state().frames.preset().origin - kSphere) < 1e-6);
+}
+
+TEST_CASE("errors of 451") {
+  Setup setup = trunnion();
+  SphereBench bench(setup);
+  CHECK(bench.run(451, with(both_axes(3), {{411, -150.0}})) == 1101);
+  CHECK(bench.fault.text.find("A-150.0000") != std::string::npos);
+  CHECK(bench.run(451, with(both_axes(3), {{413, 130.0}})) == 1101);
+  CHECK(bench.run(451, with(both_axes(3), {{412, 119.0}, {432, 2.0}})) == 1101);
+  CHECK(bench.run(451, with(both_axes(3), {{414, 13.0}})) == 1004);
+  CHECK(bench.run(451, with(both_axes(3), {{423, 2.0}})) == 1004);
+  CHECK(bench.run(451, with(both_axes(3), {{406, 3.0}})) == 1004);
+  CHECK(bench.run(451, with(both_axes(3), {{432, 3.5}})) == 1004);
+  CHECK(bench.run(451, with(both_axes(3), {{407, 14.8}})) == 1072);
+  CHECK(bench.host.files.empty());
+  CHECK_FALSE(bench.host.q.contains(141));
+  setup.machine.axes[0]->max = 75;
+  SphereBench narrow(setup);
+  CHECK(narrow.run(451, both_axes(3)) == 1101);
+  setup = trunnion();
+  setup.machine.calibration_sphere.reset();
+  ProbingBench empty(setup);
+  CHECK(empty.run(451, both_axes(3)) == 1014);
+  SphereBench rigid(sphere_setup());
+  CHECK(rigid.run(451, both_axes(3)) == 1100);
+  setup = trunnion();
+  setup.machine.presets.front().locked = true;
+  SphereBench locked(setup);
+  CHECK(locked.run(451, with(both_axes(3), {{431, 2.0}})) == 1085);
+  REQUIRE(locked.machine.call_tool({.number = 0, .axis = {}, .spindle_rpm = {}}).has_value());
+  CHECK(locked.run(451, both_axes(3)) == 1092);
+}
+
+TEST_CASE("FMAX is a feed, and an INCH program gets millimetres") {
+  SphereBench bench(with_location_errors());
+  bench.host.inch = true;
+  const double infinity = std::numeric_limits<double>::infinity();
+  REQUIRE(bench.run(451, with(both_axes(3), {{253, infinity}})) == 0);
+  CHECK(same(bench.host.q[148], 0.05));
+  CHECK(contains(log_of(bench), "Lengths in mm"));
+  CHECK(contains(log_of(bench), "15.0000"));
+}
+
+TEST_CASE("each measurement of a run joins one log") {
+  SphereBench bench(trunnion());
+  REQUIRE(bench.run(451, with(both_axes(3), {{406, 1.0}})) == 0);
+  REQUIRE(bench.run(451, both_axes(3)) == 0);
+  const std::string& log = log_of(bench);
+  CHECK(contains(log, "Mode 1 = optimise locations;"));
+  CHECK(contains(log, "Mode 0 = check;"));
+  CHECK(log.find("<!DOCTYPE") == log.rfind("<!DOCTYPE"));
+}
+
+}  // namespace fitgauge::probing
