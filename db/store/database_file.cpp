@@ -69,6 +69,15 @@ Result<void> upgrade_file(const fs::path& file, std::span<const sqlite::Migratio
   return {};
 }
 
+/// A kill while the file is changed to WAL mode, at the first start or with a restored backup,
+/// leaves a rollback journal. A read-only connection may not roll it back and would refuse the
+/// file.
+void roll_back_interrupted_change(const fs::path& file) {
+  if (!fs::exists(with_suffix(file, "-journal"))) return;
+  sqlite::Connection connection(file, sqlite::Mode::Create);
+  sqlite::schema_version(connection);
+}
+
 /// A read-only connection to a file in WAL mode makes an empty log with its index and leaves both
 /// behind. While this lives, the directory is the caller's alone; what was not there before goes
 /// again.
@@ -129,6 +138,7 @@ Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite
     return unavailable(fmt::format("{} does not exist; start fitgauged once", file.string()));
   }
   if (Result<void> ours = inspect_file(file); !ours) return ours;
+  if (options.access == Access::Serve) roll_back_interrupted_change(file);
   const Result<int> version = checked_version(options, file, known);
   if (!version) return version.error();
   if (*version == static_cast<int>(known.size())) return {};

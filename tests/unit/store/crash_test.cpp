@@ -88,6 +88,25 @@ TEST_CASE("an upgrade that is killed leaves the old schema or the new one") {
   }
 }
 
+TEST_CASE("a kill while the file is changed to WAL mode is no obstacle") {
+  Fixture fixture;
+  REQUIRE(fixture.append(sample_row()).has_value());
+  fixture.database.reset();
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    sqlite::Connection connection(fixture.directory.file(), sqlite::Mode::Create);
+    connection.execute(
+        "PRAGMA journal_mode = DELETE; BEGIN; UPDATE storage_probe SET probed_at = 9");
+    ::_exit(0);
+  }
+  ::waitpid(child, nullptr, 0);
+  REQUIRE(std::filesystem::exists(fixture.directory.path() / "fitgauge.db-journal"));
+  fixture.open();
+  CHECK(fixture.last_id() == 1);
+  CHECK(fixture.database->verify()->findings.empty());
+}
+
 TEST_CASE("measurements acknowledged before a kill are there after it") {
   std::mt19937 random(std::random_device{}());
   TempDirectory directory;

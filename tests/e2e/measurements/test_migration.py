@@ -1,0 +1,112 @@
+"""A creation and an upgrade of the database whose write-type system calls fail: the old state or the new
+one, one line that says why, and the next start succeeds.
+
+Some calls are made to fail by chance, which $SEED repeats; with FAULTS=all it is every one.
+"""
+
+import contextlib
+import itertools
+import os
+import random
+import shutil
+import sqlite3
+import subprocess
+import time
+import unittest
+
+from support.daemon import Daemon
+
+PART = {"designation": "25 H7", "measured_mm": 25.013}
+SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
+SAMPLE = 10
+# Each call with how often it is made, or more.
+CALLS = {"pwrite64": 60, "fdatasync": 8, "fsync": 6, "rename": 2, "unlink": 4}
+FAILURES = ("error=EIO", "error=ENOSPC", "signal=SIGKILL")
+
+
+def can_trace():
+    return shutil.which("strace") and subprocess.run(
+        ["strace", "-qq", "-o", "/dev/null", "-e", "inject=getppid:retval=7", "true"],
+        capture_output=True, check=False).returncode == 0
+
+
+def faults():
+    every = [f"{call}:{failure}:when={n}" for call, most in CALLS.items()
+             for failure, n in itertools.product(FAILURES, range(1, most + 1))]
+    if os.environ.get("FAULTS") == "all":
+        return every
+    print(f"seed {SEED}")
+    return random.Random(SEED).sample(every, SAMPLE) + [
+        "pwrite64:error=ENOSPC:when=1", "fdatasync:error=EIO:when=1", "rename:error=EIO:when=1"]
+
+
+@unittest.skipUnless(can_trace(), "needs strace and the right to trace")
+class Migration(unittest.TestCase):
+    def start_with(self, fault, data=None):
+        """Starts the service on a copy of `data` while a call fails. @returns it, ended, and whether
+        it had refused to start."""
+        daemon = Daemon()
+        self.addCleanup(daemon.cleanup)
+        if data:
+            shutil.copytree(data, daemon.data)
+        call = fault.partition(":")[0]
+        # -D: the tracer is no parent, so that the process is the service's own.
+        daemon.wrapper = ["strace", "-D", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={call}",
+                          "-e", f"inject={fault}"]
+        refused = False
+        try:
+            daemon.start()
+            daemon.kill()
+        except RuntimeError:
+            refused = True
+            if daemon.process.returncode in (1, 2):
+                line, = daemon.log.strip().splitlines()
+                self.assertTrue(line.startswith("fitgauged: "), line)
+            else:
+                self.assertEqual(daemon.process.returncode, -9, daemon.log)
+        daemon.wrapper = []
+        return daemon, refused
+
+    def check(self, daemon, rows):
+        """Without the fault it starts, has every row, and takes a new one."""
+        daemon.start()
+        self.assertEqual(len(daemon.stored()), rows)
+        self.assertEqual(daemon.measure(PART).status, 201)
+        verified = daemon.command("verify")
+        self.assertEqual(verified.returncode, 0, verified.stdout)
+        self.assertEqual(daemon.stop(), 0)
+        daemon.cleanup()
+
+    def test_a_creation(self):
+        count = 0
+        for fault in faults():
+            with self.subTest(fault):
+                daemon, refused = self.start_with(fault)
+                count += refused
+                self.check(daemon, 0)
+        self.assertGreater(count, 0, "no start was refused: the test proves nothing")
+
+    def test_an_upgrade(self):
+        old = Daemon()
+        self.addCleanup(old.cleanup)
+        old.start()
+        self.assertEqual(old.measure([PART] * 3).status, 201)
+        self.assertEqual(old.stop(), 0)
+        with contextlib.closing(sqlite3.connect(old.database)) as database:
+            newest, = database.execute(
+                "SELECT name FROM schema_migrations ORDER BY number DESC LIMIT 1").fetchone()
+            self.assertEqual(newest, "0006_events", "this takes back the newest migration")
+            database.executescript("DROP TABLE events; PRAGMA user_version = 5;"
+                                   "DELETE FROM schema_migrations WHERE number = 6;")
+        count = 0
+        for fault in faults():
+            with self.subTest(fault):
+                daemon, refused = self.start_with(fault, old.data)
+                count += refused
+                with contextlib.closing(sqlite3.connect(daemon.database)) as database:
+                    version, = database.execute("PRAGMA user_version").fetchone()
+                    tables, = database.execute(
+                        "SELECT count(*) FROM sqlite_schema WHERE name = 'events'").fetchone()
+                    self.assertEqual(tables, version - 5)
+                self.check(daemon, 3)
+        self.assertGreater(count, 0, "no start was refused: the test proves nothing")
