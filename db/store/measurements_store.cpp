@@ -97,11 +97,14 @@ struct MeasurementsStore::Statements {
     return {};
   }
 
-  /// A row with limits of a revision that is not there is a bug of the caller's.
+  /// A row with limits of a revision that is not there is a bug of the caller's. Revisions are
+  /// never deleted: one that was seen is there.
   void require_revision(std::int64_t number) {
+    if (number == seen_revision) return;
     if (!revision.query(number).next()) {
       throw std::logic_error(fmt::format("there is no table revision {}", number));
     }
+    seen_revision = number;
   }
 
   std::optional<std::int64_t> corrected_by(std::int64_t id) {
@@ -126,6 +129,7 @@ struct MeasurementsStore::Statements {
   MeasurementLookup lookup;
   MeasurementQuery whole_rows;
   std::map<GroupBy, MeasurementQuery> values;
+  std::optional<std::int64_t> seen_revision;
 };
 
 MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
@@ -133,17 +137,13 @@ MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
 MeasurementsStore::~MeasurementsStore() = default;
 
 Result<IdRange> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
-  std::optional<std::int64_t> known_revision;
   for (const MeasurementRow& row : rows) {
     if (row.correction_of) {
       if (Result<void> open = statements_->require_current(*row.correction_of); !open) {
         return open.error();
       }
     }
-    if (row.table_revision && row.table_revision != known_revision) {
-      statements_->require_revision(*row.table_revision);
-      known_revision = row.table_revision;
-    }
+    if (row.table_revision) statements_->require_revision(*row.table_revision);
   }
   const MeasurementInsert::Place last = statements_->last();
   const MeasurementInsert::Place end = statements_->insert.append(last, rows);

@@ -15,8 +15,7 @@ constexpr std::string_view kGap =
 std::string data_of(const app::Event& event) {
   if (event.measurement == nullptr) return std::string(event.payload);
   std::string data;
-  JsonWriter json(data);
-  write_measurement(json, *event.measurement);
+  append_measurement(data, *event.measurement);
   return data;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "api/json_escape.hpp"
 #include "base/decimal.hpp"
 
 namespace fitgauge::api {
@@ -94,26 +95,31 @@ JsonWriter& JsonWriter::raw(std::string_view json) {
   return *this;
 }
 
-void append_json_string(std::string& out, std::string_view text) {
+char* write_escape(char* to, char c) {
   constexpr std::string_view kHex = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  *to++ = '\\';
+  switch (byte) {
+    case '"':
+    case '\\': *to++ = c; break;
+    case '\n': *to++ = 'n'; break;
+    case '\r': *to++ = 'r'; break;
+    case '\t': *to++ = 't'; break;
+    default:
+      for (const char digit : {'u', '0', '0', kHex[byte >> 4], kHex[byte & 15]}) *to++ = digit;
+  }
+  return to;
+}
+
+void append_json_string(std::string& out, std::string_view text) {
   out += '"';
   std::size_t copied = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    if (byte >= 0x20 && byte != '"' && byte != '\\') continue;
+    if (!needs_escape(text[i])) continue;
     out += text.substr(copied, i - copied);
     copied = i + 1;
-    switch (byte) {
-      case '"': out += "\\\""; break;
-      case '\\': out += "\\\\"; break;
-      case '\n': out += "\\n"; break;
-      case '\r': out += "\\r"; break;
-      case '\t': out += "\\t"; break;
-      default:
-        out += "\\u00";
-        out += kHex[byte >> 4];
-        out += kHex[byte & 15];
-    }
+    char escape[kEscapeRoom];
+    out.append(escape, write_escape(escape, text[i]));
   }
   out += text.substr(copied);
   out += '"';

@@ -31,7 +31,7 @@ void read_row(const JsonValue& object, MeasurementRowReader& reader, Measurement
   for (const auto& [name, value] : object.members) {
     if (!reader.field(name, raw_value(value))) reader.report_unknown(name);
   }
-  if (auto row = reader.end()) batch.rows.push_back(*std::move(row));
+  if (const app::Measurement* row = reader.end()) batch.rows.push_back(*row);
 }
 
 Result<MeasurementBatch> finish(MeasurementBatch batch, FieldErrors& errors) {
@@ -140,7 +140,7 @@ Result<MeasurementBatch> decode_csv(std::string_view body, const BatchContext& c
                                       .text = cell.text,
                                       .decimal_comma = semicolon || cell.quoted});
     }
-    if (auto measurement = reader.end()) batch.rows.push_back(*std::move(measurement));
+    if (const app::Measurement* m = reader.end()) batch.rows.push_back(*m);
   }
   if (row == 0) return no_rows("the file");
   return finish(std::move(batch), errors);

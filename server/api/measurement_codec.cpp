@@ -1,10 +1,10 @@
 #include "api/measurement_codec.hpp"
 
 #include <array>
+#include <tuple>
 
 #include "api/csv_reader.hpp"
-#include "api/limits_codec.hpp"
-#include "api/verdict_codec.hpp"
+#include "api/record_text.hpp"
 #include "base/decimal.hpp"
 
 namespace fitgauge::api {
@@ -15,45 +15,63 @@ using app::Measurement;
 
 constexpr int kTemperatureScale = 6;
 
-void write_limits_members(JsonWriter& json, const Measurement& m) {
-  if (m.class_name) {
-    json.member("designation", designation_text(m.nominal_size, *m.class_name));
-  }
-  json.member_mm("nominal_mm", m.nominal_size);
-  if (m.class_name) json.member("tolerance_class", *m.class_name);
-  json.member("feature", word(m.feature))
-      .member_um("upper_deviation_um", m.deviations.upper)
-      .member_um("lower_deviation_um", m.deviations.lower)
-      .member_mm("upper_limit_mm", m.upper_limit())
-      .member_mm("lower_limit_mm", m.lower_limit())
-      .member_um("tolerance_um", m.deviations.upper - m.deviations.lower);
-  if (m.size_range) {
-    json.key("size_range_mm")
-        .begin_object()
-        .member_mm("over", m.size_range->over)
-        .member_mm("up_to", m.size_range->up_to)
-        .end_object();
-  }
-  json.member("basis", word(m.basis));
-  if (!m.table_revision.empty()) json.member("table_revision", m.table_revision);
+/// More than the names of all members, the numbers and the words of a record take together.
+constexpr std::size_t kFixedRoom = 1536;
+
+std::size_t room_for(const Measurement& m) {
+  std::size_t texts = m.table_revision.size() + m.caller.value_or("").size() +
+                      m.correction_reason.value_or("").size() +
+                      2 * m.class_name.value_or("").size();
+  for (const auto& [name, field] : kMeasurementTexts) texts += (m.texts.*field).value_or("").size();
+  return kFixedRoom + RecordText::kEscaped * texts;
 }
 
-void write_given_members(JsonWriter& json, const Measurement& m) {
+bool same_limits(const Measurement& a, const Measurement& b) {
+  const auto limits = [](const Measurement& m) {
+    return std::tie(m.nominal_size, m.class_name, m.feature, m.deviations, m.size_range, m.basis,
+                    m.table_revision);
+  };
+  return limits(a) == limits(b);
+}
+
+void write_limits(RecordText& text, const Measurement& m) {
+  if (m.class_name) {
+    text.raw(R"(,"designation":")").mm(m.nominal_size).raw(" ").escaped(*m.class_name).raw("\"");
+  }
+  text.raw(R"(,"nominal_mm":)").mm(m.nominal_size);
+  if (m.class_name) text.raw(R"(,"tolerance_class":)").quoted(*m.class_name);
+  text.raw(R"(,"feature":")").raw(word(m.feature));
+  text.raw(R"(","upper_deviation_um":)").um(m.deviations.upper);
+  text.raw(R"(,"lower_deviation_um":)").um(m.deviations.lower);
+  text.raw(R"(,"upper_limit_mm":)").mm(m.upper_limit());
+  text.raw(R"(,"lower_limit_mm":)").mm(m.lower_limit());
+  text.raw(R"(,"tolerance_um":)").um(m.deviations.upper - m.deviations.lower);
+  if (m.size_range) {
+    text.raw(R"(,"size_range_mm":{"over":)").mm(m.size_range->over);
+    text.raw(R"(,"up_to":)").mm(m.size_range->up_to).raw("}");
+  }
+  text.raw(R"(,"basis":")").raw(word(m.basis)).raw("\"");
+  if (!m.table_revision.empty()) text.raw(R"(,"table_revision":)").quoted(m.table_revision);
+}
+
+void write_given(RecordText& text, const Measurement& m) {
   for (const auto& [name, field] : kMeasurementTexts) {
-    if (const auto& text = m.texts.*field) json.member(name, *text);
+    if (const auto& given = m.texts.*field) text.raw(",\"").raw(name).raw("\":").quoted(*given);
   }
-  json.member("rule", word(m.rule.kind()));
-  if (m.standard_uncertainty) json.member_um("uncertainty_um", *m.standard_uncertainty);
-  if (m.coverage_factor) json.key("coverage_factor").raw(format(*m.coverage_factor));
-  if (m.temperature) json.key("temperature_c").decimal(*m.temperature, kTemperatureScale);
-  if (m.caller) json.member("caller", *m.caller);
-  if (m.run_id) json.member("run_id", app::run_id_text(*m.run_id));
-  if (m.cycle) json.member("cycle", *m.cycle);
+  text.raw(R"(,"rule":")").raw(word(m.rule.kind())).raw("\"");
+  if (m.standard_uncertainty) text.raw(R"(,"uncertainty_um":)").um(*m.standard_uncertainty);
+  if (m.coverage_factor) text.raw(R"(,"coverage_factor":)").raw(format(*m.coverage_factor));
+  if (m.temperature) text.raw(R"(,"temperature_c":)").decimal(*m.temperature, kTemperatureScale);
+  if (m.caller) text.raw(R"(,"caller":)").quoted(*m.caller);
+  if (m.run_id) text.raw(R"(,"run_id":)").quoted(app::run_id_text(*m.run_id));
+  if (m.cycle) text.raw(R"(,"cycle":)").decimal(*m.cycle, 0);
   if (m.correction_of) {
-    json.member("correction_of", app::measurement_id_text(*m.correction_of));
+    text.raw(R"(,"correction_of":)").quoted(app::measurement_id_text(*m.correction_of));
   }
-  if (m.correction_reason) json.member("reason", *m.correction_reason);
-  if (m.corrected_by) json.member("corrected_by", app::measurement_id_text(*m.corrected_by));
+  if (m.correction_reason) text.raw(R"(,"reason":)").quoted(*m.correction_reason);
+  if (m.corrected_by) {
+    text.raw(R"(,"corrected_by":)").quoted(app::measurement_id_text(*m.corrected_by));
+  }
 }
 
 void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,
@@ -69,16 +87,31 @@ void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rewo
 
 }  // namespace
 
-void write_measurement(JsonWriter& json, const Measurement& m) {
-  json.begin_object()
-      .member("id", app::measurement_id_text(m.id))
-      .member("source", word(m.source))
-      .member("measured_at", format_rfc3339(m.measured_at))
-      .member("received_at", format_rfc3339(m.received_at));
-  write_limits_members(json, m);
-  write_verdict_members(json, m.nominal_size, m.measured, m.result);
-  write_given_members(json, m);
-  json.end_object();
+void MeasurementWriter::append(const Measurement& m) {
+  RecordText text(out_, room_for(m));
+  text.raw(R"({"id":")").raw(app::measurement_id_text(m.id));
+  text.raw(R"(","source":")").raw(word(m.source));
+  text.raw(R"(","measured_at":")").time(m.measured_at);
+  text.raw(R"(","received_at":")").time(m.received_at).raw("\"");
+  const std::size_t limits_at = text.size();
+  if (before_ != nullptr && same_limits(*before_, m)) {
+    text.raw(std::string_view(out_).substr(limits_at_, limits_size_));
+  } else {
+    write_limits(text, m);
+    limits_size_ = text.size() - limits_at;
+  }
+  limits_at_ = limits_at;
+  before_ = &m;
+  text.raw(R"(,"measured_mm":)").mm(m.measured);
+  text.raw(R"(,"deviation_um":)").um(m.measured - m.nominal_size);
+  text.raw(R"(,"verdict":")").raw(word(m.result.verdict));
+  text.raw(R"(","excess_um":)").um(m.result.excess);
+  write_given(text, m);
+  text.raw("}");
+}
+
+void append_measurement(std::string& out, const Measurement& m) {
+  MeasurementWriter(out).append(m);
 }
 
 std::string measurement_csv_header() {
@@ -151,12 +184,17 @@ std::string accepted_json(std::span<const Measurement> measurements) {
 }
 
 std::string representation_json(std::span<const Measurement> measurements) {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object().key("measurements").begin_array();
-  for (const Measurement& m : measurements) write_measurement(json, m);
-  json.end_array().end_object();
-  return out;
+  constexpr std::size_t kSpare = 4096;
+  std::string out = R"({"measurements":[)";
+  MeasurementWriter writer(out);
+  writer.append(measurements.front());
+  // The others are about as long.
+  out.reserve(measurements.size() * out.size() + kSpare);
+  for (const Measurement& m : measurements.subspan(1)) {
+    out += ',';
+    writer.append(m);
+  }
+  return out += "]}";
 }
 
 std::string summary_json(std::string_view group_by, std::span<const app::MeasurementGroup> groups) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -9,8 +10,23 @@
 
 namespace fitgauge::api {
 
-/// The record of a measurement; fields that were not given are left out.
-void write_measurement(JsonWriter& json, const app::Measurement& measurement);
+/// Appends the record of a measurement as JSON; fields that were not given are left out.
+void append_measurement(std::string& out, const app::Measurement& measurement);
+
+/// Appends records, one after the other. Those of a request mostly have the same limits: these are
+/// copied from the record before. Each measurement stays where it is until the next is written.
+class MeasurementWriter {
+ public:
+  explicit MeasurementWriter(std::string& out) : out_(out) {}
+
+  void append(const app::Measurement& measurement);
+
+ private:
+  std::string& out_;
+  const app::Measurement* before_ = nullptr;
+  std::size_t limits_at_ = 0;  ///< where those of the record before stand
+  std::size_t limits_size_ = 0;
+};
 
 /// The header line of the CSV form, and one line of it.
 std::string measurement_csv_header();

@@ -98,8 +98,8 @@ std::optional<std::string_view> read_reason(const JsonValue& body, FieldErrors& 
   return text;
 }
 
-Result<MeasurementBatch> decode(std::shared_ptr<const Sources> sources, Timestamp received_at,
-                                std::optional<std::string_view> caller) {
+Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
+                                Timestamp received_at, std::optional<std::string_view> caller) {
   FieldErrors errors;
   const JsonValue& body = sources->body;
   if (!body.is(JsonValue::Kind::Object)) {
@@ -114,11 +114,12 @@ Result<MeasurementBatch> decode(std::shared_ptr<const Sources> sources, Timestam
     if (name != "reason" && !reader.field(name, raw_value(value))) reader.report_unknown(name);
   }
   take_over(reader, body, *sources->original);
-  auto row = reader.end();
+  const app::Measurement* row = reader.end();
   if (auto error = errors.take()) return *std::move(error);
-  row->correction_of = sources->original->id;
-  row->correction_reason = reason;
-  return MeasurementBatch{.rows = {*std::move(row)}, .single = true, .texts = std::move(sources)};
+  MeasurementBatch batch{.rows = {*row}, .single = true, .texts = sources};
+  batch.rows.front().correction_of = sources->original->id;
+  batch.rows.front().correction_reason = reason;
+  return batch;
 }
 
 void correct(const SharedPosting& posting, const app::Measurement& original) {

@@ -33,8 +33,7 @@ std::string media_type(Form form) {
 
 void append_row(std::string& out, Form form, const app::Measurement& measurement) {
   if (form == Form::Csv) return append_measurement_csv(out, measurement);
-  JsonWriter json(out);
-  write_measurement(json, measurement);
+  append_measurement(out, measurement);
   if (form == Form::Ndjson) out += '\n';
 }
 

@@ -20,8 +20,7 @@ app::Answer render(std::span<const app::Measurement> measurements, bool single, 
   if (wanted == Preference::Minimal) {
     answer.content_type.clear();
   } else if (single) {
-    JsonWriter json(answer.body);
-    write_measurement(json, measurements.front());
+    append_measurement(answer.body, measurements.front());
   } else if (wanted == Preference::Representation) {
     answer.body = representation_json(measurements);
   } else {

@@ -272,7 +272,7 @@ void MeasurementRowReader::take_limits(const app::Measurement& other) {
   draft_.has_limits = true;
 }
 
-std::optional<app::Measurement> MeasurementRowReader::end() {
+const app::Measurement* MeasurementRowReader::end() {
   app::Measurement& m = draft_.measurement;
   if (!given(kMeasured)) {
     report(ErrorCode::FieldMissing, kFields[kMeasured].name, "measured_mm is required");
@@ -289,12 +289,12 @@ std::optional<app::Measurement> MeasurementRowReader::end() {
       m.coverage_factor = m.rule.coverage_factor();
     }
   }
-  if (draft_.failed) return std::nullopt;
+  if (draft_.failed) return nullptr;
   m.received_at = received_at_;
   if (!given(kMeasuredAt)) m.measured_at = received_at_;
   m.caller = caller_;
   app::judge(m);
-  return m;
+  return &m;
 }
 
 void MeasurementRowReader::resolve_limits() {

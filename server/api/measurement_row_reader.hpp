@@ -45,8 +45,8 @@ class MeasurementRowReader {
   /// field of its own that says limits.
   void take_limits(const app::Measurement& other);
 
-  /// The judged measurement, or none when the row has errors.
-  std::optional<app::Measurement> end();
+  /// The judged measurement, until the next row begins; null when the row has errors.
+  const app::Measurement* end();
 
   /// Reports a row that is no object.
   void report_row(ErrorCode code, std::string message);

@@ -92,7 +92,7 @@ bool read_fields(ondemand::object& object, MeasurementRowReader& reader, Measure
       return false;
     }
   }
-  if (auto row = reader.end()) batch.rows.push_back(*std::move(row));
+  if (const app::Measurement* row = reader.end()) batch.rows.push_back(*row);
   return true;
 }
 
@@ -100,13 +100,25 @@ bool at_end(ondemand::document& document) {
   return document.current_location().error() == simdjson::OUT_OF_BOUNDS;
 }
 
-bool read_array(ondemand::array& array, MeasurementRowReader& reader, MeasurementBatch& batch) {
+/// Room for as many rows as there are when all are as long as the first.
+void make_room(std::string_view body, ondemand::document& document, MeasurementBatch& batch) {
+  const char* at = nullptr;
+  if (document.current_location().get(at) != simdjson::SUCCESS) return;
+  const std::size_t first = std::max<std::size_t>(static_cast<std::size_t>(at - body.data()), 1);
+  batch.rows.reserve(std::min(body.size() / first + 1, kMostRows));
+}
+
+bool read_array(std::string_view body, ondemand::document& document, MeasurementRowReader& reader,
+                MeasurementBatch& batch) {
+  ondemand::array array;
+  if (document.get_array().get(array) != simdjson::SUCCESS) return false;
   std::size_t row = 0;
   for (auto element : array) {
     ondemand::object object;
     if (row == kMostRows || element.get_object().get(object) != simdjson::SUCCESS) return false;
     reader.begin(row++);
     if (!read_fields(object, reader, batch)) return false;
+    if (row == 1) make_room(body, document, batch);
   }
   return row != 0;
 }
@@ -124,9 +136,7 @@ bool read_body_fast(std::string_view body, MeasurementRowReader& reader, Measure
     return false;
   }
   if (type == ondemand::json_type::array) {
-    ondemand::array array;
-    return document.get_array().get(array) == simdjson::SUCCESS &&
-           read_array(array, reader, batch) && at_end(document);
+    return read_array(body, document, reader, batch) && at_end(document);
   }
   ondemand::object object;
   batch.single = true;

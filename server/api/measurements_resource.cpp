@@ -19,11 +19,7 @@ void find_measurement(const Services& services, const http::Request& request,
   if (!id) return responder.fail(id.error());
   auto body = std::make_shared<std::string>();
   services.measurements.find(
-      *id,
-      [body](const app::Measurement& measurement) {
-        JsonWriter json(*body);
-        write_measurement(json, measurement);
-      },
+      *id, [body](const app::Measurement& measurement) { append_measurement(*body, measurement); },
       [body, responder = std::make_shared<http::Responder>(std::move(responder))](
           Result<std::int64_t> found) {
         if (!found) return responder->fail(found.error());

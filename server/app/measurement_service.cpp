@@ -54,18 +54,34 @@ Error corrected_before(const store::Stores& stores, std::int64_t id) {
                       measurement_id_text(id), measurement_id_text(newer.value_or(0)))};
 }
 
-/// The job of one request: appends the rows, gives them their ids, renders the answer.
-Result<store::StoredAnswer> append(store::Stores& stores, std::vector<Measurement>& measurements,
-                                   const std::vector<store::MeasurementRow>& rows,
-                                   const MeasurementService::Render& render) {
+/// Stores the measurements and gives them their ids.
+Result<void> append(store::Stores& stores, std::span<Measurement> measurements,
+                    std::optional<std::int64_t> revision) {
+  std::vector<store::MeasurementRow> rows;
+  rows.reserve(measurements.size());
+  for (const Measurement& m : measurements) {
+    rows.push_back(app::to_store(m, m.basis == LimitsBasis::Explicit ? std::nullopt : revision));
+  }
   const auto ids = stores.measurements.append(rows);
   if (!ids && ids.error().code == ErrorCode::MeasurementCorrected) {
     return corrected_before(stores, *rows.front().correction_of);
   }
   if (!ids) return ids.error();
   std::int64_t id = ids->first;
-  for (Measurement& measurement : measurements) measurement.id = id++;
-  return app::to_store(render(measurements));
+  for (Measurement& m : measurements) m.id = id++;
+  return {};
+}
+
+/// The same of a whole request, so many at a time that their rows stay in the cache.
+Result<void> append_all(store::Stores& stores, std::span<Measurement> measurements,
+                        std::optional<std::int64_t> revision) {
+  constexpr std::size_t kAtATime = 128;
+  while (!measurements.empty()) {
+    const std::size_t count = std::min(measurements.size(), kAtATime);
+    if (auto stored = append(stores, measurements.first(count), revision); !stored) return stored;
+    measurements = measurements.subspan(count);
+  }
+  return {};
 }
 
 }  // namespace
@@ -88,18 +104,18 @@ void MeasurementService::find_answer(const IdempotencyScope& scope,
 void MeasurementService::record(std::vector<Measurement> measurements,
                                 const std::optional<IdempotencyScope>& scope, Render render,
                                 Done<Answer> done) {
-  std::vector<store::MeasurementRow> rows;
-  rows.reserve(measurements.size());
   // The rows of one request are judged by one revision.
+  const auto by_tables =
+      std::find_if(measurements.begin(), measurements.end(),
+                   [](const Measurement& m) { return m.basis != LimitsBasis::Explicit; });
   std::optional<std::int64_t> revision;
-  for (const Measurement& measurement : measurements) {
-    const bool by_tables = measurement.basis != LimitsBasis::Explicit;
-    if (by_tables && !revision) revision = tables_.revision_number(measurement.table_revision);
-    rows.push_back(app::to_store(measurement, by_tables ? revision : std::nullopt));
+  if (by_tables != measurements.end()) {
+    revision = tables_.revision_number(by_tables->table_revision);
   }
-  auto work = [measurements = std::move(measurements), rows = std::move(rows),
-               render = std::move(render)](store::Stores& stores) mutable {
-    return append(stores, measurements, rows, render);
+  auto work = [measurements = std::move(measurements), revision, render = std::move(render)](
+                  store::Stores& stores) mutable -> Result<store::StoredAnswer> {
+    if (auto stored = append_all(stores, measurements, revision); !stored) return stored.error();
+    return app::to_store(render(measurements));
   };
   auto deliver = [done = std::move(done)](Result<store::StoredAnswer> answer) {
     if (!answer) return done(answer.error());

@@ -1,9 +1,9 @@
 #include "base/clock.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
-#include <iterator>
+#include <utility>
+
+#include "base/write_text.hpp"
 
 namespace fitgauge {
 namespace {
@@ -81,6 +81,12 @@ std::chrono::sys_days date_of(int year, int month, int day, bool& valid) {
   return valid ? std::chrono::sys_days(date) : std::chrono::sys_days();
 }
 
+/// `count` digits with zeros before them.
+char* write_digits(char* to, int value, int count) {
+  for (char* at = to + count; at != to; value /= 10) *--at = static_cast<char>('0' + value % 10);
+  return to + count;
+}
+
 }  // namespace
 
 Result<Timestamp> parse_rfc3339(std::string_view text) {
@@ -144,15 +150,27 @@ CivilTime civil_time(Timestamp time) {
           .weekday = static_cast<int>(weekday(day).c_encoding())};
 }
 
-std::string format_rfc3339(Timestamp time) {
+char* write_rfc3339(char* to, Timestamp time) {
   const CivilTime civil = civil_time(time);
-  std::string out = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", civil.year, civil.month,
-                                civil.day, civil.hour, civil.minute, civil.second);
-  if (civil.nanosecond != 0) {
-    fmt::format_to(std::back_inserter(out), ".{:09}", civil.nanosecond);
-    out.erase(out.find_last_not_of('0') + 1);
+  to = write_digits(to, civil.year, 4);
+  for (const auto& [mark, value] :
+       {std::pair('-', civil.month), std::pair('-', civil.day), std::pair('T', civil.hour),
+        std::pair(':', civil.minute), std::pair(':', civil.second)}) {
+    *to++ = mark;
+    to = write_digits(to, value, 2);
   }
-  return out += 'Z';
+  if (civil.nanosecond != 0) {
+    *to++ = '.';
+    to = write_digits(to, civil.nanosecond, 9);
+    while (to[-1] == '0') --to;
+  }
+  *to++ = 'Z';
+  return to;
+}
+
+std::string format_rfc3339(Timestamp time) {
+  char text[kRfc3339Room];
+  return {text, write_rfc3339(text, time)};
 }
 
 Timestamp SystemClock::now() const {

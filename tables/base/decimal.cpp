@@ -1,12 +1,21 @@
 #include "base/decimal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <limits>
 
+#include "base/write_text.hpp"
+
 namespace fitgauge {
 namespace {
+
+constexpr std::array<std::uint64_t, 19> kPowersOfTen = [] {
+  std::array<std::uint64_t, 19> powers{1};
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * 10;
+  return powers;
+}();
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -65,6 +74,29 @@ bool split(std::string_view text, const DecimalSyntax& syntax, DecimalText& part
   return text.empty();
 }
 
+/// Digits, or digits with a point and no more of them after it than the scale keeps, as most texts
+/// are, in one pass. @returns false for any other text.
+bool read_plain(std::string_view text, int scale, std::int64_t& value) {
+  constexpr std::size_t kMostDigits = std::numeric_limits<std::int64_t>::digits10;
+  const auto kept = static_cast<std::size_t>(scale);
+  if (text.size() > kMostDigits + 1) return false;
+  std::size_t point = text.size();
+  std::uint64_t digits = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (is_digit(text[i])) {
+      digits = digits * 10 + static_cast<std::uint64_t>(text[i] - '0');
+    } else if (text[i] == '.' && point == text.size() && i + 1 < text.size()) {
+      point = i;
+    } else {
+      return false;
+    }
+  }
+  const std::size_t fraction = point == text.size() ? 0 : text.size() - point - 1;
+  if (point == 0 || fraction > kept || point + kept > kMostDigits) return false;
+  value = static_cast<std::int64_t>(digits * kPowersOfTen[kept - fraction]);
+  return true;
+}
+
 Error error_of(ErrorCode code, std::string_view text, std::string_view what) {
   constexpr std::size_t kShown = 40;
   std::string shown(text.substr(0, kShown));
@@ -75,6 +107,7 @@ Error error_of(ErrorCode code, std::string_view text, std::string_view what) {
 }  // namespace
 
 Result<std::int64_t> parse_decimal(std::string_view text, const DecimalSyntax& syntax) {
+  if (std::int64_t plain = 0; read_plain(text, syntax.scale, plain)) return plain;
   DecimalText parts;
   if (!split(text, syntax, parts)) {
     return error_of(ErrorCode::NumberMalformed, text,
@@ -119,29 +152,27 @@ Result<std::int64_t> parse_decimal(std::string_view text, const DecimalSyntax& s
   return parts.negative ? -value : value;
 }
 
-void append_decimal(std::string& out, std::int64_t value, int scale) {
-  // 20 digits of a 64-bit integer, its sign, the point and leading zeros up to the scale.
-  char digits[24];
-  const std::uint64_t magnitude =
-      value < 0 ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
-  const auto count =
-      std::to_chars(std::begin(digits), std::end(digits), magnitude).ptr - std::begin(digits);
-  const std::string_view text(digits, static_cast<std::size_t>(count));
-  const auto fraction_digits = static_cast<std::size_t>(scale);
-  if (value < 0) out += '-';
-  if (text.size() > fraction_digits) {
-    out += text.substr(0, text.size() - fraction_digits);
-  } else {
-    out += '0';
+char* write_decimal(char* to, std::int64_t value, int scale) {
+  constexpr int kMostDigits = 20;
+  auto magnitude = static_cast<std::uint64_t>(value);
+  if (value < 0) {
+    *to++ = '-';
+    magnitude = 0 - magnitude;
   }
-  std::string_view fraction =
-      text.substr(text.size() > fraction_digits ? text.size() - fraction_digits : 0);
-  const std::size_t leading_zeros = fraction_digits - fraction.size();
-  fraction = fraction.substr(0, fraction.find_last_not_of('0') + 1);
-  if (fraction.empty()) return;
-  out += '.';
-  out.append(leading_zeros, '0');
-  out += fraction;
+  const std::uint64_t unit = kPowersOfTen[static_cast<std::size_t>(scale)];
+  to = std::to_chars(to, to + kMostDigits, magnitude / unit).ptr;
+  std::uint64_t fraction = magnitude % unit;
+  if (fraction == 0) return to;
+  *to++ = '.';
+  char* end = to + scale;
+  for (char* at = end; at != to; fraction /= 10) *--at = static_cast<char>('0' + fraction % 10);
+  while (end[-1] == '0') --end;
+  return end;
+}
+
+void append_decimal(std::string& out, std::int64_t value, int scale) {
+  char text[kDecimalRoom];
+  out.append(text, write_decimal(text, value, scale));
 }
 
 std::string format_decimal(std::int64_t value, int scale) {

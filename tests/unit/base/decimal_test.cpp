@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <string>
 
 using namespace fitgauge;
 
@@ -71,6 +72,23 @@ TEST_CASE("what is not a decimal is refused as a whole") {
   }
   CHECK(refused("9223372036854.775808") == ErrorCode::NumberOutOfRange);
   CHECK(refused("99999999999999999999") == ErrorCode::NumberOutOfRange);
+}
+
+TEST_CASE("a sign, leading zeros and an exponent of zero change nothing") {
+  std::mt19937_64 random(286);
+  for (int i = 0; i < 20'000; ++i) {
+    const int scale = static_cast<int>(random() % 19);
+    std::string text = std::to_string(random() >> (random() % 64));
+    if (random() % 3 != 0) text.insert(random() % (text.size() + 1), ".");
+    CAPTURE(text);
+    CAPTURE(scale);
+    const auto plain = parse_decimal(text, {.scale = scale});
+    for (const std::string& same : {"+" + text, "000" + text, text + "e0"}) {
+      const auto other = parse_decimal(same, {.scale = scale, .exponent = true});
+      REQUIRE(plain.has_value() == (other.has_value() && text.front() != '.'));
+      if (plain) CHECK(*plain == *other);
+    }
+  }
 }
 
 TEST_CASE("decimals print in their shortest exact form") {

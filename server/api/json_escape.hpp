@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+namespace fitgauge::api {
+
+/// Whether a character of a JSON string stands as an escape (RFC 8259, 7).
+constexpr bool needs_escape(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\';
+}
+
+/// Room for one.
+inline constexpr std::size_t kEscapeRoom = 6;
+
+/// Writes it to where there is room. @returns its end.
+char* write_escape(char* to, char c);
+
+}  // namespace fitgauge::api

@@ -1,0 +1,93 @@
+#include "api/measurement_codec.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace fitgauge;
+using namespace fitgauge::api;
+
+namespace {
+
+app::Measurement hole_25_h7() {
+  app::Measurement m;
+  m.id = 17;
+  m.nominal_size = Length::millimetres(25);
+  m.class_name = "H7";
+  m.deviations = {.upper = Length::micrometres(21), .lower = Length()};
+  m.size_range =
+      iso286::NominalSizeRange{.over = Length::millimetres(18), .up_to = Length::millimetres(30)};
+  m.table_revision = "1-00000000";
+  m.measured = Length::micrometres(25'013);
+  app::judge(m);
+  return m;
+}
+
+std::string record(const app::Measurement& m) {
+  std::string out;
+  append_measurement(out, m);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a record has what was given, in the order of the contract") {
+  app::Measurement m = hole_25_h7();
+  m.texts.part_id = "SN-1";
+  m.temperature = 20'400'000;
+  CHECK(record(m) ==
+        R"({"id":"m17","source":"gauge","measured_at":"1970-01-01T00:00:00Z",)"
+        R"("received_at":"1970-01-01T00:00:00Z","designation":"25 H7","nominal_mm":25,)"
+        R"("tolerance_class":"H7","feature":"hole","upper_deviation_um":21,"lower_deviation_um":0,)"
+        R"("upper_limit_mm":25.021,"lower_limit_mm":25,"tolerance_um":21,)"
+        R"("size_range_mm":{"over":18,"up_to":30},"basis":"iso286","table_revision":"1-00000000",)"
+        R"("measured_mm":25.013,"deviation_um":13,"verdict":"good","excess_um":0,)"
+        R"("part_id":"SN-1","rule":"simple","temperature_c":20.4})");
+}
+
+TEST_CASE("records with the limits of the one before and with others are as each by itself") {
+  std::vector<app::Measurement> rows(12, hole_25_h7());
+  rows[3].class_name = "H8";
+  rows[4].nominal_size = Length::millimetres(26);
+  rows[6].deviations.upper = Length::micrometres(52);
+  rows[7].size_range.reset();
+  rows[8].table_revision = "2-00000000";
+  rows[9].basis = app::LimitsBasis::Explicit;
+  rows[10].feature = iso286::Feature::Shaft;
+  std::string each;
+  for (const app::Measurement& m : rows) each += (each.empty() ? "" : ",") + record(m);
+  CHECK(representation_json(rows) == R"({"measurements":[)" + each + "]}");
+}
+
+TEST_CASE("every character of a text is written as a JSON string has it") {
+  std::string text;
+  for (int c = 1; c < 128; ++c) text += static_cast<char>(c);
+  text += "Ø 25";
+  app::Measurement m = hole_25_h7();
+  m.texts.comment = text;
+  std::string quoted;
+  append_json_string(quoted, text);
+  CHECK(record(m).find("\"comment\":" + quoted + ",\"rule\"") != std::string::npos);
+}
+
+TEST_CASE("the longest numbers and texts of nothing but escapes have room") {
+  const std::string text(2000, '\1');
+  constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min() / 2 + 1;
+  app::Measurement m = hole_25_h7();
+  for (const auto& [name, field] : app::kMeasurementTexts) m.texts.*field = text;
+  m.class_name = m.caller = m.correction_reason = text;
+  m.table_revision = text;
+  m.nominal_size = m.deviations.upper = m.deviations.lower = Length::nanometres(kLowest);
+  m.size_range = {.over = Length::nanometres(kLowest), .up_to = Length::nanometres(kLowest)};
+  m.result = {.verdict = gauging::Verdict::Indeterminate, .excess = Length::nanometres(kLowest)};
+  m.measured = m.result.excess;
+  m.standard_uncertainty = m.measured;
+  m.coverage_factor = gauging::CoverageFactor();
+  m.temperature = m.id = kLowest;
+  m.run_id = m.cycle = m.correction_of = m.corrected_by = kLowest;
+  m.measured_at = m.received_at = {1'795'000'000'123'456'789};
+  CHECK(record(m).size() > 14 * 6 * text.size());
+}
