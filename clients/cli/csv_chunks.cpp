@@ -65,7 +65,7 @@ Outcome<void> CsvChunks::fill() {
 }
 
 Outcome<void> CsvChunks::fill_empty() {
-  if (!rest().empty() || ended_) return {};
+  if (!buffer_.empty() || ended_) return {};
   return fill();
 }
 
@@ -81,26 +81,25 @@ Outcome<void> CsvChunks::read_header() {
     if (!header && buffer_.size() > limits_.bytes) break;
   }
   if (!header) return Failure{ExitCode::LocalFile, "the input has no header line with field names"};
-  header_size_ = header->size;
+  header_ = buffer_.substr(0, header->size);
   header_lines_ = header->lines;
-  digest_.add(std::string_view(buffer_).substr(0, header_size_));
-  position_ = {.bytes = header_size_, .lines = header_lines_, .sha256 = digest_.digest()};
+  pass(header->size);
+  position_ = {.bytes = header->size, .lines = header_lines_, .sha256 = digest_.digest()};
   return {};
 }
 
-void CsvChunks::drop_taken() {
-  buffer_.erase(header_size_, taken_);
-  taken_ = 0;
+void CsvChunks::pass(std::size_t size) {
+  digest_.add(std::string_view(buffer_).substr(0, size));
+  buffer_.erase(0, size);
 }
 
 CsvChunk CsvChunks::take(std::size_t size, std::size_t rows, std::uint64_t lines) {
-  CsvChunk chunk{.body = {}, .rows = rows, .begin = position_, .end = {}};
-  digest_.add(rest().substr(0, size));
-  taken_ = size;
+  CsvChunk chunk{.body = header_, .rows = rows, .begin = position_, .end = {}};
+  chunk.body.append(buffer_, 0, size);
+  pass(size);
   position_ = {.bytes = position_.bytes + size,
                .lines = position_.lines + lines,
                .sha256 = digest_.digest()};
-  chunk.body = std::string_view(buffer_).substr(0, header_size_ + taken_);
   chunk.end = position_;
   return chunk;
 }
@@ -111,31 +110,28 @@ Outcome<CsvMatch> CsvChunks::skip_to(const CsvPosition& place) {
   std::uint64_t left = place.bytes - position_.bytes;
   while (left > 0) {
     if (const auto filled = fill_empty(); !filled) return filled.error();
-    if (rest().empty()) return CsvMatch::Different;
-    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left, rest().size()));
-    at_line_end = is_line_end(rest()[size - 1]);
-    digest_.add(rest().substr(0, size));
-    taken_ = size;
-    drop_taken();
+    if (buffer_.empty()) return CsvMatch::Different;
+    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer_.size()));
+    at_line_end = is_line_end(buffer_[size - 1]);
+    pass(size);
     left -= size;
   }
   position_ = {.bytes = place.bytes, .lines = place.lines, .sha256 = digest_.digest()};
   if (position_ != place) return CsvMatch::Different;
   if (at_line_end) return CsvMatch::Same;
   if (const auto filled = fill_empty(); !filled) return filled.error();
-  if (!rest().empty() && !is_line_end(rest().front())) return CsvMatch::RowHasGrown;
+  if (!buffer_.empty() && !is_line_end(buffer_.front())) return CsvMatch::RowHasGrown;
   --position_.lines;  // its end was counted, and is yet to be read
   return CsvMatch::Same;
 }
 
 Outcome<std::optional<CsvChunk>> CsvChunks::next() {
-  drop_taken();
-  const std::size_t most_bytes = limits_.bytes - std::min(header_size_, limits_.bytes);
+  const std::size_t most_bytes = limits_.bytes - std::min(header_.size(), limits_.bytes);
   std::size_t size = 0;
   std::size_t rows = 0;
   std::uint64_t lines = 0;
   while (rows < limits_.rows) {
-    const auto record = first_record(rest().substr(size), separator_, ended_);
+    const auto record = first_record(std::string_view(buffer_).substr(size), separator_, ended_);
     if (size + (record ? record->size : 0) > most_bytes) break;
     if (record) {
       size += record->size;
@@ -143,26 +139,25 @@ Outcome<std::optional<CsvChunk>> CsvChunks::next() {
       if (!record->blank) ++rows;
       continue;
     }
-    if (ended_ || rest().size() > most_bytes) break;
+    if (ended_ || buffer_.size() > most_bytes) break;
     if (const auto filled = fill(); !filled) return filled.error();
   }
   if (rows > 0) return take(size, rows, lines);
-  if (ended_ && size == rest().size()) return std::nullopt;
+  if (ended_ && size == buffer_.size()) return std::nullopt;
   return Failure{ExitCode::LocalFile,
                  fmt::format("line {}: the row is larger than a request may be; is a quote open?",
                              position_.lines + lines + 1)};
 }
 
 Outcome<std::optional<CsvChunk>> CsvChunks::next_until(const CsvPosition& end) {
-  drop_taken();
   if (end.bytes <= position_.bytes) return std::nullopt;
   const std::uint64_t size = end.bytes - position_.bytes;
-  while (rest().size() <= size && !ended_) {
+  while (buffer_.size() <= size && !ended_) {
     if (const auto filled = fill(); !filled) return filled.error();
   }
-  if (rest().size() < size) return std::nullopt;
-  const bool goes_on = rest().size() > size && !is_line_end(rest()[size]);
-  if (goes_on && !is_line_end(rest()[size - 1])) return std::nullopt;  // in the middle of a row
+  if (buffer_.size() < size) return std::nullopt;
+  const bool goes_on = buffer_.size() > size && !is_line_end(buffer_[size]);
+  if (goes_on && !is_line_end(buffer_[size - 1])) return std::nullopt;  // in the middle of a row
   CsvChunk chunk = take(static_cast<std::size_t>(size), 0, end.lines - position_.lines);
   if (chunk.end != end) return std::nullopt;
   return chunk;

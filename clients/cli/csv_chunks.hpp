@@ -36,7 +36,7 @@ struct CsvPosition {
 
 /// Some rows with the header line before them: a CSV text of its own.
 struct CsvChunk {
-  std::string_view body;
+  std::string body;
   std::size_t rows = 0;
   CsvPosition begin;
   CsvPosition end;
@@ -72,14 +72,15 @@ class CsvChunks {
   /// Passes over what lies before `place`, unless the input is another one. @errors LocalFile
   Outcome<CsvMatch> skip_to(const CsvPosition& place);
 
-  /// The next rows, as many as the limits allow; none at the end. The body is valid until the next
-  /// call. @errors LocalFile, also for a row that is larger than a chunk.
+  /// The next rows, as many as the limits allow; none at the end. @errors LocalFile, also for a row
+  /// that is larger than a chunk.
   Outcome<std::optional<CsvChunk>> next();
 
   /// The rows up to `end`, which a chunk ended at before; nothing when the input is another one.
   Outcome<std::optional<CsvChunk>> next_until(const CsvPosition& end);
 
-  /// The line of the input that a line of a chunk's body is, both from 1.
+  /// The line of the input that a line of a chunk's body is, both from 1. May be asked for while
+  /// another thread reads on.
   std::uint64_t input_line(const CsvChunk& chunk, std::uint64_t body_line) const;
 
  private:
@@ -87,16 +88,14 @@ class CsvChunks {
   /// Reads on where nothing is left of what was read.
   Outcome<void> fill_empty();
   CsvChunk take(std::size_t size, std::size_t rows, std::uint64_t lines);
-  void drop_taken();
-  /// What was read and not yet taken.
-  std::string_view rest() const { return std::string_view(buffer_).substr(header_size_ + taken_); }
+  /// Takes the front of the buffer away.
+  void pass(std::size_t size);
 
   Read read_;
   Limits limits_;
-  std::string buffer_;  // the header, the rows that were taken last, what was read behind them
-  std::size_t header_size_ = 0;
+  std::string buffer_;  // what was read and not yet taken
+  std::string header_;
   std::size_t header_lines_ = 0;
-  std::size_t taken_ = 0;
   char separator_ = ',';
   bool ended_ = false;
   CsvPosition position_;

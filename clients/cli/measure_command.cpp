@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <future>
+#include <memory>
 
 #include "cli/input_file.hpp"
 #include "cli/progress.hpp"
@@ -55,13 +57,18 @@ class Upload {
   Outcome<ExitCode> run() {
     auto chunks = find_place();
     if (!chunks) return chunks.error();
-    for (;;) {
-      auto chunk = state_.pending ? pending_chunk(*chunks) : chunks->next();
-      if (!chunk) return chunk.error();
-      if (!*chunk) break;
+    auto chunk = state_.pending ? pending_chunk(*chunks) : chunks->next();
+    while (chunk && *chunk) {
+      // The next rows of a file are read while the service stores these; a pipe may keep one
+      // waiting.
+      auto upcoming =
+          std::async(progress_.bytes_in_all ? std::launch::async : std::launch::deferred,
+                     [&chunks] { return chunks->next(); });
       const auto sent = send(*chunks, **chunk);
       if (!sent) return sent.error();
+      chunk = upcoming.get();
     }
+    if (!chunk) return chunk.error();
     return finish();
   }
 

@@ -40,7 +40,7 @@ std::vector<Cut> cut(CsvChunks chunks) {
     const auto chunk = chunks.next();
     REQUIRE(chunk.has_value());
     if (!*chunk) return all;
-    all.push_back({std::string((*chunk)->body), (*chunk)->rows, (*chunk)->end});
+    all.push_back({(*chunk)->body, (*chunk)->rows, (*chunk)->end});
   }
 }
 
