@@ -114,12 +114,13 @@ Error finished(std::int64_t id) {
           "run '" + app::run_id_text(id) + "' is over and can no longer be cancelled"};
 }
 
-/// Answers when the run has ended, so that its status tells whether it was in time.
+/// Answers when the run has ended, so that its status tells whether it was in time. A run that has
+/// ended may still be active until it is stored.
 void cancel_run(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = id_of(request);
   if (!id) return responder.fail(id.error());
   const auto shared = share(std::move(responder));
-  if (const auto active = services.runs.active(*id)) {
+  if (const auto active = services.runs.active(*id); active && !active->news(0).end) {
     active->on_end([id = *id, shared](const Result<app::FinishedRun>& end) {
       if (!end) return shared->fail(end.error());
       if (end->state != app::RunState::Cancelled) return shared->fail(finished(id));

@@ -1,23 +1,13 @@
 """Files, setups and the life of a run: asynchronous, followed, cancelled, repeated, interrupted."""
 
-import json
 import unittest
 
 from support.control import ControlTest
 from support.daemon import Daemon
 
-FOREVER = ("LBL 1", "FN 9: IF +1 EQU +1 GOTO LBL 1")
+# Slow enough for the time to run out before the blocks do.
+FOREVER = ("LBL 1", f'QS1 = "{"x" * 200}"', "FN 9: IF +1 EQU +1 GOTO LBL 1")
 LONG = {"blocks": 100_000_000, "seconds": 60}
-
-
-def events(text):
-    """The events of a stream as (name, data)."""
-    found = []
-    for entry in text.strip().split("\n\n"):
-        fields = dict(line.split(": ", 1) for line in entry.splitlines() if not line.startswith(":"))
-        if fields:
-            found.append((fields["event"], json.loads(fields["data"])))
-    return found
 
 
 class Files(ControlTest):
@@ -97,17 +87,17 @@ class Runs(ControlTest):
         self.upload("say.a", '"STEP %2.0F", Q1;\n')
         program = self.upload_program("steps", "Q1 = 0", "LBL 1", "Q1 = Q1 + 1",
                                       "FN 16: F-PRINT say.a / SCREEN:", "CALL LBL 1 REP 2")
-        place = self.start(program)
-        live = events(self.daemon.get(f"{place}/events").text)
-        self.assertEqual([data["line"] for name, data in live if name == "output"],
-                         ["STEP  1", "STEP  2", "STEP  3"])
-        self.assertEqual(live[-1][0], "end")
-        run = self.daemon.get(place).json
-        self.assertEqual(live[-1][1], run)
-        self.assertEqual(run["status"], "completed")
-        self.assertEqual(self.daemon.get(f"{place}/parameters").json, run["parameters"])
-        later = events(self.daemon.get(f"{place}/events").text)
-        self.assertEqual([e for e in live if e[0] != "progress"], later)
+        with self.daemon.client() as client:
+            name = client.start_run(program)["id"]
+            live = list(client.run_events(name))
+            self.assertEqual([event.data["line"] for event in live if event.type == "output"],
+                             ["STEP  1", "STEP  2", "STEP  3"])
+            run = client.run(name)
+            self.assertEqual((live[-1].type, live[-1].data), ("end", run))
+            self.assertEqual(run["status"], "completed")
+            self.assertEqual(client.run_parameters(name), run["parameters"])
+            later = list(client.run_events(name))
+            self.assertEqual([event for event in live if event.type != "progress"], later)
 
     def test_run_is_cancelled(self):
         place = self.start(self.upload_program("endless", *FOREVER), limits=LONG)

@@ -27,7 +27,8 @@ PLACES = re.compile(r"(?<![\w./:$-])/(backup|restore|etc|usr/local|usr/share|var
 # curl as it is, but: localhost:8286 is the test's service, an error is an error, and what has no end is
 # read for a second.
 CURL = """#!/bin/bash
-options=(--connect-to "localhost:8286:127.0.0.1:$DOCS_TEST_PORT" --fail-with-body --show-error --max-time 60)
+options=(--connect-to "localhost:8286:127.0.0.1:$DOCS_TEST_PORT" --show-error --max-time 60)
+[[ " $* " == *" --fail "* ]] || options+=(--fail-with-body)
 if [[ " $* " =~ " -N " || " $* " =~ " -sN " ]] && [[ "$*" == */v1/events* ]]; then
   /usr/bin/curl "${options[@]}" --max-time 1 "$@" || [ $? = 28 ]
 else
