@@ -12,8 +12,8 @@ PART = {"designation": "25 H7", "measured_mm": "25.0215", "part_id": "SN-1", "ch
 COLUMN = [{"over_mm": 18, "up_to_mm": 30, "upper_um": Decimal("15.5"), "lower_um": -3}]
 PROGRAM = "TNC:\\nc_prog\\8255\\8255.h"
 FOREVER = b"0 BEGIN PGM loop MM\n1 LBL 1\n2 FN 9: IF +1 EQU +1 GOTO LBL 1\n3 END PGM loop MM\n"
-# The page, and the same fit in two segments.
-NOT_THE_CLIENTS = {("GET", "/"), ("GET", "/v1/fits/{hole}/{shaft}")}
+# The page with its parts, and the same fit in two segments.
+NOT_THE_CLIENTS = {("GET", "/"), ("GET", "/web/{path}"), ("GET", "/v1/fits/{hole}/{shaft}")}
 
 
 class Recorder(fitgauge.Client):
