@@ -209,13 +209,15 @@ class Reader {
       return malformed(next_, "text before the first column");
     }
     for (std::size_t i = 0; i < places_.size() && begin < line.size(); ++i) {
-      const std::size_t end = places_[i].width == std::string_view::npos
-                                  ? line.size()
-                                  : skip_characters(line, begin, places_[i].width);
-      if (end < line.size() && line[end - 1] != ' ' && line[end] != ' ') {
+      const std::size_t width = places_[i].width;
+      const std::size_t end =
+          width == std::string_view::npos ? line.size() : skip_characters(line, begin, width);
+      const std::string_view cell = line.substr(begin, end - begin);
+      // The last character of a column is the blank before the next one.
+      if (!cell.ends_with(' ') && count_characters(cell) == width) {
         return malformed(next_, fmt::format("the cell of column {} runs into the next one", i + 1));
       }
-      cells.emplace_back(trim(line.substr(begin, end - begin)));
+      cells.emplace_back(trim(cell));
       begin = end;
     }
     return cells;
