@@ -70,6 +70,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::RuleInvalid:
     case ErrorCode::LimitsInvalid:
     case ErrorCode::TableRowsInvalid:
+    case ErrorCode::TableFileMalformed:
     case ErrorCode::IdempotencyKeyReused:
     case ErrorCode::RequestInvalid:
     case ErrorCode::FieldMissing:

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "api/trace_codec.hpp"
 #include "app/measurement.hpp"
 
@@ -161,6 +163,18 @@ std::string report_json(const app::RunReport& report) {
   return out;
 }
 
+/// An order is stored as it was accepted: what it leaves out has the default.
+std::uint64_t seed_of(const std::string& request) {
+  const auto order = parse_json(request);
+  const JsonValue* setup = order ? order->find("setup") : nullptr;
+  const JsonValue* seed = setup != nullptr ? setup->find("seed") : nullptr;
+  std::uint64_t value = app::RunReport().seed;
+  if (seed != nullptr) {
+    std::from_chars(seed->text.data(), seed->text.data() + seed->text.size(), value);
+  }
+  return value;
+}
+
 std::string event_json(const app::RunReport& report) {
   std::string out;
   JsonWriter json(out);
@@ -196,7 +210,7 @@ std::string unfinished_json(std::int64_t id, app::RunState state, std::string_vi
 }  // namespace
 
 app::RunFormat run_format() {
-  return {.report = report_json, .trace = trace_json, .event = event_json};
+  return {.report = report_json, .trace = trace_json, .seed = seed_of, .event = event_json};
 }
 
 std::string unfinished_run_json(const app::ActiveRun& run) {

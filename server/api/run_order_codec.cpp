@@ -130,7 +130,8 @@ Result<void> put_setup_in_place(JsonValue& body, const FindSetup& find_setup, Fi
 
 }  // namespace
 
-Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup) {
+Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
+                                       const app::ControlTables& tables) {
   FieldErrors errors;
   if (const auto placed = put_setup_in_place(body, find_setup, errors); !placed) {
     return placed.error();
@@ -142,10 +143,10 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
   read_limits(fields, errors, options.limits);
   read_words(fields, options);
   options.block_skip = fields.boolean_or("block_skip", options.block_skip);
-  machine::Setup setup;
-  if (const JsonValue* given = fields.optional("setup")) {
-    setup = decode_setup(*given, "/setup", errors);
-  }
+  const JsonValue nothing{.kind = Kind::Object};
+  const JsonValue* const given = fields.optional("setup");
+  machine::Setup setup =
+      decode_setup(given != nullptr ? *given : nothing, "/setup", tables, errors);
   fields.refuse_unknown();
   if (auto error = errors.take()) return std::move(*error);
   std::string request;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "api/json_value.hpp"
+#include "app/control_tables.hpp"
 #include "app/run_report.hpp"
 #include "app/setup_service.hpp"
 
@@ -14,7 +15,9 @@ using FindSetup = std::function<Result<app::NamedSetup>(const std::string& name)
 
 /// Reads the body of POST /v1/runs. The order's request is the body with a named setup put in
 /// place, so that it can be sent again.
+/// @param tables of the control: their rows are added to those of the setup
 /// @errors RequestInvalid with every bad field; those of `find_setup` but SetupUnknown.
-Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup);
+Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
+                                       const app::ControlTables& tables);
 
 }  // namespace fitgauge::api

@@ -89,9 +89,12 @@ http::Response invalid_program(const http::Request& request, const std::string& 
 Result<app::RunOrder> read_order(const SharedPosting& posting) {
   auto body = parse_json(posting->request.body());
   if (!body) return body.error();
-  auto order = decode_run_order(*std::move(body), [&posting](const std::string& name) {
-    return posting->services.setups.wait_for(name);
-  });
+  const auto tables = posting->services.runs.control_tables();
+  if (!tables) return tables.error();
+  auto order = decode_run_order(
+      *std::move(body),
+      [&posting](const std::string& name) { return posting->services.setups.wait_for(name); },
+      *tables);
   if (!order) return order;
   if (const auto caller = caller_name(posting->request)) order->caller = std::string(*caller);
   return order;

@@ -406,18 +406,23 @@ void check(const machine::Setup& setup, const std::string& pointer, FieldErrors&
 }  // namespace
 
 machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
-                            FieldErrors& errors) {
+                            const app::ControlTables& tables, FieldErrors& errors) {
   machine::Setup setup;
+  app::GivenTables given;
   {
     SetupReader reader(body, pointer, errors);
-    reader.object("machine",
-                  [&setup](SetupReader& machine) { setup.machine = read_machine(machine); });
+    reader.object("machine", [&](SetupReader& machine) {
+      const FieldReader& fields = machine.fields();
+      given = {fields.has("tools"), fields.has("probes"), fields.has("presets")};
+      setup.machine = read_machine(machine);
+    });
     reader.object("workpiece", [&setup](SetupReader& workpiece) {
       workpiece.array("features", setup.features, read_feature);
     });
     setup.seed = static_cast<std::uint64_t>(
         reader.fields().integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   }
+  app::add_rows(tables, given, setup.machine);
   check(setup, pointer, errors);
   return setup;
 }

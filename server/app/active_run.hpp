@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -25,13 +26,14 @@ struct FinishedRun {
 /// cancel it. Thread-safe. Callbacks come on the run's thread, without a lock held.
 class ActiveRun {
  public:
-  ActiveRun(std::int64_t id, std::string program, Timestamp created_at)
-      : id_(id), program_(std::move(program)), created_at_(created_at) {}
+  ActiveRun(std::int64_t id, std::shared_ptr<const RunOrder> order, Timestamp created_at)
+      : id_(id), order_(std::move(order)), created_at_(created_at) {}
   ActiveRun(const ActiveRun&) = delete;
   ActiveRun& operator=(const ActiveRun&) = delete;
 
   std::int64_t id() const { return id_; }
-  const std::string& program() const { return program_; }
+  const RunOrder& order() const { return *order_; }
+  const std::string& program() const { return order_->program.text(); }
   Timestamp created_at() const { return created_at_; }
 
   /// Seen within a few thousand blocks; a run that is over does not mind.
@@ -74,7 +76,7 @@ class ActiveRun {
   void change(const Change& change);
 
   const std::int64_t id_;
-  const std::string program_;
+  const std::shared_ptr<const RunOrder> order_;
   const Timestamp created_at_;
   std::stop_source stop_;
   std::atomic<bool> claimed_{false};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include "base/text.hpp"
 #include "interpreter/check.hpp"
@@ -13,14 +14,17 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kTableExtensions = {".tab", ".t", ".tp", ".pr", ".d"};
 
+/// What refuses a table stands in one of its lines: `line 12`.
 std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& file) {
-  const std::string& bytes = *file.bytes;
-  const auto table = tabfile::read_tab(is_utf8(bytes) ? bytes : utf8_from_windows1252(bytes));
+  const auto table = tabfile::read_tab_file(*file.bytes);
   if (table) return {};
-  const Error& error = table.error();
-  klartext::Diagnostic diagnostic;
-  diagnostic.message = error.where.empty() ? error.message : error.where + ": " + error.message;
-  diagnostic.program = file.path.text();
+  const Error error = table.error();
+  klartext::Diagnostic diagnostic{.message = error.message, .program = file.path.text()};
+  constexpr std::string_view kLine = "line ";
+  const std::string_view where = error.where;
+  SourcePosition& begin = diagnostic.range.begin;
+  std::from_chars(where.data() + kLine.size(), where.data() + where.size(), begin.line);
+  diagnostic.range.end = begin;
   return {std::move(diagnostic)};
 }
 

@@ -18,13 +18,17 @@ interpreter::ProjectingDisk::Projection projection(const iso286::ToleranceTables
 
 }  // namespace
 
+std::vector<interpreter::ProjectingDisk::Projection> project(
+    const iso286::ToleranceTables& tables) {
+  return {projection(tables, iso286::Feature::Hole), projection(tables, iso286::Feature::Shaft)};
+}
+
 std::vector<interpreter::ProjectingDisk::Projection> LiveTables::projections() {
   const auto tables = catalog_.tables();
   if (!tables) return {};
   const std::lock_guard lock(mutex_);
   if (const std::string& revision = (*tables)->revision().id; revision_ != revision) {
-    projections_ = {projection(**tables, iso286::Feature::Hole),
-                    projection(**tables, iso286::Feature::Shaft)};
+    projections_ = project(**tables);
     revision_ = revision;
   }
   return projections_;

@@ -5,13 +5,17 @@
 #include <vector>
 
 #include "interpreter/control_disk.hpp"
+#include "iso286/tolerance_tables.hpp"
 
 namespace fitgauge::app {
 
 class TableCatalog;
 
-/// 82553_hole.tab and 82553_shaft.tab as the tolerance tables in use give them; projected once for
-/// each revision of the tables. Thread-safe.
+/// 82553_hole.tab and 82553_shaft.tab as tolerance tables give them.
+std::vector<interpreter::ProjectingDisk::Projection> project(const iso286::ToleranceTables& tables);
+
+/// The same of the tolerance tables in use, projected once for each of their revisions.
+/// Thread-safe.
 class LiveTables {
  public:
   /// @param catalog outlives this.

@@ -62,8 +62,9 @@ interpreter::RunResult unstarted(RunStatus status, MessageKind kind, std::string
   return result;
 }
 
-ExecutedRun execute(const RunOrder& order, const RunSurroundings& surroundings, ActiveRun& active) {
-  const std::string& program = order.program.text();
+ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
+  const RunOrder& order = active.order();
+  const std::string& program = active.program();
   if (active.stop_token().stop_requested()) {
     return {unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
                       "the run was cancelled before its first block", program),

@@ -17,10 +17,10 @@ struct ExecutedRun {
   RunTrace trace;
 };
 
-/// Builds the machine of the order's setup and runs the program on it, on the calling thread;
-/// `active` is told of its progress. Whatever the program does is in the result.
+/// Builds the machine of the run's setup and runs its program on it, on the calling thread;
+/// `active` is told of the progress. Whatever the program does is in the result.
 /// @throws when the storage fails, or for a bug.
-ExecutedRun execute(const RunOrder& order, const RunSurroundings& surroundings, ActiveRun& active);
+ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active);
 
 /// The result of a run that did not come to its first block.
 interpreter::RunResult unstarted(interpreter::RunStatus status, interpreter::MessageKind kind,

@@ -66,6 +66,8 @@ struct RunTrace {
 struct RunFormat {
   std::function<std::string(const RunReport&)> report;
   std::function<std::string(const RunTrace&)> trace;
+  /// The seed of the setup in an order as it was stored.
+  std::function<std::uint64_t(const std::string& request)> seed;
   /// The payload of the event run.finished.
   std::function<std::string(const RunReport&)> event;
 };

@@ -105,6 +105,7 @@ Result<void> RunService::close_interrupted(RunState state) {
                                                  "the service ended before the run did; nothing "
                                                  "it had done was kept",
                                                  run.program),
+                             .seed = format_.seed(run.request),
                              .created_at = {run.created_at_ns},
                              .finished_at = clock_.now()};
       const auto kept = keep(report, {}, run.caller);
@@ -153,6 +154,12 @@ Result<RunService::Diagnostics> RunService::check_with(Check find_all,
   return failure.error();
 }
 
+Result<ControlTables> RunService::control_tables() try {
+  return read_control_tables(stored_);
+} catch (const store::StorageFailure& failure) {
+  return failure.error();
+}
+
 Result<std::optional<Answer>> RunService::kept_answer(const IdempotencyScope& scope) {
   return database_.readers().wait(
       [request =
@@ -175,15 +182,16 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
       return Error{ErrorCode::Overloaded, "too many runs wait already; try again soon"};
     }
   }
+  const auto shared = std::make_shared<const RunOrder>(std::move(order));
   const store::Run row{.status = store::RunStatus::Queued,
-                       .program = order.program.text(),
-                       .request = order.request,
+                       .program = shared->program.text(),
+                       .request = shared->request,
                        .created_at_ns = clock_.now().nanoseconds,
-                       .caller = order.caller};
+                       .caller = shared->caller};
   std::shared_ptr<ActiveRun> active;
   const auto create = [&](store::Stores& stores) -> Result<store::StoredAnswer> {
-    active = std::make_shared<ActiveRun>(stores.runs.create(row), row.program,
-                                         Timestamp{row.created_at_ns});
+    active =
+        std::make_shared<ActiveRun>(stores.runs.create(row), shared, Timestamp{row.created_at_ns});
     return app::to_store(accepted(*active));
   };
   const auto created = scope ? database_.writer().wait_once(app::to_store(*scope), create)
@@ -197,12 +205,11 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
     const std::lock_guard lock(mutex_);
     active_.emplace(active->id(), active);
   }
-  const auto shared = std::make_shared<const RunOrder>(std::move(order));
-  running_.submit([this, shared, active] { run(*shared, *active); });
+  running_.submit([this, active] { run(*active); });
   return active;
 }
 
-void RunService::run(const RunOrder& order, ActiveRun& active) {
+void RunService::run(ActiveRun& active) {
   if (!active.claim()) return;  // cancelled while it was queued
   active.started();
   // Not waited for: the writer keeps the order of its jobs.
@@ -210,19 +217,18 @@ void RunService::run(const RunOrder& order, ActiveRun& active) {
       [id = active.id()](store::Stores& stores) { return stores.runs.start(id); },
       [](const Result<void>&) {});
   RunTrace trace;
-  interpreter::RunResult result = execute_guarded(order, active, trace);
-  end({.id = active.id(),
-       .program = active.program(),
-       .result = std::move(result),
-       .seed = order.setup.seed,
-       .created_at = active.created_at()},
-      trace, order.caller, active);
+  interpreter::RunResult result = execute_guarded(active, trace);
+  end(active, std::move(result), trace);
 }
 
-void RunService::end(RunReport report, const RunTrace& trace,
-                     const std::optional<std::string>& caller, ActiveRun& active) {
-  report.finished_at = clock_.now();
-  active.finished(keep(report, trace, caller));
+void RunService::end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace) {
+  const RunReport report{.id = active.id(),
+                         .program = active.program(),
+                         .result = std::move(result),
+                         .seed = active.order().setup.seed,
+                         .created_at = active.created_at(),
+                         .finished_at = clock_.now()};
+  active.finished(keep(report, trace, active.order().caller));
   const std::lock_guard lock(mutex_);
   active_.erase(report.id);
 }
@@ -232,25 +238,22 @@ void RunService::cancel(const std::shared_ptr<ActiveRun>& active) {
   // Where this finds no room, the worker whose turn it is ends the run.
   preparing_.submit([this, active] {
     if (!active->claim()) return;
-    end({.id = active->id(),
-         .program = active->program(),
-         .result = unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
-                             "the run was cancelled before its first block", active->program()),
-         .created_at = active->created_at()},
-        {}, {}, *active);
+    end(*active,
+        unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
+                  "the run was cancelled before its first block", active->program()),
+        {});
   });
 }
 
 /// A bug or broken storage ends the run, not the service.
-interpreter::RunResult RunService::execute_guarded(const RunOrder& order, ActiveRun& active,
-                                                   RunTrace& trace) try {
+interpreter::RunResult RunService::execute_guarded(ActiveRun& active, RunTrace& trace) try {
   const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
-  ExecutedRun executed = execute(order, {disk, programs_, clock_}, active);
+  ExecutedRun executed = execute({disk, programs_, clock_}, active);
   trace = std::move(executed.trace);
   return std::move(executed.result);
 } catch (const std::exception& failure) {
   return unstarted(RunStatus::Failed, MessageKind::Error,
-                   std::string("the service failed: ") + failure.what(), order.program.text());
+                   std::string("the service failed: ") + failure.what(), active.program());
 }
 
 /// One transaction for all that a run leaves.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/active_run.hpp"
+#include "app/control_tables.hpp"
 #include "app/live_tables.hpp"
 #include "app/measurement_service.hpp"
 #include "app/run_report.hpp"
@@ -74,6 +75,10 @@ class RunService {
   /// The same of a file that is to be run, whatever it is called.
   Result<Diagnostics> check_program(const interpreter::ControlPath& path);
 
+  /// The tool, probe and preset tables of the control's disk.
+  /// @errors TableFileMalformed, StorageUnavailable.
+  Result<ControlTables> control_tables();
+
   /// The answer that was kept for a request, if any. @errors IdempotencyKeyReused,
   /// StorageUnavailable.
   Result<std::optional<Answer>> kept_answer(const IdempotencyScope& scope);
@@ -116,10 +121,9 @@ class RunService {
                                         const interpreter::ControlDisk&,
                                         interpreter::ProgramCache&);
   Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path);
-  void run(const RunOrder& order, ActiveRun& active);
-  void end(RunReport report, const RunTrace& trace, const std::optional<std::string>& caller,
-           ActiveRun& active);
-  interpreter::RunResult execute_guarded(const RunOrder& order, ActiveRun& active, RunTrace& trace);
+  void run(ActiveRun& active);
+  void end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace);
+  interpreter::RunResult execute_guarded(ActiveRun& active, RunTrace& trace);
   Result<FinishedRun> keep(const RunReport& report, const RunTrace& trace,
                            const std::optional<std::string>& caller);
   Result<void> close_interrupted(RunState state);

@@ -77,8 +77,8 @@ class Setups(ControlTest):
 
 
 class Runs(ControlTest):
-    def start(self, program, **order):
-        answer = self.post_run(program, headers={"Prefer": "respond-async"}, **order)
+    def start(self, program, setup=None, **order):
+        answer = self.post_run(program, setup, headers={"Prefer": "respond-async"}, **order)
         self.assertEqual(answer.status, 202, answer)
         self.assertIn(answer.json["status"], ("queued", "running"))
         return answer.headers["location"]
@@ -109,10 +109,35 @@ class Runs(ControlTest):
 
     def test_queued_run_is_cancelled_before_its_first_block(self):
         endless = self.upload_program("endless2", *FOREVER)
-        places = [self.start(endless, limits=LONG) for _ in range(4)]
-        for place in reversed(places):
+        places = [self.start(endless, {"seed": seed}, limits=LONG) for seed in range(10, 14)]
+        for seed, place in reversed(list(enumerate(places, start=10))):
             self.assertEqual(self.daemon.request("DELETE", place).status, 204)
-            self.assertEqual(self.daemon.get(place).json["status"], "cancelled")
+            run = self.daemon.get(place).json
+            self.assertEqual((run["status"], run["setup_seed"]), ("cancelled", seed))
+
+    def test_end_of_a_run_is_an_event(self):
+        connection = self.daemon.connect()
+        self.addCleanup(connection.close)
+        connection.request("GET", "/v1/events")
+        stream = connection.getresponse()
+
+        def next_block():
+            lines = iter(lambda: stream.readline().decode().rstrip("\n"), "")
+            return dict(line.split(": ", 1) for line in lines if not line.startswith(":"))
+
+        def next_event():
+            while "data" not in (fields := next_block()):
+                pass
+            return fields["event"], json.loads(fields["data"])
+
+        self.assertIn("id", next_block())  # from here on
+        completed = self.run_program(self.upload_program("over", "Q1 = 1"))
+        failed = self.run_program(self.upload_program("bad", "Q1 = 1 / 0"))
+        for run in (completed, failed):
+            name, data = next_event()
+            self.assertEqual(name, "run.finished")
+            fields = ("id", "status", "program", "finished_at", "verdict")
+            self.assertEqual(data, {field: run[field] for field in fields})
 
     def test_too_many_runs_are_refused_until_there_is_room(self):
         endless = self.upload_program("endless3", *FOREVER)
@@ -180,15 +205,17 @@ class Interruptions(unittest.TestCase):
         self.daemon.request("PUT", "/v1/files/loop.h",
                             "".join(f"{n} {text}\n" for n, text in enumerate(lines)))
         self.places = [
-            self.daemon.post("/v1/runs", {"program": "TNC:\\loop.h", "limits": LONG},
-                             {"Prefer": "respond-async"}).headers["location"] for _ in range(4)]
+            self.daemon.post("/v1/runs", {"program": "TNC:\\loop.h", "limits": LONG,
+                                          "setup": {"seed": seed}},
+                             {"Prefer": "respond-async"}).headers["location"]
+            for seed in range(4)]
 
     def test_killed_daemon_leaves_failed_runs(self):
         self.daemon.kill()
         self.daemon.start()
-        for place in self.places:
+        for seed, place in enumerate(self.places):
             run = self.daemon.get(place).json
-            self.assertEqual(run["status"], "failed")
+            self.assertEqual((run["status"], run["setup_seed"]), ("failed", seed))
             self.assertEqual(run["messages"][0]["program"], "TNC:\\loop.h")
 
     def test_shutdown_cancels_runs(self):

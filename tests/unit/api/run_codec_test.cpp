@@ -1,0 +1,99 @@
+#include "api/run_codec.hpp"
+
+#include <doctest/doctest.h>
+
+#include "api/json_value.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::api;
+
+namespace {
+
+app::RunReport report() {
+  app::RunReport report{.id = 3, .program = "TNC:\\a.h"};
+  report.seed = 8;
+  interpreter::RunResult& result = report.result;
+  result.status = interpreter::RunStatus::Failed;
+  result.blocks_executed = 12;
+  const auto parameter = [&](std::string_view name, std::variant<double, std::string> value) {
+    result.parameters.push_back(
+        {interpreter::parse_parameter_name(name).value(), std::move(value)});
+  };
+  parameter("Q23", 25 + 21 / 1000.0);
+  parameter("Q24", -0.0);
+  parameter("QS3", "\"GOOD\"");
+  result.screen = {"LINE"};
+  result.messages.push_back({.kind = interpreter::MessageKind::Error,
+                             .number = 1014,
+                             .text = "Touch point inaccessible",
+                             .program = "TNC:\\a.h",
+                             .line = 31,
+                             .block = 29});
+  result.presets = {machine::Preset{.number = 1, .comment = {}, .frame = {{0.5, 0, 0}, {}, {}}}};
+  return report;
+}
+
+TEST_CASE("a run is written with the fields of the contract") {
+  const auto run = parse_json(run_format().report(report())).value();
+  const auto text = [&](std::string_view name) { return run.find(name)->text; };
+  CHECK(text("id") == "r3");
+  CHECK(text("status") == "failed");
+  CHECK(text("program") == "TNC:\\a.h");
+  CHECK(text("blocks_executed") == "12");
+  CHECK(text("setup_seed") == "8");
+  CHECK(run.find("verdict")->is(JsonValue::Kind::Null));
+  const JsonValue& parameters = *run.find("parameters");
+  CHECK(parameters.find("Q23")->text == "25.021");
+  CHECK(parameters.find("Q24")->text == "0");
+  CHECK(parameters.find("QS3")->text == "\"GOOD\"");
+  CHECK(run.find("screen")->items.at(0).text == "LINE");
+  const JsonValue& message = run.find("messages")->items.at(0);
+  CHECK(message.find("kind")->text == "error");
+  CHECK(message.find("number")->text == "1014");
+  CHECK(message.find("line")->text == "31");
+  CHECK(message.find("block")->text == "29");
+  CHECK(run.find("presets")->items.at(0).find("x_mm")->text == "0.5");
+}
+
+TEST_CASE("a block without a number is null") {
+  app::RunReport unnumbered = report();
+  unnumbered.result.messages[0].block.reset();
+  const auto run = parse_json(run_format().report(unnumbered)).value();
+  CHECK(run.find("messages")->items.at(0).find("block")->is(JsonValue::Kind::Null));
+}
+
+TEST_CASE("the event of a run tells how it ended") {
+  app::RunReport good = report();
+  good.result.status = interpreter::RunStatus::Completed;
+  good.result.verdict = gauging::Verdict::Good;
+  const auto event = parse_json(run_format().event(good)).value();
+  CHECK(event.find("id")->text == "r3");
+  CHECK(event.find("status")->text == "completed");
+  CHECK(event.find("verdict")->text == "good");
+}
+
+TEST_CASE("the seed of an order that is stored is found again") {
+  const auto seed = run_format().seed;
+  CHECK(seed(R"({"program":"TNC:\\a.h","setup":{"seed":9223372036854775807}})") ==
+        9223372036854775807ULL);
+  CHECK(seed(R"({"program":"TNC:\\a.h","setup":{}})") == 1);
+  CHECK(seed(R"({"program":"TNC:\\a.h"})") == 1);
+  CHECK(seed("") == 1);
+}
+
+TEST_CASE("a trace is written move by move") {
+  app::RunTrace trace;
+  trace.axes = {machine::Axis::X, machine::Axis::Y, machine::Axis::Z};
+  trace.places = {{.program = "TNC:\\a.h", .line = 4, .block = 3}};
+  machine::TracedMove move{};
+  move.block = 0;
+  trace.moves = {move};
+  const auto written = parse_json(run_format().trace(trace)).value();
+  const JsonValue& first = written.find("moves")->items.at(0);
+  CHECK(first.find("block")->text == "3");
+  CHECK(first.find("end_mm")->find("X")->text == "0");
+  CHECK(first.find("end_mm")->find("A") == nullptr);
+  CHECK(first.find("contact_mm")->is(JsonValue::Kind::Null));
+}
+
+}  // namespace

@@ -1,0 +1,83 @@
+#include "service_fixture.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+interpreter::ControlPath path(std::string_view text) {
+  return interpreter::ControlPath::parse(text).value();
+}
+
+TEST_CASE("a file is written, replaced, read and removed, whatever the case of its name") {
+  Service service;
+  FileService& files = service->files();
+  const auto write = [&](std::string_view name, std::string_view bytes) {
+    return wait_for<FileService::Written>(
+               [&](auto done) { files.write(path(name), bytes, {}, std::move(done)); })
+        .value();
+  };
+  const auto read = [&](std::string_view name) {
+    return wait_for<DiskFile>([&](auto done) { files.read(path(name), std::move(done)); });
+  };
+  const auto first = write("TNC:\\Dir\\File.H", "one");
+  const auto second = write("TNC:\\dir\\file.h", std::string_view("\0\xFF", 2));
+  CHECK(first.created);
+  CHECK_FALSE(second.created);
+  CHECK(second.revision > first.revision);
+  CHECK(read("TNC:\\DIR\\FILE.H")->bytes == std::string("\0\xFF", 2));
+
+  write("TNC:\\other\\file.h", "");
+  const auto listed = wait_for<std::vector<DiskFile>>(
+      [&](auto done) { files.list("TNC:\\dir\\", std::move(done)); });
+  REQUIRE(listed->size() == 1);
+  CHECK((*listed)[0].size == 2);
+
+  const auto remove = [&] {
+    return wait_for<bool>(
+        [&](auto done) { files.remove(path("TNC:\\dir\\FILE.h"), {}, std::move(done)); });
+  };
+  CHECK(remove().has_value());
+  CHECK(remove().error().code == ErrorCode::FileUnknown);
+  CHECK(read("TNC:\\dir\\file.h").error().code == ErrorCode::FileUnknown);
+}
+
+TEST_CASE("a file is checked as what its extension says: program, mask or table") {
+  Service service;
+  service.upload("TNC:\\p.h", "BEGIN PGM p MM\nGARBAGE\nEND PGM p MM\n");
+  service.upload("TNC:\\m.a", "\"%5.2XF\", Q1;\n");
+  service.upload("TNC:\\t.tab", "BEGIN t .TAB MM\nNR      X\n0       1\n");
+  const auto findings = [&](std::string_view name) {
+    return service.prepared([&] { return service->runs().check(path(name)); });
+  };
+  for (const auto& [name, line] :
+       {std::pair{"TNC:\\p.h", 2U}, std::pair{"TNC:\\m.a", 1U}, std::pair{"TNC:\\t.tab", 3U}}) {
+    CAPTURE(name);
+    const auto found = findings(name);
+    REQUIRE(found.has_value());
+    REQUIRE_FALSE(found->empty());
+    CHECK(found->front().severity == klartext::Severity::Error);
+    CHECK(found->front().program == name);
+    CHECK(found->front().range.begin.line == line);
+  }
+  CHECK(findings("TNC:\\none.h").error().code == ErrorCode::ProgramUnknown);
+}
+
+TEST_CASE("a named setup is kept as it was written") {
+  Service service;
+  SetupService& setups = service->setups();
+  const auto write = [&](std::string text) {
+    return wait_for<bool>(
+        [&](auto done) { setups.write("mill", std::move(text), {}, std::move(done)); });
+  };
+  CHECK(write("{}").value());
+  CHECK_FALSE(write("{\"seed\": 7}").value());
+  CHECK(setups.wait_for("mill")->text == "{\"seed\": 7}");
+  const auto listed =
+      wait_for<std::vector<NamedSetup>>([&](auto done) { setups.list(std::move(done)); });
+  REQUIRE(listed->size() == 1);
+  CHECK((*listed)[0].name == "mill");
+  CHECK(wait_for<bool>([&](auto done) { setups.remove("mill", std::move(done)); }).has_value());
+  CHECK(setups.wait_for("mill").error().code == ErrorCode::SetupUnknown);
+}
+
+}  // namespace
+}  // namespace fitgauge::app
