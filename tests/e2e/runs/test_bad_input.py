@@ -1,6 +1,11 @@
 """Programs that cannot run say so with file, line and block; the service stays responsive."""
 
+import pathlib
+import shutil
+import subprocess
+import threading
 import time
+import unittest
 
 from support.control import ControlTest
 
@@ -54,10 +59,13 @@ class BadInput(ControlTest):
         self.upload("open.tab", "BEGIN open .TAB MM\nNR      X\n0       +1\n")
         self.fails("openended", "FN 26: TABOPEN open.tab")
         answer = self.daemon.request("POST", "/v1/files/open.tab?action=check")
-        self.assertEqual(answer.json["diagnostics"][0]["severity"], "error")
+        found, = answer.json["diagnostics"]
+        self.assertEqual((found["severity"], found["program"], found["line"]),
+                         ("error", "TNC:\\open.tab", 3))
 
     def test_unknown_cycle_and_m_function_fail_when_they_are_reached(self):
-        self.fails("oem", "TOOL CALL 30 Z", "TCH PROBE 586 UNKNOWN")
+        self.assertIn("586", self.fails("oem", "TOOL CALL 30 Z", "TCH PROBE 586 UNKNOWN")["text"])
+        self.assertIn("M987", self.fails("builder", "L M987")["text"])
         path = self.upload_program("passed", "FN 9: IF +1 EQU +1 GOTO LBL 1",
                                    "L M987", "LBL 1")
         self.assertEqual(self.run_program(path)["status"], "completed")
@@ -90,11 +98,15 @@ class BadInput(ControlTest):
                                parameters={"QS1": "x" * 256})
         entry = self.assert_problem(answer, 422, "request.invalid")["errors"][0]
         self.assertEqual((entry["pointer"], entry["code"]), ("/parameters/QS1", "field.too_long"))
+        half = "x" * 128
+        self.assertIn("255", self.fails("joined", f'QS1 = "{half}"', "QS2 = QS1 || QS1")["text"])
 
     def test_binary_garbage(self):
         self.upload("noise.h", bytes(range(256)) * 64)
-        answer = self.post_run("TNC:\\noise.h")
-        self.assert_problem(answer, 422, "program.invalid")
+        self.upload("zeros.h", bytes(100_000))
+        for name in ("noise.h", "zeros.h"):
+            problem = self.assert_problem(self.post_run(f"TNC:\\{name}"), 422, "program.invalid")
+            self.assertTrue(all(found["line"] > 0 for found in problem["diagnostics"]))
 
     def test_path_out_of_the_disk(self):
         self.fails("escape", "CALL PGM ..\\..\\..\\etc\\passwd")
@@ -110,5 +122,51 @@ class BadInput(ControlTest):
         self.assertEqual(connection.getresponse().status, 413)
         connection.close()
 
+    def test_program_of_8_megabytes_is_checked_while_others_are_served(self):
+        blocks = "".join(f"L X+{n % 100}.5 Y-{n % 90} F500\n" for n in range(330_000))
+        self.upload("large.h", f"BEGIN PGM large MM\n{blocks}CALL LBL 1\nEND PGM large MM\n")
+        checked = threading.Thread(target=lambda: answers.append(self.post_run("TNC:\\large.h")))
+        answers = []
+        checked.start()
+        while checked.is_alive():
+            begun = time.monotonic()
+            self.assertEqual(self.daemon.get("/v1/limits/25H7").status, 200)
+            self.assertLess(time.monotonic() - begun, 1)
+        problem = self.assert_problem(answers[0], 422, "program.invalid")
+        self.assertEqual(problem["diagnostics"][0]["line"], 330_002)
+
     def test_unknown_program(self):
         self.assert_problem(self.post_run("TNC:\\nothing.h"), 422, "program.unknown")
+
+
+def can_trace():
+    """Whether strace is there and may attach."""
+    return bool(shutil.which("strace")) and subprocess.run(
+        ["strace", "-qq", "-o", "/dev/null", "true"], check=False).returncode == 0
+
+
+@unittest.skipUnless(can_trace(), "needs strace and the right to trace")
+class HostFiles(ControlTest):
+    PATHS = ("..\\..\\..\\etc\\passwd", "TNC:\\..\\..\\etc\\passwd", "/etc/passwd", "C:\\x.h",
+             "..\\secret.a", "TNC:\\etc\\passwd")
+
+    def test_no_path_of_a_program_opens_a_file_of_the_host(self):
+        self.daemon.get("/v1/limits/25H7")
+        trace = self.daemon.folder / "trace"
+        tracer = subprocess.Popen(["strace", "-f", "-qq", "-o", trace, "-e", "trace=%file,fdatasync",
+                                   "-p", str(self.daemon.process.pid)])
+        self.addCleanup(tracer.wait)
+        self.addCleanup(tracer.terminate)
+        time.sleep(0.5)
+        self.upload("say.a", '"X";\n')
+        for n, path in enumerate(self.PATHS):
+            for block in (f"CALL PGM {path}", f'SEL PGM "{path}"\nCALL SELECTED PGM',
+                          f"FN 26: TABOPEN {path}", f"FN 16: F-PRINT {path} / SCREEN:",
+                          f"FN 16: F-PRINT say.a / {path}", f'SEL TABLE "{path}"'):
+                self.post_run(self.upload_program(f"path{n}", block))
+        self.assertIn("fdatasync", trace.read_text(), "nothing was traced")
+        opened = [line.split('"')[1] for line in trace.read_text().splitlines() if '"' in line]
+        data = str(self.daemon.data)
+        outside = [name for name in opened if not name.startswith(data)]
+        self.assertEqual(outside, [])
+        self.assertFalse(list(pathlib.Path(self.daemon.folder).rglob("passwd*")))

@@ -1,6 +1,6 @@
 """The example programs 8255, 8210, 8025 and 451 with their setups."""
 
-from support.control import ControlTest, setup
+from support.control import EXAMPLES, ControlTest, setup
 
 
 class Examples(ControlTest):
@@ -83,6 +83,29 @@ class Examples(ControlTest):
         self.assertEqual(run["status"], "completed", run["messages"])
         self.assertEqual([run["parameters"][name] for name in ("QL40", "QL41")], [90, 10])
 
+    def test_8210_of_many_points_in_any_order(self):
+        # Heights in no order, each there once; the table begins with a row that is not asked for.
+        heights = [k * 37 % 101 / 100 for k in range(1, 13)]
+        places = [(10 + 15 * (k % 4), 10 + 25 * (k // 4)) for k in range(12)]
+        rows = "".join(f"{k + 2:<8}{x:<10}{y}\n" for k, (x, y) in enumerate(places))
+        self.upload("many/8210.h", (EXAMPLES / "8210" / "8210.h").read_bytes())
+        self.upload("many/82101.tab", f"BEGIN 82101 .TAB MM\nNR      X         Y\n0       1         1\n"
+                                      f"{rows}[END]\n")
+        corners = [[-200, -200, -1], [200, -200, -1], [-200, 200, -1], [200, 200, -1]]
+        for count in (1, 2, 5, 12):
+            points = [[x, y, z] for (x, y), z in list(zip(places, heights))[:count]]
+            surface = {"type": "surface", "points_mm": corners + points}
+            run = self.run_program("TNC:\\many\\8210.h", {"workpiece": {"features": [surface]}},
+                                   parameters={"QL1": count, "QL3": -2, "QL5": 2})
+            self.assertEqual(run["status"], "completed", run["messages"])
+            highest = max(heights[:count])
+            x, y = places[heights.index(highest)]
+            q = run["parameters"]
+            self.assertEqual((q["QL40"], q["QL41"]), (x, y))
+            self.assertAlmostEqual(q["QL42"], highest, places=6)
+            preset = next(row for row in run["presets"] if row["number"] == run["active_preset"])
+            self.assertAlmostEqual(highest - preset["z_mm"], -2, places=6)
+
     def test_8210_fails_where_there_is_nothing_to_touch(self):
         run = self.run_example("8210", setup("8210/out-of-reach"))
         self.assertEqual(run["status"], "failed")
@@ -104,6 +127,9 @@ class Examples(ControlTest):
             self.assertAlmostEqual(move["end_mm"]["X"], -5 + k * 45 / 6, places=9)
             self.assertAlmostEqual(move["seconds"], 45 / 6 / move["feed_mm_min"] * 60, places=6)
         self.assertAlmostEqual(ramp[-1]["end_mm"]["X"], -5 + 45, places=9)
+        on = moves[moves.index(ramp[-1]) + 1]
+        self.assertEqual((on["kind"], on["feed_mm_min"]), ("feed", 480))
+        self.assertGreater(moves[-1]["end_mm"]["Z"], on["end_mm"]["Z"])
 
     def measure_axes(self, name):
         run = self.run_example("451", setup(f"451/{name}"))
