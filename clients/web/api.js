@@ -40,8 +40,9 @@ async function problemOf(response) {
 /**
  * One request. A 401 asks for a key and repeats it; the key lives as long as the window.
  * @param body text, bytes, or an object that is sent as JSON
+ * @param timeout in ms, of each attempt
  */
-export async function request(method, path, { body, headers = {}, signal } = {}) {
+export async function request(method, path, { body, headers = {}, signal, timeout } = {}) {
   const isJson = body !== undefined && Object.getPrototypeOf(body) === Object.prototype;
   const sent = isJson ? toJson(body) : body;
   const type = isJson ? { 'Content-Type': 'application/json' } : {};
@@ -49,7 +50,8 @@ export async function request(method, path, { body, headers = {}, signal } = {})
     const key = readStored(KEY, sessionStorage);
     const authorization = key ? { Authorization: `Bearer ${key}` } : {};
     const response = await fetch(path, {
-      method, signal, body: sent, cache: 'no-cache', headers: { ...type, ...headers, ...authorization },
+      method, body: sent, cache: 'no-cache', headers: { ...type, ...headers, ...authorization },
+      signal: timeout ? AbortSignal.timeout(timeout) : signal,
     });
     if (response.ok) return response;
     const problem = await problemOf(response);

@@ -26,7 +26,9 @@ function ask(problem) {
   return new Promise((resolve) => {
     dialog.addEventListener('close', () => {
       dialog.remove();
-      before?.focus?.();
+      // The caret went with the dialog: to focus a field that has the focus would not bring it back.
+      before?.blur();
+      before?.focus();
       resolve(dialog.returnValue === 'use' ? input.value.trim() : null);
     });
   });

@@ -29,7 +29,8 @@ class Queue extends EventTarget {
 
   constructor() {
     super();
-    for (const name of storedKeys(PREFIX)) this.#entries.push({ name, ...JSON.parse(readStored(name)) });
+    const kept = storedKeys(PREFIX).map((name) => ({ name, ...JSON.parse(readStored(name)) }));
+    this.#entries = kept.filter((entry) => entry.path); // another window may have sent one meanwhile
     connection.addEventListener('change', () => this.#wake());
   }
 
@@ -55,13 +56,15 @@ class Queue extends EventTarget {
     return entry;
   }
 
-  /** Sends what there is until nothing is left. */
+  /** Sends what there is until nothing is left, or a key is missing: the next value asks for it again. */
   async send() {
     if (this.#sending) return;
     this.#sending = true;
     let wait = SHORTEST_WAIT_MS;
     while (this.#entries.length) {
-      if (await this.#sendOne(this.#entries[0])) {
+      const result = await this.#sendOne(this.#entries[0]);
+      if (result === 'locked') break;
+      if (result === 'answered') {
         wait = SHORTEST_WAIT_MS;
         continue;
       }
@@ -71,24 +74,25 @@ class Queue extends EventTarget {
     this.#sending = false;
   }
 
-  /** @returns whether the entry is answered for good */
+  /** @returns `answered` for good, `later` to try again, or `locked` without a key */
   async #sendOne(entry) {
     try {
       const response = await request('POST', entry.path, {
         body: entry.body,
         headers: { 'Content-Type': 'application/json', 'Idempotency-Key': `"${entry.key}"` },
-        signal: AbortSignal.timeout(TIMEOUT_MS),
+        timeout: TIMEOUT_MS,
       });
       const record = await response.json();
       connection.report(true);
       this.#finish(entry, 'stored', { entry, record });
-      return true;
+      return 'answered';
     } catch (problem) {
       const reached = problem.status !== undefined;
       connection.report(reached);
-      if (!reached || problem.passing || problem.status === 401) return false;
+      if (problem.status === 401) return 'locked';
+      if (!reached || problem.passing) return 'later';
       this.#finish(entry, 'refused', { entry, problem });
-      return true;
+      return 'answered';
     }
   }
 

@@ -20,7 +20,8 @@ export class RunForm {
     this.note = h('p.note', { role: 'alert' });
     this.start = h('button.primary', { type: 'submit' }, t('programs.run'));
     this.cancel = h('button', { type: 'button', hidden: true, onclick: () => this.#cancel() }, t('programs.cancel'));
-    this.report = h('div.report', { role: 'status' });
+    this.state = h('p.unseen', { role: 'status' });
+    this.report = h('div.report');
     this.element = h('section.run', h('h2', t('programs.run_title')),
       h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#run(); } },
         h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters)),
@@ -28,7 +29,7 @@ export class RunForm {
           h('div.line', field(t('programs.setup_name'), this.setupName),
             h('button', { type: 'button', onclick: () => this.#storeSetup() }, t('programs.store_setup')))),
         h('p.actions', this.start, this.cancel), this.note),
-      this.report);
+      this.state, this.report);
   }
 
   /** @param chosen the name of a setup */
@@ -41,7 +42,11 @@ export class RunForm {
   }
 
   async showRun(id) {
-    const run = await (await request('GET', url(['runs', id]))).json();
+    await this.#show(await (await request('GET', url(['runs', id]))).json());
+  }
+
+  async #show(run) {
+    this.state.textContent = [t(`run.${run.status}`), run.verdict && t(`verdict.${run.verdict}`)].filter(Boolean).join(', ');
     this.report.replaceChildren(...await runReport(run));
   }
 
@@ -90,7 +95,7 @@ export class RunForm {
       const data = JSON.parse(event.data);
       if (event.type === 'output') lines.push(data.line);
       if (event.type === 'progress') state.textContent = t(`run.${data.status}`);
-      if (event.type === 'end') return this.report.replaceChildren(...await runReport(data));
+      if (event.type === 'end') return this.#show(data);
       this.report.replaceChildren(state, screenOf(lines));
     }
     return this.showRun(id);

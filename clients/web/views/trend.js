@@ -19,13 +19,14 @@ const DRAW_MS = 50;
 export function mount(main, route) {
   const leaving = new AbortController();
   const select = (name, onchange) => h('select', { id: `trend-${name}`, onchange });
-  const characteristic = select('characteristic', load);
-  const designation = select('designation', draw);
+  const characteristic = select('characteristic', () => { wanted = ''; load(); });
+  const designation = select('designation', () => { wanted = designation.value; draw(); });
   const count = select('count', load);
   const chart = h('figure');
   const tiles = h('dl.tiles');
   const note = h('p.note', { role: 'alert' });
   const table = h('div');
+  let wanted = route.options.designation ?? '';
   let records = [];
   let timer = 0;
 
@@ -57,9 +58,9 @@ export function mount(main, route) {
   }
 
   function offerDesignations() {
-    const names = [...new Set([...records.map((record) => record.designation ?? ''), route.options.designation].filter(Boolean))].sort();
-    const wanted = designation.value || route.options.designation || records.at(-1)?.designation || '';
-    designation.replaceChildren(...names.map((name) => option(name, number(name), name === wanted)));
+    const names = [...new Set([...records.map((record) => record.designation ?? ''), wanted].filter(Boolean))].sort();
+    const chosen = wanted || (records.at(-1)?.designation ?? '');
+    designation.replaceChildren(...names.map((name) => option(name, number(name), name === chosen)));
   }
 
   function draw() {

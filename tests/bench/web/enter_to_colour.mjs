@@ -1,0 +1,79 @@
+/**
+ * How long from Enter to the colour of the verdict, while 64 other clients post as fast as they can.
+ * FITGAUGED=build/release/bin/fitgauged tests/e2e/web/run tests/bench/web/enter_to_colour.mjs [VALUES]
+ * Prints milliseconds from the key to the frame that shows the colour.
+ */
+
+import http from 'node:http';
+import { isMainThread, parentPort, Worker, workerData } from 'node:worker_threads';
+
+const CLIENTS = 64;
+const BODY = JSON.stringify({ designation: '25 H7', measured_mm: '25.0131', characteristic: 'load' });
+
+/** The other clients: each posts its next value when the last is answered. */
+function load({ port }) {
+  const agent = new http.Agent({ keepAlive: true, maxSockets: CLIENTS });
+  let answered = 0;
+  const post = () => {
+    const request = http.request({
+      port, host: '127.0.0.1', agent, method: 'POST', path: '/v1/measurements',
+      headers: { 'Content-Type': 'application/json', 'Content-Length': BODY.length },
+    }, (response) => {
+      answered += response.statusCode === 201 ? 1 : 0;
+      response.resume().on('end', post);
+    });
+    request.on('error', () => process.exit(0)); // the service was stopped
+    request.end(BODY);
+  };
+  for (let i = 0; i < CLIENTS; ++i) post();
+  parentPort.on('message', () => parentPort.postMessage(answered));
+}
+
+/** In the page: notes the time of each Enter, and of the frame after its verdict has come. */
+function watch() {
+  globalThis.times = [];
+  let entered = 0;
+  document.getElementById('value').addEventListener('keydown', (event) => {
+    if (event.key === 'Enter') entered = event.timeStamp;
+  });
+  const shown = new MessageChannel();
+  shown.port1.onmessage = () => globalThis.times.push(performance.now() - entered);
+  new MutationObserver(() => {
+    if (!['good', 'rework', 'reject'].includes(document.querySelector('.verdict').dataset.verdict)) return;
+    requestAnimationFrame(() => shown.port2.postMessage(''));
+  }).observe(document.querySelector('.verdict'), { childList: true });
+}
+
+async function measure(count) {
+  const { close, launch, open } = await import('../../e2e/web/support/browser.mjs');
+  const { Daemon, sleep } = await import('../../e2e/web/support/daemon.mjs');
+  const browser = await launch();
+  const daemon = await new Daemon().start();
+  const page = await open(browser, daemon, '#/gauge/25H7');
+  await page.waitForSelector('.echo .figures');
+  await page.evaluate(watch);
+  const others = new Worker(new URL(import.meta.url), { workerData: { port: daemon.port } });
+  await sleep(1000);
+  const answered = () => new Promise((resolve) => {
+    others.once('message', resolve);
+    others.postMessage('');
+  });
+  const before = await answered();
+  const begun = Date.now();
+  for (let i = 0; i < count; ++i) {
+    await page.keyboard.type(`25.0${String(100 + (i % 150))}\n`);
+    await page.waitForFunction((done) => globalThis.times.length === done, i + 1);
+  }
+  const rate = (await answered() - before) / (Date.now() - begun) * 1000;
+  const times = (await page.evaluate(() => globalThis.times)).sort((one, other) => one - other);
+  await close(page);
+  await others.terminate();
+  await browser.close();
+  await daemon.cleanup();
+  const at = (share) => times[Math.min(times.length - 1, Math.floor(share * times.length))].toFixed(1);
+  console.log(`enter to colour, ${count} values, ${CLIENTS} clients posting ${rate.toFixed(0)} values a second: `
+    + `median ${at(0.5)} ms, 95 % ${at(0.95)} ms, longest ${at(1)} ms`);
+}
+
+if (isMainThread) await measure(Number(process.argv[2] ?? 100));
+else load(workerData);
