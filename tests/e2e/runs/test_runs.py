@@ -116,28 +116,16 @@ class Runs(ControlTest):
             self.assertEqual((run["status"], run["setup_seed"]), ("cancelled", seed))
 
     def test_end_of_a_run_is_an_event(self):
-        connection = self.daemon.connect()
-        self.addCleanup(connection.close)
-        connection.request("GET", "/v1/events")
-        stream = connection.getresponse()
-
-        def next_block():
-            lines = iter(lambda: stream.readline().decode().rstrip("\n"), "")
-            return dict(line.split(": ", 1) for line in lines if not line.startswith(":"))
-
-        def next_event():
-            while "data" not in (fields := next_block()):
-                pass
-            return fields["event"], json.loads(fields["data"])
-
-        self.assertIn("id", next_block())  # from here on
         completed = self.run_program(self.upload_program("over", "Q1 = 1"))
         failed = self.run_program(self.upload_program("bad", "Q1 = 1 / 0"))
-        for run in (completed, failed):
-            name, data = next_event()
-            self.assertEqual(name, "run.finished")
-            fields = ("id", "status", "program", "finished_at", "verdict")
-            self.assertEqual(data, {field: run[field] for field in fields})
+        ids = (completed["id"], failed["id"])
+        with self.daemon.client() as client:
+            events = client.events(last_event_id="m0.e0")
+            finished = (event.data for event in events if event.type == "run.finished" and event.data["id"] in ids)
+            for run in (completed, failed):
+                fields = ("id", "status", "program", "finished_at", "verdict")
+                self.assertEqual(next(finished), {field: run[field] for field in fields})
+            events.close()
 
     def test_too_many_runs_are_refused_until_there_is_room(self):
         endless = self.upload_program("endless3", *FOREVER)
