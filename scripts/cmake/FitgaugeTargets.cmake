@@ -10,7 +10,9 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
 find_program(FITGAUGE_CCACHE ccache)
 if(FITGAUGE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${FITGAUGE_CCACHE}")
+  # The sloppiness is what a precompiled header asks of ccache (its manual, "Precompiled headers").
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros "${FITGAUGE_CCACHE}")
   set(CMAKE_C_COMPILER_LAUNCHER "${FITGAUGE_CCACHE}")
 endif()
 
@@ -37,6 +39,23 @@ if(FITGAUGE_FUZZ)
   target_compile_options(fitgauge_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# What nearly every file includes, compiled once for the libraries and once, with doctest, for the
+# tests. A file still includes what it uses: scripts/check builds nothing precompiled.
+set(precompiled_headers
+  <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <functional> <map> <memory> <mutex>
+  <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
+  <boost/system/result.hpp> <fmt/format.h>)
+file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/precompiled.cpp" CONTENT "")
+
+# fitgauge_precompile(<target> HEADERS <headers> LINKS <targets>)
+function(fitgauge_precompile target)
+  cmake_parse_arguments(arg "" "" "HEADERS;LINKS" ${ARGN})
+  add_library(${target} STATIC "${CMAKE_BINARY_DIR}/precompiled.cpp")
+  target_link_libraries(${target} PRIVATE ${arg_LINKS} fitgauge_options)
+  target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
+endfunction()
+fitgauge_precompile(precompiled HEADERS ${precompiled_headers} LINKS Boost::headers fmt::fmt)
+
 # fitgauge_library(<name> [PUBLIC <targets>] [PRIVATE <targets>])
 # The layer <name> from every *.cpp of the current folder but main.cpp. Its include root holds this folder alone,
 # so `#include "<layer>/<file>.hpp"` compiles only where that layer is linked.
@@ -50,6 +69,7 @@ function(fitgauge_library name)
   add_library(${name} STATIC ${sources})
   target_include_directories(${name} PUBLIC "${root}")
   target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} fitgauge_options)
+  target_precompile_headers(${name} REUSE_FROM precompiled)
 endfunction()
 
 # fitgauge_doctest(<kind> <name> [LINKS <targets>])
@@ -61,6 +81,9 @@ function(fitgauge_doctest kind name)
   set(target "${kind}_${name}")
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE ${arg_LINKS} test_support fitgauge_options)
+  target_precompile_headers(${target} REUSE_FROM precompiled_tests)
+  # Compiled as the precompiled header is: not as a position-independent executable.
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   add_test(NAME "${kind}.${name}"
     COMMAND "${CMAKE_SOURCE_DIR}/tests/support/run_doctest" "$<TARGET_FILE:${target}>"
     WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
