@@ -147,7 +147,7 @@ class Examples(ControlTest):
         found, corrected = run["screen"].index("AS FOUND"), run["screen"].index("AS CORRECTED")
         before, after = (max(float(line.rsplit(":", 1)[1]) for line in run["screen"][at + 1:at + 3])
                          for at in (found, corrected))
-        self.assertGreater(before, 0.03)
+        self.assertGreater(before, 0.02)
         self.assertLess(after, 0.006)
         self.assertEqual(run["screen"][-1], "KINEMATICS: CORRECTED")
         log = self.daemon.get(f"/v1/runs/{run['id']}/files/tchpr451.html")

@@ -56,7 +56,8 @@ class Setups(ControlTest):
 
     def test_every_error_has_its_pointer(self):
         setup = {"machine": {"axes": {"X": {"min_mm": 10, "max_mm": 5}, "U": {}},
-                             "tools": [{"length_mm": "a"}], "rapid_mm_min": -1},
+                             "tools": [{"length_mm": "a"}], "rapid_mm_min": -1,
+                             "calibration_sphere": {"radius_mm": 0, "diameter_mm": 25}},
                  "workpiece": {"features": [{"type": "bore", "center_mm": [1], "diameter_mm": 25.0000001},
                                             {"type": "cone"},
                                             {"type": "sphere", "center_mm": [0, 0, 0], "diameter_mm": 0}]},
@@ -69,6 +70,9 @@ class Setups(ControlTest):
                                  "/machine/tools/0/number": "field.missing",
                                  "/machine/tools/0/length_mm": "length.malformed",
                                  "/machine/rapid_mm_min": "field.invalid",
+                                 "/machine/calibration_sphere/center_mm": "field.missing",
+                                 "/machine/calibration_sphere/radius_mm": "field.invalid",
+                                 "/machine/calibration_sphere/diameter_mm": "field.unknown",
                                  "/workpiece/features/0/center_mm": "field.invalid",
                                  "/workpiece/features/0/diameter_mm": "length.too_fine",
                                  "/workpiece/features/1/type": "field.invalid",
