@@ -1,6 +1,5 @@
 """Files, setups and the life of a run: asynchronous, followed, cancelled, repeated, interrupted."""
 
-import json
 import unittest
 
 from support.control import ControlTest
