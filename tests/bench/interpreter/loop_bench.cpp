@@ -1,5 +1,5 @@
-// Runs the parameter loop of the comparison and prints nanoseconds of CPU time a pass, one number a line.
-// Usage: bench_interpreter [passes] [rounds]
+// Runs the parameter loop of the comparison and prints nanoseconds of CPU time a pass, one number a
+// line. Usage: bench_loop [passes] [rounds]
 
 #include <cstdio>
 #include <cstdlib>
