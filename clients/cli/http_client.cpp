@@ -15,7 +15,7 @@ namespace {
 constexpr long kConnectSeconds = 5;
 constexpr long kAnswerSeconds = 120;
 constexpr long kSilenceSeconds = 45;  // the service sends a sign of life every 15 s
-constexpr long kUploadBuffer = 512 * 1024;
+constexpr long kUploadBuffer = 512L * 1024;
 constexpr const char* kUserAgent = "fitgauge/" FITGAUGE_VERSION;
 
 struct HeaderList {
