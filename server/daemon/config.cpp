@@ -188,8 +188,7 @@ Result<void> read_toml(const std::string& path, Config& config) {
   try {
     file = toml::parse_file(path);
   } catch (const toml::parse_error& error) {
-    return invalid(
-        fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
+    return invalid(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
   for (const auto& [key, node] : file) {
     const auto place = [&](const std::string& message) {

@@ -4,12 +4,9 @@ namespace fitgauge::iso286 {
 
 std::string_view word(FitKind kind) {
   switch (kind) {
-    case FitKind::Clearance:
-      return "clearance";
-    case FitKind::Transition:
-      return "transition";
-    case FitKind::Interference:
-      break;
+    case FitKind::Clearance: return "clearance";
+    case FitKind::Transition: return "transition";
+    case FitKind::Interference: break;
   }
   return "interference";
 }

@@ -26,12 +26,9 @@ std::string text_of(const CustomColumn& column, const CustomRow& row) {
 
 std::string_view name(TableId table) {
   switch (table) {
-    case TableId::ItGrades:
-      return "it_grades";
-    case TableId::HoleFundamentalDeviations:
-      return "hole_fundamental_deviations";
-    case TableId::ShaftFundamentalDeviations:
-      break;
+    case TableId::ItGrades: return "it_grades";
+    case TableId::HoleFundamentalDeviations: return "hole_fundamental_deviations";
+    case TableId::ShaftFundamentalDeviations: break;
   }
   return "shaft_fundamental_deviations";
 }
