@@ -82,23 +82,12 @@ Result<void> provide_first_key(const Config& config, app::KeyService& keys) {
   return {};
 }
 
-/// The connections that can be open at once. Beyond them a client gets 503 rather than no answer.
-std::size_t connections_allowed(const Config& config) {
-  const std::int64_t allowed = allow_connections(config.max_connections);
-  if (allowed < config.max_connections) {
-    log_warning("connections_limited",
-                fmt::format("{} of {}: the hard limit of open files allows no more", allowed,
-                            config.max_connections));
-  }
-  return static_cast<std::size_t>(allowed);
-}
-
-http::ServerOptions server_options(const Config& config,
-                                   std::vector<http::ListenAddress> addresses) {
+http::ServerOptions server_options(const Config& config, std::vector<http::ListenAddress> addresses,
+                                   std::int64_t connections) {
   http::ServerOptions options;
   options.listen = std::move(addresses);
   options.io_threads = static_cast<unsigned>(config.io_threads);
-  options.max_connections = connections_allowed(config);
+  options.max_connections = static_cast<std::size_t>(connections);
   if (!config.tls_cert.empty()) {
     options.tls = http::TlsOptions{.certificate_file = config.tls_cert,
                                    .key_file = config.tls_key,
@@ -198,11 +187,19 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .metrics = metrics,
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); }};
-  auto started = http::Server::start(server_options(config, *addresses), api::make_routes(services),
-                                     hooks(api::Guard(app.keys(), mode), metrics));
+  // Beyond these a client gets 503 rather than no answer.
+  const std::int64_t connections = allow_connections(config.max_connections);
+  auto started =
+      http::Server::start(server_options(config, *addresses, connections),
+                          api::make_routes(services), hooks(api::Guard(app.keys(), mode), metrics));
   if (!started) return started.error();
   http::Server& server = **started;
   metrics.watch([&server] { return server.counters(); });
+  if (connections < config.max_connections) {
+    log_warning("connections_limited",
+                fmt::format("{} of {}: the hard limit of open files allows no more", connections,
+                            config.max_connections));
+  }
   if (!port_file.empty()) {
     if (const auto written = write_port_file(port_file, server.ports().front()); !written) {
       return written.error();

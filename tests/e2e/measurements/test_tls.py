@@ -76,6 +76,7 @@ class Tls(unittest.TestCase):
 
     def test_unusable_certificates_end_the_start_in_one_line(self):
         self.certificate.write_text("nonsense")
+        self.daemon.wrapper = ["prlimit", "--nofile=64:400"]  # not a word about that either
         self.daemon.spawn()
         self.assertIn(self.daemon.process.wait(20), (1, 2))
         self.assertIn("first.pem", self.daemon.log)
