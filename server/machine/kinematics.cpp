@@ -11,6 +11,12 @@ bool stands_before(const RotaryAxis& a, const RotaryAxis& b) {
   return a.mount == AxisMount::Table ? a.axis < b.axis : a.axis > b.axis;
 }
 
+/// What the axis does to what it carries.
+Transform turned(const RotaryAxis& axis, double angle, const Displacements& rest) {
+  return Transform::translation(rest[index(axis.axis) - 3]) *
+         Transform::rotation_around(axis.centre, axis.direction, angle);
+}
+
 /// The part of `v` across the unit vector `axis`.
 Vec3 across(const Vec3& v, const Vec3& axis) { return v - axis * dot(v, axis); }
 
@@ -76,22 +82,21 @@ const RotaryAxis* Kinematics::find(Axis axis) const {
   return found == axes_.end() ? nullptr : &*found;
 }
 
-Transform Kinematics::table(const Vec3& rotary) const {
+Transform Kinematics::table(const Vec3& rotary, const Displacements& rest) const {
   Transform chain;
   for (const RotaryAxis& axis : axes_) {
     if (axis.mount != AxisMount::Table) continue;
-    const double angle = rotary[index(axis.axis) - 3];
-    chain = chain * Transform::rotation_around(axis.centre, axis.direction, -angle);
+    chain = chain * turned(axis, -rotary[index(axis.axis) - 3], rest);
   }
   return chain;
 }
 
-Vec3 Kinematics::tool_vector(const Vec3& rotary, Axis tool_axis, double length) const {
+Vec3 Kinematics::tool_vector(const Vec3& rotary, Axis tool_axis, double length,
+                             const Displacements& rest) const {
   Transform head = Transform::translation(offset_);
   for (const RotaryAxis& axis : axes_) {
     if (axis.mount != AxisMount::Head) continue;
-    const double angle = rotary[index(axis.axis) - 3];
-    head = head * Transform::rotation_around(axis.centre, axis.direction, angle);
+    head = head * turned(axis, rotary[index(axis.axis) - 3], rest);
   }
   return head.point(unit_vector(tool_axis) * -length);
 }

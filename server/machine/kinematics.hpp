@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct RotaryAxis {
   friend bool operator==(const RotaryAxis&, const RotaryAxis&) = default;
 };
 
+/// How far off its place what A, B and C carry came to rest, in mm.
+using Displacements = std::array<Vec3, 3>;
+
 /// The rotary axes and their order: a table is stacked A, B, C from the bed to the workpiece, a
 /// head C, B, A from the column to the tool. A value type without interior state.
 class Kinematics {
@@ -37,12 +41,14 @@ class Kinematics {
   const Vec3& offset() const { return offset_; }
   const RotaryAxis* find(Axis axis) const;
 
-  /// Table-fixed coordinates to machine coordinates, with the axes at `rotary` (degrees).
-  Transform table(const Vec3& rotary) const;
+  /// Table-fixed coordinates to machine coordinates, with the axes at `rotary` (degrees). What an
+  /// axis carries is displaced along the directions of what carries the axis.
+  Transform table(const Vec3& rotary, const Displacements& rest = {}) const;
 
   /// From where the linear axes show the spindle nose to the point of the tool `length` mm from it,
   /// in machine coordinates.
-  Vec3 tool_vector(const Vec3& rotary, Axis tool_axis, double length) const;
+  Vec3 tool_vector(const Vec3& rotary, Axis tool_axis, double length,
+                   const Displacements& rest = {}) const;
 
   /// The unit vector from the tool tip to the spindle nose, in machine coordinates.
   Vec3 tool_direction(const Vec3& rotary, Axis tool_axis) const;

@@ -103,13 +103,12 @@ SimulatedMachine::RealTool SimulatedMachine::real_tool() const {
 }
 
 Transform SimulatedMachine::real_table(const Vec3& rotary) const {
-  return Transform::translation(rest_[0] + rest_[1] + rest_[2]) *
-         kinematics_.table(rotary + slack_deg_);
+  return kinematics_.table(rotary + slack_deg_, rest_);
 }
 
 Vec3 SimulatedMachine::real_tool_point(const Position& nose, double length) const {
   return nose.linear +
-         kinematics_.tool_vector(nose.rotary + slack_deg_, state().tool_axis(), length);
+         kinematics_.tool_vector(nose.rotary + slack_deg_, state().tool_axis(), length, rest_);
 }
 
 Vec3 SimulatedMachine::ball_on_table(const Position& nose, const RealTool& tool) const {

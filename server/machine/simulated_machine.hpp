@@ -41,7 +41,7 @@ class SimulatedMachine final : public ModelledMachine {
   Workpiece workpiece_;
   Kinematics kinematics_;     ///< as built, with the errors of centre and direction
   Vec3 slack_deg_;            ///< what backlash adds to the positions of A, B, C at present
-  std::array<Vec3, 3> rest_;  ///< how far off its place each axis came to rest, in mm
+  Displacements rest_;        ///< what the scatter of the axes adds at present
   Random random_;
 };
 

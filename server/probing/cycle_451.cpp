@@ -64,7 +64,9 @@ constinit const TouchProbeCycle kCycle451{
          "measured at 0 degrees of each axis. Q141 to Q146 with one position beside it hold the "
          "error of that position. Q147 to Q149 are the location error of the axis measured last, "
          "real minus modelled. What the positions cannot see is not corrected, and the log says "
-         "so. The axes end at 0. Backlash is measured, never compensated. The log "
+         "so; nor can they tell what an axis below has come to rest with from a location error. "
+         "The "
+         "axes end at 0. Backlash is measured, never compensated. The log "
          "TCHPR451.html.",
      .not_simulated =
          "Positioning by an M function (mStrobeRotAxPos). The largest permitted correction "

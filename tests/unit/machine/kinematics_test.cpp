@@ -45,6 +45,14 @@ TEST_CASE("a head turns the tool with the sense of its axis") {
   check_near(trunnion().tool_direction({30, 0, 60}, Axis::Z), {0, 0, 1});
 }
 
+TEST_CASE("what an axis has come to rest with is turned by the axes that carry it") {
+  const Kinematics table = trunnion();
+  check_near(table.table({90, 0, 0}, {{{0, 0, 1}, {}, {}}}).point({}), {0, 100, -99});
+  check_near(table.table({90, 0, 0}, {{{}, {}, {0, 0, 1}}}).point({}), {0, 101, -100});
+  const Displacements of_b{{{}, {0, 1, 0}, {}}};
+  check_near(fork_head().tool_vector({0, 0, 90}, Axis::Z, 100, of_b), {-1, 0, -100});
+}
+
 TEST_CASE("orientations put the tool along the normal") {
   const std::uint64_t seed = 451;
   INFO("seed ", seed);

@@ -123,40 +123,6 @@ TEST_CASE("directions are corrected in mode 2 alone") {
   CHECK(contains(log_of(second), "X -0.0150, Y 0.0100, Z 0.0000"));
 }
 
-// One axis scatters at a time: what A comes to rest with counts as location of C, which it carries.
-TEST_CASE("random errors are found within three times the scatter, which is what remains") {
-  constexpr double kScatter = 0.002;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    CAPTURE(seed);
-    machine::Random random(seed);
-    const auto up_to = [&random](double limit) { return limit * random.normal() / 6; };
-    Setup setup = trunnion();
-    setup.seed = seed;
-    const Axis scattering = seed % 2 == 0 ? Axis::A : Axis::C;
-    for (const Axis axis : {Axis::A, Axis::C}) {
-      machine::AxisSetup& real = *setup.machine.axes[index(axis)];
-      real.centre_error = {up_to(0.3), up_to(0.3), up_to(0.3)};
-      real.tilt_error_deg = {up_to(0.1), up_to(0.1), up_to(0.1)};
-    }
-    setup.machine.axes[index(scattering)]->scatter_um = kScatter * 1000;
-    SphereBench bench(setup);
-    REQUIRE(bench.run(451, with(both_axes(12), {{406, 2.0}})) == 0);
-    for (const Axis axis : {Axis::A, Axis::C}) {
-      CHECK(distance(bench, setup, axis) < 3 * kScatter);
-      const RotaryAxis real = setup.machine.axes[index(axis)]->built(axis);
-      const double radius = norm(kSphere - point_of(real, kSphere));
-      CHECK(norm(model_of(bench, axis).direction - real.direction) * radius < 3 * kScatter);
-    }
-    const auto is_scatter = [&](int first) {
-      const double found = bench.host.q[first + static_cast<int>(index(scattering)) - 3];
-      return found > 0.6 * kScatter && found < 1.5 * kScatter;
-    };
-    CHECK(is_scatter(144));
-    REQUIRE(bench.run(451, both_axes(12)) == 0);
-    CHECK(is_scatter(141));
-  }
-}
-
 TEST_CASE("a head is measured like a table") {
   Setup setup = sphere_setup();
   machine::AxisSetup& head = add_axis(setup, Axis::B);
