@@ -1,5 +1,7 @@
 #include "nominal_parts.hpp"
 
+#include <algorithm>
+
 namespace fitgauge::probing {
 namespace {
 
@@ -26,7 +28,7 @@ const int kAngle = word(ParameterId::WordAngle);
 const int kDistance = word(ParameterId::WordDistance);
 
 std::vector<Feature> plate_with(const std::vector<std::array<double, 2>>& holes, double diameter) {
-  std::vector<Feature> part{kPlate};
+  std::vector<Feature> part{kFace};
   for (const auto& centre : holes) {
     part.emplace_back(Bore{.centre = centre, .top = 0, .depth = 30, .diameter = diameter});
   }
@@ -34,7 +36,7 @@ std::vector<Feature> plate_with(const std::vector<std::array<double, 2>>& holes,
 }
 std::vector<Feature> plate_with_studs(const std::vector<std::array<double, 2>>& studs,
                                       double diameter) {
-  std::vector<Feature> part{kPlate};
+  std::vector<Feature> part{kFace};
   for (const auto& centre : studs) part.emplace_back(Boss{centre, 10, 10, diameter});
   return part;
 }
@@ -94,7 +96,6 @@ void add_touches(std::vector<NominalCase>& cases) {
                    {{kResult, kFirstResult}, {kX, 1.0}, {kDistance, 15.0}},
                    {{1603, 0}},
                    {{0, 0}}});
-  for (NominalCase& touch : cases) touch.only_right_angles = true;
 }
 
 void add_measuring(std::vector<NominalCase>& cases) {
@@ -182,10 +183,6 @@ void add_measuring(std::vector<NominalCase>& cases) {
                      {583, 1.0},
                      {400, std::string("0.1-0.1")}}),
        {{151, 20}, {152, 30}, {153, 0}, {161, 0}, {162, 0}, {163, 0}, {164, 0}, {183, 0}}});
-  for (NominalCase& measuring : cases) {
-    const int n = measuring.cycle;
-    measuring.only_right_angles = n < 421 || (n > 422 && n < 427);
-  }
 }
 
 void add_datums(std::vector<NominalCase>& cases) {
@@ -269,6 +266,10 @@ std::vector<NominalCase> nominal_cases() {
   add_measuring(cases);
   add_datums(cases);
   add_alignment(cases);
+  for (NominalCase& c : cases) {
+    c.only_right_angles = std::ranges::any_of(
+        c.part, [](const Feature& feature) { return std::holds_alternative<Block>(feature); });
+  }
   return cases;
 }
 
