@@ -324,7 +324,7 @@ void MeasurementRowReader::resolve_limits() {
 }
 
 Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) {
-  if (name == last_class_) return last_class_id_;
+  if (last_class_id_ && name == last_class_) return *last_class_id_;
   const auto found = tables_.find_class(name);
   if (!found) return found.error();
   last_class_ = name;

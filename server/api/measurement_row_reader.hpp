@@ -97,7 +97,7 @@ class MeasurementRowReader {
   std::array<std::uint8_t, 32> order_{};
   std::size_t position_ = 0;
   std::string last_class_;
-  iso286::ClassId last_class_id_;
+  std::optional<iso286::ClassId> last_class_id_;  ///< none before the first: "" is no class
 };
 
 }  // namespace fitgauge::api

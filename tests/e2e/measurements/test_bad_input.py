@@ -54,6 +54,10 @@ class BadInput(DaemonTest):
                 ("0.8 N9", "class.undefined_for_size"), ("25 K9", "class.undefined_for_size")):
             with self.subTest(designation):
                 self.refuse({"designation": designation, "measured_mm": 25}, 422, code)
+        for name in ("", " ", "H", "7H", "H19", "h7x"):
+            with self.subTest(name):
+                self.refuse({"nominal_mm": 25, "tolerance_class": name, "measured_mm": 25}, 422,
+                            "class.unknown")
 
     def test_limits_given_twice_or_not_at_all(self):
         self.refuse({"measured_mm": 25}, 422)
