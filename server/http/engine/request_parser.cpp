@@ -34,6 +34,15 @@ bool is_digits(std::string_view text) {
   return !text.empty();
 }
 
+/// Of lines that were not yet read; the parser would wait for their CR.
+bool has_bare_line_feed(std::string_view lines) {
+  for (std::size_t at = lines.find('\n'); at != std::string_view::npos;
+       at = lines.find('\n', at + 1)) {
+    if (at == 0 || lines[at - 1] != '\r') return true;
+  }
+  return false;
+}
+
 const char* describe(const beast::error_code& code) {
   using beast::http::error;
   switch (static_cast<error>(code.value())) {
@@ -84,7 +93,7 @@ RequestParser::Step RequestParser::parse(std::string_view input, std::size_t& us
     const auto line_end = static_cast<std::size_t>(head_.target.end() - input.data());
     head_bytes_ += had_line ? n : n - std::min(n, line_end);
   }
-  if (error == beast::http::error::need_more) return need_more(input.size() - n);
+  if (error == beast::http::error::need_more) return need_more(input.substr(n));
   if (error == beast::http::error::bad_version) {
     return refuse(400, ErrorCode::VersionUnsupported, "This server speaks HTTP/1.0 and HTTP/1.1.");
   }
@@ -94,21 +103,24 @@ RequestParser::Step RequestParser::parse(std::string_view input, std::size_t& us
   if (error) return refuse(400, ErrorCode::RequestMalformed, describe(error));
 
   if (!had_head) return check_head() ? Step::Head : Step::Refused;
-  if (is_done()) return Step::Complete;
-  return framing_run_ > kMaxFraming ? need_more(0) : Step::BodyPiece;
+  if (framing_run_ > kMaxFraming) return need_more({});
+  return is_done() ? Step::Complete : Step::BodyPiece;
 }
 
-RequestParser::Step RequestParser::need_more(std::size_t pending) {
+RequestParser::Step RequestParser::need_more(std::string_view pending) {
   if (head_done_) {
-    if (framing_run_ + pending > kMaxFraming) {
+    if (framing_run_ + pending.size() > kMaxFraming) {
       return refuse(400, ErrorCode::RequestMalformed,
                     "More than 16 KiB of chunk framing or trailer yield no byte of the body.");
     }
+    if (has_bare_line_feed(pending)) {
+      return refuse(400, ErrorCode::RequestMalformed, "Lines end with CR LF.");
+    }
   } else if (head_.method.empty()) {
-    if (pending > kMaxTarget + 64) {
+    if (pending.size() > kMaxTarget + 64) {
       return refuse(414, ErrorCode::TargetTooLong, "The request target is longer than 8 KiB.");
     }
-  } else if (head_bytes_ + pending > kMaxHeaderSection) {
+  } else if (head_bytes_ + pending.size() > kMaxHeaderSection) {
     return refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
   }
   return Step::NeedMore;

@@ -41,9 +41,8 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
 
   Step parse(std::string_view input, std::size_t& used);
   Step refuse(int status, ErrorCode code, const char* message);
-  Step need_more(std::size_t pending);
+  Step need_more(std::string_view pending);
   bool check_head();
-  void check_content_length(std::string_view value);
 
   void on_request_impl(boost::beast::http::verb, boost::beast::string_view method,
                        boost::beast::string_view target, int version, ErrorCodeOut&) override;

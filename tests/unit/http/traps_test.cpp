@@ -168,6 +168,8 @@ TEST_CASE("a chunk line or trailer over 16 KiB is refused") {
                 kMalformed);
   check_refused(head + "5\r\nhello\r\n0\r\nX: " + std::string(70'000, 'x') + "\r\n\r\n", 400,
                 kMalformed);
+  check_refused(head + "5\r\nhello\r\n0\r\nX: " + std::string(20'000, 'x') + "\r\n\r\n", 400,
+                kMalformed);
   check_refused(head + "5\r\nhello\r\n0\r\nX: a\r\n b\r\n\r\n", 400, kMalformed);
 }
 
@@ -179,6 +181,8 @@ TEST_CASE("a chunked body that is malformed is refused") {
   check_refused(head + "fffffffffffffffff\r\nhello", 400, kMalformed);
   check_refused(head + "5\r\nhello\r\n0\r\nTransfer-Encoding: chunked\r\n\r\n", 400, kMalformed);
   check_refused(head + "5\nhello\n0\r\n\r\n", 400, kMalformed);
+  check_refused(head + "5\nhello", 400, kMalformed);
+  check_refused(head + "5\r\nhello\r\n0\n\n", 400, kMalformed);
 }
 
 TEST_CASE("empty lines before a request are skipped") {
