@@ -36,13 +36,13 @@ std::optional<std::string_view> token_of(const http::Request& request) {
 }
 
 /// A page of another site whose name was made to resolve to this machine addresses it by that name.
+/// An address is no such name, nor is one without a dot: it is of this machine or its network.
 bool addresses_this_machine(const http::Request& request) {
   std::string_view host = request.header("Host").value_or("localhost");
-  if (const std::size_t colon = host.rfind(':');
-      colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos) {
-    host = host.substr(0, colon);
-  }
-  return ascii_iequals(host, "localhost") || host.starts_with("127.") || host == "[::1]";
+  if (host.starts_with('[')) return true;
+  host = host.substr(0, host.find(':'));
+  return host.find('.') == std::string_view::npos ||
+         host.find_first_not_of("0123456789.") == std::string_view::npos;
 }
 
 }  // namespace

@@ -64,7 +64,10 @@ class Open(Callers):
             self.assert_problem(self.daemon.measure(PART, {**headers, "Origin": origin}), 403, "origin.refused")
 
     def test_a_name_that_was_made_to_resolve_here_is_remote(self):
-        self.assert_needs_a_key(self.daemon.measure(PART, {"Host": "rebound.example"}))
+        for host in ("rebound.example", "rebound.example:8286", "127.0.0.1.rebound.example"):
+            self.assert_needs_a_key(self.daemon.measure(PART, {"Host": host}))
+        for host in ("localhost", "LOCALHOST:8286", "127.0.0.1", "0.0.0.0:8286", "[::1]:8286", "gauge-3"):
+            self.assertEqual(self.daemon.measure(PART, {"Host": host}).status, 201, host)
 
 
 class ReadOpen(Callers):
