@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,20 @@ ErrorCode code_for(ParameterPlace place) {
     case ParameterPlace::Header: break;
   }
   return ErrorCode::RequestMalformed;
+}
+
+/// A time that begins or ends a range may lie before or after all that a Timestamp holds.
+Result<Timestamp> parse_time(std::string_view text) {
+  auto time = parse_rfc3339(text);
+  const std::string_view year = text.substr(0, 4);
+  if (time || year.find_first_not_of("0123456789") != std::string_view::npos) return time;
+  // All but the year is read as in one with every date.
+  std::string in_leap_year(text);
+  const auto far = parse_rfc3339(in_leap_year.replace(0, year.size(), "2000"));
+  using Nanoseconds = std::numeric_limits<std::int64_t>;
+  if (far && year < "1678") return Timestamp{Nanoseconds::min()};
+  if (far && year > "2261") return Timestamp{Nanoseconds::max()};
+  return time;
 }
 
 /// One reader per kind of parameter.
@@ -100,12 +115,12 @@ struct Reader {
   }
 
   Result<ArgumentValue> operator()(const Time&) const {
-    auto time = parse_rfc3339(text);
+    auto time = parse_time(text);
     if (!time && parameter.place == ParameterPlace::Query) {
       // The + of an offset that was not percent-encoded arrives as a blank.
       std::string signed_offset(text);
       std::replace(signed_offset.begin(), signed_offset.end(), ' ', '+');
-      time = parse_rfc3339(signed_offset);
+      time = parse_time(signed_offset);
     }
     if (!time) return refuse("a time as in RFC 3339, 2026-11-20T08:00:00Z");
     return ArgumentValue(*time);

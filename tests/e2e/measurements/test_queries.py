@@ -71,6 +71,10 @@ class Lists(DaemonTest):
                          self.rows[60:70])
         self.assertEqual(self.ids("from=2026-11-20T09:01:00%2B01:00&limit=3"), self.rows[60:63])
         self.assertEqual(self.ids("to=2026-11-20T08:00:00Z"), [])
+        self.assertEqual(self.ids("from=0001-01-01T00:00:00Z&to=9999-12-31T23:59:59Z&limit=3"), self.rows[:3])
+        self.assertEqual(self.ids("from=9999-12-31T23:59:59-01:00"), [])
+        for time in ("9999-13-01T00:00:00Z", "0000-01-01", "99990101T000000Z"):
+            self.assertEqual(self.daemon.get(f"/v1/measurements?to={time}").status, 400, time)
 
     def test_streams_have_every_row(self):
         text = self.daemon.get("/v1/measurements", Accept=NDJSON).text
