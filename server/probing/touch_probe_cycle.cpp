@@ -1,13 +1,19 @@
 #include "probing/touch_probe_cycle.hpp"
 
+#include <cassert>
 #include <utility>
+
+#include "probing/cycle_errors.hpp"
 
 namespace fitgauge::probing {
 
 CycleResult<void> run_cycle(const TouchProbeCycle& cycle, Arguments arguments,
                             machine::Machine& machine, CycleHost& host) {
   if (auto completed = arguments.complete(); !completed) return completed;
-  return cycle.execute({arguments, machine, host});
+  auto done = cycle.execute({arguments, machine, host});
+  assert(done || done.error().number == 0 ||
+         errors_of(cycle.descriptor).contains(done.error().number));
+  return done;
 }
 
 }  // namespace fitgauge::probing

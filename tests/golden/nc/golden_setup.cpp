@@ -165,12 +165,42 @@ bool read_kinematics(const std::string& word, std::istringstream& in,
 
 bool read_machine(const std::string& word, std::istringstream& in, machine::MachineSetup& machine) {
   if (word == "tool") {
-    machine.tools.push_back(tool(in));
+    const machine::ToolSetup added = tool(in);
+    std::erase_if(machine.tools,
+                  [&](const auto& known) { return known.row.number == added.row.number; });
+    machine.tools.push_back(added);
   } else if (word == "rotary") {
     add_rotary(in, machine);
   } else if (word == "start") {
     const Numbers n(in);
     machine.start = machine::AxisWords::linear(n.vector(0));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// What is missing or in the way.
+bool read_obstacle(const std::string& word, std::istringstream& in, machine::Setup& setup) {
+  machine::MachineSetup& machine = setup.machine;
+  if (word == "nothing") {
+    setup.features.clear();
+    machine.calibration_ring.reset();
+    machine.calibration_stud.reset();
+    machine.calibration_sphere.reset();
+  } else if (word == "rigid") {
+    for (const machine::Axis axis : {machine::Axis::A, machine::Axis::B, machine::Axis::C}) {
+      machine.axes[machine::index(axis)].reset();
+    }
+  } else if (word == "head") {
+    rotary_axis(in, machine).mount = machine::AxisMount::Head;
+  } else if (word == "locked") {
+    const int number = static_cast<int>(Numbers(in)[0]);
+    std::erase_if(machine.presets, [&](const auto& row) { return row.number == number; });
+    machine::Preset row = machine::MachineSetup::default_preset();
+    row.number = number;
+    row.locked = true;
+    machine.presets.insert(machine.presets.begin(), row);
   } else {
     return false;
   }
@@ -215,7 +245,8 @@ CaseSetup read_setup(const std::string& text) {
     if (!read_feature(word, words, setup.machine) &&
         !read_machine(word, words, setup.machine.machine) &&
         !read_standard(word, words, setup.machine.machine) &&
-        !read_kinematics(word, words, setup.machine.machine) && !read_option(word, words, setup)) {
+        !read_kinematics(word, words, setup.machine.machine) &&
+        !read_obstacle(word, words, setup.machine) && !read_option(word, words, setup)) {
       throw std::runtime_error("setup.txt: cannot read '" + line + "'");
     }
   }

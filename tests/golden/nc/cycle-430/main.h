@@ -54,6 +54,24 @@ TCH PROBE 430 MEAS. BOLT HOLE CIRC ~
     Q309=+0 ~
     Q330=+0
 Q1603 = Q180 * 100 + Q181 * 10 + Q182
+; on the lower limit
+TCH PROBE 430 MEAS. BOLT HOLE CIRC ~
+    Q273=+100 ~
+    Q274=+80 ~
+    Q262=+60 ~
+    Q291=+0 ~
+    Q292=+90 ~
+    Q293=+180 ~
+    Q261=-5 ~
+    Q260=+20 ~
+    Q288=+60.05 ~
+    Q289=+60.02 ~
+    Q279=+0.05 ~
+    Q280=+0.05 ~
+    Q281=+0 ~
+    Q309=+0 ~
+    Q330=+0
+Q1606 = Q180 * 100 + Q181 * 10 + Q182
 ; 0.1 um below
 TCH PROBE 430 MEAS. BOLT HOLE CIRC ~
     Q273=+100 ~
