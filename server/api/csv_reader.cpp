@@ -9,6 +9,8 @@
 namespace fitgauge::api {
 namespace {
 
+constexpr std::size_t kMostCells = 1000;  ///< of a line: several times as many as there are fields
+
 char separator_of(std::string_view header_line) {
   const bool has_semicolon = header_line.find(';') != std::string_view::npos;
   return has_semicolon ? ';' : ',';
@@ -45,6 +47,9 @@ Result<void> CsvReader::read_record() {
   record_line_ = line_;
   cells_.clear();
   for (;;) {
+    if (cells_.size() == kMostCells) {
+      return malformed(fmt::format("has more than {} cells", kMostCells));
+    }
     if (rest_.starts_with('"')) {
       if (const auto read = read_quoted(); !read) return read.error();
     } else {

@@ -140,11 +140,8 @@ std::optional<std::string> FieldReader::optional_text(std::string_view name) {
 
 const JsonValue* FieldReader::optional(std::string_view name) { return take(name, false); }
 
-void FieldReader::accept_all() {
-  for (const auto& [name, value] : object_.members) known_.push_back(name);
-}
-
 void FieldReader::refuse_unknown() {
+  if (accepts_all_) return;
   for (const auto& [name, value] : object_.members) {
     if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
       report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));

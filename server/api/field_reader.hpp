@@ -65,7 +65,7 @@ class FieldReader {
   /// Reports every member that was not asked for.
   void refuse_unknown();
   /// As if every member had been asked for.
-  void accept_all();
+  void accept_all() { accepts_all_ = true; }
 
   bool has(std::string_view name) const { return object_.find(name) != nullptr; }
   std::string at(std::string_view name) const { return pointer_to(pointer_, name); }
@@ -81,6 +81,7 @@ class FieldReader {
   std::string pointer_;
   FieldErrors& errors_;
   std::vector<std::string_view> known_;
+  bool accepts_all_ = false;
 };
 
 }  // namespace fitgauge::api

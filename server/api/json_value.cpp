@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/text.hpp"
 
@@ -11,6 +12,8 @@ namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kDeepest = 32;
+/// 100,000 measurements with every field have fewer.
+constexpr std::size_t kMostValues = 2'500'000;
 
 std::string place(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
@@ -18,6 +21,16 @@ std::string place(std::string_view text, std::size_t offset) {
   const std::size_t start = before.rfind('\n');
   const std::size_t column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
   return fmt::format("line {}, column {}", line, column);
+}
+
+/// A name that stands twice. Sorted, for an object may have as many members as a body has room for.
+std::optional<std::string_view> repeated_name(const JsonValue& object) {
+  std::vector<std::string_view> names;
+  names.reserve(object.members.size());
+  for (const auto& [name, value] : object.members) names.push_back(name);
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  return twice == names.end() ? std::nullopt : std::optional(*twice);
 }
 
 /// nlohmann::json but for the type of its floating-point numbers: the library refuses what
@@ -49,10 +62,6 @@ class Builder final : public nlohmann::json_sax<WideJson> {
   bool end_array() override { return close(); }
 
   bool key(string_t& name) override {
-    if (open_.back().find(name) != nullptr) {
-      error_ = Error{ErrorCode::JsonDuplicateKey, fmt::format("the key \"{}\" stands twice", name)};
-      return false;
-    }
     open_.back().members.emplace_back(std::move(name), JsonValue{});
     return true;
   }
@@ -90,9 +99,18 @@ class Builder final : public nlohmann::json_sax<WideJson> {
   bool close() {
     JsonValue value = std::move(open_.back());
     open_.pop_back();
+    if (const auto name = repeated_name(value)) {
+      error_ =
+          Error{ErrorCode::JsonDuplicateKey, fmt::format("the key \"{}\" stands twice", *name)};
+      return false;
+    }
     return add(std::move(value));
   }
   bool add(JsonValue value) {
+    if (++count_ > kMostValues) {
+      error_ = Error{ErrorCode::BodyTooLarge, fmt::format("more than {} values", kMostValues)};
+      return false;
+    }
     if (open_.empty()) {
       root_ = std::move(value);
     } else if (open_.back().is(JsonValue::Kind::Array)) {
@@ -106,6 +124,7 @@ class Builder final : public nlohmann::json_sax<WideJson> {
   std::string_view text_;
   std::vector<JsonValue> open_;
   JsonValue root_;
+  std::size_t count_ = 0;
   Error error_{ErrorCode::JsonMalformed, "the JSON cannot be read"};
 };
 
@@ -135,6 +154,11 @@ Result<JsonValue> parse_json(std::string_view text) {
   }
   if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos) {
     return Error{ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-8", at), place(text, at)};
+  }
+  // The library takes a NUL for the end of the text.
+  if (const std::size_t at = text.find('\0'); at != std::string_view::npos) {
+    const std::string where = place(text, at);
+    return Error{ErrorCode::JsonMalformed, fmt::format("at {}: a NUL character", where), where};
   }
   Builder builder(text);
   if (!WideJson::sax_parse(text, &builder)) return builder.error();

@@ -30,7 +30,8 @@ std::string_view name_of(JsonValue::Kind kind);
 
 /// Reads the whole text as one JSON value (RFC 8259).
 /// @errors TextEncoding (invalid UTF-8, a byte-order mark), JsonMalformed (with line and column),
-///   JsonDuplicateKey, JsonTooDeep (more than 32 levels).
+///   JsonDuplicateKey, JsonTooDeep (more than 32 levels), BodyTooLarge (more than 2,500,000
+///   values).
 Result<JsonValue> parse_json(std::string_view text);
 
 /// `pointer` with one more token, escaped as RFC 6901 has it.

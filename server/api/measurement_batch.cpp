@@ -101,14 +101,12 @@ Result<MeasurementBatch> decode_ndjson(std::string_view body, const BatchContext
 }
 
 /// The header names fields once each; a name that is none is reported for every row it stands in.
-Result<void> check_header(const std::vector<std::string>& header) {
-  for (auto name = header.begin(); name != header.end(); ++name) {
-    if (std::find(header.begin(), name, *name) != name) {
-      return Error{ErrorCode::CsvMalformed, fmt::format("the header line names {} twice", *name),
-                   "line 1"};
-    }
-  }
-  return {};
+Result<void> check_header(std::vector<std::string> header) {
+  std::sort(header.begin(), header.end());
+  const auto name = std::adjacent_find(header.begin(), header.end());
+  if (name == header.end()) return {};
+  return Error{ErrorCode::CsvMalformed, fmt::format("the header line names {} twice", *name),
+               "line 1"};
 }
 
 Result<MeasurementBatch> decode_csv(std::string_view body, const BatchContext& context) {

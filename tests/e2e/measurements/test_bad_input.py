@@ -74,7 +74,7 @@ class BadInput(DaemonTest):
         for body in (b"", b"{", b"{}x", b'{"measured_mm":', b"\xff\xfe", b'{"part_id":"\xff"}',
                      b"\xef\xbb\xbf{}", b'{"part_id":"\\ud800"}', b"[" * 500_000, b'{"a":' * 500_000,
                      b"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]",
-                     b"{'measured_mm':25}", b"nul", b'{"measured_mm":25,}'):
+                     b"{'measured_mm':25}", b"nul", b'{"measured_mm":25,}', json.dumps(GOOD).encode() + b"\0"):
             with self.subTest(body[:40]):
                 self.refuse(body, 400)
         self.refuse('{"measured_mm":25,"measured_mm":25,"designation":"25 H7"}', 400,

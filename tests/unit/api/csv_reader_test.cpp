@@ -55,6 +55,8 @@ TEST_CASE("what is not CSV names its line") {
   CHECK(failure_of("a,b\n1,2\n1,\"2\n").where == "line 3");
   CHECK(failure_of("a,b\n1,\"2\"x\n").where == "line 2");
   CHECK(failure_of("a\n\xFF\n").code == ErrorCode::TextEncoding);
+  CHECK(failure_of(std::string(1000, ',')).where == "line 1");
+  CHECK(failure_of("a\n" + std::string(1000, ',')).where == "line 2");
 }
 
 TEST_CASE("cells are quoted where they must be") {

@@ -1,6 +1,7 @@
 #include "api/json_value.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "api/json_writer.hpp"
 
@@ -44,6 +45,30 @@ TEST_CASE("a byte-order mark and invalid UTF-8 are refused") {
 TEST_CASE("duplicate keys are refused, also in nested objects") {
   CHECK(refused(R"({"a":1,"a":2})") == ErrorCode::JsonDuplicateKey);
   CHECK(refused(R"([{"b":{"a":1,"\u0061":2}}])") == ErrorCode::JsonDuplicateKey);
+}
+
+TEST_CASE("what follows a NUL is read too") {
+  using namespace std::string_view_literals;
+  for (const auto text : {"{}\0"sv, "{}\0x"sv, "\0{}"sv, "{\"a\":1\0}"sv, "\"a\0\""sv}) {
+    CHECK(refused(text) == ErrorCode::JsonMalformed);
+  }
+}
+
+TEST_CASE("an object may have very many members") {
+  std::string members;
+  for (int i = 0; i < 200'000; ++i) members += fmt::format("\"k{}\":{},", i, i);
+  const auto object = parse_json('{' + members + "\"end\":0}");
+  REQUIRE(object.has_value());
+  CHECK(object->members.size() == 200'001);
+  CHECK(object->find("k199999")->text == "199999");
+  CHECK(refused('{' + members + "\"k7\":0}") == ErrorCode::JsonDuplicateKey);
+}
+
+TEST_CASE("the number of values is limited") {
+  std::string zeros(5'200'000, '0');
+  for (std::size_t i = 1; i < zeros.size(); i += 2) zeros[i] = ',';
+  zeros.pop_back();
+  CHECK(refused('[' + zeros + ']') == ErrorCode::BodyTooLarge);
 }
 
 TEST_CASE("depth is limited before it costs anything") {
