@@ -7,6 +7,7 @@
 
 #include "api/field_reader.hpp"
 #include "api/json_writer.hpp"
+#include "iso286/range_deviations.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -16,13 +17,6 @@ using iso286::Feature;
 using iso286::LimitDeviations;
 using iso286::NominalSizeRange;
 using iso286::ToleranceTables;
-
-/// A class is the same everywhere in a size range, so the range's upper end stands for it.
-std::optional<LimitDeviations> deviations_in(const NominalSizeRange& range, ClassId id,
-                                             const ToleranceTables& tables) {
-  const auto size = iso286::NominalSize::make(range.up_to);
-  return size ? tables.limit_deviations(*size, id) : std::nullopt;
-}
 
 void append_class_cells(std::string& out, const std::optional<LimitDeviations>& deviations) {
   out += ',';
@@ -71,7 +65,7 @@ std::string table_json(Feature feature, const std::vector<ClassId>& classes,
         .key("limits")
         .begin_object();
     for (const ClassId id : classes) {
-      const auto deviations = deviations_in(range, id, tables);
+      const auto deviations = deviations_in_range(tables, id, range);
       if (!deviations) continue;
       json.key(tables.class_name(id))
           .begin_object()
@@ -95,7 +89,9 @@ std::string table_csv(const std::vector<ClassId>& classes, const ToleranceTables
     append_mm(out, range.over);
     out += ',';
     append_mm(out, range.up_to);
-    for (const ClassId id : classes) append_class_cells(out, deviations_in(range, id, tables));
+    for (const ClassId id : classes) {
+      append_class_cells(out, deviations_in_range(tables, id, range));
+    }
     out += "\r\n";
   }
   return out;

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <span>
 
+#include "iso286/range_deviations.hpp"
 #include "tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {
 namespace {
 
-using iso286::Basis;
 using iso286::ClassId;
 using iso286::Feature;
-using iso286::LimitDeviations;
-using iso286::NominalSize;
 using iso286::NominalSizeRange;
 using iso286::ToleranceTables;
 
@@ -41,17 +38,6 @@ std::vector<ClassId> columns_in_order(const ToleranceTables& tables, Feature fea
     if (std::find(first.begin(), first.end(), id) == first.end()) columns.push_back(id);
   }
   return columns;
-}
-
-/// What the table says for every size of the range: of a class of the standard, the deviations at
-/// its end; of a custom column, those of the row that holds the whole range.
-std::optional<LimitDeviations> deviations_of(const ToleranceTables& tables, ClassId id,
-                                             const NominalSizeRange& range) {
-  const NominalSize end = NominalSize::make(range.up_to).value();
-  const auto deviations = tables.limit_deviations(end, id);
-  if (!deviations || tables.basis(id) == Basis::Iso286) return deviations;
-  const bool whole_range = tables.limits_of_size(end, id)->size_range.contains(range);
-  return whole_range ? deviations : std::nullopt;
 }
 
 int decimals_of(std::string_view number) {
@@ -94,7 +80,7 @@ FilledColumn ends_of_ranges(std::span<const NominalSizeRange> ranges) {
 FilledColumn deviations_of(const ToleranceTables& tables, ClassId id) {
   FilledColumn column = filled(std::string(tables.class_name(id)));
   for (const NominalSizeRange& range : tables.ranges()) {
-    const auto deviations = deviations_of(tables, id, range);
+    const auto deviations = deviations_in_range(tables, id, range);
     column.append(deviations ? format_um(deviations->upper) : "");
     column.append(deviations ? format_um(deviations->lower) : "");
   }

@@ -83,6 +83,18 @@ class CustomColumns(DaemonTest):
         self.daemon.request("DELETE", "/v1/tables/hole/classes/H8")
         self.assertEqual(self.daemon.get("/v1/limits/25H8").json["basis"], "iso286")
 
+    def test_a_row_shows_what_is_so_for_all_its_sizes(self):
+        """Rows of the column may cut those of the table: 18 to 24 mm has three answers here."""
+        self.put("CUT", [{"over_mm": over, "up_to_mm": up_to, "upper_um": upper, "lower_um": 0}
+                         for over, up_to, upper in ((20, 22, 5), (22, 30, 7), (30, 50, 9))])
+        upper = lambda size: self.daemon.get(f"/v1/limits/{size}CUT").json.get("upper_deviation_um")
+        self.assertEqual([upper(size) for size in (20, 22, 24, 50)], [None, 5, 7, 9])
+        rows = self.daemon.get("/v1/tables/hole?classes=CUT").json["rows"]
+        self.assertEqual({row["up_to_mm"]: row["limits"]["CUT"]["upper_um"] for row in rows if row["limits"]},
+                         {30: 7, 40: 9, 50: 9})
+        lines = self.daemon.get("/v1/tables/hole?classes=CUT&format=csv").text.split()
+        self.assertEqual(lines[6:9], ["18,24,,", "24,30,7,0", "30,40,9,0"])
+
     def test_if_match_guards_a_change(self):
         tag = self.daemon.get("/v1/tables").headers["etag"]
         self.assertEqual(self.put("A1x", ROWS, **{"If-Match": tag}).status, 201)
