@@ -91,7 +91,7 @@ class EventReader {
 }  // namespace
 
 std::string event_id_text(const EventPosition& position) {
-  return fmt::format("m{}{}.e{}", position.measurement, position.reject_is_due ? "+" : "",
+  return fmt::format("m{}{}.e{}", position.measurement, position.reject_is_due ? "r" : "",
                      position.stored);
 }
 
@@ -99,7 +99,7 @@ std::optional<EventPosition> parse_event_id(std::string_view text) {
   EventPosition position;
   if (!take(text, "m")) return std::nullopt;
   const auto measurement = take_number(text);
-  position.reject_is_due = take(text, "+");
+  position.reject_is_due = take(text, "r");
   if (!measurement || !take(text, ".e")) return std::nullopt;
   const auto stored = take_number(text);
   if (!stored || !text.empty()) return std::nullopt;

@@ -74,6 +74,13 @@ class Events(DaemonTest):
             ("measurement.recorded", records[0]), ("verdict.reject", records[0]),
             ("measurement.recorded", records[1]), ("measurement.recorded", records[2])])
 
+    def test_a_reader_may_stop_between_the_two_events_of_a_reject(self):
+        reader = self.reader().begin()
+        record = self.daemon.measure({**PART, "measured_mm": 25.03}).json
+        self.assertEqual(reader.event()[0], "measurement.recorded")
+        for again in (self.reader(last=reader.last), self.reader(f"?last_event_id={reader.last}")):
+            self.assertEqual(again.event(), ("verdict.reject", record))
+
     def test_a_correction_is_an_event(self):
         record = self.daemon.measure(PART).json
         reader = self.reader().begin()
