@@ -38,9 +38,6 @@ CREATE TABLE measurements (
   correction_reason  TEXT,
   hash               BLOB NOT NULL CHECK (length(hash) = 32),  -- db/store/measurement_hash.hpp
 
-  upper_limit_nm     INTEGER AS (nominal_nm + upper_deviation_nm) VIRTUAL,
-  lower_limit_nm     INTEGER AS (nominal_nm + lower_deviation_nm) VIRTUAL,
-
   CHECK (lower_deviation_nm <= upper_deviation_nm),
   CHECK ((basis = 3) = (table_revision IS NULL)),
   CHECK ((basis = 3) = (tolerance_class IS NULL)),

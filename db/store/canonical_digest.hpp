@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string_view>
 #include <type_traits>
@@ -39,10 +42,39 @@ class CanonicalDigest {
   Digest finish();
 
  private:
-  void add_byte(char byte);
-  void add_integer(std::int64_t value);
-  void add_text(std::string_view text);
-  char* room_for(std::size_t count);
+  void add_byte(char byte) {
+    *room_for(1) = byte;
+    ++size_;
+  }
+
+  // All eight bytes are stored, those that count first: a store of a variable size takes longer.
+  void add_integer(std::int64_t value) {
+    const auto bits = static_cast<std::uint64_t>(value);
+    // One bit more than the magnitude has, for the sign.
+    const auto width = static_cast<unsigned>(std::bit_width(value < 0 ? ~bits : bits));
+    const unsigned count = value == 0 ? 0 : (width + 1 + 7) / 8;
+    const std::uint64_t leading = big_endian(count == 0 ? 0 : bits << (64 - 8 * count));
+    char* const out = room_for(1 + sizeof leading);
+    out[0] = static_cast<char>(0x10 + count);
+    std::memcpy(out + 1, &leading, sizeof leading);
+    size_ += 1 + count;
+  }
+
+  void add_text(std::string_view text) {
+    add_byte('\1');
+    add_integer(static_cast<std::int64_t>(text.size()));
+    std::copy(text.begin(), text.end(), room_for(text.size()));
+    size_ += text.size();
+  }
+
+  static std::uint64_t big_endian(std::uint64_t bits) {
+    return std::endian::native == std::endian::little ? __builtin_bswap64(bits) : bits;
+  }
+
+  char* room_for(std::size_t count) {
+    if (buffer_.size() - size_ < count) buffer_.resize(2 * (size_ + count));
+    return buffer_.data() + size_;
+  }
 
   std::vector<char> buffer_;  ///< the encoded values, its first size_ bytes
   std::size_t size_ = 0;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "store/measurement_fields.hpp"
+#include "store/sqlite/connection.hpp"
 
 namespace fitgauge::store {
 namespace {
@@ -48,16 +50,16 @@ MeasurementInsert::Fields MeasurementInsert::fields_of(std::span<const Measureme
 }
 
 std::string MeasurementInsert::insert_sql(const Shape& shape) {
-  std::string columns = "id";
-  std::string values = "(?";
+  std::string columns;
+  std::string values = "(";
   unsigned bit = 0;
   for_each_field(MeasurementRow(), [&](std::string_view column, const auto&) {
     if (!contains(shape.fields, bit++)) return;
-    columns += fmt::format(", {}", column);
-    values += ",?";
+    columns += fmt::format("{}, ", column);
+    values += "?,";
   });
-  values += ",?)";
-  std::string sql = fmt::format("INSERT INTO measurements ({}, hash) VALUES {}", columns, values);
+  values += "?)";
+  std::string sql = fmt::format("INSERT INTO measurements ({}hash) VALUES {}", columns, values);
   for (std::size_t i = 1; i < shape.rows; ++i) sql += ',' + values;
   return sql;
 }
@@ -79,7 +81,6 @@ void MeasurementInsert::insert(std::span<const MeasurementRow> rows, Place& last
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ++last.id;
     last.hash = hashes_[i] = hasher_(last.hash, last.id, rows[i]);
-    statement.bind(++index, last.id);
     unsigned bit = 0;
     for_each_field(rows[i], [&](const char*, const auto& value) {
       if (contains(fields, bit++)) statement.bind(++index, value);
@@ -87,6 +88,10 @@ void MeasurementInsert::insert(std::span<const MeasurementRow> rows, Place& last
     statement.bind(++index, hashes_[i]);
   }
   statement.run();
+  // SQLite finds the end of the table without a search where it gives the ids itself.
+  if (connection_.last_inserted_id() != last.id) {
+    throw std::logic_error(fmt::format("measurement {} was stored under another id", last.id));
+  }
 }
 
 }  // namespace fitgauge::store

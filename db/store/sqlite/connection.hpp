@@ -27,6 +27,7 @@ class Connection {
   void execute(const std::string& sql);
   std::int64_t query_integer(const std::string& sql);
   std::string query_text(const std::string& sql);
+  std::int64_t last_inserted_id() const { return sqlite3_last_insert_rowid(handle()); }
 
   /// Undoes the open transaction, if there is one. Never throws.
   void rollback() noexcept;

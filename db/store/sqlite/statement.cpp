@@ -26,10 +26,7 @@ bool Statement::step() {
   return false;
 }
 
-void Statement::reset() noexcept {
-  sqlite3_reset(statement_.get());
-  sqlite3_clear_bindings(statement_.get());
-}
+void Statement::reset() noexcept { sqlite3_reset(statement_.get()); }
 
 void Statement::run_bound() {
   const Rows rows(*this);

@@ -25,7 +25,7 @@ struct Blob {
 
 /// A statement of one connection: prepared at its first use and kept. SQLiteCpp's own statement
 /// lacks the persistent flag and copies a shared pointer for each column read.
-/// Bound texts are not copied: they live until the statement has run.
+/// Bound texts are not copied: they live until the statement has run, and every run binds all anew.
 class Statement {
  public:
   Statement(Connection& connection, std::string sql);
