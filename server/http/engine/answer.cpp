@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -57,6 +59,13 @@ std::string_view reason(int status) {
   const auto found = std::find_if(kReasons.begin(), kReasons.end(),
                                   [&](const auto& entry) { return entry.first == status; });
   return found == kReasons.end() ? std::string_view{} : found->second;
+}
+
+/// Written for every answer, where a format string to read costs more than the number.
+void append_number(std::string& out, std::size_t number) {
+  std::array<char, std::numeric_limits<std::size_t>::digits10 + 1> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  out.append(digits.data(), end);
 }
 
 /// A line break inside a value would begin a field of its own: it becomes a blank.
@@ -121,7 +130,9 @@ std::pair<std::shared_ptr<const std::string>, std::string_view> bytes_of(Body& b
 }  // namespace
 
 std::size_t append_status(std::string& out, int status, const HttpDate& date) {
-  fmt::format_to(std::back_inserter(out), "HTTP/1.1 {:03} {}\r\nDate: ", status, reason(status));
+  out.append("HTTP/1.1 ");
+  append_number(out, static_cast<std::size_t>(status));
+  out.append(" ").append(reason(status)).append("\r\nDate: ");
   const std::size_t offset = out.size();
   out.append(text(date)).append("\r\n");
   return offset;
@@ -143,7 +154,9 @@ void append_not_modified_fields(std::string& out, const Response& response) {
 }
 
 void append_content_length(std::string& out, std::size_t length) {
-  fmt::format_to(std::back_inserter(out), "Content-Length: {}\r\n", length);
+  out.append("Content-Length: ");
+  append_number(out, length);
+  out.append("\r\n");
 }
 
 void append_chunk(std::string& out, std::string_view bytes) {

@@ -356,10 +356,11 @@ void Connection::close() noexcept {
   if (phase_ == Phase::Closed) return;
   const auto self = shared_from_this();
   if (phase_ == Phase::Budget) thread_.shared().budget.end_wait();
+  const bool in_handler = phase_ == Phase::InHandler;
   phase_ = Phase::Closed;
   close_socket();
   thread_.remove(*this);
-  body_.clear();
+  if (!in_handler) body_.clear();  // a handler has the request until its Responder is gone
   output_.discard();
   if (const auto stream = std::exchange(stream_, std::nullopt)) stream->source->cancelled();
 }

@@ -161,6 +161,32 @@ TEST_CASE("stop does not wait for ever, and a late answer is dropped") {
   CHECK(client.is_closed_by_server());
 }
 
+TEST_CASE("a handler has its request's body until it answers, also when the server stops") {
+  const Request* kept_request = nullptr;
+  std::optional<Responder> kept;
+  std::promise<void> entered;
+  ServerOptions options;
+  options.drain_timeout = 50ms;
+  TestServer server({{.method = Method::Post,
+                      .pattern = "/never",
+                      .handler =
+                          [&](const Request& request, Responder responder) {
+                            kept_request = &request;
+                            kept.emplace(std::move(responder));
+                            entered.set_value();
+                          },
+                      .body = {.use = BodyUse::Required, .media_types = {"text/plain"}}}},
+                    options);
+  Client client = server.connect();
+  const std::string body(50'000, 'x');
+  client.send("POST /never HTTP/1.1\r\nHost: h\r\nContent-Type: text/plain\r\nContent-Length: " +
+              std::to_string(body.size()) + "\r\n\r\n" + body);
+  entered.get_future().wait();
+  server.server().stop();
+  CHECK(kept_request->body() == body);
+  kept->answer(Response(204));
+}
+
 TEST_CASE("a client that goes away while its answer is made harms nobody") {
   Worker worker;
   TestServer server({{.pattern = "/slow",
