@@ -34,40 +34,44 @@ void read_row(const JsonValue& object, MeasurementRowReader& reader, Measurement
   if (const app::Measurement* row = reader.end()) batch.rows.push_back(*row);
 }
 
-Result<MeasurementBatch> finish(MeasurementBatch batch, FieldErrors& errors) {
+Result<void> finish(FieldErrors& errors) {
   if (auto error = errors.take()) return *std::move(error);
-  return batch;
+  return {};
 }
 
 /// Any JSON, with every error in its place: what the fast reader does not take ends here.
-Result<MeasurementBatch> decode_json(std::string_view body, const BatchContext& context) {
+Result<void> decode_json(std::string_view body, const BatchContext& context,
+                         MeasurementBatch& batch) {
   auto parsed = parse_json(body);
   if (!parsed) return parsed.error();
   const auto document = std::make_shared<const JsonValue>(*std::move(parsed));
   FieldErrors errors;
   MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
-  MeasurementBatch batch{.rows = {}, .single = false, .texts = document};
+  batch.rows.clear();
+  batch.texts = document;
   if (document->is(JsonValue::Kind::Array)) {
     if (document->items.empty()) return no_rows("the array");
     if (document->items.size() > kMostRows) return too_many_rows();
-    batch.rows.reserve(document->items.size());
-    for (std::size_t i = 0; i < document->items.size(); ++i) {
+    // Both readers make the same of a row: those that were taken need not be read again.
+    for (std::size_t i = batch.taken; i < document->items.size(); ++i) {
       reader.begin(i);
       read_row(document->items[i], reader, batch);
+      take_full(batch, context, errors);
     }
   } else {
     batch.single = true;
     reader.begin(std::nullopt);
     read_row(*document, reader, batch);
   }
-  return finish(std::move(batch), errors);
+  return finish(errors);
 }
 
-Result<MeasurementBatch> decode_ndjson(std::string_view body, const BatchContext& context) {
+Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
+                           MeasurementBatch& batch) {
   const auto documents = std::make_shared<std::vector<std::unique_ptr<const JsonValue>>>();
   FieldErrors errors;
   MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
-  MeasurementBatch batch{.rows = {}, .single = false, .texts = documents};
+  batch.texts = documents;
   std::size_t row = 0;
   std::size_t line = 0;
   for (std::string_view rest = body; !rest.empty();) {
@@ -82,6 +86,7 @@ Result<MeasurementBatch> decode_ndjson(std::string_view body, const BatchContext
     const FieldErrors::Mark mark = errors.mark();
     if (read_object_fast(text, reader, batch)) {
       ++row;
+      take_full(batch, context, errors);
       continue;
     }
     errors.rollback(mark);
@@ -95,9 +100,10 @@ Result<MeasurementBatch> decode_ndjson(std::string_view body, const BatchContext
     reader.begin(row++, line);
     documents->push_back(std::make_unique<const JsonValue>(*std::move(parsed)));
     read_row(*documents->back(), reader, batch);
+    take_full(batch, context, errors);
   }
   if (row == 0) return no_rows("the file");
-  return finish(std::move(batch), errors);
+  return finish(errors);
 }
 
 /// The header names fields once each; a name that is none is reported for every row it stands in.
@@ -109,14 +115,15 @@ Result<void> check_header(std::vector<std::string> header) {
                "line 1"};
 }
 
-Result<MeasurementBatch> decode_csv(std::string_view body, const BatchContext& context) {
+Result<void> decode_csv(std::string_view body, const BatchContext& context,
+                        MeasurementBatch& batch) {
   auto opened = CsvReader::open(body);
   if (!opened) return opened.error();
   const auto csv = std::make_shared<CsvReader>(*std::move(opened));
   if (const auto checked = check_header(csv->header()); !checked) return checked.error();
   FieldErrors errors;
   MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
-  MeasurementBatch batch{.rows = {}, .single = false, .texts = csv};
+  batch.texts = csv;
   const bool semicolon = csv->separator() == ';';
   for (const std::string& name : csv->header()) {
     if (MeasurementRowReader::knows(name)) continue;
@@ -139,22 +146,28 @@ Result<MeasurementBatch> decode_csv(std::string_view body, const BatchContext& c
                                       .decimal_comma = semicolon || cell.quoted});
     }
     if (const app::Measurement* m = reader.end()) batch.rows.push_back(*m);
+    take_full(batch, context, errors);
   }
   if (row == 0) return no_rows("the file");
-  return finish(std::move(batch), errors);
+  return finish(errors);
 }
 
 }  // namespace
 
-Result<MeasurementBatch> decode_measurements(std::string_view body, std::string_view media_type,
-                                             const BatchContext& context) {
-  if (media_type == "text/csv") return decode_csv(body, context);
-  if (media_type == "application/x-ndjson") return decode_ndjson(body, context);
+void take_full(MeasurementBatch& batch, const BatchContext& context, const FieldErrors& errors) {
+  if (!context.take || batch.rows.size() < kRowsAtATime || !errors.empty()) return;
+  batch.taken += batch.rows.size();
+  context.take(std::exchange(batch.rows, {}));
+  batch.rows.reserve(kRowsAtATime);
+}
+
+Result<void> decode_measurements(std::string_view body, std::string_view media_type,
+                                 const BatchContext& context, MeasurementBatch& batch) {
+  if (media_type == "text/csv") return decode_csv(body, context, batch);
+  if (media_type == "application/x-ndjson") return decode_ndjson(body, context, batch);
   FieldErrors errors;
-  MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
-  MeasurementBatch batch;
-  if (read_body_fast(body, reader, batch)) return finish(std::move(batch), errors);
-  return decode_json(body, context);
+  if (read_body_fast(body, context, batch, errors)) return finish(errors);
+  return decode_json(body, context, batch);
 }
 
 }  // namespace fitgauge::api

@@ -26,12 +26,22 @@ std::size_t room_for(const Measurement& m) {
   return kFixedRoom + RecordText::kEscaped * texts;
 }
 
+bool same_origin(const Measurement& a, const Measurement& b) {
+  return a.source == b.source && a.measured_at == b.measured_at && a.received_at == b.received_at;
+}
+
 bool same_limits(const Measurement& a, const Measurement& b) {
   const auto limits = [](const Measurement& m) {
     return std::tie(m.nominal_size, m.class_name, m.feature, m.deviations, m.size_range, m.basis,
                     m.table_revision);
   };
   return limits(a) == limits(b);
+}
+
+void write_origin(RecordText& text, const Measurement& m) {
+  text.raw(R"(","source":")").raw(word(m.source));
+  text.raw(R"(","measured_at":")").time(m.measured_at);
+  text.raw(R"(","received_at":")").time(m.received_at).raw("\"");
 }
 
 void write_limits(RecordText& text, const Measurement& m) {
@@ -74,33 +84,26 @@ void write_given(RecordText& text, const Measurement& m) {
   }
 }
 
-void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,
-                          std::int64_t reject, std::int64_t indeterminate) {
-  json.key("verdicts")
-      .begin_object()
-      .member("good", good)
-      .member("rework", rework)
-      .member("reject", reject)
-      .member("indeterminate", indeterminate)
-      .end_object();
-}
-
 }  // namespace
+
+template <class Write>
+void MeasurementWriter::write_or_copy(RecordText& text, Part& part, bool same, Write&& write) {
+  const std::size_t at = text.size();
+  if (same) {
+    text.raw(std::string_view(out_).substr(part.at, part.size));
+  } else {
+    write();
+  }
+  part = {.at = at, .size = text.size() - at};
+}
 
 void MeasurementWriter::append(const Measurement& m) {
   RecordText text(out_, room_for(m));
   text.raw(R"({"id":")").raw(app::measurement_id_text(m.id));
-  text.raw(R"(","source":")").raw(word(m.source));
-  text.raw(R"(","measured_at":")").time(m.measured_at);
-  text.raw(R"(","received_at":")").time(m.received_at).raw("\"");
-  const std::size_t limits_at = text.size();
-  if (before_ != nullptr && same_limits(*before_, m)) {
-    text.raw(std::string_view(out_).substr(limits_at_, limits_size_));
-  } else {
-    write_limits(text, m);
-    limits_size_ = text.size() - limits_at;
-  }
-  limits_at_ = limits_at;
+  write_or_copy(text, origin_, before_ != nullptr && same_origin(*before_, m),
+                [&] { write_origin(text, m); });
+  write_or_copy(text, limits_, before_ != nullptr && same_limits(*before_, m),
+                [&] { write_limits(text, m); });
   before_ = &m;
   text.raw(R"(,"measured_mm":)").mm(m.measured);
   text.raw(R"(,"deviation_um":)").um(m.measured - m.nominal_size);
@@ -169,32 +172,23 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   out += "\r\n";
 }
 
-std::string accepted_json(std::span<const Measurement> measurements) {
-  std::array<std::int64_t, 4> counts{};
-  for (const Measurement& m : measurements) ++counts[static_cast<std::size_t>(m.result.verdict)];
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object()
-      .member("accepted", std::uint64_t{measurements.size()})
-      .member("first_id", app::measurement_id_text(measurements.front().id))
-      .member("last_id", app::measurement_id_text(measurements.back().id));
-  write_verdict_counts(json, counts[0], counts[1], counts[2], counts[3]);
-  json.end_object();
-  return out;
-}
-
-std::string representation_json(std::span<const Measurement> measurements) {
-  constexpr std::size_t kSpare = 4096;
-  std::string out = R"({"measurements":[)";
+void append_measurements(std::string& out, std::span<const Measurement> measurements) {
   MeasurementWriter writer(out);
-  writer.append(measurements.front());
-  // The others are about as long.
-  out.reserve(measurements.size() * out.size() + kSpare);
-  for (const Measurement& m : measurements.subspan(1)) {
-    out += ',';
+  for (const Measurement& m : measurements) {
+    if (&m != &measurements.front()) out += ',';
     writer.append(m);
   }
-  return out += "]}";
+}
+
+void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,
+                          std::int64_t reject, std::int64_t indeterminate) {
+  json.key("verdicts")
+      .begin_object()
+      .member("good", good)
+      .member("rework", rework)
+      .member("reject", reject)
+      .member("indeterminate", indeterminate)
+      .end_object();
 }
 
 std::string summary_json(std::string_view group_by, std::span<const app::MeasurementGroup> groups) {

@@ -10,11 +10,14 @@
 
 namespace fitgauge::api {
 
+class RecordText;
+
 /// Appends the record of a measurement as JSON; fields that were not given are left out.
 void append_measurement(std::string& out, const app::Measurement& measurement);
 
-/// Appends records, one after the other. Those of a request mostly have the same limits: these are
-/// copied from the record before. Each measurement stays where it is until the next is written.
+/// Appends records, one after the other. Those of a request mostly have the same times and limits:
+/// these are copied from the record before. Each measurement stays where it is until the next is
+/// written.
 class MeasurementWriter {
  public:
   explicit MeasurementWriter(std::string& out) : out_(out) {}
@@ -22,21 +25,30 @@ class MeasurementWriter {
   void append(const app::Measurement& measurement);
 
  private:
+  /// Where a part of the record before stands.
+  struct Part {
+    std::size_t at = 0;
+    std::size_t size = 0;
+  };
+  template <class Write>
+  void write_or_copy(RecordText& text, Part& part, bool same, Write&& write);
+
   std::string& out_;
   const app::Measurement* before_ = nullptr;
-  std::size_t limits_at_ = 0;  ///< where those of the record before stand
-  std::size_t limits_size_ = 0;
+  Part origin_;
+  Part limits_;
 };
 
 /// The header line of the CSV form, and one line of it.
 std::string measurement_csv_header();
 void append_measurement_csv(std::string& out, const app::Measurement& measurement);
 
-/// `{"accepted":n,"first_id":…,"last_id":…,"verdicts":{…}}`
-std::string accepted_json(std::span<const app::Measurement> measurements);
+/// Appends records with a comma between two; none before the first.
+void append_measurements(std::string& out, std::span<const app::Measurement> measurements);
 
-/// `{"measurements":[…]}`
-std::string representation_json(std::span<const app::Measurement> measurements);
+/// Writes `"verdicts":{…}`.
+void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,
+                          std::int64_t reject, std::int64_t indeterminate);
 
 /// `{"groups":[…]}`, each named by the field it is grouped by.
 std::string summary_json(std::string_view group_by, std::span<const app::MeasurementGroup> groups);

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "api/measurement_codec.hpp"
+#include "api/measurement_answer.hpp"
 #include "api/request_facts.hpp"
 #include "app/table_catalog.hpp"
 
@@ -11,23 +11,6 @@ namespace {
 
 /// Decoding more than this would keep other connections of the I/O thread waiting.
 constexpr std::size_t kLargeBody = 64 * 1024;
-
-app::Answer render(std::span<const app::Measurement> measurements, bool single, Preference wanted) {
-  app::Answer answer{.status = 201, .content_type = "application/json", .location = {}, .body = {}};
-  if (single) {
-    answer.location = "/v1/measurements/" + app::measurement_id_text(measurements.front().id);
-  }
-  if (wanted == Preference::Minimal) {
-    answer.content_type.clear();
-  } else if (single) {
-    append_measurement(answer.body, measurements.front());
-  } else if (wanted == Preference::Representation) {
-    answer.body = representation_json(measurements);
-  } else {
-    answer.body = accepted_json(measurements);
-  }
-  return answer;
-}
 
 http::Response response_of(app::Answer answer, Preference applied) {
   http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
@@ -39,26 +22,53 @@ http::Response response_of(app::Answer answer, Preference applied) {
   return response;
 }
 
+BatchContext context_of(const Posting& posting, const app::TableCatalog::Tables& tables) {
+  return {.tables = *tables,
+          .received_at = posting.services.clock.now(),
+          .caller = caller_name(posting.request)};
+}
+
 void judge_and_record(const SharedPosting& posting) {
   const auto tables = posting->services.tables.tables();
   if (!tables) return posting->responder.fail(tables.error());
   const http::Request& request = posting->request;
-  auto batch = decode_measurements(request.body(), request.media_type(),
-                                   {.tables = **tables,
-                                    .received_at = posting->services.clock.now(),
-                                    .caller = caller_name(request)});
-  if (!batch) return posting->responder.fail(batch.error());
+  MeasurementBatch batch;
+  const auto decoded = decode_measurements(request.body(), request.media_type(),
+                                           context_of(*posting, *tables), batch);
+  if (!decoded) return posting->responder.fail(decoded.error());
   // The class names of the rows are views of the tables.
-  batch->texts =
-      std::make_shared<std::pair<std::shared_ptr<const void>, app::TableCatalog::Tables>>(
-          std::move(batch->texts), *tables);
-  record(posting, *std::move(batch));
+  batch.texts = std::make_shared<std::pair<std::shared_ptr<const void>, app::TableCatalog::Tables>>(
+      std::move(batch.texts), *tables);
+  record(posting, std::move(batch));
+}
+
+/// The same on a thread that may block: the first rows are stored while the last are being read.
+void judge_while_recording(const SharedPosting& posting) {
+  const auto tables = posting->services.tables.tables();
+  if (!tables) return posting->responder.fail(tables.error());
+  const http::Request& request = posting->request;
+  const Preference wanted = preference_of(request);
+  MeasurementAnswer rendering(wanted);
+  rendering.expect(request.body().size());
+  MeasurementBatch batch;
+  const auto read = [&](const app::MeasurementService::Take& take) -> Result<void> {
+    BatchContext context = context_of(*posting, *tables);
+    context.take = take;
+    const auto decoded = decode_measurements(request.body(), request.media_type(), context, batch);
+    rendering.set_single(batch.single);
+    if (decoded && !batch.rows.empty()) take(std::move(batch.rows));
+    return decoded;
+  };
+  auto answer =
+      posting->services.measurements.record_while_reading(read, posting->scope, rendering);
+  if (!answer) return posting->responder.fail(answer.error());
+  posting->responder.answer(response_of(*std::move(answer), wanted));
 }
 
 void judge_where_it_may_take_long(const SharedPosting& posting) {
   if (posting->request.body().size() <= kLargeBody) return judge_and_record(posting);
   posting->services.measurements.run(
-      [posting] { judge_and_record(posting); },
+      [posting] { judge_while_recording(posting); },
       [posting](Error error) { posting->responder.fail(std::move(error)); });
 }
 
@@ -88,8 +98,13 @@ void record(const SharedPosting& posting, MeasurementBatch batch) {
   const Preference wanted = preference_of(posting->request);
   posting->services.measurements.record(
       std::move(batch.rows), posting->scope,
-      [single = batch.single, wanted, texts = std::move(batch.texts)](
-          std::span<const app::Measurement> stored) { return render(stored, single, wanted); },
+      [single = batch.single, wanted,
+       texts = std::move(batch.texts)](std::span<const app::Measurement> stored) {
+        MeasurementAnswer rendering(wanted);
+        rendering.set_single(single);
+        rendering.add(stored);
+        return rendering.finish();
+      },
       [posting, wanted](Result<app::Answer> answer) {
         if (!answer) return posting->responder.fail(answer.error());
         posting->responder.answer(response_of(*std::move(answer), wanted));

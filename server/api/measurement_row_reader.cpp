@@ -95,8 +95,11 @@ RawValue raw_value(const JsonValue& value) {
 
 bool MeasurementRowReader::knows(std::string_view name) { return search_field(name) < kFieldCount; }
 
+// Rows have their fields in one order, those of one request and mostly those of the next: the n-th
+// is most likely what it was before.
 std::size_t MeasurementRowReader::find_field(std::string_view name) {
-  std::uint8_t& expected = order_[position_++ % order_.size()];
+  static thread_local std::array<std::uint8_t, 32> order{};
+  std::uint8_t& expected = order[position_++ % order.size()];
   if (kFields[expected].name == name) return expected;
   const std::size_t field = search_field(name);
   if (field < kFieldCount) expected = static_cast<std::uint8_t>(field);

@@ -93,9 +93,7 @@ class MeasurementRowReader {
   std::optional<std::size_t> row_;
   std::optional<std::size_t> line_;
   Draft draft_;
-  // Rows of one request have their fields in one order: the n-th is most likely what it was before.
-  std::array<std::uint8_t, 32> order_{};
-  std::size_t position_ = 0;
+  std::size_t position_ = 0;  ///< fields of the row so far
   std::string last_class_;
   std::optional<iso286::ClassId> last_class_id_;  ///< none before the first: "" is no class
 };

@@ -100,16 +100,17 @@ bool at_end(ondemand::document& document) {
   return document.current_location().error() == simdjson::OUT_OF_BOUNDS;
 }
 
-/// Room for as many rows as there are when all are as long as the first.
-void make_room(std::string_view body, ondemand::document& document, MeasurementBatch& batch) {
+/// Room for as many rows as there are, or are taken at a time, when all are as long as the first.
+void make_room(std::string_view body, ondemand::document& document, const BatchContext& context,
+               MeasurementBatch& batch) {
   const char* at = nullptr;
   if (document.current_location().get(at) != simdjson::SUCCESS) return;
   const std::size_t first = std::max<std::size_t>(static_cast<std::size_t>(at - body.data()), 1);
-  batch.rows.reserve(std::min(body.size() / first + 1, kMostRows));
+  batch.rows.reserve(std::min(body.size() / first + 1, context.take ? kRowsAtATime : kMostRows));
 }
 
 bool read_array(std::string_view body, ondemand::document& document, MeasurementRowReader& reader,
-                MeasurementBatch& batch) {
+                const BatchContext& context, MeasurementBatch& batch, const FieldErrors& errors) {
   ondemand::array array;
   if (document.get_array().get(array) != simdjson::SUCCESS) return false;
   std::size_t row = 0;
@@ -118,14 +119,16 @@ bool read_array(std::string_view body, ondemand::document& document, Measurement
     if (row == kMostRows || element.get_object().get(object) != simdjson::SUCCESS) return false;
     reader.begin(row++);
     if (!read_fields(object, reader, batch)) return false;
-    if (row == 1) make_room(body, document, batch);
+    if (row == 1) make_room(body, document, context, batch);
+    take_full(batch, context, errors);
   }
   return row != 0;
 }
 
 }  // namespace
 
-bool read_body_fast(std::string_view body, MeasurementRowReader& reader, MeasurementBatch& batch) {
+bool read_body_fast(std::string_view body, const BatchContext& context, MeasurementBatch& batch,
+                    FieldErrors& errors) {
   const simdjson::padded_string_view padded(body.data(), body.size(),
                                             body.size() + simdjson::SIMDJSON_PADDING);
   ondemand::document document;
@@ -135,8 +138,9 @@ bool read_body_fast(std::string_view body, MeasurementRowReader& reader, Measure
       document.type().get(type) != simdjson::SUCCESS) {
     return false;
   }
+  MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
   if (type == ondemand::json_type::array) {
-    return read_array(body, document, reader, batch) && at_end(document);
+    return read_array(body, document, reader, context, batch, errors) && at_end(document);
   }
   ondemand::object object;
   batch.single = true;

@@ -12,9 +12,10 @@ namespace fitgauge::api {
 // number tokens unchecked). Where it returns false, the exact reader decides what is wrong, so both
 // accept the same texts.
 
-/// Reads a whole body: an object or an array of objects.
+/// Reads a whole body: an object or an array of objects. False may leave rows in the batch.
 /// @param body followed by http::Request::kBodyPadding readable bytes.
-bool read_body_fast(std::string_view body, MeasurementRowReader& reader, MeasurementBatch& batch);
+bool read_body_fast(std::string_view body, const BatchContext& context, MeasurementBatch& batch,
+                    FieldErrors& errors);
 
 /// Reads one object into one row, after reader.begin(); false leaves the batch as it was.
 /// @param object followed by as many readable bytes, as above.

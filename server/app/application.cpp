@@ -54,7 +54,10 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   auto keys = KeyService::open(*app->database_, clock);
   if (!keys) return keys.error();
   app->keys_ = *std::move(keys);
-  app->measurements_ = std::make_unique<MeasurementService>(*app->database_, *app->tables_);
+  app->measurements_ = std::make_unique<MeasurementService>(
+      *app->database_, *app->tables_,
+      MeasurementServiceOptions{.most_waiting = options.write_queue,
+                                .commit_each = options.commit_each});
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
   app->setups_ = std::make_unique<SetupService>(*app->database_, clock);
   if (!options.attach) {

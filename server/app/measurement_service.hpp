@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,7 +18,9 @@ class Database;
 
 namespace fitgauge::app {
 
+class MeasurementQueue;
 class TableCatalog;
+class WorkerPool;
 
 /// An answer that can be kept under an idempotency key and given again.
 struct Answer {
@@ -70,12 +73,31 @@ struct MeasurementGroup {
   Length max;
 };
 
-/// Stores and reads measurements. Nothing here blocks; `done` comes exactly once, on a storage
-/// thread or, when refused at once, on the caller's. Thread-safe.
+struct MeasurementServiceOptions {
+  std::size_t most_waiting = 4096;  ///< requests; one more is StorageBusy
+  bool commit_each = false;         ///< every request its own commit: the benchmark's peer
+};
+
+/// Makes the answer to a long request while it is being read. Used by one thread.
+class Rendering {
+ public:
+  Rendering() = default;
+  Rendering(const Rendering&) = delete;
+  Rendering& operator=(const Rendering&) = delete;
+  virtual ~Rendering() = default;
+
+  /// The next measurements, with their ids.
+  virtual void add(std::span<const Measurement> measurements) = 0;
+  virtual Answer finish() = 0;
+};
+
+/// Stores and reads measurements. Nothing here blocks but what says so; `done` comes exactly once,
+/// on a storage thread or, when refused at once, on the caller's. Thread-safe.
 class MeasurementService {
  public:
-  MeasurementService(store::Database& database, const TableCatalog& tables)
-      : database_(database), tables_(tables) {}
+  MeasurementService(store::Database& database, const TableCatalog& tables,
+                     const MeasurementServiceOptions& options);
+  ~MeasurementService();
 
   template <class T>
   using Done = std::function<void(Result<T>)>;
@@ -93,6 +115,19 @@ class MeasurementService {
   void record(std::vector<Measurement> measurements, const std::optional<IdempotencyScope>& scope,
               Render render, Done<Answer> done);
 
+  /// Takes the next measurements of a request.
+  using Take = std::function<void(std::vector<Measurement>)>;
+  /// Reads a request to its end, at least one measurement or an error. What was taken stays unkept
+  /// when there is one.
+  using Read = std::function<Result<void>(const Take&)>;
+
+  /// Stores judged measurements while `read` goes on reading, all or none. Blocks until they are
+  /// durable: for the threads of run(). The texts of the measurements stay alive until it returns.
+  /// @errors those of `read` and of record().
+  Result<Answer> record_while_reading(const Read& read,
+                                      const std::optional<IdempotencyScope>& scope,
+                                      Rendering& rendering);
+
   /// Called on a reader thread; the measurement's texts are valid during the call.
   using Visitor = std::function<void(const Measurement&)>;
 
@@ -109,13 +144,18 @@ class MeasurementService {
   void summary(MeasurementQuery query, std::string_view group_by,
                Done<std::vector<MeasurementGroup>> done);
 
-  /// Runs `work` on a thread that may take long, or calls `refused` at once.
-  /// @errors StorageBusy, ShuttingDown.
-  void run(std::function<void()> work, std::function<void(Error)> refused);
+  /// Runs `work` on a thread for long requests, which may block. Calls `failed` when it throws, or
+  /// at once when too many wait. @errors Internal, StorageBusy.
+  void run(std::function<void()> work, std::function<void(Error)> failed);
 
  private:
+  template <class Work>
+  void submit(const std::optional<IdempotencyScope>& scope, Work work, Done<Answer> done);
+
   store::Database& database_;
   const TableCatalog& tables_;
+  const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs
+  const std::unique_ptr<WorkerPool> long_requests_;
 };
 
 /// The fields a summary can group by, as the API names them.

@@ -21,8 +21,12 @@ Result<MeasurementBatch> decode(std::string body, std::string_view type = "appli
   const std::size_t size = body.size();
   body.append(64, '\0');
   kept.push_back(std::make_unique<std::string>(std::move(body)));
-  return decode_measurements(std::string_view(*kept.back()).substr(0, size), type,
-                             {.tables = tables(), .received_at = {1'000'000'000}});
+  MeasurementBatch batch;
+  const auto decoded =
+      decode_measurements(std::string_view(*kept.back()).substr(0, size), type,
+                          {.tables = tables(), .received_at = {1'000'000'000}}, batch);
+  if (!decoded) return decoded.error();
+  return batch;
 }
 
 /// The one row of a batch. Its texts are views of the batch, so that is kept too.
@@ -168,4 +172,91 @@ TEST_CASE("no more than a hundred bad fields are listed, all are counted") {
   REQUIRE(batch.has_error());
   CHECK(batch.error().details.size() == 100);
   CHECK(batch.error().message.starts_with("150 fields"));
+}
+
+namespace {
+
+/// `count` rows in each format; row `odd` has a text that only the exact reader of JSON takes.
+std::string list_of(int count, std::string_view type, int odd) {
+  const bool csv = type == "text/csv";
+  const bool json = type == "application/json";
+  std::string body = csv ? "designation,measured_mm,part_id\n" : json ? "[" : "";
+  for (int i = 0; i < count; ++i) {
+    const std::string part = i == odd ? (csv ? "\"odd\"" : "o\\u0064d") : std::to_string(i);
+    if (csv) {
+      body += "25 H7,25.01," + part + '\n';
+    } else {
+      body += R"({"designation":"25 H7","measured_mm":25.01,"part_id":")" + part + "\"}" +
+              (json ? "," : "\n");
+    }
+  }
+  if (json) body.back() = ']';
+  return body;
+}
+
+struct Pieces {
+  std::vector<std::vector<app::Measurement>> taken;
+  MeasurementBatch rest;
+  Result<void> decoded;
+
+  std::vector<std::string> parts() const {
+    std::vector<std::string> found;
+    for (const auto& piece : taken) {
+      for (const auto& m : piece) found.emplace_back(m.texts.part_id.value());
+    }
+    for (const auto& m : rest.rows) found.emplace_back(m.texts.part_id.value());
+    return found;
+  }
+};
+
+/// @param body is a view of it afterwards, with padding.
+Pieces in_pieces(std::string& body, std::string_view type) {
+  Pieces pieces;
+  const std::size_t size = body.size();
+  body.append(64, '\0');
+  pieces.decoded = decode_measurements(
+      std::string_view(body).substr(0, size), type,
+      {.tables = tables(),
+       .received_at = {1'000'000'000},
+       .caller = {},
+       .take =
+           [&](std::vector<app::Measurement> rows) { pieces.taken.push_back(std::move(rows)); }},
+      pieces.rest);
+  return pieces;
+}
+
+}  // namespace
+
+TEST_CASE("a long list is taken away in pieces while it is read, in every format") {
+  constexpr int kCount = 1000;
+  for (const std::string_view type : {"application/json", "application/x-ndjson", "text/csv"}) {
+    for (const int odd : {-1, 0, 255, 256, 600, 999}) {
+      CAPTURE(type);
+      CAPTURE(odd);
+      std::string body = list_of(kCount, type, odd);
+      const Pieces pieces = in_pieces(body, type);
+      REQUIRE(pieces.decoded.has_value());
+      CHECK(pieces.taken.size() == kCount / kRowsAtATime);
+      const auto parts = pieces.parts();
+      REQUIRE(parts.size() == kCount);
+      for (int i = 0; i < kCount; ++i) {
+        const auto& part = parts[static_cast<std::size_t>(i)];
+        CHECK(part == (i == odd ? "odd" : std::to_string(i)));
+      }
+    }
+  }
+}
+
+TEST_CASE("after a wrong row no more are taken, and every wrong one is named") {
+  std::string body = list_of(1000, "application/json", -1);
+  body.pop_back();
+  body += R"(,{"designation":"25 H7"},{"designation":"25 H7","measured_mm":25,"x":1})";
+  for (int i = 0; i < 300; ++i) body += R"(,{"designation":"25 H7","measured_mm":25})";
+  body += ']';
+  const Pieces pieces = in_pieces(body, "application/json");
+  CHECK(pieces.taken.size() == 3);
+  REQUIRE(pieces.decoded.has_error());
+  REQUIRE(pieces.decoded.error().details.size() == 2);
+  CHECK(pieces.decoded.error().details[0].where == "/1000/measured_mm");
+  CHECK(pieces.decoded.error().details[1].where == "/1001/x");
 }

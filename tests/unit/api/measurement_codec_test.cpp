@@ -48,7 +48,7 @@ TEST_CASE("a record has what was given, in the order of the contract") {
         R"("part_id":"SN-1","rule":"simple","temperature_c":20.4})");
 }
 
-TEST_CASE("records with the limits of the one before and with others are as each by itself") {
+TEST_CASE("records with the times and limits of the one before or others are as each by itself") {
   std::vector<app::Measurement> rows(12, hole_25_h7());
   rows[3].class_name = "H8";
   rows[4].nominal_size = Length::millimetres(26);
@@ -57,9 +57,14 @@ TEST_CASE("records with the limits of the one before and with others are as each
   rows[8].table_revision = "2-00000000";
   rows[9].basis = app::LimitsBasis::Explicit;
   rows[10].feature = iso286::Feature::Shaft;
+  rows[2].measured_at = {1'000'000'000};
+  rows[3].received_at = {2'000'000'000};
+  rows[5].source = app::Source::Simulation;
   std::string each;
   for (const app::Measurement& m : rows) each += (each.empty() ? "" : ",") + record(m);
-  CHECK(representation_json(rows) == R"({"measurements":[)" + each + "]}");
+  std::string together;
+  append_measurements(together, rows);
+  CHECK(together == each);
 }
 
 TEST_CASE("every character of a text is written as a JSON string has it") {

@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "app/mapping.hpp"
+#include "app/measurement_feed.hpp"
+#include "app/measurement_queue.hpp"
+#include "app/measurement_service.hpp"
+#include "app/measurement_storage.hpp"
+#include "app/worker_pool.hpp"
+#include "store/database.hpp"
+
+// How measurements get into the store; how they are read stands in measurement_service.cpp.
+
+namespace fitgauge::app {
+namespace {
+
+/// Long requests that are read at once. Only one of them can be stored at a time: the other is
+/// there to have its first measurements ready.
+constexpr unsigned kLongRequests = 2;
+
+/// The store knows ids as numbers: this error names them as the outside does.
+Error corrected_before(const store::Stores& stores, std::int64_t id) {
+  const auto newer = stores.measurements.corrected_by(id);
+  return {ErrorCode::MeasurementCorrected,
+          fmt::format("measurement {} was corrected by {}: correct that one",
+                      measurement_id_text(id), measurement_id_text(newer.value_or(0)))};
+}
+
+/// Stores the measurements of a request, so many at a time that their rows stay in the cache.
+/// @returns the id of the first.
+Result<std::int64_t> append(store::Stores& stores, std::span<const Measurement> measurements,
+                            std::optional<std::int64_t> revision) {
+  constexpr std::size_t kAtATime = 128;
+  const std::int64_t first = stores.measurements.last_id() + 1;
+  std::vector<store::MeasurementRow> rows;
+  while (!measurements.empty()) {
+    const std::size_t count = std::min(measurements.size(), kAtATime);
+    rows.clear();
+    append_rows(rows, measurements.first(count), revision);
+    const auto ids = stores.measurements.append(rows);
+    if (!ids && ids.error().code == ErrorCode::MeasurementCorrected) {
+      return corrected_before(stores, *rows.front().correction_of);
+    }
+    if (!ids) return ids.error();
+    measurements = measurements.subspan(count);
+  }
+  return first;
+}
+
+/// The same of the pieces of a long request, from the thread that reads it.
+Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed,
+                             const TableCatalog& tables) {
+  feed.begin(stores.measurements.last_id() + 1);
+  while (true) {
+    const auto piece = feed.take();
+    if (!piece) return piece.error();
+    if (*piece == nullptr) return feed.take_answer();
+    const auto stored = append(stores, **piece, revision_of(**piece, tables));
+    if (!stored) return stored.error();
+  }
+}
+
+Error internal_error(const std::exception& bug) {
+  return {ErrorCode::Internal, fmt::format("reading a request failed: {}", bug.what())};
+}
+
+}  // namespace
+
+MeasurementService::MeasurementService(store::Database& database, const TableCatalog& tables,
+                                       const MeasurementServiceOptions& options)
+    : database_(database),
+      tables_(tables),
+      queue_(
+          std::make_shared<MeasurementQueue>(database, options.most_waiting, options.commit_each)),
+      long_requests_(std::make_unique<WorkerPool>(kLongRequests, options.most_waiting)) {}
+MeasurementService::~MeasurementService() = default;
+
+void MeasurementService::find_answer(const IdempotencyScope& scope,
+                                     Done<std::optional<Answer>> done) {
+  database_.readers().submit(
+      [request =
+           app::to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
+        auto found = stores.idempotency.find(request);
+        if (!found) return found.error();
+        if (!*found) return std::optional<Answer>();
+        return std::optional(app::from_store(**std::move(found)));
+      },
+      std::move(done));
+}
+
+template <class Work>
+void MeasurementService::submit(const std::optional<IdempotencyScope>& scope, Work work,
+                                Done<Answer> done) {
+  auto store = [work =
+                    std::move(work)](store::Stores& stores) mutable -> Result<store::StoredAnswer> {
+    Result<Answer> answer = work(stores);
+    if (!answer) return answer.error();
+    return app::to_store(*std::move(answer));
+  };
+  auto deliver = [done = std::move(done)](Result<store::StoredAnswer> answer) {
+    if (!answer) return done(answer.error());
+    done(app::from_store(*std::move(answer)));
+  };
+  if (scope) {
+    database_.writer().submit_once(app::to_store(*scope), std::move(store), std::move(deliver));
+  } else {
+    database_.writer().submit(std::move(store), std::move(deliver));
+  }
+}
+
+void MeasurementService::record(std::vector<Measurement> measurements,
+                                const std::optional<IdempotencyScope>& scope, Render render,
+                                Done<Answer> done) {
+  const auto revision = revision_of(measurements, tables_);
+  if (!scope && !measurements.front().correction_of) {
+    return queue_->record({.measurements = std::move(measurements),
+                           .revision = revision,
+                           .render = std::move(render),
+                           .done = std::move(done)});
+  }
+  auto work = [measurements = std::move(measurements), revision,
+               render = std::move(render)](store::Stores& stores) mutable -> Result<Answer> {
+    const auto first = append(stores, measurements, revision);
+    if (!first) return first.error();
+    number_from(*first, measurements);
+    return render(measurements);
+  };
+  submit(scope, std::move(work), std::move(done));
+}
+
+Result<Answer> MeasurementService::record_while_reading(
+    const Read& read, const std::optional<IdempotencyScope>& scope, Rendering& rendering) {
+  const auto feed = std::make_shared<MeasurementFeed>();
+  const auto begin = [&] {
+    submit(
+        scope,
+        [this, feed](store::Stores& stores) { return append_pieces(stores, *feed, tables_); },
+        [feed](Result<Answer> outcome) { feed->end(std::move(outcome)); });
+    return feed->first_id();
+  };
+  bool begun = false;
+  std::optional<std::int64_t> next_id;
+  const auto take = [&](std::vector<Measurement> measurements) {
+    if (!std::exchange(begun, true)) next_id = begin();
+    if (!next_id) return;  // refused before a row was stored
+    next_id = number_from(*next_id, measurements);
+    const auto piece = std::make_shared<const std::vector<Measurement>>(std::move(measurements));
+    feed->put(piece);
+    rendering.add(*piece);
+  };
+  Result<void> complete;
+  try {
+    complete = read(take);
+    if (complete && next_id) feed->finish(rendering.finish());
+  } catch (const std::exception& bug) {
+    complete = internal_error(bug);
+  }
+  if (!begun) return complete.error();
+  if (!complete) feed->fail(complete.error());
+  return feed->outcome();
+}
+
+void MeasurementService::run(std::function<void()> work, std::function<void(Error)> failed) {
+  auto job = [work = std::move(work), failed] {
+    try {
+      work();
+    } catch (const std::exception& bug) {
+      failed(internal_error(bug));
+    }
+  };
+  if (!long_requests_->submit(std::move(job))) failed(too_much_work());
+}
+
+}  // namespace fitgauge::app
