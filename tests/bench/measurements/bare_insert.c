@@ -8,8 +8,9 @@
  * waits for the disk.
  * Not the same, to the advantage of this program: no HTTP, no JSON in either direction, no check of
  * fields, no limits, no verdict, no hash is computed (its bytes are zero), no answer is rendered; the
- * texts but one are constants in memory. To the service's: it writes many rows a statement, and has
- * switched SQLite's memory statistics off, where this program takes SQLite as it comes. */
+ * texts but one are constants in memory. To the service's: it writes many rows a statement, reads and
+ * renders on a second processor while the first inserts, and has switched SQLite's memory statistics
+ * off, where this program takes SQLite as it comes. */
 
 #include <sqlite3.h>
 #include <stdio.h>

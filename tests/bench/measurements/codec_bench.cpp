@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "api/measurement_answer.hpp"
 #include "api/measurement_batch.hpp"
-#include "api/measurement_codec.hpp"
 #include "http/request.hpp"
 #include "iso286/designation.hpp"
 
@@ -50,10 +50,14 @@ const std::string& request_body() {
 }
 
 std::string ours() {
-  auto batch = api::decode_measurements(request_body(), "application/json",
-                                        {.tables = tables(), .received_at = kReceived})
-                   .value();
-  return api::representation_json(batch.rows);
+  api::MeasurementBatch batch;
+  const auto decoded = api::decode_measurements(
+      request_body(), "application/json", {.tables = tables(), .received_at = kReceived}, batch);
+  decoded.value();
+  api::MeasurementAnswer answer(api::Preference::Representation);
+  answer.expect(request_body().size());
+  answer.add(batch.rows);
+  return answer.finish().body;
 }
 
 /// One record by the DOM: every field looked up by name, every field written by name.
