@@ -58,7 +58,7 @@ interpreter::RunResult unstarted(RunStatus status, MessageKind kind, std::string
                              .text = std::move(text),
                              .program = std::move(program),
                              .line = 1,
-                             .block = {}});
+                             .block = 0});  // BEGIN PGM
   return result;
 }
 

@@ -24,7 +24,7 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
           std::move(message),
           std::string(program.file_name()),
           range,
-          block.number(),
+          block.number,
           std::string(program.line(range.begin.line))};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "interpreter/linked_program.hpp"
@@ -16,8 +15,8 @@ struct Place {
 
   std::string_view path() const { return program->path().text(); }
   std::uint32_t line() const;
-  /// Its number as written.
-  std::optional<std::uint32_t> block() const { return source().number(); }
+  /// Its number, as written or counted.
+  std::uint32_t block() const { return source().number; }
   const klartext::Block& source() const { return program->program().blocks()[index]; }
 };
 

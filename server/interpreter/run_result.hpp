@@ -37,7 +37,7 @@ struct RunMessage {
   std::string text;
   std::string program;                 ///< TNC:\...
   std::uint32_t line = 0;              ///< from 1, of the block's first physical line
-  std::optional<std::uint32_t> block;  ///< its number as written
+  std::optional<std::uint32_t> block;  ///< its number, as written or counted
 
   friend bool operator==(const RunMessage&, const RunMessage&) = default;
 };

@@ -43,13 +43,14 @@ class Parser {
   void report_failure(Block& block, const char* body);
   void check_frame(const Block& block, bool failed);
   void report(Severity severity, DiagnosticCode code, const Block& block, std::string message) {
-    diagnostics_.add(severity, code, block.written, std::move(message), block.number());
+    diagnostics_.add(severity, code, block.written, std::move(message), block.number);
   }
 
   ProgramParts parts_;
   BlockReader in_;
   DiagnosticList diagnostics_;
   std::optional<BeginProgram> begin_;
+  std::uint32_t next_number_ = 0;
   bool wraps_on_ = false;  ///< the block's last line ends with `~`, and so does the file
   bool begun_ = false;
   bool ended_ = false;
@@ -115,14 +116,14 @@ void Parser::report_failure(Block& block, const char* body) {
   in_.drop_block();
   const std::string raw = free_text({body, static_cast<std::size_t>(in_.end() - body)});
   if (failure.kind == Failure::Kind::Faulty) {
-    diagnostics_.add(Severity::Error, failure.code, failure.place, failure.message, block.number());
+    diagnostics_.add(Severity::Error, failure.code, failure.place, failure.message, block.number);
     block.statement = ErrorBlock{in_.add_text(raw)};
     return;
   }
   diagnostics_.add(
       Severity::Warning, failure.code, failure.place,
       fmt::format("{} is not available here: the program stops at this block", failure.message),
-      block.number());
+      block.number);
   const Text feature = in_.add_text(failure.message);
   block.statement = Unsupported{feature, in_.add_text(raw)};
 }
@@ -186,12 +187,15 @@ std::size_t Parser::parse_block(std::size_t begin) {
   in_.skip_blanks();
   if (in_.at() == in_.end()) return end;
   Block& block = parts_.blocks.emplace_back();
+  block.number = next_number_;
   block.skip = in_.accept('/');
   in_.skip_blanks();
   if (is_digit(in_.peek())) {
-    block.number_or_none = in_.digits(kLargestBlockNumber, "the block number");
+    block.number = in_.digits(kLargestBlockNumber, "the block number");
+    block.has_number = true;
     in_.skip_blanks();
   }
+  next_number_ = block.number + 1;
   const char first = ascii_upper(in_.peek());
   if ((first == 'C' || first == 'T') && at_q_form_cycle()) {
     end = extend_over_parameter_lines(end);

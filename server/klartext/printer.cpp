@@ -8,8 +8,8 @@ namespace {
 void print_block(BlockWriter& out, const Program& program, const Block& block) {
   std::string_view separator;
   if (block.skip) out.write("/");
-  if (const auto number = block.number()) {
-    out.write(std::to_string(*number));
+  if (block.has_number) {
+    out.write(std::to_string(block.number));
     separator = " ";
   }
   const std::string_view comment = program.text(block.comment);

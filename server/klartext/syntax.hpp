@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,24 +16,20 @@ namespace fitgauge::klartext {
 
 /// One logical line: optional skip mark `/`, optional block number, statement, optional comment.
 struct Block {
-  static constexpr std::uint32_t kNoNumber = UINT32_MAX;
-
   Slice<char> written{};  ///< its place in the source, all physical lines of it
   Text comment{};         ///< after `;` as written; of a cycle, that of its first line
-  std::uint32_t number_or_none = kNoNumber;
+  /// As written, which is cosmetic and may repeat; a block without one counts on from the block
+  /// before it, from 0, as the control numbers it.
+  std::uint32_t number = 0;
+  bool has_number = false;    ///< it is written
   bool skip = false;          ///< `/`: passed over while the operator's block skip is on
   bool comment_mark = false;  ///< a `;` is there, perhaps with an empty comment
   Statement statement{};
 
-  /// The number as written: cosmetic, may repeat or be missing.
-  std::optional<std::uint32_t> number() const {
-    return number_or_none == kNoNumber ? std::nullopt : std::optional(number_or_none);
-  }
-
   /// The place does not count.
   friend bool operator==(const Block& a, const Block& b) {
-    return a.comment == b.comment && a.number_or_none == b.number_or_none && a.skip == b.skip &&
-           a.comment_mark == b.comment_mark && a.statement == b.statement;
+    return a.comment == b.comment && a.number == b.number && a.has_number == b.has_number &&
+           a.skip == b.skip && a.comment_mark == b.comment_mark && a.statement == b.statement;
   }
 };
 

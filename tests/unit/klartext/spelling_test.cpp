@@ -37,6 +37,22 @@ TEST_CASE("Skip mark, block number and comment are optional and kept") {
          {"* text", "* - text"}});
 }
 
+TEST_CASE("A block without a number counts on from the one before it") {
+  const auto numbers = [](std::string text) {
+    std::vector<std::uint32_t> found;
+    const ParsedProgram parsed = parse_program(std::move(text), "p.h");
+    for (const Block& block : parsed.program.blocks()) found.push_back(block.number);
+    return found;
+  };
+  CHECK(numbers("BEGIN PGM A MM\n\n; x\nL X+1 ~\nY+1\nEND PGM A MM") ==
+        std::vector<std::uint32_t>{0, 1, 2, 3});
+  CHECK(numbers("10 BEGIN PGM A MM\n; x\n/26 M30\n26 M30\nEND PGM A MM") ==
+        std::vector<std::uint32_t>{10, 11, 26, 26, 27});
+  const ParsedProgram bad = parse_program("BEGIN PGM A MM\nGARBAGE\nEND PGM A MM", "p.h");
+  REQUIRE(bad.diagnostics.size() == 1);
+  CHECK(bad.diagnostics[0].block == 1U);
+}
+
 TEST_CASE("A comment wrapped by ~ is one comment") {
   check({{";please modify it~\n under all", ";please modify it under all"},
          {"L X+1 ;a ~\nb", "L X+1 ;a b"},
