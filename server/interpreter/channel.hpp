@@ -70,6 +70,7 @@ class Channel {
   probing::CycleMemory cycle_memory;
   std::optional<machine::ContactPoint> last_touch;  ///< FN 18 ID 360
   std::optional<ControlPath> selected_program;      ///< SEL PGM
+  int prepared_tool = 0;                            ///< TOOL DEF, until the next TOOL CALL
   bool stop_after_block = false;  ///< Q281 = 2 with on_stop=end: the run ends after this block
 
  private:

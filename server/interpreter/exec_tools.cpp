@@ -48,6 +48,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
     const auto number = tool_number(channel, call.tool);
     if (!number) return number.error();
     command.number = *number;
+    channel.prepared_tool = 0;
   } else {
     const machine::ActiveTool& active = channel.machine().state().tool;
     command.dl = active.dl;
@@ -80,9 +81,13 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
 
 /// The old form with L and R defines the tool; otherwise it is only prepared, which takes no time.
 NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definition) {
-  if (channel.program().view(definition.words).empty() || is_absent(definition.tool)) return {};
+  if (is_absent(definition.tool)) return {};
   const auto number = tool_number(channel, definition.tool);
   if (!number) return number.error();
+  if (channel.program().view(definition.words).empty()) {
+    channel.prepared_tool = *number;
+    return {};
+  }
   const machine::Tool* found = channel.machine().state().tools.find(*number);
   machine::Tool tool = found != nullptr ? *found : machine::Tool{};
   tool.number = *number;

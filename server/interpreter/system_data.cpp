@@ -60,6 +60,11 @@ Answer program_data(const Channel& channel, const Address& address) {
     case 1: return channel.calls.main_program().is_inch() ? 1 : 0;
     case 3: return channel.active_cycle.number;
     case 6: return channel.active_cycle.last_probing;
+    case 103: {  // whether the active cycle's block gives the parameter Q IDX
+      const auto* drilling = std::get_if<DrillingDefinition>(&channel.active_cycle.definition);
+      if (drilling == nullptr || !address.index) return std::nullopt;
+      return drilling->values.contains(static_cast<int>(*address.index)) ? 1 : 0;
+    }
     case 8: {
       const LinkedProgram* caller = channel.calls.caller();
       return caller != nullptr && caller->is_inch() ? 1 : 0;
@@ -83,11 +88,12 @@ Answer program_data(const Channel& channel, const Address& address) {
   }
 }
 
-Answer machine_data(const MachineState& state, const Address& address) {
+Answer machine_data(const Channel& channel, const Address& address) {
+  const MachineState& state = channel.machine().state();
   const machine::Modes& modes = state.modes;
   switch (address.nr) {
     case 1: return state.tool.number;
-    case 2: return 0;  // no tool is prepared: changes take no time
+    case 2: return channel.prepared_tool;
     case 3: return axis_number(state.tool.axis);
     case 4: return modes.spindle_rpm;
     case 5: return static_cast<int>(modes.spindle);
@@ -101,7 +107,13 @@ Answer machine_data(const MachineState& state, const Address& address) {
 Answer tool_data(const MachineState& state, const Address& address) {
   const auto number = address.index.value_or(state.tool.number);
   const machine::Tool* tool = state.tools.find(static_cast<int>(number));
-  return tool == nullptr ? std::nullopt : tool_value(*tool, address.nr);
+  if (tool == nullptr) return std::nullopt;
+  if (address.nr < 24 || address.nr > 26) return tool_value(*tool, address.nr);
+  // CAL_OF1, CAL_OF2, CAL_ANG: of a probe, in its row of tchprobe.tp.
+  const machine::ProbeRow* probe = state.probes.find(tool->probe);
+  if (probe == nullptr) return std::nullopt;
+  if (address.nr == 24) return probe->cal_of1;
+  return address.nr == 25 ? probe->cal_of2 : probe->cal_ang;
 }
 
 Answer tool_call_data(const MachineState& state, const Address& address) {
@@ -189,6 +201,17 @@ Answer tcpm_data(const MachineState& state, const Address& address) {
   }
 }
 
+/// Which of three M functions is on.
+Answer m_function_data(const Channel& channel, const Address& address) {
+  const machine::Modes& modes = channel.machine().state().modes;
+  switch (address.nr) {
+    case 116: return modes.feed_at_circumference ? -1 : 0;
+    case 128: return modes.tcpm ? -1 : 0;
+    case 144: return modes.kinematics_in_display ? -1 : 0;
+    default: return std::nullopt;
+  }
+}
+
 Answer probe_data(const MachineState& state, const Address& address) {
   if (address.nr == 20) {
     const auto axis = axis_of(address);
@@ -257,7 +280,7 @@ Answer find(Channel& channel, const Address& address) {
   const MachineState& state = channel.machine().state();
   switch (address.id) {
     case 10: return program_data(channel, address);
-    case 20: return machine_data(state, address);
+    case 20: return machine_data(channel, address);
     case 50: return tool_data(state, address);
     case 60: return tool_call_data(state, address);
     case 200: return active_tool_data(state, address);
@@ -271,6 +294,7 @@ Answer find(Channel& channel, const Address& address) {
       if (address.nr != 1) return std::nullopt;
       return position_data(state, address, CoordinateSystem::Input);
     case 280: return tcpm_data(state, address);
+    case 310: return m_function_data(channel, address);
     case 320:
       if (address.nr != 1) return std::nullopt;
       return std::floor(static_cast<double>(channel.now().nanoseconds) / 1e9);

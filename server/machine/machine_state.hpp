@@ -31,6 +31,8 @@ struct Modes {
   bool coolant = false;    ///< M8
   double feed_mm_min = 0;  ///< the modal feed F, 0 when none is programmed
   bool tcpm = false;       ///< M128, FUNCTION TCPM: the tip follows the workpiece
+  bool feed_at_circumference = false;  ///< M116: feeds of rotary axes in mm/min; FN 18 reads it
+  bool kinematics_in_display = false;  ///< M144; FN 18 reads it
   OperatingMode mode = OperatingMode::Mill;
 
   friend bool operator==(const Modes&, const Modes&) = default;

@@ -6,7 +6,11 @@ namespace {
 /// The value that `FN 18: SYSREAD` gives after `before` ran, or the outcome of a failed run.
 std::string system_data(std::string_view address, std::string_view before = "Q1 = 0") {
   Control control;
-  control.setup.machine.probes[0].row.distance = 17;
+  machine::ProbeRow& probe = control.setup.machine.probes[0].row;
+  probe.distance = 17;
+  probe.cal_of1 = 0.25;
+  probe.cal_of2 = -0.5;
+  probe.cal_ang = 90;
   const RunResult result =
       control.run(std::string(before) + "\nFN 18: SYSREAD Q5 = " + std::string(address));
   return result.status == RunStatus::Completed ? value(result, "Q5") : outcome(result);
@@ -40,6 +44,29 @@ TEST_CASE("FN 18 reads the state of the machine") {
   CHECK(system_data("ID350 NR56 IDX1", "TOOL CALL 30 Z") == "17");
   CHECK(system_data("ID503 NR1 IDX1") == "0");
   CHECK(system_data("ID505 NR1") == "0");
+}
+
+TEST_CASE("FN 18 reads the prepared tool, three M functions and the calibration of a probe") {
+  CHECK(system_data("ID20 NR2") == "0");
+  CHECK(system_data("ID20 NR2", "TOOL CALL 30 Z\nTOOL DEF 5") == "5");
+  CHECK(system_data("ID20 NR2", "TOOL DEF 30\nTOOL CALL 30 Z") == "0");
+  CHECK(system_data("ID310 NR116", "M116") == "-1");
+  CHECK(system_data("ID310 NR116", "M116\nM117") == "0");
+  CHECK(system_data("ID310 NR128", "M128") == "-1");
+  CHECK(system_data("ID310 NR144", "M144") == "-1");
+  CHECK(system_data("ID310 NR144", "M144\nM145") == "0");
+  CHECK(system_data("ID310 NR1") == "failed line 3: ID310 NR1 is not available");
+  CHECK(system_data("ID50 NR24 IDX30") == "0.25");
+  CHECK(system_data("ID50 NR25 IDX30") == "-0.5");
+  CHECK(system_data("ID50 NR26 IDX30") == "90");
+  CHECK(system_data("ID50 NR26 IDX7") == "failed line 3: ID50 NR26 IDX7 is not available");
+}
+
+TEST_CASE("FN 18 tells which parameters the block of the active cycle gives") {
+  const char* drilling = "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-20";
+  CHECK(system_data("ID10 NR103 IDX201", drilling) == "1");
+  CHECK(system_data("ID10 NR103 IDX204", drilling) == "0");
+  CHECK(system_data("ID10 NR103 IDX201") == "failed line 3: ID10 NR103 IDX201 is not available");
 }
 
 TEST_CASE("FN 18 reads transformations") {
