@@ -104,7 +104,7 @@ namespace {
 /// Whether a column has what its name and its place in the line do not tell.
 bool is_described(const TabTable& table, const TabColumn& column) {
   const bool is_last = &column == &table.columns().back();
-  return !column.type.empty() || column.decimals != 0 ||
+  return !column.type.empty() || column.decimals ||
          (is_last && column.width > count_characters(column.name));
 }
 
@@ -116,8 +116,9 @@ std::string write_description(const TabTable& table) {
     out += "#STRUCTBEGIN\n";
     for (const TabColumn& column : table.columns()) {
       if (!is_described(table, column)) continue;
-      out += fmt::format("   NAME = {}\n     TYPE = {}\n     WIDTH = {}\n     DEC = {}\n",
-                         column.name, column.type, column.width, column.decimals);
+      out += fmt::format("   NAME = {}\n     TYPE = {}\n     WIDTH = {}\n", column.name,
+                         column.type, column.width);
+      if (column.decimals) out += fmt::format("     DEC = {}\n", *column.decimals);
     }
     out += "#STRUCTEND\n";
   }
@@ -125,9 +126,10 @@ std::string write_description(const TabTable& table) {
     out += "TableDescription (\n  columns:=[\n";
     for (const TabColumn& column : table.columns()) {
       if (!is_described(table, column)) continue;
-      out += fmt::format(
-          "    CfgColumnDescription ( key:=\"{}\", width:={}, decimals:={}, unit:=\"{}\" ),\n",
-          column.name, column.width, column.decimals, column.type);
+      out += fmt::format("    CfgColumnDescription ( key:=\"{}\", width:={}, ", column.name,
+                         column.width);
+      if (column.decimals) out += fmt::format("decimals:={}, ", *column.decimals);
+      out += fmt::format("unit:=\"{}\" ),\n", column.type);
     }
     out += "  ]\n)\n";
   }

@@ -52,7 +52,7 @@ struct FilledColumn {
 
   void append(std::string cell) {
     column.width = std::max(column.width, count_characters(cell));
-    column.decimals = std::max(column.decimals, decimals_of(cell));
+    column.decimals = std::max(column.decimals.value_or(0), decimals_of(cell));
     cells.push_back(std::move(cell));
   }
 };
@@ -66,6 +66,7 @@ FilledColumn row_numbers(std::size_t rows) {
   constexpr std::size_t kWidth = 7;  // the first column takes 8 characters
   FilledColumn column{{.name = "NR", .width = kWidth}, {}};
   for (std::size_t row = 0; row < rows; ++row) column.append(std::to_string(row));
+  column.column.decimals.reset();  // as on the control, the description leaves this column out
   return column;
 }
 

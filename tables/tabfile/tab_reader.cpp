@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t kMostColumns = 4096;
 constexpr std::size_t kMostCells = 1'000'000;
 constexpr std::string_view kBegin = "BEGIN";
-constexpr std::string_view kEnd = "[END]";
+/// Of the last column where nothing tells how wide it is: a text as long as the control's are.
+constexpr std::size_t kWidestCell = 255;
 
 std::vector<std::string_view> lines_of(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -33,6 +34,8 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 }
 
 bool is_control_character(char c) { return static_cast<unsigned char>(c) < ' ' && c != '\t'; }
+
+bool is_end(std::string_view line) { return ascii_iequals(trim(line), "[END]"); }
 
 /// Of a name or type: what would end it in a description.
 bool ends_a_word(char c) { return c == '"' || c == '(' || c == ')' || c == ','; }
@@ -53,8 +56,8 @@ TabHeader read_begin_line(std::string_view text) {
   if (text.starts_with('.')) header.name += " " + std::string(take_word(text));
   std::string_view rest = text;
   const std::string_view unit = take_word(rest);
-  if (unit == "MM" || unit == "INCH") {
-    header.unit = unit;
+  if (ascii_iequals(unit, "MM") || ascii_iequals(unit, "INCH")) {
+    header.unit = ascii_upper(unit);
     text = rest;
   }
   header.version = text;
@@ -78,7 +81,7 @@ class Reader {
         return malformed(i, "a control character");
       }
     }
-    if (lines_.empty() || !lines_[0].starts_with(kBegin)) {
+    if (lines_.empty() || !ascii_iequals(lines_[0].substr(0, kBegin.size()), kBegin)) {
       return malformed(0, "a table file begins with BEGIN and its name");
     }
     TabHeader header = read_begin_line(lines_[0].substr(kBegin.size()));
@@ -146,7 +149,7 @@ class Reader {
 
   Result<std::vector<TabColumn>> read_column_line(const ColumnDescriptions& descriptions) {
     skip_comments();
-    if (next_ >= lines_.size() || trim(lines_[next_]) == kEnd) {
+    if (next_ >= lines_.size() || is_end(lines_[next_])) {
       return malformed(next_, "the line with the names of the columns is missing");
     }
     const std::string_view line = lines_[next_];
@@ -173,7 +176,8 @@ class Reader {
       places_[i].width = places_[i + 1].begin - places_[i].begin;
       columns[i].width = places_[i].width - 1;
     }
-    columns.back().width = std::max(columns.back().width, count_characters(columns.back().name));
+    std::size_t& last = columns.back().width;
+    last = last == 0 ? kWidestCell : std::max(last, count_characters(columns.back().name));
     ++next_;
     return columns;
   }
@@ -182,7 +186,7 @@ class Reader {
     std::size_t cells = 0;
     for (; next_ < lines_.size(); ++next_) {
       const std::string_view line = lines_[next_];
-      if (trim(line) == kEnd) return read_nothing_more();
+      if (is_end(line)) return read_nothing_more();
       if (trim(line).empty()) continue;
       auto row = cut(line);
       if (!row) return row.error();

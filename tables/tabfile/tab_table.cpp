@@ -29,6 +29,27 @@ std::optional<Number> to_number(std::string_view text) {
   return value;
 }
 
+/// A number with `,` or `.` as its decimal mark.
+std::optional<double> to_decimal(std::string_view text) {
+  std::string pointed(text);
+  if (pointed.find('.') == std::string::npos) {
+    const std::size_t mark = pointed.find(',');
+    if (mark != std::string::npos) pointed[mark] = '.';
+  }
+  return to_number<double>(pointed);
+}
+
+/// To 1 nm without trailing zeros, and fewer decimals where they do not fit.
+std::string shortest(double value, std::size_t width) {
+  for (int decimals = 6;; --decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    if (text == "-0") text = "0";
+    if (text.size() <= width || decimals == 0) return text;
+  }
+}
+
 std::string place_of(std::int64_t row, std::string_view column) {
   return fmt::format("row {}, column {}", row, column);
 }
@@ -94,7 +115,7 @@ Result<double> TabTable::number(std::int64_t row, std::string_view column) const
     return Error{ErrorCode::TableCellEmpty,
                  fmt::format("table {} is blank in {}", header_.name, place_of(row, column))};
   }
-  const auto value = to_number<double>(written);
+  const auto value = to_decimal(written);
   if (value && std::isfinite(*value)) return *value;
   return Error{ErrorCode::NumberMalformed,
                fmt::format("table {} has no number in {}: '{}'", header_.name,
@@ -116,8 +137,8 @@ Result<void> TabTable::set_number(std::int64_t row, std::string_view column, dou
   }
   const TabColumn& target = columns_[place->column];
   return set_text(row, column,
-                  target.type.empty() ? fmt::format("{}", value)
-                                      : fmt::format("{:.{}f}", value, target.decimals));
+                  target.decimals ? fmt::format("{:.{}f}", value, *target.decimals)
+                                  : shortest(value, target.width));
 }
 
 Result<void> TabTable::set_text(std::int64_t row, std::string_view column, std::string_view value) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,8 @@ struct TabColumn {
   /// The type as the file gives it: `N`, `C`, `LENGTH`, `TEXT`; empty where it describes none.
   std::string type{};
   std::size_t width = 0;  ///< characters of a cell, without the blank between columns
-  int decimals = 0;
+  /// Digits after the point of a number that is written; nothing where the file does not tell.
+  std::optional<int> decimals{};
 
   /// Whether a read gives a string: for text types, and for undescribed columns never.
   bool is_text() const;
@@ -68,7 +70,8 @@ class TabTable {
   /// @errors TableRowMissing.
   Result<std::size_t> find_row(std::int64_t number) const;
 
-  /// The value of a cell in the column's unit; the nearest double to the decimal in the file.
+  /// The value of a cell in the column's unit; the nearest double to the decimal in the file, whose
+  /// mark may be a comma.
   /// @errors TableRowMissing, TableColumnMissing, TableCellEmpty; NumberMalformed for text.
   Result<double> number(std::int64_t row, std::string_view column) const;
 
@@ -76,7 +79,7 @@ class TabTable {
   /// @errors TableRowMissing, TableColumnMissing.
   Result<std::string_view> text(std::int64_t row, std::string_view column) const;
 
-  /// Writes a value with the decimals of the column, or shortest where the file describes none.
+  /// Writes a value with the decimals of the column; without, as it is, with as many as fit.
   /// @errors as set_text; NumberOutOfRange when it is not finite.
   Result<void> set_number(std::int64_t row, std::string_view column, double value);
 

@@ -107,6 +107,37 @@ TEST_CASE("a table without description, unit and suffix is read") {
   CHECK(tools.cell(2, 1) == "DRILL");
 }
 
+TEST_CASE("a table typed by hand: lower-case frame, decimal commas") {
+  const TabTable typed =
+      table("begin typed .tab inch\nNR      X\n0       +1,5\n1       1,2,3\n[end]\n");
+  CHECK(typed.header() == TabHeader{"typed .tab", "INCH", "", HeaderForm::None});
+  CHECK(*typed.number(0, "X") == 1.5);
+  CHECK(typed.number(1, "X").error().code == ErrorCode::NumberMalformed);
+}
+
+TEST_CASE("without a description the last column takes what is written") {
+  TabTable plain = table("BEGIN A .TAB MM\nNR      X   Y\n0       1   2\n[END]\n");
+  REQUIRE(plain.set_number(0, "Y", 123.25).has_value());
+  CHECK(*plain.text(0, "Y") == "123.25");
+  CHECK(plain.set_number(0, "X", 1234).error().code == ErrorCode::TableCellTooLong);
+  CHECK(table(write_tab(plain)) == plain);
+}
+
+TEST_CASE("a column that names no decimals takes as many as fit") {
+  TabTable points = table(kTnc640);
+  const auto written = [&](double value) {
+    REQUIRE(points.set_number(0, "X", value).has_value());
+    return std::string(*points.text(0, "X"));
+  };
+  CHECK(written(25.4) == "25.4");
+  CHECK(written(-1.0 / 3) == "-0.333333");
+  CHECK(written(-12345.0 / 7) == "-1763.571");
+  CHECK(written(-1e-9) == "0");
+  CHECK(written(20) == "20");
+  CHECK(points.set_number(0, "X", 1234567890).error().code == ErrorCode::TableCellTooLong);
+  CHECK(table(write_tab(points)) == points);
+}
+
 TEST_CASE("a file that cannot be trusted is refused with its line") {
   CHECK(refusal("") == "line 1: a table file begins with BEGIN and its name");
   CHECK(refusal("BEGIN\nNR\n[END]\n") == "line 1: BEGIN is not followed by the table's name");
