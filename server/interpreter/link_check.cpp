@@ -45,6 +45,10 @@ std::optional<std::uint32_t> neighbour(const klartext::Program& program, std::ui
   return std::nullopt;
 }
 
+bool is_feed_word(klartext::CycleValue kind) {
+  return kind != klartext::CycleValue::Expression && kind != klartext::CycleValue::Predef;
+}
+
 /// Finds what is wrong with one block.
 class BlockCheck {
  public:
@@ -117,6 +121,12 @@ class BlockCheck {
         continue;
       }
       given.push_back(parameter);
+      if (is_feed_word(written.kind) && parameter->unit != probing::Unit::Feed) {
+        report(Severity::Error, DiagnosticCode::CycleParameterInvalid, written.written,
+               fmt::format("Input value incorrect: {} is no feed and takes no AUTO, MAX, FU or FZ",
+                           name(*parameter)));
+        continue;
+      }
       if (const auto value = literal(program_, written, *parameter)) {
         check_value(*parameter, *value, written.written);
       }

@@ -35,7 +35,7 @@ CycleResult<void> set_rotation(const CycleContext& context) {
 constexpr std::array k404Parameters{
     kReferenceAngle,
     newer(choice(305, "Row of the preset table, 0 active at once, -1 row of the active preset", -1,
-                 65535, -1))};
+                 kLastRow, -1))};
 
 }  // namespace
 

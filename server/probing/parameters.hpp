@@ -137,10 +137,11 @@ inline constexpr CycleParameter kReverseTool =
     newer(choice(498, "Reverse tool: 0 no, 1 yes", 0, 1, 0));
 inline constexpr CycleParameter kAngleOfIncidence = newer(angle(531, "Angle of incidence", 180, 0));
 
+inline constexpr double kLastRow = 9999;  ///< that Q305 can name
 inline constexpr CycleParameter kTableRow =
-    choice(305, "Row of the preset or datum table, 0: active at once", 0, 65535, 0);
+    choice(305, "Row of the preset or datum table, 0: active at once", 0, kLastRow, 0);
 inline constexpr CycleParameter kPresetRow =
-    choice(305, "Row of the preset table, 0: active at once", 0, 65535, 0);
+    choice(305, "Row of the preset table, 0: active at once", 0, kLastRow, 0);
 inline constexpr CycleParameter kReferenceAngle = angle(307, "Angle of the reference line", 360, 0);
 inline constexpr CycleParameter kTransfer = choice(
     303, "Measured value transfer: 0 datum table, 1 preset table, -1 of old programs", -1, 1, 1);

@@ -48,6 +48,11 @@ TEST_CASE("cycle parameters are checked before the run") {
   std::string text = good;
   text.replace(text.find("Q272=+3"), 7, "Q272=Q5");
   CHECK(code_of(text) == "fine");
+  for (const char* word : {"AUTO", "MAX", "FU0.2", "FZ0.1"}) {
+    std::string feed = good;
+    feed.replace(feed.find("Q320=+0"), 7, std::string("Q320=") + word);
+    CHECK(code_of(feed) == "cycle.parameter_invalid");
+  }
   CHECK(code_of(" Q263=+1") == "cycle.parameter_invalid");
 }
 
