@@ -59,8 +59,22 @@ NcResult<probing::ArgumentValue> argument(Channel& channel, const klartext::Cycl
   return probing::ArgumentValue(*value * scale_of(parameter.unit, channel.linked().is_inch()));
 }
 
+/// A travel that ends before the nominal contact finds only material that lies nearer.
+NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arguments) {
+  const auto probe = channel.machine().state().probe_system();
+  if (!probe || arguments.descriptor().find(probing::q(320)) == nullptr) return {};
+  const double clearance = probe->data.set_up + arguments.number(320);
+  if (probe->data.distance >= clearance) return {};
+  return channel.note(
+      fmt::format("DIST = {} mm ends before SET_UP + Q320 = {} mm: material in its nominal place "
+                  "is not touched",
+                  probe->data.distance, clearance));
+}
+
 NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cycle,
                            probing::Arguments arguments) {
+  if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
+  if (auto noted = note_short_travel(channel, arguments); !noted) return noted;
   channel.active_cycle.last_probing = cycle.descriptor.number;
   ChannelCycleHost host(channel);
   const auto done = probing::run_cycle(cycle, std::move(arguments), channel.machine(), host);

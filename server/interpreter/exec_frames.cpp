@@ -5,6 +5,7 @@
 #include "interpreter/channel.hpp"
 #include "interpreter/frame_commands.hpp"
 #include "interpreter/statements.hpp"
+#include "interpreter/transformation_cycles.hpp"
 #include "interpreter/values.hpp"
 
 namespace fitgauge::interpreter {
@@ -129,13 +130,6 @@ NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane, co
   return moves;
 }
 
-/// The axes that TRANS names.
-NcResult<AxisCoordinates> axes_of(Channel& channel, klartext::Slice<klartext::Word> words) {
-  const auto read = read_words(channel, words);
-  if (!read) return read.error();
-  return read->axes;
-}
-
 std::array<bool, 3> named_linear_axes(const Channel& channel,
                                       klartext::Slice<klartext::Word> words) {
   std::array<bool, 3> named{};
@@ -165,7 +159,7 @@ NcResult<void> execute(Channel& channel, const klartext::Trans& trans) {
     if (trans.reset) return reset_datum_shift(channel);
   }
   if (trans.kind == Transformation::Datum) {
-    const auto axes = axes_of(channel, trans.words);
+    const auto axes = read_axis_words(channel, channel.program().view(trans.words));
     return axes ? shift_datum(channel, *axes) : axes.error();
   }
   if (trans.kind == Transformation::Mirror) {

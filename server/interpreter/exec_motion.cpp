@@ -4,6 +4,7 @@
 #include "interpreter/m_functions.hpp"
 #include "interpreter/motion_words.hpp"
 #include "interpreter/statements.hpp"
+#include "interpreter/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -115,7 +116,12 @@ class Positioning {
     return contour().add(channel_, *std::move(made));
   }
 
+  /// A pole is not moved to, so decision 3 holds for its coordinates.
   NcResult<void> set_pole() {
+    for (const klartext::Word& word : channel_.program().view(motion_.words)) {
+      if (!is_axis(word.letter) || is_absent(word.value)) continue;
+      if (const auto value = number(channel_, word.value); !value) return value.error();
+    }
     const auto end = end_point();
     if (!end) return end.error();
     contour().pole = *end;

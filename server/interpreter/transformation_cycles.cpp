@@ -29,27 +29,12 @@ NcResult<double> value(Channel& channel, Words words, Letter letter, double othe
   return number(channel, word->value);
 }
 
-/// The axis words with their values.
-NcResult<AxisCoordinates> coordinates(Channel& channel, Words words) {
-  AxisCoordinates axes;
-  for (const Word& word : words) {
-    if (!is_axis(word.letter) || is_absent(word.value)) continue;
-    const auto axis = machine_axis(word.letter);
-    if (!axis) return axis.error();
-    const auto value = number(channel, word.value);
-    if (!value) return value.error();
-    const double unit = machine::is_rotary(*axis) ? 1 : channel.length_unit();
-    axes[machine::index(*axis)] = Coordinate{*value * unit, word.incremental};
-  }
-  return axes;
-}
-
 NcResult<void> datum_shift(Channel& channel, Words words) {
   if (const Word* row = find(words, Letter::Row)) {
     const auto value = whole(channel, row->value);
     return value ? shift_datum_to_row(channel, *value) : value.error();
   }
-  const auto axes = coordinates(channel, words);
+  const auto axes = read_axis_words(channel, words);
   return axes ? shift_datum(channel, *axes) : axes.error();
 }
 
@@ -94,7 +79,7 @@ NcResult<void> axis_scaling(Channel& channel, Words words) {
 }
 
 NcResult<void> working_plane_cycle(Channel& channel, Words words) {
-  const auto axes = coordinates(channel, words);
+  const auto axes = read_axis_words(channel, words);
   if (!axes) return axes.error();
   Vec3 angles;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -117,6 +102,20 @@ NcResult<void> program_call(Channel& channel, Words words) {
 }
 
 }  // namespace
+
+NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const Word> words) {
+  AxisCoordinates axes;
+  for (const Word& word : words) {
+    if (!is_axis(word.letter) || is_absent(word.value)) continue;
+    const auto axis = machine_axis(word.letter);
+    if (!axis) return axis.error();
+    const auto value = number(channel, word.value);
+    if (!value) return value.error();
+    const double unit = machine::is_rotary(*axis) ? 1 : channel.length_unit();
+    axes[machine::index(*axis)] = Coordinate{*value * unit, word.incremental};
+  }
+  return axes;
+}
 
 NcResult<void> execute_transformation(Channel& channel, int cycle, Words words) {
   switch (cycle) {

@@ -64,6 +64,32 @@ TEST_CASE("an undefined parameter leaves its axis out of a positioning block") {
         "failed line 3: parameter Q3 is undefined; assign it before this block reads it");
 }
 
+TEST_CASE("a pole and a datum shift do not take an undefined parameter") {
+  const char* text =
+      "failed line 2: parameter Q3 is undefined; assign it before this block reads it";
+  Control control;
+  CHECK(outcome(control.run("CC X+Q3 Y+0")) == text);
+  CHECK(outcome(control.run("CC X+1 IY-Q3")) == text);
+  CHECK(outcome(control.run("TRANS DATUM AXIS X+Q3")) == text);
+}
+
+TEST_CASE("a DIST that ends before the nominal contact is noted") {
+  Control control;
+  control.setup.machine.probes[0].row.distance = 3;
+  control.setup.features = {machine::Block{.min = {0, 0, -40}, .max = {100, 80, 0.1}}};
+  const auto measure = [&control](std::string clearance) {
+    return control.run(
+        "TOOL CALL 30 Z\nTCH PROBE 427 MEASURE COORDINATE ~\n Q263=+50 ~\n Q264=+40 ~\n"
+        " Q261=+0 ~\n Q272=+3 ~\n Q267=-1 ~\n Q260=+50 ~\n Q320=" +
+        clearance);
+  };
+  CHECK(measure("+1").messages.empty());
+  const RunResult result = measure("+1.05");
+  CHECK(outcome(result) == "completed");
+  REQUIRE(result.messages.size() == 1);
+  CHECK(result.messages[0].text.starts_with("DIST = 3 mm ends before SET_UP + Q320 = 3.05 mm"));
+}
+
 TEST_CASE("an INCH program moves in millimetres") {
   Mill mill;
   mill.program("TOOL CALL 5 Z S1000\nL X+1 FMAX\nL X+2 F20", "main.h", true);
