@@ -35,14 +35,16 @@ std::optional<std::string_view> token_of(const http::Request& request) {
   return std::nullopt;
 }
 
-/// A page of another site whose name was made to resolve to this machine addresses it by that name.
-/// An address is no such name, nor is one without a dot: it is of this machine or its network.
-bool addresses_this_machine(const http::Request& request) {
+/// A page of another site whose name was made to resolve to this machine addresses it by that name,
+/// and every write of a page has an Origin. An address is no such name, nor is one without a dot:
+/// it is of this machine or its network.
+bool may_be_rebound(const http::Request& request) {
+  if (is_write(request.method()) && !request.header("Origin")) return false;
   std::string_view host = request.header("Host").value_or("localhost");
-  if (host.starts_with('[')) return true;
+  if (host.starts_with('[')) return false;
   host = host.substr(0, host.find(':'));
-  return host.find('.') == std::string_view::npos ||
-         host.find_first_not_of("0123456789.") == std::string_view::npos;
+  return host.find('.') != std::string_view::npos &&
+         host.find_first_not_of("0123456789.") != std::string_view::npos;
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
     }
     request.set_caller(Caller{caller->name});
   }
-  if (mode_ == AuthMode::Open && request.is_local() && addresses_this_machine(request)) {
+  if (mode_ == AuthMode::Open && request.is_local() && !may_be_rebound(request)) {
     return std::optional<http::Response>();
   }
   const Access access = access_of(route);

@@ -65,9 +65,14 @@ class Open(Callers):
 
     def test_a_name_that_was_made_to_resolve_here_is_remote(self):
         for host in ("rebound.example", "rebound.example:8286", "127.0.0.1.rebound.example"):
-            self.assert_needs_a_key(self.daemon.measure(PART, {"Host": host}))
+            self.assert_needs_a_key(self.daemon.get("/v1/measurements", Host=host))
+            self.assert_needs_a_key(self.daemon.measure(PART, {"Host": host, "Origin": f"http://{host}"}))
+            self.assertEqual(self.daemon.measure(PART, {"Host": host}).status, 201, "no page writes so")
         for host in ("localhost", "LOCALHOST:8286", "127.0.0.1", "0.0.0.0:8286", "[::1]:8286", "gauge-3"):
-            self.assertEqual(self.daemon.measure(PART, {"Host": host}).status, 201, host)
+            self.assertEqual(self.daemon.get("/v1/measurements", Host=host).status, 200, host)
+            origin = f"http://{host.lower()}"
+            self.assertEqual(self.daemon.measure(PART, {"Host": host, "Origin": origin}).status, 201, host)
+
 
 
 class ReadOpen(Callers):
