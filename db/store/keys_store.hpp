@@ -40,8 +40,6 @@ class KeyRing {
   /// The key of this token or none, in a time that depends on the number of keys alone.
   const ApiKey* find(std::string_view token) const;
 
-  bool empty() const { return keys_.empty(); }
-
  private:
   std::vector<ApiKey> keys_;
 };

@@ -64,8 +64,6 @@ std::optional<KnownCaller> KeyService::find(std::string_view token) const {
   return KnownCaller{key->name, static_cast<Role>(key->role)};
 }
 
-bool KeyService::empty() const { return ring_.get()->empty(); }
-
 Result<std::string> KeyService::create(const std::string& name, Role role, std::string token) {
   if (token.empty()) token = store::new_token();
   const auto created = database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {

@@ -50,7 +50,6 @@ class KeyService {
   ~KeyService();
 
   std::optional<KnownCaller> find(std::string_view token) const;
-  bool empty() const;
 
   // These block: for commands, not for I/O threads.
 

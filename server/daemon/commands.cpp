@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include "daemon/application_options.hpp"
 
@@ -11,10 +13,20 @@ namespace {
 
 const SystemClock kClock;
 
-Result<std::unique_ptr<app::Application>> attach(const Config& config) {
+Result<std::unique_ptr<app::Application>> open(const Config& config, bool attach) {
   app::ApplicationOptions options = application_options(config);
-  options.attach = true;
+  options.attach = attach;
   return app::Application::open(options, kClock);
+}
+
+Result<std::unique_ptr<app::Application>> attach(const Config& config) {
+  return open(config, true);
+}
+
+/// Whether the daemon never had this data folder: it is not there, or empty.
+bool is_new(const std::filesystem::path& folder) {
+  std::error_code failure;
+  return !std::filesystem::exists(folder, failure) || std::filesystem::is_empty(folder, failure);
 }
 
 }  // namespace
@@ -44,7 +56,8 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
     return Error{ErrorCode::ConfigInvalid,
                  fmt::format("role is viewer, operator or admin, not '{}'", role)};
   }
-  const auto app = attach(config);
+  // A key may be made before the first start; then the database is made too.
+  const auto app = open(config, !is_new(config.data));
   if (!app) return app.error();
   const auto token = (*app)->keys().create(name, *known);
   if (!token) return token.error();

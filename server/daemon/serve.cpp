@@ -60,10 +60,17 @@ api::AuthMode auth_mode(const Config& config, const std::vector<http::ListenAddr
   return loopback ? api::AuthMode::Open : api::AuthMode::ReadOpen;
 }
 
+constexpr const char* kFirstKey = "admin";
+
 /// The administrator's key of the first start that needs one: from the file, or made and shown
 /// once.
 Result<void> provide_first_key(const Config& config, app::KeyService& keys) {
-  if (!keys.empty()) return {};
+  const auto known = keys.list();
+  if (!known) return known.error();
+  const bool has_one = std::any_of(known->begin(), known->end(), [](const app::KeyEntry& key) {
+    return !key.revoked_at && (key.role == app::Role::Admin || key.name == kFirstKey);
+  });
+  if (has_one) return {};
   std::string token;
   if (!config.admin_key_file.empty()) {
     std::ifstream file(config.admin_key_file);
@@ -74,7 +81,7 @@ Result<void> provide_first_key(const Config& config, app::KeyService& keys) {
                    "admin-key-file " + config.admin_key_file + " holds no key in its first line"};
     }
   }
-  const auto created = keys.create("admin", app::Role::Admin, token);
+  const auto created = keys.create(kFirstKey, app::Role::Admin, token);
   if (!created) return created.error();
   if (token.empty()) {
     std::cout << "fitgauged: the administrator's key, shown this once: " << *created << std::endl;

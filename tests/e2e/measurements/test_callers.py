@@ -176,3 +176,14 @@ class TheFirstKey(Callers):
         self.assertEqual(daemon.get("/v1/measurements", Authorization=f"Bearer {token}").status, 200)
         self.assertNotIn("administrator", daemon.output)
         self.assertEqual(daemon.stop(), 0)
+
+    def test_others_may_be_made_before_the_first_start(self):
+        daemon = Daemon("--auth", "keys")
+        self.addCleanup(daemon.cleanup)
+        made = daemon.command("key", "create", "--name", "press-3", "--role", "operator")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        daemon.start()
+        self.assertEqual(
+            daemon.measure(PART, {"Authorization": f"Bearer {made.stdout.strip()}"}).json["caller"], "press-3")
+        self.assertIn("administrator", daemon.output, "somebody has to have the other rights")
+        self.assertEqual(daemon.stop(), 0)
