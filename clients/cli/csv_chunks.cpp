@@ -7,7 +7,7 @@
 namespace fitgauge::cli {
 namespace {
 
-constexpr std::size_t kReadSize = std::size_t{1} << 20;
+constexpr std::size_t kChunkRead = std::size_t{1} << 20;
 
 std::size_t count_lines(std::string_view text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -56,7 +56,7 @@ std::optional<CsvRecord> first_record(std::string_view text, char separator, boo
 
 Outcome<void> CsvChunks::fill() {
   const std::size_t size = buffer_.size();
-  buffer_.resize(size + kReadSize);
+  buffer_.resize(size + kChunkRead);
   const auto count = read_(std::span(buffer_).subspan(size));
   buffer_.resize(size + (count ? *count : 0));
   if (!count) return count.error();

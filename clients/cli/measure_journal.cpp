@@ -44,7 +44,7 @@ std::string format_position(const CsvPosition& place) {
       .text();
 }
 
-Failure failed(const std::string& path, const char* what) {
+Failure state_failure(const std::string& path, const char* what) {
   return {ExitCode::LocalFile, fmt::format("{}: cannot {}: {}; --state names another file", path,
                                            what, std::strerror(errno))};
 }
@@ -102,7 +102,7 @@ Outcome<MeasureJournal> MeasureJournal::open(const std::string& path) {
   std::error_code ignored;  // what matters is whether the file can be opened
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kPrivate);
-  if (descriptor < 0) return failed(path, "open the state");
+  if (descriptor < 0) return state_failure(path, "open the state");
   MeasureJournal journal(path, descriptor);
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     return Failure{ExitCode::LocalFile,
@@ -126,7 +126,7 @@ Outcome<void> MeasureJournal::read_last_line() {
   if (!text) return text.error();
   const std::size_t end = text->rfind('\n') + 1;  // 0 when there is no whole line
   if (end < text->size() && ftruncate(descriptor_, static_cast<off_t>(end)) != 0) {
-    return failed(path_, "mend the state");
+    return state_failure(path_, "mend the state");
   }
   if (end == 0) return {};
   const std::size_t before = end >= 2 ? text->rfind('\n', end - 2) : std::string::npos;
@@ -144,11 +144,12 @@ Outcome<void> MeasureJournal::append(const MeasureState& state) {
   const ssize_t written = write(descriptor_, line.data(), line.size());
   const bool whole = written == static_cast<ssize_t>(line.size());
   if (whole && fdatasync(descriptor_) == 0) return {};
-  return failed(path_, "write the state");
+  return state_failure(path_, "write the state");
 }
 
 Outcome<void> MeasureJournal::clear() {
-  if (!path_.empty() && ftruncate(descriptor_, 0) != 0) return failed(path_, "clear the state");
+  if (!path_.empty() && ftruncate(descriptor_, 0) != 0)
+    return state_failure(path_, "clear the state");
   state_.reset();
   return {};
 }

@@ -17,7 +17,7 @@ namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kLongestReason = 2000;
-constexpr int kTemperatureScale = 6;
+constexpr int kTemperatureDecimals = 6;
 constexpr std::array<std::string_view, 6> kLimitsFields = {
     "designation", "nominal_mm", "tolerance_class", "feature", "upper_um", "lower_um"};
 
@@ -71,7 +71,7 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     offer(reader, "coverage_factor", format(*original.coverage_factor));
   }
   if (original.temperature) {
-    offer(reader, "temperature_c", format_decimal(*original.temperature, kTemperatureScale));
+    offer(reader, "temperature_c", format_decimal(*original.temperature, kTemperatureDecimals));
   }
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kForEverDays = 100'000;
 
-store::OpenOptions to_store(const ApplicationOptions& options) {
+store::OpenOptions options_of_store(const ApplicationOptions& options) {
   store::OpenOptions open;
   open.directory = options.directory;
   open.access = options.attach ? store::Access::Attach : store::Access::Serve;
@@ -43,7 +43,7 @@ Application::~Application() = default;
 Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions& options,
                                                        const Clock& clock) {
   std::unique_ptr<Application> app(new Application);
-  store::OpenOptions open_options = to_store(options);
+  store::OpenOptions open_options = options_of_store(options);
   open_options.committed = [&signal = app->committed_] { signal.raise(); };
   auto database = store::Database::open(open_options, clock);
   if (!database) return database.error();

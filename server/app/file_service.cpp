@@ -9,7 +9,7 @@ Error unknown(const interpreter::ControlPath& path) {
   return {ErrorCode::FileUnknown, "there is no file " + path.text() + " on the control's disk"};
 }
 
-DiskFile from_store(store::FileEntry entry) {
+DiskFile disk_file(store::FileEntry entry) {
   return {.path = std::move(entry.path),
           .revision = entry.revision,
           .size = entry.size,
@@ -37,7 +37,7 @@ void FileService::read(interpreter::ControlPath path, Done<DiskFile> done) {
       [path = std::move(path)](const store::Stores& stores) -> Result<DiskFile> {
         auto found = stores.files.find(path.text());
         if (!found) return unknown(path);
-        DiskFile file = from_store(std::move(found->entry));
+        DiskFile file = disk_file(std::move(found->entry));
         file.bytes = std::move(found->content);
         return file;
       },
@@ -60,7 +60,7 @@ void FileService::list(std::string prefix, Done<std::vector<DiskFile>> done) {
       [prefix = std::move(prefix)](const store::Stores& stores) -> Result<std::vector<DiskFile>> {
         std::vector<DiskFile> files;
         for (store::FileEntry& entry : stores.files.list(prefix)) {
-          files.push_back(from_store(std::move(entry)));
+          files.push_back(disk_file(std::move(entry)));
         }
         return files;
       },

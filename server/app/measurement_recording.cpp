@@ -80,12 +80,11 @@ MeasurementService::~MeasurementService() = default;
 void MeasurementService::find_answer(const IdempotencyScope& scope,
                                      Done<std::optional<Answer>> done) {
   database_.readers().submit(
-      [request =
-           app::to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
+      [request = to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
         auto found = stores.idempotency.find(request);
         if (!found) return found.error();
         if (!*found) return std::optional<Answer>();
-        return std::optional(app::from_store(**std::move(found)));
+        return std::optional(from_store(**std::move(found)));
       },
       std::move(done));
 }
@@ -97,14 +96,14 @@ void MeasurementService::submit(const std::optional<IdempotencyScope>& scope, Wo
                     std::move(work)](store::Stores& stores) mutable -> Result<store::StoredAnswer> {
     Result<Answer> answer = work(stores);
     if (!answer) return answer.error();
-    return app::to_store(*std::move(answer));
+    return to_store(*std::move(answer));
   };
   auto deliver = [done = std::move(done)](Result<store::StoredAnswer> answer) {
     if (!answer) return done(answer.error());
-    done(app::from_store(*std::move(answer)));
+    done(from_store(*std::move(answer)));
   };
   if (scope) {
-    database_.writer().submit_once(app::to_store(*scope), std::move(store), std::move(deliver));
+    database_.writer().submit_once(to_store(*scope), std::move(store), std::move(deliver));
   } else {
     database_.writer().submit(std::move(store), std::move(deliver));
   }

@@ -12,14 +12,14 @@
 namespace fitgauge::app {
 namespace {
 
-store::MeasurementFilter to_store(const MeasurementQuery& query) {
+store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
   store::MeasurementFilter filter;
   filter.part_id = query.part_id;
   filter.characteristic = query.characteristic;
   filter.order = query.order;
   filter.machine = query.machine;
-  if (query.verdict) filter.verdict = app::to_store(*query.verdict);
-  filter.source = query.source ? std::optional(app::to_store(*query.source)) : std::nullopt;
+  if (query.verdict) filter.verdict = to_store(*query.verdict);
+  filter.source = query.source ? std::optional(to_store(*query.source)) : std::nullopt;
   if (query.from) filter.from_ns = query.from->nanoseconds;
   if (query.to) filter.to_ns = query.to->nanoseconds;
   filter.history = query.history;
@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 10> kSummaryFields = {
 static_assert(static_cast<std::size_t>(store::GroupBy::Caller) + 1 == kSummaryFields.size(),
               "the names stand in the order of store::GroupBy");
 
-MeasurementGroup from_store(store::SummaryGroup group) {
+MeasurementGroup measurement_group(store::SummaryGroup group) {
   return {.value = std::move(group.value),
           .count = group.count,
           .good = group.verdict_count(store::Verdict::Good),
@@ -55,7 +55,7 @@ void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t>
       [this, id, visit = std::move(visit)](const store::Stores& stores) -> Result<std::int64_t> {
         const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
         const bool found = stores.measurements.find(id, [&](const store::MeasurementRow& row) {
-          Measurement measurement = app::from_store(row, ids);
+          Measurement measurement = from_store(row, ids);
           measurement.corrected_by = stores.measurements.corrected_by(id);
           visit(measurement);
         });
@@ -69,13 +69,13 @@ void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t>
 void MeasurementService::list(MeasurementQuery query, std::int64_t after, std::size_t limit,
                               Visitor visit, Done<ListPage> done) {
   database_.readers().submit(
-      [this, filter = to_store(query), after, limit,
+      [this, filter = measurement_filter(query), after, limit,
        visit = std::move(visit)](const store::Stores& stores) mutable -> Result<ListPage> {
         if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
         const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
         const auto next = stores.measurements.list(
             filter, after, limit,
-            [&](const store::MeasurementRow& row) { visit(app::from_store(row, ids)); });
+            [&](const store::MeasurementRow& row) { visit(from_store(row, ids)); });
         return ListPage{.next = next, .as_of = *filter.as_of_id};
       },
       std::move(done));
@@ -89,13 +89,15 @@ void MeasurementService::summary(MeasurementQuery query, std::string_view group_
   }
   const auto group = static_cast<store::GroupBy>(field - kSummaryFields.begin());
   database_.readers().submit(
-      [filter = to_store(query),
+      [filter = measurement_filter(query),
        group](const store::Stores& stores) -> Result<std::vector<MeasurementGroup>> {
         auto groups = stores.measurements.summary(filter, group);
         if (!groups) return groups.error();
         std::vector<MeasurementGroup> mapped;
         mapped.reserve(groups->size());
-        for (store::SummaryGroup& found : *groups) mapped.push_back(from_store(std::move(found)));
+        for (store::SummaryGroup& found : *groups) {
+          mapped.push_back(measurement_group(std::move(found)));
+        }
         return mapped;
       },
       std::move(done));

@@ -22,7 +22,7 @@ constexpr std::size_t kPreparing = 256;
 /// Runs an answer or a start looks at together.
 constexpr std::size_t kPage = 100;
 
-store::RunStatus to_store(RunState state) {
+store::RunStatus run_status(RunState state) {
   switch (state) {
     case RunState::Queued: return store::RunStatus::Queued;
     case RunState::Running: return store::RunStatus::Running;
@@ -35,7 +35,7 @@ store::RunStatus to_store(RunState state) {
   return store::RunStatus::Cancelled;
 }
 
-RunState from_store(store::RunStatus status) {
+RunState run_state(store::RunStatus status) {
   switch (status) {
     case store::RunStatus::Queued: return RunState::Queued;
     case store::RunStatus::Running: return RunState::Running;
@@ -48,9 +48,9 @@ RunState from_store(store::RunStatus status) {
   return RunState::Cancelled;
 }
 
-StoredRun from_store(store::Run run) {
+StoredRun stored_run(store::Run run) {
   StoredRun stored{.id = run.id,
-                   .state = from_store(run.status),
+                   .state = run_state(run.status),
                    .program = std::move(run.program),
                    .request = std::move(run.request),
                    .report = std::move(run.result),
@@ -95,7 +95,7 @@ Result<void> RunService::close_interrupted(RunState state) {
   while (true) {
     const auto page = database_.readers().wait(
         [state](const store::Stores& stores) -> Result<store::RunsStore::Page> {
-          return stores.runs.list({.status = to_store(state)}, {}, kPage);
+          return stores.runs.list({.status = run_status(state)}, {}, kPage);
         });
     if (!page) return page.error();
     for (const store::Run& run : page->runs) {
@@ -162,12 +162,11 @@ Result<ControlTables> RunService::control_tables() try {
 
 Result<std::optional<Answer>> RunService::kept_answer(const IdempotencyScope& scope) {
   return database_.readers().wait(
-      [request =
-           app::to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
+      [request = to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
         auto found = stores.idempotency.find(request);
         if (!found) return found.error();
         if (!*found) return std::optional<Answer>();
-        return std::optional(app::from_store(**std::move(found)));
+        return std::optional(from_store(**std::move(found)));
       });
 }
 
@@ -192,9 +191,9 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
   const auto create = [&](store::Stores& stores) -> Result<store::StoredAnswer> {
     active =
         std::make_shared<ActiveRun>(stores.runs.create(row), shared, Timestamp{row.created_at_ns});
-    return app::to_store(accepted(*active));
+    return to_store(accepted(*active));
   };
-  const auto created = scope ? database_.writer().wait_once(app::to_store(*scope), create)
+  const auto created = scope ? database_.writer().wait_once(to_store(*scope), create)
                              : database_.writer().wait(create);
   if (!created) return created.error();
   if (created->replayed) {
@@ -269,12 +268,12 @@ Result<FinishedRun> RunService::keep(const RunReport& report, const RunTrace& tr
   const std::vector<Measurement> measurements = measurements_of(report, caller);
   std::vector<store::MeasurementRow> rows;
   for (const Measurement& measurement : measurements) {
-    rows.push_back(app::to_store(measurement, std::nullopt));
+    rows.push_back(to_store(measurement, std::nullopt));
   }
   const auto store = [&](store::Stores& stores) -> Result<bool> {
     const std::int64_t now = report.finished_at.nanoseconds;
     const auto closed = stores.runs.finish(report.id,
-                                           {.status = to_store(finished.state),
+                                           {.status = run_status(finished.state),
                                             .result = finished.report,
                                             .trace = trace_text,
                                             .files = files},
@@ -307,7 +306,7 @@ void RunService::find(std::int64_t id, Done<StoredRun> done) {
       [id](const store::Stores& stores) -> Result<StoredRun> {
         auto run = stores.runs.find(id);
         if (!run) return unknown(id);
-        return from_store(*std::move(run));
+        return stored_run(*std::move(run));
       },
       std::move(done));
 }
@@ -339,7 +338,7 @@ void RunService::file(std::int64_t id, std::string name, Done<File> done) {
 void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::size_t limit,
                       Done<Page> done) {
   store::RunFilter filter{.program = std::move(query.program)};
-  if (query.state) filter.status = to_store(*query.state);
+  if (query.state) filter.status = run_status(*query.state);
   database_.readers().submit(
       [filter = std::move(filter), after, limit](const store::Stores& stores) -> Result<Page> {
         store::RunsStore::Page found = stores.runs.list(filter, after, limit);
@@ -347,7 +346,7 @@ void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::si
         for (store::Run& run : found.runs) {
           run.request.clear();
           run.result.clear();
-          page.runs.push_back(from_store(std::move(run)));
+          page.runs.push_back(stored_run(std::move(run)));
         }
         return page;
       },

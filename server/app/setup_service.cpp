@@ -9,7 +9,7 @@ Error unknown(const std::string& name) {
   return {ErrorCode::SetupUnknown, "there is no setup '" + name + "'"};
 }
 
-NamedSetup from_store(store::Setup setup) {
+NamedSetup named_setup(store::Setup setup) {
   return {.name = std::move(setup.name),
           .text = std::move(setup.text),
           .modified_at = {setup.modified_at_ns}};
@@ -18,7 +18,7 @@ NamedSetup from_store(store::Setup setup) {
 Result<NamedSetup> find(const store::Stores& stores, const std::string& name) {
   auto found = stores.setups.find(name);
   if (!found) return unknown(name);
-  return from_store(*std::move(found));
+  return named_setup(*std::move(found));
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ void SetupService::list(Done<std::vector<NamedSetup>> done) {
       [](const store::Stores& stores) -> Result<std::vector<NamedSetup>> {
         std::vector<NamedSetup> setups;
         for (store::Setup& setup : stores.setups.list()) {
-          setups.push_back(from_store(std::move(setup)));
+          setups.push_back(named_setup(std::move(setup)));
         }
         return setups;
       },

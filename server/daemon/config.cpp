@@ -76,7 +76,7 @@ Result<std::string> text_of(const Setting& setting, const toml::node& node) {
   return fmt::format("{}", fmt::join(texts, ","));
 }
 
-std::string quoted(std::string_view text) {
+std::string toml_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -259,10 +259,10 @@ std::string to_toml(const Config& config) {
       out += std::to_string(config.*setting.integer);
     } else if (setting.texts != nullptr) {
       std::vector<std::string> items;
-      for (const std::string& item : config.*setting.texts) items.push_back(quoted(item));
+      for (const std::string& item : config.*setting.texts) items.push_back(toml_string(item));
       out += fmt::format("[{}]", fmt::join(items, ", "));
     } else {
-      out += quoted(config.*setting.text);
+      out += toml_string(config.*setting.text);
     }
     out += '\n';
   }

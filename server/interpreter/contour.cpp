@@ -30,7 +30,7 @@ void set_plane_target(Element& element, const WorkingPlane& plane, Vec2 point) {
   element.target.values[plane.second] = point.y;
 }
 
-void trim(Curve& curve) {
+void set_sweep(Curve& curve) {
   if (!curve.is_arc()) return;
   curve.sweep_deg = sweep(curve.start, curve.end, *curve.centre, curve.is_left_turn());
 }
@@ -118,10 +118,10 @@ NcResult<void> Contour::turn_corner(Channel& channel, Element& next) {
   }
   const WorkingPlane plane = working_plane(channel);
   before.curve.end = between->start;
-  trim(before.curve);
+  set_sweep(before.curve);
   set_plane_target(before, plane, between->start);
   next.curve.start = between->end;
-  trim(next.curve);
+  set_sweep(next.curve);
   const machine::Feed feed = corner->feed.value_or(before.feed);
   if (auto done = move(channel, before); !done) return done;
   return move(channel, along(*between, plane, feed));

@@ -19,7 +19,7 @@ Statement motion(BlockReader& in) {
 }
 
 /// The first words of blocks, the most frequent ones first.
-constexpr Keyword kKeywords[] = {
+constexpr Keyword kBlockKeywords[] = {
     {"L", motion<Path::L>},
     {"FN", parse_fn},
     {"C", motion<Path::C>},
@@ -107,7 +107,7 @@ Statement parse_statement(BlockReader& in) {
   const char* begin = in.at();
   const std::string_view name = in.letters();
   in.move_to(begin + name.size());
-  for (const Keyword& keyword : kKeywords) {
+  for (const Keyword& keyword : kBlockKeywords) {
     if (ascii_iequals(keyword.name, name)) return keyword.parse(in);
   }
   if (ascii_iequals(name, "ERROR")) return parse_error_block(in);

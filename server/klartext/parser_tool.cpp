@@ -5,7 +5,7 @@
 namespace fitgauge::klartext {
 namespace {
 
-constexpr LetterSet kCallWords = kFeeds | LetterSet(Letter::S, Letter::Dl, Letter::Dr, Letter::Dr2);
+constexpr LetterSet kToolWords = kFeeds | LetterSet(Letter::S, Letter::Dl, Letter::Dr, Letter::Dr2);
 constexpr LetterSet kDefinitionWords(Letter::L, Letter::R);
 
 /// `5`, `5.1`, `Q5`, `"NAME"`, `QS1`; Absent when none of them is next.
@@ -31,7 +31,7 @@ Statement parse_tool_call(BlockReader& in) {
   ToolCall call;
   call.tool = parse_tool_name(in);
   call.axis = parse_axis_alone(in);
-  call.words = parse_words(in, kCallWords);
+  call.words = parse_words(in, kToolWords);
   return call;
 }
 

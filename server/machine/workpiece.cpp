@@ -14,24 +14,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kOnBoundary = 1e-9;  ///< mm: what counts as lying on a face
 
-/// A bore as one of the solids before it sees it.
-struct Cut {
-  std::shared_ptr<const BoreVoid> bore;
-  bool is_through = false;  ///< no material of that solid lies below the bottom
-
-  /// Positive inside the void: how deep below the nearer of wall and bottom.
-  Field field(const Vec3& at) const {
-    const Field wall = bore->wall(at);
-    if (is_through) return wall;
-    const Field floor = bore->floor(at);
-    return floor.distance < wall.distance ? floor : wall;
-  }
-  double bound(const Vec3& at) const {
-    const double wall = bore->wall_bound(at);
-    return is_through ? wall : std::min(wall, bore->floor(at).distance);
-  }
-};
-
 /// The point nearest to `at` on the edge where two boundaries meet, searched from `from`: projects
 /// `at` onto the line in which the tangent planes meet, until that moves no more.
 /// Nothing when it does not settle or the edge is not the nearest place of its surroundings.
@@ -65,6 +47,24 @@ std::optional<Vec3> nearest_on_edge(const Vec3& at, Vec3 from, const First& firs
 
 /// One solid less the bores after it.
 struct Workpiece::Part {
+  /// A bore as one of the solids before it sees it.
+  struct Cut {
+    std::shared_ptr<const BoreVoid> bore;
+    bool is_through = false;  ///< no material of that solid lies below the bottom
+
+    /// Positive inside the void: how deep below the nearer of wall and bottom.
+    Field field(const Vec3& at) const {
+      const Field wall = bore->wall(at);
+      if (is_through) return wall;
+      const Field floor = bore->floor(at);
+      return floor.distance < wall.distance ? floor : wall;
+    }
+    double bound(const Vec3& at) const {
+      const double wall = bore->wall_bound(at);
+      return is_through ? wall : std::min(wall, bore->floor(at).distance);
+    }
+  };
+
   std::unique_ptr<const Solid> solid;
   std::vector<Cut> cuts;
 

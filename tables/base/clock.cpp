@@ -8,8 +8,6 @@
 namespace fitgauge {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-
 /// Walks over a fixed-form text; once a part did not match, `ok` stays false.
 class Reader {
  public:
@@ -44,7 +42,7 @@ class Reader {
   std::int64_t fraction() {
     if (!at_digit()) return fail();
     std::int64_t value = 0;
-    std::int64_t unit = kSecond / 10;
+    std::int64_t unit = kNanosecondsPerSecond / 10;
     while (at_digit()) {
       const int digit = take() - '0';
       if (unit == 0 && digit != 0) return fail();
@@ -131,7 +129,7 @@ Result<Timestamp> parse_rfc3339(std::string_view text) {
   }
   const std::int64_t seconds =
       days.time_since_epoch().count() * std::int64_t{86'400} + minute_of_day * 60 + second;
-  return Timestamp{seconds * kSecond + fraction};
+  return Timestamp{seconds * kNanosecondsPerSecond + fraction};
 }
 
 CivilTime civil_time(Timestamp time) {

@@ -7,8 +7,7 @@
 namespace fitgauge {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kDay = 86'400 * kSecond;
+constexpr std::int64_t kDay = 86'400 * kNanosecondsPerSecond;
 
 }  // namespace
 
@@ -37,10 +36,10 @@ std::optional<std::string> ForwardClock::follow(std::int64_t other_ns) const {
     const bool too_far = behind > kDay;
     set_back_ = too_far ? std::nullopt : std::optional(SetBack{other_ns, given_ns_});
     if (too_far) given_ns_ = other_ns;
-    if (behind >= kSecond) {
+    if (behind >= kNanosecondsPerSecond) {
       message = fmt::format(
           "the machine's clock says {}, {} s before a time that was recorded: {}",
-          format_rfc3339({other_ns}), behind / kSecond,
+          format_rfc3339({other_ns}), behind / kNanosecondsPerSecond,
           too_far ? "it is taken as it is" : "times go on at half speed until it has caught up");
     }
   }

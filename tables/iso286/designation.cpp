@@ -12,8 +12,6 @@ namespace {
 /// Ø, ø and the diameter sign ⌀.
 constexpr std::array<std::string_view, 3> kDiameterSigns = {"\xC3\x98", "\xC3\xB8", "\xE2\x8C\x80"};
 
-constexpr bool is_letter(char c) { return ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z'; }
-
 Error malformed(ErrorCode code, std::string_view text, std::string_view what) {
   constexpr std::size_t kShown = 40;
   const std::string shown(text.substr(0, kShown));
@@ -32,7 +30,7 @@ std::string_view without_diameter_sign(std::string_view text) {
 Result<Designation> parse_designation(std::string_view text) {
   constexpr std::string_view kRemedy = "is not a nominal size and a tolerance class such as 25 H7";
   const std::string_view body = without_diameter_sign(text);
-  const auto* const letter = std::find_if(body.begin(), body.end(), is_letter);
+  const auto* const letter = std::find_if(body.begin(), body.end(), is_ascii_letter);
   const auto split = static_cast<std::size_t>(letter - body.begin());
   const std::string_view name = body.substr(split);
   const std::string_view size_text = trim(body.substr(0, split));

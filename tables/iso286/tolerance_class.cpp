@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/text.hpp"
+
 namespace fitgauge::iso286 {
 namespace {
 
-constexpr std::array<std::string_view, kGradeCount> kGrades = {
+constexpr std::array<std::string_view, kGradeCount> kGradeTexts = {
     "01", "0",  "1",  "2",  "3",  "4",  "5",  "6",  "7",  "8",
     "9",  "10", "11", "12", "13", "14", "15", "16", "17", "18"};
 constexpr std::array<std::string_view, kLetterCount> kHoleLetters = {
@@ -28,15 +30,14 @@ std::optional<Enum> find(const std::array<std::string_view, Count>& texts, std::
 }
 
 constexpr bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
-constexpr bool is_letter(char c) { return is_upper(c) || (c >= 'a' && c <= 'z'); }
 constexpr bool is_name_character(char c) {
-  return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
+  return is_ascii_letter(c) || (c >= '0' && c <= '9') || c == '_';
 }
 
 }  // namespace
 
 std::string_view text(StandardToleranceGrade grade) {
-  return kGrades[static_cast<std::size_t>(grade)];
+  return kGradeTexts[static_cast<std::size_t>(grade)];
 }
 
 std::string_view text(DeviationLetter letter, Feature feature) {
@@ -54,14 +55,14 @@ std::optional<ToleranceClass> class_from_name(std::string_view name) {
   if (digits == 0) return std::nullopt;
   const Feature feature = is_upper(name.front()) ? Feature::Hole : Feature::Shaft;
   const auto letter = find<DeviationLetter>(letters(feature), name.substr(0, digits));
-  const auto grade = find<StandardToleranceGrade>(kGrades, name.substr(digits));
+  const auto grade = find<StandardToleranceGrade>(kGradeTexts, name.substr(digits));
   if (!letter || !grade) return std::nullopt;
   return ToleranceClass{feature, *letter, *grade};
 }
 
 bool is_class_name(std::string_view name) {
   constexpr std::size_t kLongestName = 16;
-  return !name.empty() && name.size() <= kLongestName && is_letter(name.front()) &&
+  return !name.empty() && name.size() <= kLongestName && is_ascii_letter(name.front()) &&
          std::all_of(name.begin(), name.end(), is_name_character);
 }
 

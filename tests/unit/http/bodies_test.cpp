@@ -28,7 +28,7 @@ std::string gzip(std::string_view text) {
 
 constexpr std::size_t kLimit = 100'000;
 
-std::vector<Route> routes() {
+std::vector<Route> body_routes() {
   const BodyRules json{
       .use = BodyUse::Required, .media_types = {"application/json"}, .limit = kLimit};
   return {echo(Method::Post, "/json", json),
@@ -53,7 +53,7 @@ std::string chunk(std::string_view bytes) {
 }  // namespace
 
 TEST_CASE("a body arrives whole, however it is cut") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   for (const std::size_t size : {1U, 100U, 4096U, 20'000U, 100'000U}) {
     std::string body(size, 'x');
     for (std::size_t i = 0; i < size; ++i) body[i] = static_cast<char>('a' + i % 26);
@@ -69,7 +69,7 @@ TEST_CASE("a body arrives whole, however it is cut") {
 }
 
 TEST_CASE("a chunked body arrives whole, with extensions and trailers skipped") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   Client client = server.connect();
   CHECK(client.ask(chunked("/json", "5\r\nhello\r\n6;a=b;c=\"d\"\r\n world\r\n0\r\n\r\n"))->body ==
         "hello world");
@@ -93,7 +93,7 @@ TEST_CASE("a chunked body arrives whole, with extensions and trailers skipped") 
 }
 
 TEST_CASE("a required body without a length is 411") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   const Answer answer =
       server.ask("POST /json HTTP/1.1\r\nHost: h\r\nContent-Type: application/json\r\n\r\n");
   CHECK(answer.status == 411);
@@ -103,7 +103,7 @@ TEST_CASE("a required body without a length is 411") {
 }
 
 TEST_CASE("a media type that the route does not take is 415") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   const auto status = [&](std::string_view type) {
     return server.ask(post("/json", type, "{}")).status;
   };
@@ -125,7 +125,7 @@ TEST_CASE("a media type that the route does not take is 415") {
 }
 
 TEST_CASE("the next request works after a refusal whose body was there already") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   Client client = server.connect();
   CHECK(client.ask(post("/json", "text/plain", "some text") + get("/none"))->status == 415);
   CHECK(client.read()->status == 200);
@@ -134,7 +134,7 @@ TEST_CASE("the next request works after a refusal whose body was there already")
 }
 
 TEST_CASE("a body over the limit is 413 at the header when its length says so") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   Client client = server.connect();
   client.send(
       "POST /json HTTP/1.1\r\nHost: h\r\nContent-Type: application/json\r\nContent-Length: "
@@ -147,7 +147,7 @@ TEST_CASE("a body over the limit is 413 at the header when its length says so") 
 }
 
 TEST_CASE("a refused body that is still being sent does not cost the client its answer") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   Client client = server.connect();
   client.send(post("/json", "application/json", std::string(900'000, 'x')));
   const auto answer = client.read();
@@ -156,13 +156,13 @@ TEST_CASE("a refused body that is still being sent does not cost the client its 
 }
 
 TEST_CASE("a chunked body over the limit is 413") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   CHECK(server.ask(chunked("/json", chunk(std::string(kLimit + 1, 'x')))).status == 413);
   CHECK(server.ask(chunked("/none", "", "")).status == 405);
 }
 
 TEST_CASE("a body that the route has no use for is read and thrown away") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   Client client = server.connect();
   client.send("GET /none HTTP/1.1\r\nHost: h\r\nContent-Length: 50000\r\n\r\n");
   client.send(std::string(50'000, 'x') + get("/none"));
@@ -173,7 +173,7 @@ TEST_CASE("a body that the route has no use for is read and thrown away") {
 }
 
 TEST_CASE("gzip bodies are read, the limit counts what comes out") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   const auto ask = [&](std::string_view body) {
     return server.ask(post("/json", "application/json", body, "Content-Encoding: gzip\r\n"));
   };
@@ -200,7 +200,7 @@ TEST_CASE("gzip bodies are read, the limit counts what comes out") {
 }
 
 TEST_CASE("another content coding is 415 and names the one that is read") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   for (const char* coding : {"br", "deflate", "gzip, gzip", "gzip, identity"}) {
     const Answer answer = server.ask(
         post("/json", "application/json", "{}", fmt::format("Content-Encoding: {}\r\n", coding)));
@@ -213,7 +213,7 @@ TEST_CASE("another content coding is 415 and names the one that is read") {
 }
 
 TEST_CASE("100 (Continue) comes after the checks and before the body") {
-  TestServer server(routes());
+  TestServer server(body_routes());
   const auto head = [](std::string_view type, std::string_view expect) {
     return fmt::format(
         "POST /json HTTP/1.1\r\nHost: h\r\nContent-Type: {}\r\nContent-Length: 5\r\nExpect: "

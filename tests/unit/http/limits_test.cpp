@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kLimit = 1'000'000;
 
-std::vector<Route> routes() {
+std::vector<Route> limited_routes() {
   return {echo(Method::Get, "/a"),
           echo(Method::Post, "/p", {.use = BodyUse::Optional, .limit = kLimit}),
           {.pattern = "/large",
@@ -43,7 +43,7 @@ std::string post_head(std::size_t length) {
 }  // namespace
 
 TEST_CASE("an idle connection is closed without a word") {
-  TestServer server(routes(), quick());
+  TestServer server(limited_routes(), quick());
   Client fresh = server.connect();
   Client used = server.connect();
   CHECK(used.ask(get("/a"))->status == 200);
@@ -52,7 +52,7 @@ TEST_CASE("an idle connection is closed without a word") {
 }
 
 TEST_CASE("a head that does not end is 408, also when it drips") {
-  TestServer server(routes(), quick());
+  TestServer server(limited_routes(), quick());
   Client silent = server.connect();
   silent.send("GET /a HTT");
   Client dripping = server.connect();
@@ -74,7 +74,7 @@ TEST_CASE("a head that does not end is 408, also when it drips") {
 
 TEST_CASE(
     "the deadline of a request holds for the whole of it: dripping a body does not renew it") {
-  TestServer server(routes(), quick());
+  TestServer server(limited_routes(), quick());
   for (const bool chunked : {false, true}) {
     Client client = server.connect();
     client.send(chunked ? "POST /p HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n"
@@ -92,7 +92,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a reader that takes nothing is dropped") {
-  TestServer server(routes(), quick());
+  TestServer server(limited_routes(), quick());
   Client client = server.connect();
   client.send(get("/large"));
   std::this_thread::sleep_for(1s);
@@ -103,7 +103,7 @@ TEST_CASE("a reader that takes nothing is dropped") {
 TEST_CASE("connections beyond the cap are answered 503 and closed") {
   ServerOptions options;
   options.max_connections = 2;
-  TestServer server(routes(), options);
+  TestServer server(limited_routes(), options);
   Client first = server.connect();
   Client second = server.connect();
   CHECK(first.ask(get("/a"))->status == 200);
@@ -121,7 +121,7 @@ TEST_CASE("connections beyond the cap are answered 503 and closed") {
 TEST_CASE("half-sent large bodies hold no more than the budget, and others are served meanwhile") {
   ServerOptions options;
   options.body_budget = 2'500'000;  // two bodies and a half
-  TestServer server(routes(), options);
+  TestServer server(limited_routes(), options);
   std::vector<Client> stalled;
   for (int i = 0; i < 20; ++i) {
     stalled.push_back(server.connect());
@@ -140,7 +140,7 @@ TEST_CASE("half-sent large bodies hold no more than the budget, and others are s
 TEST_CASE("a body that waits too long for memory is 503") {
   ServerOptions options = quick();
   options.body_budget = 500'000;
-  TestServer server(routes(), options);
+  TestServer server(limited_routes(), options);
   const Answer answer = server.ask(post("/p", "text/plain", std::string(600'000, 'x')));
   CHECK(answer.status == 503);
   CHECK(answer.body.starts_with("service.overloaded"));
@@ -150,7 +150,7 @@ TEST_CASE("a body that waits too long for memory is 503") {
 TEST_CASE("chunked bodies take their budget as they grow and give it back") {
   ServerOptions options;
   options.body_budget = kLimit;
-  TestServer server(routes(), options);
+  TestServer server(limited_routes(), options);
   const std::string body(kLimit, 'c');
   const std::string request = "POST /p HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n" +
                               fmt::format("{:x}\r\n{}\r\n0\r\n\r\n", body.size(), body);

@@ -27,7 +27,7 @@ Result<Response> describe(const Request& request) {
   return Response(200, "text/plain", text);
 }
 
-std::vector<Route> routes() {
+std::vector<Route> parameter_routes() {
   return {
       {.pattern = "/q",
        .handler = SyncHandler(describe),
@@ -58,7 +58,7 @@ std::vector<Route> routes() {
 }  // namespace
 
 TEST_CASE("typed query parameters reach the handler as values") {
-  TestServer server(routes());
+  TestServer server(parameter_routes());
   const auto body = [&](std::string_view query) {
     const Answer answer = server.ask(get("/q?" + std::string(query)));
     CHECK(answer.status == 200);
@@ -81,7 +81,7 @@ TEST_CASE("typed query parameters reach the handler as values") {
 }
 
 TEST_CASE("a query that does not fit the table is refused with its code") {
-  TestServer server(routes());
+  TestServer server(parameter_routes());
   const auto refusal = [&](std::string_view target, int status) {
     const Answer answer = server.ask(get(target));
     CHECK(answer.status == status);
@@ -114,7 +114,7 @@ TEST_CASE("a query that does not fit the table is refused with its code") {
 }
 
 TEST_CASE("reading a parameter that the route does not declare is a defect: 500") {
-  TestServer server(routes());
+  TestServer server(parameter_routes());
   CHECK(server.ask(get("/wrong")).status == 500);
   CHECK(server.ask(get("/id/1")).status == 200);
 }

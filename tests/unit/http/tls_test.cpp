@@ -68,7 +68,7 @@ TlsAnswer ask(std::uint16_t port, std::string_view request, const TlsFiles* iden
   return answer;
 }
 
-std::vector<Route> routes() {
+std::vector<Route> tls_routes() {
   return {{.pattern = "/who",
            .handler = [](const Request& request) -> Result<Response> {
              return Response(200, "text/plain",
@@ -96,7 +96,7 @@ const std::string kLast = "Connection: close\r\n";
 
 TEST_CASE("requests are served over TLS and the connection ends cleanly") {
   const TlsFiles files("gauge-1");
-  TestServer server(routes(), with({files.certificate(), files.key()}));
+  TestServer server(tls_routes(), with({files.certificate(), files.key()}));
   const TlsAnswer answer = ask(server.port(), get("/who") + get("/who", kLast));
   CHECK(answer.server_name == "gauge-1");
   CHECK(answer.ended_cleanly);
@@ -108,7 +108,7 @@ TEST_CASE("requests are served over TLS and the connection ends cleanly") {
 
 TEST_CASE("a plain client on a TLS port harms nobody") {
   const TlsFiles files("gauge-1");
-  TestServer server(routes(), with({files.certificate(), files.key()}));
+  TestServer server(tls_routes(), with({files.certificate(), files.key()}));
   Client plain = server.connect();
   plain.send(get("/who"));
   plain.read_to_end();
@@ -121,14 +121,14 @@ TEST_CASE("the subject of a client certificate is known when its issuer is trust
   const TlsFiles stranger("stranger");
   TlsOptions options{files.certificate(), files.key(), press.certificate(), false};
   {
-    TestServer server(routes(), with(options));
+    TestServer server(tls_routes(), with(options));
     CHECK(ask(server.port(), get("/who", kLast), &press).bytes.find("tls [CN=press-3]") !=
           std::string::npos);
     CHECK(ask(server.port(), get("/who", kLast)).bytes.find("tls []") != std::string::npos);
     CHECK(ask(server.port(), get("/who", kLast), &stranger).bytes.empty());
   }
   options.require_client_certificate = true;
-  TestServer server(routes(), with(options));
+  TestServer server(tls_routes(), with(options));
   CHECK(ask(server.port(), get("/who", kLast), &press).bytes.find("tls [CN=press-3]") !=
         std::string::npos);
   CHECK(ask(server.port(), get("/who", kLast)).bytes.empty());
@@ -136,7 +136,7 @@ TEST_CASE("the subject of a client certificate is known when its issuer is trust
 
 TEST_CASE("new certificate files are used after reload_tls, unusable ones are not") {
   const TlsFiles files("old");
-  TestServer server(routes(), with({files.certificate(), files.key()}));
+  TestServer server(tls_routes(), with({files.certificate(), files.key()}));
   files.renew("new");
   CHECK(ask(server.port(), get("/who", kLast)).server_name == "old");
   CHECK(server.server().reload_tls().has_value());

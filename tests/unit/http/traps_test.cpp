@@ -13,7 +13,7 @@ using namespace fitgauge::http::test;
 
 namespace {
 
-std::vector<Route> routes() {
+std::vector<Route> trap_routes() {
   return {echo(Method::Get, "/a"), echo(Method::Post, "/p", {.use = BodyUse::Optional}),
           echo(Method::Get, "/smuggled")};
 }
@@ -21,7 +21,7 @@ std::vector<Route> routes() {
 /// Sends `request` followed by a smuggled GET: exactly one answer comes, then the end.
 void check_refused(std::string_view request, int status, std::string_view code) {
   CAPTURE(request.substr(0, 200));
-  TestServer server(routes());
+  TestServer server(trap_routes());
   Client client = server.connect();
   client.send(std::string(request) + get("/smuggled"));
   const auto answer = client.read();
@@ -104,7 +104,7 @@ TEST_CASE("a missing, repeated or malformed Host is refused") {
 }
 
 TEST_CASE("a Host of every valid form is taken") {
-  TestServer server(routes());
+  TestServer server(trap_routes());
   for (const char* host :
        {"localhost", "localhost:8286", "10.0.0.1:80", "[::1]", "[::1]:8286", "a-b.example", "h:"}) {
     CAPTURE(host);
@@ -133,7 +133,7 @@ TEST_CASE("a target longer than 8 KiB is 414, one of 8 KiB is read") {
   check_refused("GET /" + std::string(8192, 'a') + " HTTP/1.1\r\nHost: h\r\n\r\n", 414,
                 "request.target_too_long");
   check_refused("GET /" + std::string(100'000, 'a'), 414, "request.target_too_long");
-  TestServer server(routes());
+  TestServer server(trap_routes());
   CHECK(server.ask(get("/a?" + std::string(8192 - 3, 'a'))).status == 200);
 }
 
@@ -146,13 +146,13 @@ TEST_CASE("a header section over 32 KiB or 100 fields is 431") {
   for (int i = 0; i < 99; ++i) many += "X: y\r\n";
   check_refused("GET /a HTTP/1.1\r\nHost: h\r\n" + many + "X: y\r\n\r\n", 431,
                 "request.header_too_large");
-  TestServer server(routes());
+  TestServer server(trap_routes());
   CHECK(server.ask("GET /a HTTP/1.1\r\nHost: h\r\n" + many + "\r\n").status == 200);
   CHECK(server.ask(get("/a", "X: " + std::string(32 * 1024 - 64, 'x') + "\r\n")).status == 200);
 }
 
 TEST_CASE("a long head sent byte by byte and together with others is read as one") {
-  TestServer server(routes());
+  TestServer server(trap_routes());
   Client client = server.connect();
   const std::string request = get("/a", "X: " + std::string(9000, 'x') + "\r\nY: z\r\n");
   client.send(get("/a") + request.substr(0, 3000));
@@ -186,7 +186,7 @@ TEST_CASE("a chunked body that is malformed is refused") {
 }
 
 TEST_CASE("empty lines before a request are skipped") {
-  TestServer server(routes());
+  TestServer server(trap_routes());
   CHECK(server.ask("\r\n\r\n" + get("/a")).status == 200);
   Client client = server.connect();
   client.send("\r");
@@ -196,7 +196,7 @@ TEST_CASE("empty lines before a request are skipped") {
 
 TEST_CASE("a request in absolute-form is served, its authority replaces the Host field") {
   std::string origin;
-  std::vector<Route> table = routes();
+  std::vector<Route> table = trap_routes();
   table.push_back({.pattern = "/origin",
                    .handler = [&](const Request& request) -> Result<Response> {
                      return Response(200, "text/plain", request.own_origin());
@@ -213,7 +213,7 @@ TEST_CASE("a request in absolute-form is served, its authority replaces the Host
 }
 
 TEST_CASE("HTTP/1.0 closes unless it asks to keep the connection") {
-  TestServer server(routes());
+  TestServer server(trap_routes());
   {
     Client client = server.connect();
     CHECK(client.ask("GET /a HTTP/1.0\r\n\r\n")->field("Connection") == "close");
@@ -228,7 +228,7 @@ TEST_CASE("HTTP/1.0 closes unless it asks to keep the connection") {
 }
 
 TEST_CASE("Connection: close is honoured and answered") {
-  TestServer server(routes());
+  TestServer server(trap_routes());
   Client client = server.connect();
   client.send(get("/a", "Connection: close\r\n") + get("/a"));
   CHECK(client.read()->field("Connection") == "close");

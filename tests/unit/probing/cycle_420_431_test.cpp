@@ -8,7 +8,7 @@ namespace {
 using machine::Plane;
 
 /// Material beyond an edge 30 mm from the zero, at an angle to the main axis.
-std::vector<machine::Feature> edge_at(double angle_deg) {
+std::vector<machine::Feature> edge_features(double angle_deg) {
   const auto [sine, cosine] = machine::sine_cosine(angle_deg);
   const machine::Vec3 normal{sine, -cosine, 0};
   return {Plane{.point = normal * -30, .normal = normal}};
@@ -21,7 +21,7 @@ TEST_CASE("420 measures the angle of an edge to the main axis") {
                           {272, 2.0},  {267, 1.0},  {261, 0.0},  {260, 100.0},
                           {301, 1.0},  {281, 1.0},  {320, 5.0}};
   for (const double angle : {0.0, 1.5, -2.25}) {
-    ProbingBench bench(edge_at(angle));
+    ProbingBench bench(edge_features(angle));
     CHECK(bench.run(420, along_main) == 0);
     CHECK(std::abs(bench.host.q[150] - angle) < 1e-7);
     CHECK(bench.host.files.at("TCHPR420.TXT").find("Measured angle:") != std::string::npos);
@@ -30,7 +30,7 @@ TEST_CASE("420 measures the angle of an edge to the main axis") {
   const Values across{{263, -30.0}, {264, 10.0}, {265, -30.0}, {266, 60.0}, {272, 1.0},
                       {267, -1.0},  {261, 0.0},  {260, 100.0}, {320, 5.0},  {281, 0.0}};
   for (const double angle : {90.0, 91.5, 88.0}) {
-    ProbingBench bench(edge_at(angle));
+    ProbingBench bench(edge_features(angle));
     bench.host.q[180] = 1;
     CHECK(bench.run(420, across) == 0);
     CHECK(bench.host.q[180] == 1);
@@ -58,7 +58,7 @@ TEST_CASE("420 in the probe axis measures the slope along the axis in which the 
 }
 
 TEST_CASE("420: errors") {
-  ProbingBench bench(edge_at(0));
+  ProbingBench bench(edge_features(0));
   const Values block{{263, 10.0}, {264, 30.0}, {265, 10.0}, {266, 30.0},
                      {272, 2.0},  {267, 1.0},  {261, 0.0},  {260, 100.0}};
   CHECK(bench.run(420, block) == 1081);

@@ -5,7 +5,7 @@
 namespace fitgauge::probing {
 namespace {
 
-const machine::Block kPlate{.min = {0, 0, -40}, .max = {100, 80, 0.013}};
+const machine::Block kRaisedPlate{.min = {0, 0, -40}, .max = {100, 80, 0.013}};
 
 Values top_block() {
   return {{263, 50.0}, {264, 40.0}, {261, 0.0},  {272, 3.0},
@@ -26,7 +26,7 @@ Values side_block(double axis, double direction, double coordinate) {
 
 TEST_CASE("427 in the probe axis: the surface, whether Q261 names it or the ball centre on it") {
   for (const double q261 : {0.0, 2.0, 1.0}) {
-    ProbingBench bench({kPlate});
+    ProbingBench bench({kRaisedPlate});
     CHECK(bench.run(427, with(top_block(), {{261, q261}})) == 0);
     CHECK(same(bench.host.q[160], 0.013));
     CHECK(same(bench.host.q[168], 0.013 - q261));
@@ -43,7 +43,7 @@ TEST_CASE("427 assumes an outside dimension: too large is rework, too small reje
   };
   for (const Case& c : {Case{0.013, -0.1, 100}, Case{0.1, 0.013, 100}, Case{0.0129, -0.1, 10},
                         Case{0.1, 0.0131, 1}, Case{0, 0, 100}}) {
-    ProbingBench bench({kPlate});
+    ProbingBench bench({kRaisedPlate});
     const Values block = with(top_block(), {{288, c.maximum}, {289, c.minimum}, {309, 1.0}});
     CHECK(bench.run(427, block) == (c.status == 100 ? 0 : 1072));
     CHECK(bench.status() == c.status);
@@ -51,7 +51,7 @@ TEST_CASE("427 assumes an outside dimension: too large is rework, too small reje
 }
 
 TEST_CASE("427 in the plane, from both sides") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kRaisedPlate});
   CHECK(bench.run(427, side_block(1, 1, 0)) == 0);
   CHECK(same(bench.host.q[160], 0));
   CHECK(bench.run(427, side_block(1, -1, 100)) == 0);
@@ -65,7 +65,7 @@ TEST_CASE("427 in the plane, from both sides") {
 }
 
 TEST_CASE("427 corrects the length of a tool in the probe axis, its radius across it") {
-  machine::Setup setup{.machine = {}, .features = {kPlate}};
+  machine::Setup setup{.machine = {}, .features = {kRaisedPlate}};
   machine::ToolSetup mill;
   mill.row.number = 7;
   mill.row.l = 80;
@@ -84,7 +84,7 @@ TEST_CASE("427 corrects the length of a tool in the probe axis, its radius acros
 }
 
 TEST_CASE("the positioning logic lifts a probe below the clearance height first") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kRaisedPlate});
   machine::AxisWords low;
   low[machine::Axis::X] = -20.0;
   low[machine::Axis::Z] = -20.0;

@@ -12,7 +12,7 @@ using machine::unit;
 using machine::Vec3;
 
 /// A point on the upper face of a plate.
-Values top_block() {
+Values top_point() {
   return {{263, 50.0}, {264, 40.0}, {294, 0.0},
           {581, 0.0},  {582, 0.0},  {583, 1.0},
           {260, 50.0}, {309, 0.0},  {400, std::string("0.4-0.1")}};
@@ -53,12 +53,6 @@ void turn(machine::Machine& machine, double a) {
   REQUIRE(machine.move({words, {}}).has_value());
 }
 
-const std::string& log_of(ProbingBench& bench) { return bench.host.files.at("TCHPR444.html"); }
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("444: good, rework and reject along the normal, limits inclusive, and what stops") {
@@ -73,11 +67,11 @@ TEST_CASE("444: good, rework and reject along the normal, limits inclusive, and 
                         Case{-0.1001, 2, 1072, 1072}, Case{-9, 2, 1072, 1072}}) {
     CAPTURE(c.deviation);
     ProbingBench bench({plate(c.deviation)});
-    CHECK(bench.run(444, top_block()) == 0);
+    CHECK(bench.run(444, top_point()) == 0);
     CHECK(bench.host.q[183] == c.status);
     check_results(bench, {50, 40, 0}, {0, 0, 1}, c.deviation);
-    CHECK(bench.run(444, with(top_block(), {{309, 1.0}})) == c.error_of_1);
-    CHECK(bench.run(444, with(top_block(), {{309, 2.0}})) == c.error_of_2);
+    CHECK(bench.run(444, with(top_point(), {{309, 1.0}})) == c.error_of_1);
+    CHECK(bench.run(444, with(top_point(), {{309, 2.0}})) == c.error_of_2);
     CHECK(bench.fault.kind ==
           (c.error_of_1 == 0 ? CycleFaultKind::Error : CycleFaultKind::ToleranceStop));
     CHECK(bench.host.q[183] == c.status);
@@ -88,29 +82,29 @@ TEST_CASE("444: good, rework and reject along the normal, limits inclusive, and 
 
 TEST_CASE("444: one nanometre decides") {
   ProbingBench bench({plate(0.400001)});
-  CHECK(bench.run(444, top_block()) == 0);
+  CHECK(bench.run(444, top_point()) == 0);
   CHECK(bench.host.q[183] == 1);
-  CHECK(bench.run(444, with(top_block(), {{400, std::string("0.400001")}})) == 0);
+  CHECK(bench.run(444, with(top_point(), {{400, std::string("0.400001")}})) == 0);
   CHECK(bench.host.q[183] == 0);
 }
 
 TEST_CASE("444 without a tolerance: undefined status, no stop, no verdict") {
   for (const char* text : {"", " ", "0", "0.1+0.1"}) {
     ProbingBench bench({plate(-2)});
-    CHECK(bench.run(444, with(top_block(), {{400, std::string(text)}, {309, 1.0}})) == 0);
+    CHECK(bench.run(444, with(top_point(), {{400, std::string(text)}, {309, 1.0}})) == 0);
     CHECK(bench.host.q[183] == -1);
     CHECK(same(bench.host.q[164], -2));
     REQUIRE(bench.host.records.size() == 1);
     CHECK_FALSE(bench.host.records.front().verdict.has_value());
-    CHECK(contains(log_of(bench), "No tolerance (Q183 = -1)"));
-    CHECK_FALSE(contains(log_of(bench), "Upper limit<"));
+    CHECK(contains(log_of(bench, 444), "No tolerance (Q183 = -1)"));
+    CHECK_FALSE(contains(log_of(bench, 444), "Upper limit<"));
   }
 }
 
 TEST_CASE("444 takes the length of the normal for nothing") {
   for (const double length : {10.0, 0.5, 1e-6, 1e-300}) {
     ProbingBench bench({plate(0.02)});
-    CHECK(bench.run(444, with(top_block(), {{583, length}})) == 0);
+    CHECK(bench.run(444, with(top_point(), {{583, length}})) == 0);
     check_results(bench, {50, 40, 0}, {0, 0, 1}, 0.02);
   }
 }
@@ -132,8 +126,8 @@ TEST_CASE("444 starts at radius, SET_UP and Q320 along the normal and goes back 
 
 TEST_CASE("444 travels DIST at most") {
   ProbingBench bench({plate(0)});
-  CHECK(bench.run(444, with(top_block(), {{320, 17.9}})) == 0);
-  CHECK(bench.run(444, with(top_block(), {{320, 18.1}})) == 1014);
+  CHECK(bench.run(444, with(top_point(), {{320, 17.9}})) == 0);
+  CHECK(bench.run(444, with(top_point(), {{320, 18.1}})) == 1014);
   CHECK(bench.host.q[183] == -1);
   CHECK(bench.host.records.size() == 1);
 }
@@ -141,7 +135,7 @@ TEST_CASE("444 travels DIST at most") {
 TEST_CASE("444 refuses what it cannot work with") {
   const auto error_after = [](const Values& changes) {
     ProbingBench bench({plate(0)});
-    return bench.run(444, with(top_block(), changes));
+    return bench.run(444, with(top_point(), changes));
   };
   CHECK(error_after({{583, 0.0}}) == 1042);
   CHECK(error_after({{583, 10.1}}) == 1004);
@@ -159,19 +153,19 @@ TEST_CASE("444 refuses mirror, scaling and turning") {
   machine::Frames frames = plain;
   frames.set_mirror({false, true, false});
   REQUIRE(bench.machine.set_frames(frames).has_value());
-  CHECK(bench.run(444, top_block()) == 1008);
+  CHECK(bench.run(444, top_point()) == 1008);
   frames = plain;
   frames.set_scaling({.factor = {2, 2, 2}, .centre = {}});
   REQUIRE(bench.machine.set_frames(frames).has_value());
-  CHECK(bench.run(444, top_block()) == 1007);
+  CHECK(bench.run(444, top_point()) == 1007);
   frames.set_scaling({.factor = {1, 2, 1}, .centre = {}});
   REQUIRE(bench.machine.set_frames(frames).has_value());
-  CHECK(bench.run(444, top_block()) == 1007);
+  CHECK(bench.run(444, top_point()) == 1007);
   REQUIRE(bench.machine.set_frames(plain).has_value());
   machine::Modes modes = bench.machine.state().modes;
   modes.mode = machine::OperatingMode::Turn;
   REQUIRE(bench.machine.set_modes(modes).has_value());
-  CHECK(bench.run(444, top_block()) == 1097);
+  CHECK(bench.run(444, top_point()) == 1097);
   CHECK(bench.host.touches.empty());
   CHECK(bench.host.files.empty());
 }
@@ -242,15 +236,15 @@ TEST_CASE("444 with the tool axis X: main axis Y, secondary axis Z, probe axis X
   REQUIRE(bench.machine.call_tool({.number = 30, .axis = Axis::X, .spindle_rpm = {}}).has_value());
   CHECK(bench.run(444, block_at({3, 4, -7.02}, {0, 0, 1}, 60)) == 0);
   check_results(bench, {3, 4, -7.02}, {0, 0, 1}, 0.02);
-  CHECK(contains(log_of(bench),
+  CHECK(contains(log_of(bench, 444),
                  "<th scope=\"col\">Y</th><th scope=\"col\">Z</th>"
                  "<th scope=\"col\">X</th>"));
 }
 
 TEST_CASE("444 logs vector, nominal, limits, actual and deviation in one page for all points") {
   ProbingBench bench({plate(0.013)});
-  REQUIRE(bench.run(444, top_block()) == 0);
-  const std::string first = log_of(bench);
+  REQUIRE(bench.run(444, top_point()) == 0);
+  const std::string first = log_of(bench, 444);
   for (const char* part :
        {"<!DOCTYPE html>", "Measuring program: TNC:\\nc_prog\\test\\part.h", "Lengths in mm",
         "20-11-2026 at 6:05:04", "<p class=\"verdict good\">\u2713 Good (Q183 = 0)</p>",
@@ -269,28 +263,28 @@ TEST_CASE("444 logs vector, nominal, limits, actual and deviation in one page fo
   for (const char* outside : {"http", "src=", "href=", "url(", "@import"}) {
     CHECK_FALSE(contains(first, outside));
   }
-  REQUIRE(bench.run(444, with(top_block(), {{294, 1.0}})) == 0);
-  REQUIRE(bench.run(444, with(top_block(), {{294, -1.0}})) == 0);
-  const std::string& all = log_of(bench);
+  REQUIRE(bench.run(444, with(top_point(), {{294, 1.0}})) == 0);
+  REQUIRE(bench.run(444, with(top_point(), {{294, -1.0}})) == 0);
+  const std::string& all = log_of(bench, 444);
   CHECK(all.substr(0, first.size()) == first);
   CHECK(all.find("<!DOCTYPE", 1) == std::string::npos);
   CHECK(contains(all, "Scrap: below the lower limit (Q183 = 2)"));
   CHECK(contains(all, "Rework: above the upper limit (Q183 = 1)"));
   // The next run begins the file anew.
   bench.host.memory().end_program();
-  REQUIRE(bench.run(444, top_block()) == 0);
-  CHECK(log_of(bench) == first);
+  REQUIRE(bench.run(444, top_point()) == 0);
+  CHECK(log_of(bench, 444) == first);
 }
 
 TEST_CASE("444 logs in inches for an inch program and escapes the path of the program") {
   ProbingBench bench({plate(0.254)});
   bench.host.inch = true;
   bench.host.path = "TNC:\\<b>&\"'\\part.h";
-  REQUIRE(bench.run(444, with(top_block(), {{400, std::string("0.01-0.001")}})) == 0);
+  REQUIRE(bench.run(444, with(top_point(), {{400, std::string("0.01-0.001")}})) == 0);
   CHECK(bench.host.q[183] == 0);
-  CHECK(contains(log_of(bench), "Lengths in inch"));
-  CHECK(contains(log_of(bench), "<td class=\"judged good\">0.0100</td>"));
-  CHECK(contains(log_of(bench), "TNC:\\&lt;b&gt;&amp;&quot;&#39;\\part.h<"));
+  CHECK(contains(log_of(bench, 444), "Lengths in inch"));
+  CHECK(contains(log_of(bench, 444), "<td class=\"judged good\">0.0100</td>"));
+  CHECK(contains(log_of(bench, 444), "TNC:\\&lt;b&gt;&amp;&quot;&#39;\\part.h<"));
 }
 
 }  // namespace fitgauge::probing

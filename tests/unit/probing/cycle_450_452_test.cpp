@@ -24,14 +24,6 @@ Kinematics moved(const Kinematics& model, const Vec3& by) {
   return Kinematics(axes, by);
 }
 
-const std::string& log_of(ProbingBench& bench, int cycle) {
-  return bench.host.files.at("TCHPR" + std::to_string(cycle) + ".html");
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
-
 Values table_axes() {
   return with(with(kinematics_block(), measured(Axis::A, -90, 90, 4)),
               measured(Axis::C, -90, 180, 4));

@@ -25,7 +25,7 @@ using machine::Vec3;
 
 constexpr double kScatter = 0.002;  // mm, of each axis in each direction
 constexpr int kPoints = 12;
-constexpr int kSeeds = 60;
+constexpr int kSeeds = 20;
 constexpr int kFitted = 4;  ///< two values of the location, two of the direction
 
 /// Of a table, from the bed to the workpiece.

@@ -19,13 +19,13 @@ constexpr int kRetract = word(ParameterId::WordRetract);
 constexpr int kSystem = word(ParameterId::WordReferenceSystem);
 constexpr int kErrorMode = word(ParameterId::WordErrorMode);
 
-const machine::Block kPlate{.min = {0, 0, -40}, .max = {100, 80, 0}};
+const machine::Block kClampedPlate{.min = {0, 0, -40}, .max = {100, 80, 0}};
 
 struct BesideThePlate : ProbingBench {
   BesideThePlate();
 };
 
-BesideThePlate::BesideThePlate() : ProbingBench({kPlate}) {
+BesideThePlate::BesideThePlate() : ProbingBench({kClampedPlate}) {
   for (const auto& [axis, value] :
        {std::pair{machine::Axis::X, -10.0}, {machine::Axis::Y, 40.0}, {machine::Axis::Z, -5.0}}) {
     machine::AxisWords target;
@@ -37,7 +37,7 @@ BesideThePlate::BesideThePlate() : ProbingBench({kPlate}) {
 }  // namespace
 
 TEST_CASE("TCH PROBE 0 gives the compensated coordinate and comes back to its position") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kClampedPlate});
   CHECK(
       bench.run(
           0,
@@ -96,7 +96,7 @@ TEST_CASE("TCH PROBE 4 touches along a vector and goes on without contact") {
 TEST_CASE("441 changes how later cycles position, until the program ends") {
   const Values block{{263, 50.0}, {264, 40.0}, {261, 0.0}, {272, 3.0}, {267, -1.0}, {260, 300.0}};
   const auto seconds = [&](const Values& fast) {
-    ProbingBench bench({kPlate});
+    ProbingBench bench({kClampedPlate});
     if (!fast.empty()) CHECK(bench.run(441, fast) == 0);
     CHECK(bench.run(427, block) == 0);
     return bench.machine.state().elapsed_s;
@@ -105,7 +105,7 @@ TEST_CASE("441 changes how later cycles position, until the program ends") {
   CHECK(seconds({{397, 1.0}}) < usual);
   CHECK(seconds({{396, 500.0}}) > usual);
   CHECK(seconds({{396, 0.0}}) == usual);
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kClampedPlate});
   CHECK(bench.run(441, {{396, 500.0}, {400, 0.0}}) == 0);
   CHECK_FALSE(bench.host.cycle_memory.fast_probing.interrupts);
   bench.host.cycle_memory.end_program();

@@ -13,7 +13,7 @@ using machine::Boss;
 using machine::Plane;
 using machine::Vec3;
 
-const Block kPlate{.min = {0, 0, -40}, .max = {200, 160, 0}};
+const Block kLargePlate{.min = {0, 0, -40}, .max = {200, 160, 0}};
 /// All presets here go to row 9, with 1 and 2 as new datum in the plane.
 const Values kDatum{{305, 9.0}, {303, 1.0}, {331, 1.0}, {332, 2.0}};
 /// And 3 in the probe axis, touched beside the feature.
@@ -26,7 +26,7 @@ std::vector<machine::Feature> pocket(double x1, double y1, double x2, double y2)
           Block{.min = {x1, y2, -40}, .max = {x2, 160, 0}}};
 }
 std::vector<machine::Feature> stud(double x1, double y1, double x2, double y2) {
-  return {kPlate, Block{.min = {x1, y1, 0}, .max = {x2, y2, 20}}};
+  return {kLargePlate, Block{.min = {x1, y1, 0}, .max = {x2, y2, 20}}};
 }
 
 Vec3 row9(const ProbingBench& bench) {
@@ -81,7 +81,7 @@ TEST_CASE("412 and 413 set the datum in the centre of a circle and report its fo
   const Values block = with({{321, 100.0}, {322, 80.0}, {262, 25.0}, {247, 90.0}, {260, 40.0}},
                             with(kDatum, kProbeAxis));
   ProbingBench hole(
-      {kPlate, Bore{.centre = {100.3, 79.9}, .top = 0, .depth = 30, .diameter = 25.02}});
+      {kLargePlate, Bore{.centre = {100.3, 79.9}, .top = 0, .depth = 30, .diameter = 25.02}});
   CHECK(hole.run(412, with(block, {{261, -5.0}})) == 0);
   CHECK(same(hole.host.q[151], 100.3));
   CHECK(same(hole.host.q[152], 79.9));
@@ -91,7 +91,7 @@ TEST_CASE("412 and 413 set the datum in the centre of a circle and report its fo
   CHECK_FALSE(hole.host.records.front().verdict.has_value());
   CHECK(hole.host.records.front().form.has_value());
   ProbingBench boss(
-      {kPlate, Boss{.centre = {100.3, 79.9}, .top = 10, .height = 10, .diameter = 24.9}});
+      {kLargePlate, Boss{.centre = {100.3, 79.9}, .top = 10, .height = 10, .diameter = 24.9}});
   CHECK(boss.run(413, with(block, {{261, 5.0}, {423, 3.0}, {247, 120.0}})) == 0);
   CHECK(same(boss.host.q[153], 24.9));
   check_near(row9(boss), {99.3, 77.9, -3});
@@ -151,7 +151,7 @@ TEST_CASE("414 and 415 find each corner of a part that stands turned in its pres
 }
 
 TEST_CASE("414 needs points that say where the corner lies") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kLargePlate});
   CHECK(bench.run(414, {{263, 0.0},
                         {264, 10.0},
                         {326, 40.0},
@@ -163,7 +163,7 @@ TEST_CASE("414 needs points that say where the corner lies") {
 }
 
 TEST_CASE("418 sets the datum where the lines between four holes meet") {
-  std::vector<machine::Feature> features{kPlate};
+  std::vector<machine::Feature> features{kLargePlate};
   for (const auto& centre :
        {std::array{60.0, 50.0}, {140.0, 50.1}, {140.2, 110.0}, {60.0, 110.0}}) {
     features.push_back(Bore{.centre = centre, .top = 0, .depth = 20, .diameter = 10});
@@ -187,7 +187,7 @@ TEST_CASE("418 sets the datum where the lines between four holes meet") {
 }
 
 TEST_CASE("416 sets the datum in the centre of a bolt circle") {
-  std::vector<machine::Feature> features{kPlate};
+  std::vector<machine::Feature> features{kLargePlate};
   for (const double angle : {10.0, 130.0, 250.0}) {
     const auto [sine, cosine] = machine::sine_cosine(angle);
     features.push_back(Bore{
@@ -210,7 +210,7 @@ TEST_CASE("416 sets the datum in the centre of a bolt circle") {
 }
 
 TEST_CASE("419 sets the datum in any one axis") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kLargePlate});
   const Values block{{263, 0.0}, {264, 80.0}, {261, -5.0}, {260, 40.0},
                      {272, 1.0}, {267, 1.0},  {333, 7.0},  {305, 9.0}};
   CHECK(bench.run(419, block) == 0);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,6 +53,15 @@ class ProbingBench {
   RecordingHost host;
   CycleFault fault;  ///< of the last run that failed
 };
+
+/// The HTML log that a cycle wrote.
+inline const std::string& log_of(ProbingBench& bench, int cycle) {
+  return bench.host.files.at("TCHPR" + std::to_string(cycle) + ".html");
+}
+
+inline bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// Equal as the control's 1 nm results are.
 inline bool same(double a, double b) { return std::abs(a - b) < 5e-10; }
