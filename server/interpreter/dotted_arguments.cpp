@@ -94,8 +94,10 @@ class DottedReader {
 
   /// A number after dialog text: the values of a sub-line stand in this order.
   NcResult<void> read_value(const Word& word, int part) {
-    constexpr std::array kOrder{ParameterId::WordAngle, ParameterId::WordDistance,
-                                ParameterId::WordReferenceSystem, ParameterId::WordErrorMode};
+    constexpr std::array kOrder{
+        ParameterId::WordAngle,     ParameterId::WordDistance, ParameterId::WordReferenceSystem,
+        ParameterId::WordErrorMode, ParameterId::WordCheck,    ParameterId::WordHeight,
+        ParameterId::WordTeeth};
     while (values_ < kOrder.size()) {
       const auto* parameter = find(kOrder[values_++], part);
       if (parameter != nullptr) return set(*parameter, word);

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/dotted_parameters.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
 #include "probing/probing_motion.hpp"
@@ -11,6 +12,7 @@ namespace {
 
 using namespace parameter;
 
+constexpr std::array k30Parameters{height_parameter(1)};
 constexpr std::array k480Parameters{kClearanceHeight};
 constexpr std::array k484Parameters{choice(536, "Stop before running: 0 stop, 1 no stop", 0, 1, 0)};
 
@@ -61,9 +63,9 @@ CycleResult<void> calibrate(const CycleContext& context, CycleResult<ToolProbing
   return lift(context.machine.write_tool_touch_probe(*found));
 }
 
-CycleResult<void> calibrate_at_known_place(const CycleContext& context) {
+CycleResult<void> calibrate_at_known_place(const CycleContext& context, ParameterId height) {
   const machine::Vec3& centre = context.machine.state().tt.centre;
-  return calibrate(context, ToolProbing::begin(context, context.arguments.number(260)),
+  return calibrate(context, ToolProbing::begin(context, context.arguments.number(height)),
                    {centre.x, centre.y});
 }
 
@@ -83,13 +85,26 @@ constexpr std::string_view kNotSimulated =
 
 }  // namespace
 
-constinit const TouchProbeCycle kCycle480{{.number = 480,
-                                           .name = "CALIBRATE TT",
-                                           .kind = CycleKind::Tool,
-                                           .parameters = k480Parameters,
-                                           .simulated = kSimulated,
-                                           .not_simulated = kNotSimulated},
-                                          calibrate_at_known_place};
+constinit const TouchProbeCycle kCycle30{{.number = 30,
+                                          .name = "CALIBRATE TT",
+                                          .kind = CycleKind::Tool,
+                                          .dotted = true,
+                                          .parameters = k30Parameters,
+                                          .simulated = kSimulated,
+                                          .not_simulated = kNotSimulated},
+                                         [](const CycleContext& context) {
+                                           return calibrate_at_known_place(context,
+                                                                           ParameterId::WordHeight);
+                                         }};
+
+constinit const TouchProbeCycle kCycle480{
+    {.number = 480,
+     .name = "CALIBRATE TT",
+     .kind = CycleKind::Tool,
+     .parameters = k480Parameters,
+     .simulated = kSimulated,
+     .not_simulated = kNotSimulated},
+    [](const CycleContext& context) { return calibrate_at_known_place(context, q(260)); }};
 
 constinit const TouchProbeCycle kCycle484{{.number = 484,
                                            .name = "CALIBRATE IR TT",

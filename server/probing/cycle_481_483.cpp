@@ -2,6 +2,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/dotted_parameters.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
 #include "probing/probing_motion.hpp"
@@ -17,6 +18,24 @@ constexpr std::array kParameters{
     choice(340, "Tool measurement: 0 first, 1 check, 2 check and write nothing", 0, 2, 1),
     kClearanceHeight, choice(341, "Measure the single teeth: 0 no, 1 yes", 0, 1, 0)};
 
+/// 31 to 33: the same in sub-lines, where CHECK knows 0 and 1, and a Q for the status may follow.
+constexpr CycleParameter status_parameter() {
+  CycleParameter made = result_parameter(1);
+  made.meaning = "Q parameter for the status";
+  made.required = false;
+  return made;
+}
+constexpr std::array kToolWords{in_part(1, {.id = ParameterId::WordCheck,
+                                            .meaning = "Tool measurement: 0 first, 1 check",
+                                            .kind = ValueKind::Whole,
+                                            .range = {0, 1}}),
+                                status_parameter(), height_parameter(2),
+                                in_part(3, {.id = ParameterId::WordTeeth,
+                                            .meaning = "Measure the single teeth: 0 no, 1 yes",
+                                            .kind = ValueKind::Whole,
+                                            .range = {0, 1},
+                                            .default_value = 0})};
+
 constexpr CycleOutput kLengthDeviation{115, "Deviation of the length", Unit::Length};
 constexpr CycleOutput kRadiusDeviation{116, "Deviation of the radius", Unit::Length};
 constexpr CycleOutput kToolStatus{199, "Tool: 0 within tolerance, 1 worn, 2 broken", Unit::None};
@@ -26,6 +45,22 @@ constexpr std::array k483Results{kLengthDeviation, kRadiusDeviation, kToolStatus
 
 enum class Mode : std::uint8_t { First, Check, CheckOnly };
 enum class Status : std::uint8_t { WithinTolerance, Worn, Broken };
+
+/// What the block asks for, in either form.
+struct ToolOrder {
+  Mode mode;
+  double clearance_height;
+  bool single_teeth;
+};
+
+ToolOrder tool_order_of(const Arguments& arguments) {
+  const bool dotted = arguments.descriptor().dotted;
+  const auto value = [&](ParameterId word, int parameter) {
+    return arguments.number(dotted ? word : q(parameter));
+  };
+  return {static_cast<Mode>(value(ParameterId::WordCheck, 340)),
+          value(ParameterId::WordHeight, 260), value(ParameterId::WordTeeth, 341) != 0};
+}
 
 /// A column of tool.t that is measured, with those that judge it.
 struct Dimension {
@@ -53,11 +88,11 @@ Status judge(Length deviation, double tolerance, double breakage) {
 /// for each tooth.
 CycleResult<std::vector<Spindle>> touches_of(const CycleContext& context, bool turns) {
   std::vector<Spindle> touches{turns ? Spindle::Turns : Spindle::Stands};
-  if (context.arguments.whole(341) == 0) return touches;
+  if (!tool_order_of(context.arguments).single_teeth) return touches;
   const Tool& tool = *context.machine.state().active_tool();
   constexpr int kMostTeeth = 20;
   if (tool.teeth < 1 || tool.teeth > kMostTeeth) {
-    return nc_error(1109, "Q341 = 1 needs 1 to 20 teeth in the column CUT");
+    return nc_error(1109, "single teeth are measured with 1 to 20 of them in the column CUT");
   }
   touches.insert(touches.end(), static_cast<std::size_t>(tool.teeth), Spindle::Stands);
   return touches;
@@ -96,7 +131,7 @@ CycleResult<double> measure_radius(const CycleContext& context, ToolProbing& pro
 
 /// Enters a measured value into the tool row as Q340 says, and its deviation into Q115 or Q116.
 Status enter(const CycleContext& context, const Dimension& dimension, double measured, Tool& tool) {
-  const auto mode = static_cast<Mode>(context.arguments.number(340));
+  const Mode mode = tool_order_of(context.arguments).mode;
   const Length found = to_length(measured);
   const Length deviation = found - to_length(tool.*dimension.stored);
   context.host.set_q(dimension.result->q, deviation.to_mm(), Unit::Length);
@@ -110,14 +145,19 @@ Status enter(const CycleContext& context, const Dimension& dimension, double mea
 }
 
 CycleResult<void> finish(const CycleContext& context, Tool tool, Status status) {
+  const Arguments& arguments = context.arguments;
   context.host.set_q(kToolStatus.q, static_cast<double>(status), Unit::None);
-  if (static_cast<Mode>(context.arguments.number(340)) == Mode::CheckOnly) return {};
+  if (arguments.descriptor().dotted && arguments.has_number(ParameterId::WordResult)) {
+    context.host.set_q(static_cast<std::uint16_t>(arguments.number(ParameterId::WordResult)),
+                       static_cast<double>(status), Unit::None);
+  }
+  if (tool_order_of(arguments).mode == Mode::CheckOnly) return {};
   tool.locked = tool.locked || status != Status::WithinTolerance;
   return lift(context.machine.write_tool(tool));
 }
 
 CycleResult<void> measure(const CycleContext& context, bool length, bool radius) {
-  auto probing = ToolProbing::begin(context, context.arguments.number(260));
+  auto probing = ToolProbing::begin(context, tool_order_of(context.arguments).clearance_height);
   if (!probing) return probing.error();
   Tool tool = *context.machine.state().active_tool();
   Status status = Status::WithinTolerance;
@@ -136,42 +176,47 @@ CycleResult<void> measure(const CycleContext& context, bool length, bool radius)
 }
 
 constexpr std::string_view kSimulated =
-    "Q340 writes L, R or DL, DR; LTOL, RTOL, LBREAK, RBREAK set Q199 and, unless nothing is to be "
-    "written, lock the tool. The feed of a turning tool follows from its radius.";
+    "A first measurement writes L and R, a check DL and DR; LTOL, RTOL, LBREAK, RBREAK set the "
+    "status and, unless nothing is to be written, lock the tool. The feed of a turning tool "
+    "follows from its radius.";
 constexpr std::string_view kNotSimulated =
-    "The tool is a cylinder and its teeth are alike: Q341 repeats the touch for each. The state of "
-    "the spindle does not change.";
+    "The tool is a cylinder and its teeth are alike: measuring single teeth repeats the touch for "
+    "each. The state of the spindle does not change.";
+
+CycleResult<void> measure_tool_length(const CycleContext& context) {
+  return measure(context, true, false);
+}
+CycleResult<void> measure_tool_radius(const CycleContext& context) {
+  return measure(context, false, true);
+}
+CycleResult<void> measure_tool(const CycleContext& context) { return measure(context, true, true); }
+
+/// The cycle of a number in its Q-form or in sub-lines.
+constexpr CycleDescriptor tool_measurement(std::uint16_t number, std::string_view name, bool dotted,
+                                           std::span<const CycleOutput> results) {
+  return {.number = number,
+          .name = name,
+          .kind = CycleKind::Tool,
+          .dotted = dotted,
+          .parameters = dotted ? std::span<const CycleParameter>(kToolWords) : kParameters,
+          .results = results,
+          .simulated = kSimulated,
+          .not_simulated = kNotSimulated};
+}
 
 }  // namespace
 
+constinit const TouchProbeCycle kCycle31{
+    tool_measurement(31, "CAL. TOOL LENGTH", true, k481Results), measure_tool_length};
+constinit const TouchProbeCycle kCycle32{
+    tool_measurement(32, "CAL. TOOL RADIUS", true, k482Results), measure_tool_radius};
+constinit const TouchProbeCycle kCycle33{tool_measurement(33, "MEASURE TOOL", true, k483Results),
+                                         measure_tool};
 constinit const TouchProbeCycle kCycle481{
-    {.number = 481,
-     .name = "CAL. TOOL LENGTH",
-     .kind = CycleKind::Tool,
-     .parameters = kParameters,
-     .results = k481Results,
-     .simulated = kSimulated,
-     .not_simulated = kNotSimulated},
-    [](const CycleContext& context) { return measure(context, true, false); }};
-
+    tool_measurement(481, "CAL. TOOL LENGTH", false, k481Results), measure_tool_length};
 constinit const TouchProbeCycle kCycle482{
-    {.number = 482,
-     .name = "CAL. TOOL RADIUS",
-     .kind = CycleKind::Tool,
-     .parameters = kParameters,
-     .results = k482Results,
-     .simulated = kSimulated,
-     .not_simulated = kNotSimulated},
-    [](const CycleContext& context) { return measure(context, false, true); }};
-
-constinit const TouchProbeCycle kCycle483{
-    {.number = 483,
-     .name = "MEASURE TOOL",
-     .kind = CycleKind::Tool,
-     .parameters = kParameters,
-     .results = k483Results,
-     .simulated = kSimulated,
-     .not_simulated = kNotSimulated},
-    [](const CycleContext& context) { return measure(context, true, true); }};
+    tool_measurement(482, "CAL. TOOL RADIUS", false, k482Results), measure_tool_radius};
+constinit const TouchProbeCycle kCycle483{tool_measurement(483, "MEASURE TOOL", false, k483Results),
+                                          measure_tool};
 
 }  // namespace fitgauge::probing

@@ -29,9 +29,21 @@ std::string_view symbol(Unit unit) {
 }
 
 std::string name(const CycleParameter& parameter) {
-  constexpr std::array<std::string_view, 12> kWords{
-      "Q", "axis", "direction",        "X",        "Y", "Z", "ANGLE", "ABST",
-      "F", "MB",   "REFERENCE SYSTEM", "ERRORMODE"};
+  constexpr std::array<std::string_view, 15> kWords{"Q",
+                                                    "axis",
+                                                    "direction",
+                                                    "X",
+                                                    "Y",
+                                                    "Z",
+                                                    "ANGLE",
+                                                    "ABST",
+                                                    "F",
+                                                    "MB",
+                                                    "REFERENCE SYSTEM",
+                                                    "ERRORMODE",
+                                                    "CHECK",
+                                                    "HEIGHT",
+                                                    "PROBING THE TEETH"};
   const auto id = static_cast<std::uint16_t>(parameter.id);
   if (is_word(parameter.id)) {
     return std::string(kWords.at(id - static_cast<std::size_t>(ParameterId::WordResult)));

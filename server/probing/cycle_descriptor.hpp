@@ -47,7 +47,10 @@ enum class ParameterId : std::uint16_t {
   WordFeed,             ///< `F100`
   WordRetract,          ///< `MB1`
   WordReferenceSystem,  ///< `REFERENCE SYSTEM: 0`
-  WordErrorMode         ///< `ERRORMODE1`
+  WordErrorMode,        ///< `ERRORMODE1`
+  WordCheck,            ///< `CHECK: 1`
+  WordHeight,           ///< `HEIGHT: +120`
+  WordTeeth             ///< `PROBING THE TEETH: 0`
 };
 
 constexpr ParameterId q(int number) { return static_cast<ParameterId>(number); }

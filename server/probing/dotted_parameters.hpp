@@ -6,7 +6,7 @@
 #include "probing/arguments.hpp"
 #include "probing/parameters.hpp"
 
-/// The words of the dotted cycles 0, 1, 3 and 4.
+/// The words of the dotted cycles 0, 1, 3, 4 and 30 to 33.
 namespace fitgauge::probing::parameter {
 
 constexpr CycleParameter in_part(std::uint8_t part, CycleParameter parameter) {
@@ -42,6 +42,13 @@ inline constexpr CycleParameter kWordAngle{.id = ParameterId::WordAngle,
                                            .unit = Unit::Angle,
                                            .range = {-360, 360},
                                            .default_value = 0};
+
+constexpr CycleParameter height_parameter(std::uint8_t part) {
+  return in_part(part, {.id = ParameterId::WordHeight,
+                        .meaning = kClearanceHeight.meaning,
+                        .unit = Unit::Length,
+                        .range = kClearanceHeight.range});
+}
 
 inline constexpr std::array<CycleOutput, 5> kTouchResults{
     {{115, "Spindle position X at contact", Unit::Length},

@@ -76,6 +76,7 @@ std::vector<ErrorRow> error_rows() {
 
 fs::path folder_of(int cycle) {
   if (cycle < 5) return kCases / "cycle-0-to-4";
+  if (cycle < 34) return kCases / "cycle-30-to-33";
   return kCases / (cycle == 247 ? "datum" : fmt::format("cycle-{}", cycle));
 }
 

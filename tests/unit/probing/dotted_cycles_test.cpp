@@ -5,7 +5,6 @@
 namespace fitgauge::probing {
 namespace {
 
-constexpr int word(ParameterId id) { return static_cast<int>(id); }
 constexpr int kResult = word(ParameterId::WordResult);
 constexpr int kAxis = word(ParameterId::WordAxis);
 constexpr int kDirection = word(ParameterId::WordDirection);

@@ -43,7 +43,7 @@ const std::vector<FrameRule> kRules{
      0,
      0,
      0,
-     {451, 452, 453, 480, 481, 482, 483, 484}},
+     {30, 31, 32, 33, 451, 452, 453, 480, 481, 482, 483, 484}},
     {"no motion", 0, 0, 0, {247, 404, 441, 450}},
 };
 
@@ -225,6 +225,19 @@ std::vector<Scenario> scenarios() {
   for (const int cycle : {481, 482, 483}) {
     all.push_back(on_machine(cycle, mill, 5, {0, 0, 200}, check, tool_data));
   }
+  const Block words = [](const Frames& f) {
+    return Values{{word(ParameterId::WordCheck), 1.0},
+                  {word(ParameterId::WordHeight), height(f, 200)}};
+  };
+  for (const int cycle : {31, 32, 33}) {
+    all.push_back(on_machine(cycle, mill, 5, {0, 0, 200}, words, tool_data));
+  }
+  all.push_back(on_machine(
+      30, mill, 5, {0, 0, 200},
+      [](const Frames& f) {
+        return Values{{word(ParameterId::WordHeight), height(f, 200)}};
+      },
+      tool_data));
   all.push_back(on_machine(
       480, mill, 5, {0, 0, 200},
       [](const Frames& f) {

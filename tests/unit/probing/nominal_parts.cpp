@@ -17,7 +17,6 @@ const Vec3 kAbove{100, 80, 60};
 const Vec3 kBeside{-10, 40, -10};
 constexpr double kFirstResult = 1600;
 
-int word(ParameterId id) { return static_cast<int>(id); }
 const int kResult = word(ParameterId::WordResult);
 const int kAxis = word(ParameterId::WordAxis);
 const int kSign = word(ParameterId::WordDirection);

@@ -18,6 +18,9 @@ namespace fitgauge::probing {
 /// The values of a block by the numbers of its Q parameters; later ones win.
 using Values = std::vector<std::pair<int, ArgumentValue>>;
 
+/// The key of a word of a dotted cycle in Values.
+constexpr int word(ParameterId id) { return static_cast<int>(id); }
+
 inline Values with(Values values, const Values& changes) {
   values.insert(values.end(), changes.begin(), changes.end());
   return values;

@@ -61,6 +61,43 @@ TEST_CASE("481 to 483 check a tool: DL and DR, Q115, Q116, Q199") {
   CHECK(std::abs(bench.machine.position(CoordinateSystem::Machine).linear.z - 200) < 1e-9);
 }
 
+TEST_CASE("31 to 33 are 481 to 483 in sub-lines, with a Q for the status") {
+  TtBench bench;
+  const Values check{{word(ParameterId::WordCheck), 1.0},
+                     {word(ParameterId::WordHeight), 200.0},
+                     {word(ParameterId::WordResult), 5.0}};
+  bench.host.q[5] = -1;
+  CHECK(bench.run(31, check) == 0);
+  CHECK(same(bench.mill().dl, -0.03));
+  CHECK(bench.host.q[5] == 0);
+  CHECK(bench.run(32, check) == 0);
+  CHECK(same(bench.mill().dr, -0.012));
+  machine::Tool strict = bench.mill();
+  strict.r_tolerance = 0.01;
+  REQUIRE(bench.machine.write_tool(strict).has_value());
+  CHECK(bench.run(33, check) == 0);
+  CHECK(bench.host.q[5] == 1);
+  CHECK(bench.host.q[199] == 1);
+  CHECK(bench.mill().locked);
+  CHECK(bench.run(33, {{word(ParameterId::WordCheck), 0.0},
+                       {word(ParameterId::WordHeight), 200.0}}) == 0);
+  CHECK(same(bench.mill().l, 99.97));
+  CHECK(bench.run(31, {{word(ParameterId::WordCheck), 2.0},
+                       {word(ParameterId::WordHeight), 200.0}}) == 1004);
+}
+
+TEST_CASE("TCH PROBE 30 calibrates the tool touch probe as 480 does") {
+  Setup setup = mill_setup();
+  setup.machine.tools.back().row.l = 99.97;
+  setup.machine.tools.back().row.r = 5.988;
+  TtBench dotted(setup);
+  TtBench plain(setup);
+  CHECK(dotted.run(30, {{word(ParameterId::WordHeight), 200.0}}) == 0);
+  CHECK(plain.run(480, {{260, 200.0}}) == 0);
+  CHECK(dotted.machine.state().tt.centre == plain.machine.state().tt.centre);
+  CHECK(dotted.machine.state().tt.radius == plain.machine.state().tt.radius);
+}
+
 TEST_CASE("483 measures a new tool: L and R, without oversizes") {
   Setup setup = mill_setup();
   setup.machine.tools.back().row.l = 97;

@@ -1,4 +1,4 @@
-; run: failed line 5: Tool data inconsistent: Q341 = 1 needs 1 to 20 teeth in the column CUT
+; run: failed line 5: Tool data inconsistent: single teeth are measured with 1 to 20 of them in the column CUT
 BEGIN PGM BAD MM
 TOOL DEF 5 L+100 R+6
 TOOL CALL 5 Z
