@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpreter/cycle_arguments.hpp"
+#include "interpreter/kinematics_records.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -63,6 +64,18 @@ void ChannelCycleHost::touched(const machine::ContactPoint& contact) {
 probing::CycleResult<void> ChannelCycleHost::write_datum(int row,
                                                          const machine::AxisWords& values) {
   return reported(channel_.tables.write_datum(channel_, row, values));
+}
+
+probing::CycleResult<probing::KinematicsRecords> ChannelCycleHost::kinematics_records() {
+  auto records = read_kinematics_records(channel_.files);
+  if (records) return *std::move(records);
+  return probing::CycleFault{probing::CycleFaultKind::Error, records.error().number,
+                             records.error().text};
+}
+
+probing::CycleResult<void> ChannelCycleHost::keep_kinematics(
+    const probing::KinematicsRecords& records) {
+  return reported(write_kinematics_records(channel_.files, records));
 }
 
 }  // namespace fitgauge::interpreter

@@ -24,6 +24,8 @@ class ChannelCycleHost final : public probing::CycleHost {
   void record(const probing::MeasuringRecord& record) override;
   void touched(const machine::ContactPoint& contact) override;
   probing::CycleResult<void> write_datum(int row, const machine::AxisWords& values) override;
+  probing::CycleResult<probing::KinematicsRecords> kinematics_records() override;
+  probing::CycleResult<void> keep_kinematics(const probing::KinematicsRecords& records) override;
 
   /// The first failure behind the cycle's back, or nothing.
   const std::optional<NcError>& failure() const { return failure_; }

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
+#include "base/text.hpp"
 #include "probing/cycles.hpp"
 #include "probing/html_log.hpp"
 #include "probing/measured_value.hpp"
@@ -29,11 +31,13 @@ constexpr std::array kParameters{choice(410, "Mode: 0 save, 1 restore, 2 status,
                                                 .range = {0, 99999},
                                                 .required = false}};
 
-/// @errors 1017 no name, 1011 a name that is empty or longer than 16 characters, or a broken
-/// number.
+/// @errors 1017 no name, 1011 a name that is empty, longer than 16 characters or not printable, or
+/// a broken number.
 CycleResult<std::string> record_name(const Arguments& arguments) {
   if (const std::string* text = arguments.text(q(kName))) {
-    if (!text->empty() && text->size() <= kLongestName) return *text;
+    const std::string_view name = trim(*text);
+    const bool printable = std::ranges::none_of(name, [](unsigned char c) { return c < ' '; });
+    if (!name.empty() && name.size() <= kLongestName && printable) return std::string(name);
     return nc_error(1011, fmt::format("QS409 has 1 to {} characters", kLongestName));
   }
   if (!arguments.has_number(q(kName))) return nc_error(1017, "Q409 or QS409 names the record");
@@ -65,31 +69,32 @@ std::string table_of(const Kinematics& model) {
                     mm(offset.x), mm(offset.y), mm(offset.z));
 }
 
-using Records = std::map<std::string, Kinematics>;
-
-CycleResult<std::string> save(const CycleContext& context, Records& records,
+CycleResult<std::string> save(const CycleContext& context, KinematicsRecords& records,
                               const std::string& record) {
   if (!records.contains(record) && records.size() >= kMostRecords) {
     return nc_error(1097, fmt::format("{} records are stored: delete one first", kMostRecords));
   }
   const Kinematics& active = context.machine.state().kinematics;
   records.insert_or_assign(record, active);
+  if (auto kept = context.host.keep_kinematics(records); !kept) return kept.error();
   return fmt::format("<p>Saved as {}</p>\n{}", escape_html(record), table_of(active));
 }
 
-CycleResult<std::string> restore(const CycleContext& context, const Records& records,
+CycleResult<std::string> restore(const CycleContext& context, const KinematicsRecords& records,
                                  const std::string& record) {
   const auto saved = records.find(record);
   if (saved == records.end()) {
     return nc_error(1096, fmt::format("there is no record {}", record));
   }
   const std::string before = table_of(context.machine.state().kinematics);
-  if (auto set = lift(context.machine.set_kinematics(saved->second)); !set) return set.error();
+  if (const auto set = context.machine.set_kinematics(saved->second); !set) {
+    return nc_error(1096, set.error().text);  // of another machine
+  }
   return fmt::format("<p>Restored from {}. Before:</p>\n{}<p>Now:</p>\n{}", escape_html(record),
                      before, table_of(saved->second));
 }
 
-std::string status(const Records& records) {
+std::string status(const KinematicsRecords& records) {
   std::string html = fmt::format("<p>{} of {} records:</p>\n", records.size(), kMostRecords);
   for (const auto& [record, model] : records) {
     html += fmt::format("<p>{}</p>\n", escape_html(record));
@@ -97,10 +102,12 @@ std::string status(const Records& records) {
   return html;
 }
 
-CycleResult<std::string> remove(Records& records, const std::string& record) {
+CycleResult<std::string> remove(const CycleContext& context, KinematicsRecords& records,
+                                const std::string& record) {
   if (records.erase(record) == 0) {
     return nc_error(1011, fmt::format("there is no record {}", record));
   }
+  if (auto kept = context.host.keep_kinematics(records); !kept) return kept.error();
   return fmt::format("<p>Deleted {}</p>\n", escape_html(record));
 }
 
@@ -110,13 +117,14 @@ CycleResult<std::string> handle(const CycleContext& context) {
   constexpr int kRestore = 1;
   constexpr int kStatus = 2;
   const int mode = context.arguments.whole(410);
-  Records& records = context.host.memory().saved_kinematics;
-  if (mode == kStatus) return status(records);
+  auto records = context.host.kinematics_records();
+  if (!records) return records.error();
+  if (mode == kStatus) return status(*records);
   const auto record = record_name(context.arguments);
   if (!record) return record.error();
-  if (mode == kSave) return save(context, records, *record);
-  if (mode == kRestore) return restore(context, records, *record);
-  return remove(records, *record);
+  if (mode == kSave) return save(context, *records, *record);
+  if (mode == kRestore) return restore(context, *records, *record);
+  return remove(context, *records, *record);
 }
 
 CycleResult<void> manage_kinematics(const CycleContext& context) {
@@ -136,8 +144,9 @@ constinit const TouchProbeCycle kCycle450{
      .parameters = kParameters,
      .simulated =
          "All modes, with a number (Q409) or a name of up to 16 characters (QS409). Up to 16 "
-         "records live as long as the run. The log TCHPR450.html has every axis, before and after "
-         "restoring; the status is its list of records."},
+         "records in TNC:\\table\\DATA450.KD, which, as all that a run writes, stays in the run "
+         "unless it is put on the control's disk. The log TCHPR450.html has every axis, before and "
+         "after restoring; the status is its list of records."},
     manage_kinematics};
 
 }  // namespace fitgauge::probing

@@ -27,11 +27,13 @@ struct FastProbing {
   bool interrupts = true;                  ///< Q400: Q281 = 2 stops the program
 };
 
+/// What cycle 450 has saved, by name.
+using KinematicsRecords = std::map<std::string, machine::Kinematics>;
+
 /// What cycles leave for later cycles of a run. The host owns it, gives the same one to every cycle
 /// and calls `end_program` at END PGM, M2 and M30 of the main program.
 struct CycleMemory {
   FastProbing fast_probing;
-  std::map<std::string, machine::Kinematics> saved_kinematics;  ///< cycle 450, by name
   /// The HTML logs that this run has begun, by file name and program: further sections join them.
   std::set<std::pair<std::string, std::string>> begun_logs;
 
@@ -79,6 +81,11 @@ class CycleHost {
   /// preset.
   /// @errors 1043 no datum table is active.
   virtual CycleResult<void> write_datum(int row, const machine::AxisWords& values) = 0;
+
+  /// The records of cycle 450 on the control's disk. @errors 1096 the file cannot be read.
+  virtual CycleResult<KinematicsRecords> kinematics_records() = 0;
+  /// Replaces them. @errors when the run's output budget is used up.
+  virtual CycleResult<void> keep_kinematics(const KinematicsRecords& records) = 0;
 };
 
 }  // namespace fitgauge::probing

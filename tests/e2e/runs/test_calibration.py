@@ -182,18 +182,32 @@ class Kinematics(Control):
         self.assertAlmostEqual(run["parameters"]["Q1"], 0, delta=1e-6)
         self.assertGreater(run["parameters"]["Q2"], 0.005)
         self.assertEqual(sorted(file["path"].rsplit("\\", 1)[1] for file in run["files"]),
-                         ["TCHPR450.html", "TCHPR451.html"])
+                         ["DATA450.KD", "TCHPR450.html", "TCHPR451.html"])
         log = self.log(run, "TCHPR450.html")
         for part in ("Saved as OLD", "Restored from OLD. Before:", "1 of 16 records:</p>\n<p>OLD",
                      "Deleted OLD", "0 of 16 records"):
             self.assertIn(part, log)
 
-    def test_records_end_with_the_run(self):
+    def test_records_stay_in_the_run_until_they_are_put_on_the_disk(self):
         """As every change of the machine: an order that is posted again gives the same run."""
-        self.completed(self.MACHINE, self.record(0))
-        run = self.run_program(self.upload_program("again", self.record(1)), self.MACHINE)
-        self.assertEqual(run["status"], "failed")
-        self.assertEqual(run["messages"][-1]["number"], 1096)
+        saved = self.completed(self.MACHINE, *self.ABOVE, self.measure(1), self.record(0))
+        restored = self.upload_program("again", *self.ABOVE, self.record(1), self.measure(0))
+
+        def assert_error():
+            run = self.run_program(restored, self.MACHINE)
+            self.assertEqual(run["status"], "failed")
+            self.assertEqual(run["messages"][-1]["number"], 1096)
+
+        assert_error()
+        records = self.log(saved, "DATA450.KD")
+        self.upload("table/data450.kd", records)
+        run = self.run_program(restored, self.MACHINE)
+        self.assertEqual(run["status"], "completed", run["messages"])
+        self.assertAlmostEqual(run["parameters"]["Q143"], 0, delta=1e-6)
+        self.upload("table/data450.kd", records.replace("TABLE", "FLOOR"))
+        assert_error()
+        self.daemon.request("DELETE", "/v1/files/table/data450.kd")
+        assert_error()
 
     def test_452_and_453(self):
         preset = cycle(452, "PRESET COMPENSATION", **self.SPHERE, **self.AXES)

@@ -53,13 +53,19 @@ TEST_CASE("450 lists and deletes its records") {
   CHECK(bench.run(450, {{410, kStatus}}) == 0);
   CHECK(contains(log_of(bench, 450), "1 of 16 records:</p>\n<p>A &lt;B&gt;</p>"));
   CHECK(bench.run(450, record(kDelete, std::string("A <B>"))) == 0);
-  CHECK(bench.host.memory().saved_kinematics.empty());
+  CHECK(bench.host.saved.empty());
 }
 
 TEST_CASE("a number and a text of the same digits name the same record") {
   ProbingBench bench(trunnion());
   CHECK(bench.run(450, record(kSave, 12.0)) == 0);
   CHECK(bench.run(450, record(kRestore, std::string("12"))) == 0);
+}
+
+TEST_CASE("a record of another machine is not restored") {
+  ProbingBench bench(sphere_setup());
+  bench.host.saved["HEAD"] = Kinematics({{Axis::B, machine::AxisMount::Head, {}, {0, 1, 0}}});
+  CHECK(bench.run(450, record(kRestore, std::string("HEAD"))) == 1096);
 }
 
 TEST_CASE("errors of 450") {
@@ -70,6 +76,7 @@ TEST_CASE("errors of 450") {
   CHECK(bench.run(450, record(kSave, 100000.0)) == 1004);
   CHECK(bench.run(450, record(kSave, std::string())) == 1011);
   CHECK(bench.run(450, record(kSave, std::string(17, 'A'))) == 1011);
+  CHECK(bench.run(450, record(kSave, std::string("A\nB"))) == 1011);
   CHECK(bench.run(450, record(kRestore, 1.0)) == 1096);
   CHECK(bench.run(450, record(kDelete, 1.0)) == 1011);
   for (int k = 0; k < 16; ++k) REQUIRE(bench.run(450, record(kSave, static_cast<double>(k))) == 0);

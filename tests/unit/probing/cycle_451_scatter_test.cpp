@@ -24,7 +24,7 @@ using machine::Setup;
 using machine::Vec3;
 
 constexpr double kScatter = 0.002;  // mm, of each axis in each direction
-constexpr int kPoints = 12;
+constexpr int kPositions = 12;
 constexpr int kSeeds = 20;
 constexpr int kFitted = 4;  ///< two values of the location, two of the direction
 
@@ -48,7 +48,7 @@ struct Sight {
 };
 
 Sight sight_of(const MeasuredAxis& axis) {
-  std::vector<double> angles = measuring_positions(axis.start, axis.end, kPoints, 0);
+  std::vector<double> angles = measuring_positions(axis.start, axis.end, kPositions, 0);
   angles.push_back(0);
   const auto n = static_cast<double>(angles.size());
   double c = 0, s = 0, cc = 0, ss = 0, cs = 0;
@@ -152,7 +152,7 @@ std::map<Axis, Findings> measure_machines(const Table& table, const Claim& claim
     const Setup setup = random_machine(table, seed);
     Values block = kinematics_block();
     for (const MeasuredAxis& axis : table) {
-      block = with(block, measured(axis.axis, axis.start, axis.end, kPoints));
+      block = with(block, measured(axis.axis, axis.start, axis.end, kPositions));
     }
     SphereBench bench(setup);
     for (const double at : {1.0, 0.0}) {  // at the start the axes rest where they should

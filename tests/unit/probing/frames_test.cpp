@@ -84,7 +84,7 @@ struct Scenario {
 };
 
 /// The frames' transformations within the active preset.
-void activate(ProbingBench& bench, const Frames& transformations) {
+void transform(ProbingBench& bench, const Frames& transformations) {
   Frames frames = transformations;
   frames.set_preset(bench.machine.state().frames.preset());
   REQUIRE(bench.machine.set_frames(frames).has_value());
@@ -121,7 +121,7 @@ Numbers modal_state(ProbingBench& bench) {
           zero.z,
           state.frames.preset().basic_rotation_deg.z,
           bench.host.memory().fast_probing.positioning_feed.value_or(0),
-          static_cast<double>(bench.host.memory().saved_kinematics.size())};
+          static_cast<double>(bench.host.saved.size())};
 }
 
 /// A probe and what it is calibrated against: none is as the tables say.
@@ -159,9 +159,9 @@ Setup kinematics_setup() {
 }
 
 /// Values of a block that depend on the frames.
-using Block = std::function<Values(const Frames&)>;
+using FrameBlock = std::function<Values(const Frames&)>;
 
-Scenario on_machine(int cycle, const Setup& setup, int tool, const Vec3& tip, Block block,
+Scenario on_machine(int cycle, const Setup& setup, int tool, const Vec3& tip, FrameBlock block,
                     Read read) {
   return {cycle, false, [=](const Frames& frames) {
             ProbingBench bench(setup);
@@ -170,7 +170,7 @@ Scenario on_machine(int cycle, const Setup& setup, int tool, const Vec3& tip, Bl
             for (const Vec3& target : {Vec3{tip.x, tip.y, 200}, tip}) {
               REQUIRE(bench.machine.move({machine::AxisWords::linear(target), {}}).has_value());
             }
-            activate(bench, frames);
+            transform(bench, frames);
             const auto family = cycle == 247 ? CycleFamily::CyclDef : CycleFamily::TchProbe;
             Outcome outcome{
                 .error = bench.run(cycle, block(frames), family), .values = {}, .stored = {}};
@@ -180,7 +180,7 @@ Scenario on_machine(int cycle, const Setup& setup, int tool, const Vec3& tip, Bl
           }};
 }
 
-Block always(const Values& values) {
+FrameBlock always(const Values& values) {
   return [values](const Frames&) { return values; };
 }
 /// A height in the machine as the frames have it.
@@ -220,12 +220,14 @@ std::vector<Scenario> scenarios() {
   all.push_back(on_machine(453, table, 30, over,
                            always({{406, 1.0}, {407, 15.0}, {408, 90.0}, {253, 2000.0}}),
                            kinematic_results));
-  const Block check = [](const Frames& f) { return Values{{340, 1.0}, {260, height(f, 200)}}; };
+  const FrameBlock check = [](const Frames& f) {
+    return Values{{340, 1.0}, {260, height(f, 200)}};
+  };
   const Setup mill = tool_setup();
   for (const int cycle : {481, 482, 483}) {
     all.push_back(on_machine(cycle, mill, 5, {0, 0, 200}, check, tool_data));
   }
-  const Block words = [](const Frames& f) {
+  const FrameBlock words = [](const Frames& f) {
     return Values{{word(ParameterId::WordCheck), 1.0},
                   {word(ParameterId::WordHeight), height(f, 200)}};
   };

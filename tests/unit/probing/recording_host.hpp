@@ -37,6 +37,12 @@ class RecordingHost final : public CycleHost {
     return {};
   }
 
+  CycleResult<KinematicsRecords> kinematics_records() override { return saved; }
+  CycleResult<void> keep_kinematics(const KinematicsRecords& kept) override {
+    saved = kept;
+    return {};
+  }
+
   std::map<int, double> q;
   CycleMemory cycle_memory;
   bool inch = false;
@@ -48,6 +54,7 @@ class RecordingHost final : public CycleHost {
   std::vector<machine::ContactPoint> touches;
   bool has_datum_table = false;
   std::map<int, machine::AxisWords> datums;
+  KinematicsRecords saved;
 };
 
 }  // namespace fitgauge::probing
