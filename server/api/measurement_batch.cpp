@@ -52,8 +52,7 @@ Result<void> decode_json(std::string_view body, const BatchContext& context,
   if (document->is(JsonValue::Kind::Array)) {
     if (document->items.empty()) return no_rows("the array");
     if (document->items.size() > kMostRows) return too_many_rows();
-    // Both readers make the same of a row: those that were taken need not be read again.
-    for (std::size_t i = batch.taken; i < document->items.size(); ++i) {
+    for (std::size_t i = 0; i < document->items.size(); ++i) {
       reader.begin(i);
       read_row(document->items[i], reader, batch);
       take_full(batch, context, errors);
@@ -156,7 +155,7 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
 
 void take_full(MeasurementBatch& batch, const BatchContext& context, const FieldErrors& errors) {
   if (!context.take || batch.rows.size() < kRowsAtATime || !errors.empty()) return;
-  batch.taken += batch.rows.size();
+  batch.is_begun = true;
   context.take(std::exchange(batch.rows, {}));
   batch.rows.reserve(kRowsAtATime);
 }
@@ -167,6 +166,8 @@ Result<void> decode_measurements(std::string_view body, std::string_view media_t
   if (media_type == "application/x-ndjson") return decode_ndjson(body, context, batch);
   FieldErrors errors;
   if (read_body_fast(body, context, batch, errors)) return finish(errors);
+  batch.wants_whole = batch.is_begun;
+  if (batch.wants_whole) return Error{ErrorCode::RequestInvalid, "the body is to be read whole"};
   return decode_json(body, context, batch);
 }
 

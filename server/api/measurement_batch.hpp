@@ -18,7 +18,10 @@ struct MeasurementBatch {
   std::vector<app::Measurement> rows{};
   bool single = false;                  ///< the body was one object, not a list
   std::shared_ptr<const void> texts{};  ///< keeps what had to be copied out of the body
-  std::size_t taken = 0;                ///< rows before these that BatchContext::take has
+  bool is_begun = false;                ///< BatchContext::take has rows before these
+  /// Rows were taken before it showed that only the whole body tells what it holds, as JSON with an
+  /// escape or an error does: they are not to be used, and it is to be decoded without `take`.
+  bool wants_whole = false;
 };
 
 /// What a batch is decoded with.
@@ -44,7 +47,7 @@ inline constexpr std::size_t kRowsAtATime = 256;
 /// @param body followed by http::Request::kBodyPadding readable bytes; outlives the batch.
 /// @param media_type application/json (one object or an array), application/x-ndjson or text/csv.
 /// @errors JsonMalformed, JsonDuplicateKey, JsonTooDeep, TextEncoding, CsvMalformed; RequestInvalid
-///   with every bad field.
+///   with every bad field; any when the batch `wants_whole`.
 Result<void> decode_measurements(std::string_view body, std::string_view media_type,
                                  const BatchContext& context, MeasurementBatch& batch);
 

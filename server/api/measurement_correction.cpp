@@ -116,7 +116,7 @@ Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
   take_over(reader, body, *sources->original);
   const app::Measurement* row = reader.end();
   if (auto error = errors.take()) return *std::move(error);
-  MeasurementBatch batch{.rows = {*row}, .single = true, .texts = sources, .taken = 0};
+  MeasurementBatch batch{.rows = {*row}, .single = true, .texts = sources};
   batch.rows.front().correction_of = sources->original->id;
   batch.rows.front().correction_reason = reason;
   return batch;

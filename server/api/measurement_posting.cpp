@@ -61,24 +61,16 @@ void judge_while_recording(const SharedPosting& posting) {
   };
   auto answer =
       posting->services.measurements.record_while_reading(read, posting->scope, rendering);
+  // The writer went on with others; it need not wait for the exact reader.
+  if (batch.wants_whole) return judge_and_record(posting);
   if (!answer) return posting->responder.fail(answer.error());
   posting->responder.answer(response_of(*std::move(answer), wanted));
-}
-
-/// JSON with an escape is read the exact way, which has no row before it has read all of them: the
-/// writer would wait, and everybody else for the writer.
-bool gives_rows_as_it_is_read(const http::Request& request) {
-  return request.media_type() != "application/json" ||
-         request.body().find('\\') == std::string_view::npos;
 }
 
 void judge_where_it_may_take_long(const SharedPosting& posting) {
   if (posting->request.body().size() <= kLargeBody) return judge_and_record(posting);
   posting->services.measurements.run(
-      [posting] {
-        if (gives_rows_as_it_is_read(posting->request)) return judge_while_recording(posting);
-        judge_and_record(posting);
-      },
+      [posting] { judge_while_recording(posting); },
       [posting](Error error) { posting->responder.fail(std::move(error)); });
 }
 

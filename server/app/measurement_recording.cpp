@@ -20,6 +20,9 @@ namespace {
 /// there to have its first measurements ready.
 constexpr unsigned kLongRequests = 2;
 
+/// So many that their rows stay in the cache.
+constexpr std::size_t kAtATime = 128;
+
 /// The store knows ids as numbers: this error names them as the outside does.
 Error corrected_before(const store::Stores& stores, std::int64_t id) {
   const auto newer = stores.measurements.corrected_by(id);
@@ -28,11 +31,10 @@ Error corrected_before(const store::Stores& stores, std::int64_t id) {
                       measurement_id_text(id), measurement_id_text(newer.value_or(0)))};
 }
 
-/// Stores the measurements of a request, so many at a time that their rows stay in the cache.
+/// Stores the measurements of a request.
 /// @returns the id of the first.
 Result<std::int64_t> append(store::Stores& stores, std::span<const Measurement> measurements,
                             std::optional<std::int64_t> revision) {
-  constexpr std::size_t kAtATime = 128;
   const std::int64_t first = stores.measurements.last_id() + 1;
   std::vector<store::MeasurementRow> rows;
   while (!measurements.empty()) {
@@ -113,7 +115,8 @@ void MeasurementService::record(std::vector<Measurement> measurements,
                                 const std::optional<IdempotencyScope>& scope, Render render,
                                 Done<Answer> done) {
   const auto revision = revision_of(measurements, tables_);
-  if (!scope && !measurements.front().correction_of) {
+  const bool is_small = measurements.size() <= kAtATime;
+  if (is_small && !scope && !measurements.front().correction_of) {
     return queue_->record({.measurements = std::move(measurements),
                            .revision = revision,
                            .render = std::move(render),
