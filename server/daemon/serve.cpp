@@ -202,15 +202,15 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   if (!started) return started.error();
   http::Server& server = **started;
   metrics.watch([&server] { return server.counters(); });
-  if (connections < config.max_connections) {
-    log_warning("connections_limited",
-                fmt::format("{} of {}: the hard limit of open files allows no more", connections,
-                            config.max_connections));
-  }
   if (!port_file.empty()) {
     if (const auto written = write_port_file(port_file, server.ports().front()); !written) {
       return written.error();
     }
+  }
+  if (connections < config.max_connections) {
+    log_warning("connections_limited",
+                fmt::format("{} of {}: the hard limit of open files allows no more", connections,
+                            config.max_connections));
   }
   for (const std::uint16_t port : server.ports())
     log_info("listening", fmt::format("port {}", port));

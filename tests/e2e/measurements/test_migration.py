@@ -50,8 +50,9 @@ class Migration(unittest.TestCase):
         if data:
             shutil.copytree(data, daemon.data)
         call = fault.partition(":")[0]
+        # Few files: not a word about that beside the reason of a refusal.
         # -D: the tracer is no parent, so that the process is the service's own.
-        daemon.wrapper = ["strace", "-D", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={call}",
+        daemon.wrapper = ["prlimit", "--nofile=64:400", "strace", "-D", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={call}",
                           "-e", f"inject={fault}"]
         refused = False
         try:
