@@ -24,7 +24,7 @@ using machine::Setup;
 using machine::Vec3;
 
 constexpr double kScatter = 0.002;  // mm, of each axis in each direction
-constexpr int kPositions = 12;
+constexpr int kPositions = 8;
 constexpr int kFitted = 4;  ///< two values of the location, two of the direction
 
 /// From the bed to the workpiece, or of a head.
@@ -51,6 +51,7 @@ struct Sight {
 
 Sight sight_of(const MeasuredAxis& axis) {
   std::vector<double> angles = measuring_positions(axis.start, axis.end, kPositions, 0);
+  std::erase(angles, 0);  // where the reference is
   angles.push_back(0);
   const auto n = static_cast<double>(angles.size());
   double c = 0, s = 0, cc = 0, ss = 0, cs = 0;
@@ -90,14 +91,13 @@ class Ratio {
 /// FITGAUGE_SEEDS=1000 measures as many machines, with bounds as much closer.
 int seeds() {
   const char* given = std::getenv("FITGAUGE_SEEDS");
-  return given == nullptr ? 20 : std::stoi(given);
+  return given == nullptr ? 12 : std::stoi(given);
 }
 
 /// What somebody says of the machines that are measured.
 struct Claim {
   double scatter = kScatter;
   bool carriers_count = true;
-  double mode = 2;  ///< of the first measurement; 2 optimises
 };
 
 struct Findings {
@@ -157,70 +157,83 @@ void compare_deviations(double optimised, double measured, const MeasuredAxis& a
                      (2 * own + 4 * carried * carried) / (expected * expected));
 }
 
-/// Optimises and checks many machines.
-std::map<Axis, Findings> measure_machines(const Table& table, const Claim& claim = {}) {
-  std::map<Axis, Findings> all;
+/// Measures many machines twice, first in that mode (2 optimises).
+/// @return what is found of each claim.
+std::vector<std::map<Axis, Findings>> measure_machines(const Table& table,
+                                                       const std::vector<Claim>& claims = {Claim{}},
+                                                       double mode = 2) {
+  std::vector<std::map<Axis, Findings>> all(claims.size());
+  Values block = kinematics_block();
+  for (const MeasuredAxis& axis : table) {
+    block = with(block, measured(axis.axis, axis.start, axis.end, kPositions));
+  }
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(seeds()); ++seed) {
     const Setup setup = random_machine(table, seed);
-    Values block = kinematics_block();
-    for (const MeasuredAxis& axis : table) {
-      block = with(block, measured(axis.axis, axis.start, axis.end, kPositions));
-    }
     SphereBench bench(setup);
     for (const double at : {1.0, 0.0}) {  // at the start the axes rest where they should
       machine::AxisWords words;
       for (const MeasuredAxis& axis : table) words[axis.axis] = at;
       REQUIRE(bench.machine.move({words, {}}).has_value());
     }
-    REQUIRE(bench.run(451, with(block, {{406, claim.mode}})) == 0);
+    REQUIRE(bench.run(451, with(block, {{406, mode}})) == 0);
     const std::map<int, double> first = bench.host.q;
     REQUIRE(bench.run(451, with(block, {{406, 0.0}})) == 0);
-    for (const MeasuredAxis& axis : table) {
-      const int letter = static_cast<int>(index(axis.axis)) - 3;
-      compare_model(bench, setup, axis, claim, all[axis.axis]);
-      compare_deviations(first.at(144 + letter), bench.host.q[141 + letter], axis, claim,
-                         all[axis.axis]);
+    for (std::size_t k = 0; k < claims.size(); ++k) {
+      for (const MeasuredAxis& axis : table) {
+        const int letter = static_cast<int>(index(axis.axis)) - 3;
+        Findings& found = all[k][axis.axis];
+        compare_model(bench, setup, axis, claims[k], found);
+        compare_deviations(first.at(144 + letter), bench.host.q[141 + letter], axis, claims[k],
+                           found);
+      }
     }
   }
   return all;
 }
 
-}  // namespace
-
-TEST_CASE("axes that all scatter: each error is found as well as its positions can see it") {
-  for (const Table& table : {kTwoAxes, kThreeAxes, kHeadAndTable}) {
-    for (const auto& [axis, found] : measure_machines(table)) {
-      CAPTURE(name(axis));
-      CAPTURE(found.location.mean());
-      CAPTURE(found.direction.mean());
-      CAPTURE(found.optimised.mean());
-      CAPTURE(found.measured.mean());
-      CHECK(found.far == 0);
-      CHECK(found.location.is_one());
-      CHECK(found.direction.is_one());
-      // After optimising the standard deviation is that of the scatter.
-      CHECK(found.optimised.is_one());
-      CHECK(found.measured.is_one());
-    }
+void check_as_claimed(const std::map<Axis, Findings>& axes) {
+  for (const auto& [axis, found] : axes) {
+    CAPTURE(name(axis));
+    CAPTURE(found.location.mean());
+    CAPTURE(found.direction.mean());
+    CAPTURE(found.optimised.mean());
+    CAPTURE(found.measured.mean());
+    CHECK(found.far <= seeds() / 200);  // chance leaves at most one in 500
+    CHECK(found.location.is_one());
+    CHECK(found.direction.is_one());
+    // After optimising the standard deviation is that of the scatter.
+    CHECK(found.optimised.is_one());
+    CHECK(found.measured.is_one());
   }
 }
 
-TEST_CASE("the expectations of a scattering machine can fail") {
-  // The scatter is not half as large.
-  for (const auto& [axis, found] : measure_machines(kTwoAxes, {.scatter = 0.5 * kScatter})) {
+}  // namespace
+
+TEST_CASE("axes that all scatter: each error is found as well as its positions can see it") {
+  check_as_claimed(measure_machines(kThreeAxes).front());
+  check_as_claimed(measure_machines(kHeadAndTable).front());
+}
+
+TEST_CASE("of two scattering axes the truth is confirmed, and false claims are not") {
+  const std::vector<Claim> claims{Claim{}, {.scatter = 0.5 * kScatter}, {.carriers_count = false}};
+  const auto findings = measure_machines(kTwoAxes, claims);
+  check_as_claimed(findings[0]);
+  for (const auto& [axis, found] : findings[1]) {
     CHECK_FALSE(found.location.is_one());
     CHECK_FALSE(found.direction.is_one());
     CHECK_FALSE(found.optimised.is_one());
     CHECK_FALSE(found.measured.is_one());
   }
   // What A rests with counts for C, and for C alone.
-  const auto alone = measure_machines(kTwoAxes, {.carriers_count = false});
-  CHECK(alone.at(Axis::A).location.is_one());
-  CHECK_FALSE(alone.at(Axis::C).location.is_one());
-  CHECK_FALSE(alone.at(Axis::C).measured.is_one());
-  CHECK(alone.at(Axis::C).optimised.is_one());
-  // A check corrects nothing.
-  for (const auto& [axis, found] : measure_machines(kTwoAxes, {.mode = 0})) {
+  CHECK(findings[2].at(Axis::A).location.is_one());
+  CHECK_FALSE(findings[2].at(Axis::C).location.is_one());
+  CHECK_FALSE(findings[2].at(Axis::C).measured.is_one());
+  CHECK(findings[2].at(Axis::C).optimised.is_one());
+}
+
+TEST_CASE("a machine that was only checked keeps its errors") {
+  const auto findings = measure_machines(kTwoAxes, {Claim{}}, 0);
+  for (const auto& [axis, found] : findings.front()) {
     CHECK(found.far > seeds() / 2);
     CHECK_FALSE(found.location.is_one());
     CHECK_FALSE(found.measured.is_one());
