@@ -31,7 +31,7 @@ struct AxisSetup {
   Vec3 centre_error;        ///< center_error_mm: real centre minus modelled centre
   Vec3 tilt_error_deg;      ///< spatial angles by which the real direction differs
   double backlash_deg = 0;  ///< lost motion when the direction of turning changes
-  double scatter_um = 0;    ///< standard deviation, along each direction, of where what it carries rests
+  double scatter_um = 0;    ///< standard deviation, each way, of where what it carries rests
 
   /// X, Y, Z: -500 to 500 mm. A, B: -120 to 120 degrees, C: -360 to 360, each around its own axis.
   static AxisSetup of(Axis axis);

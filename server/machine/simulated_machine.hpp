@@ -39,9 +39,9 @@ class SimulatedMachine final : public ModelledMachine {
 
   MachineSetup setup_;
   Workpiece workpiece_;
-  Kinematics kinematics_;     ///< as built, with the errors of centre and direction
-  Vec3 slack_deg_;            ///< what backlash adds to the positions of A, B, C at present
-  Displacements rest_;        ///< what the scatter of the axes adds at present
+  Kinematics kinematics_;  ///< as built, with the errors of centre and direction
+  Vec3 slack_deg_;         ///< what backlash adds to the positions of A, B, C at present
+  Displacements rest_;     ///< what the scatter of the axes adds at present
   Random random_;
 };
 
