@@ -13,8 +13,6 @@ namespace {
 using app::kMeasurementTexts;
 using app::Measurement;
 
-constexpr int kTemperatureScale = 6;
-
 /// More than the names of all members, the numbers and the words of a record take together.
 constexpr std::size_t kFixedRoom = 1536;
 
@@ -71,7 +69,8 @@ void write_given(RecordText& text, const Measurement& m) {
   text.raw(R"(,"rule":")").raw(word(m.rule.kind())).raw("\"");
   if (m.standard_uncertainty) text.raw(R"(,"uncertainty_um":)").um(*m.standard_uncertainty);
   if (m.coverage_factor) text.raw(R"(,"coverage_factor":)").raw(format(*m.coverage_factor));
-  if (m.temperature) text.raw(R"(,"temperature_c":)").decimal(*m.temperature, kTemperatureScale);
+  if (m.temperature)
+    text.raw(R"(,"temperature_c":)").decimal(*m.temperature, app::kTemperatureDecimals);
   if (m.caller) text.raw(R"(,"caller":)").quoted(*m.caller);
   if (m.run_id) text.raw(R"(,"run_id":)").quoted(app::run_id_text(*m.run_id));
   if (m.cycle) text.raw(R"(,"cycle":)").decimal(*m.cycle, 0);
@@ -162,7 +161,7 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   text(word(m.rule.kind()));
   text(m.standard_uncertainty ? format_um(*m.standard_uncertainty) : "");
   text(m.coverage_factor ? format(*m.coverage_factor) : "");
-  text(m.temperature ? format_decimal(*m.temperature, kTemperatureScale) : "");
+  text(m.temperature ? format_decimal(*m.temperature, app::kTemperatureDecimals) : "");
   for (const auto& [name, field] : kMeasurementTexts) text((m.texts.*field).value_or(""));
   text(m.caller.value_or(""));
   text(m.run_id ? app::run_id_text(*m.run_id) : "");

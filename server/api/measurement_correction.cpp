@@ -17,7 +17,6 @@ namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kLongestReason = 2000;
-constexpr int kTemperatureDecimals = 6;
 constexpr std::array<std::string_view, 6> kLimitsFields = {
     "designation", "nominal_mm", "tolerance_class", "feature", "upper_um", "lower_um"};
 
@@ -71,7 +70,8 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     offer(reader, "coverage_factor", format(*original.coverage_factor));
   }
   if (original.temperature) {
-    offer(reader, "temperature_c", format_decimal(*original.temperature, kTemperatureDecimals));
+    offer(reader, "temperature_c",
+          format_decimal(*original.temperature, app::kTemperatureDecimals));
   }
 }
 
@@ -143,7 +143,7 @@ void find_and_correct(const SharedPosting& posting, std::int64_t id) {
   const auto original = std::make_shared<std::optional<app::KeptMeasurement>>();
   posting->services.measurements.find(
       id, [original](const app::Measurement& found) { original->emplace(found); },
-      [posting, original](Result<std::int64_t> found) {
+      [posting, original](const Result<std::int64_t>& found) {
         if (!found) return posting->responder.fail(found.error());
         correct(posting, ***original);
       });

@@ -10,7 +10,7 @@ namespace fitgauge::api {
 namespace {
 
 /// Decoding more than this would keep other connections of the I/O thread waiting.
-constexpr std::size_t kLargeBody = 64 * 1024;
+constexpr std::size_t kLargeBody = std::size_t{64} << 10;
 
 http::Response response_of(app::Answer answer, Preference applied) {
   http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
@@ -54,7 +54,7 @@ void judge_while_recording(const SharedPosting& posting) {
   const auto read = [&](const app::MeasurementService::Take& take) -> Result<void> {
     BatchContext context = context_of(*posting, *tables);
     context.take = take;
-    const auto decoded = decode_measurements(request.body(), request.media_type(), context, batch);
+    auto decoded = decode_measurements(request.body(), request.media_type(), context, batch);
     rendering.set_single(batch.single);
     if (decoded && !batch.rows.empty()) take(std::move(batch.rows));
     return decoded;

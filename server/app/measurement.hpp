@@ -52,6 +52,8 @@ inline constexpr std::array<
         {"comment", &MeasurementTexts::comment},
     }};
 
+inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them
+
 /// One judged measurement, before and after it is stored. Its texts are views of the memory it was
 /// read from: the request's body, or the database's own page while a visitor runs.
 struct Measurement {
