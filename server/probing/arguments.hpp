@@ -36,6 +36,10 @@ class Arguments {
   /// @pre complete() succeeded and the parameter holds a number.
   double number(ParameterId id) const;
   double number(int parameter) const { return number(q(parameter)); }
+  /// Of a cycle that is written in sub-lines or in Q parameters: the number in either.
+  double number(ParameterId word, int parameter) const {
+    return number(descriptor_->dotted ? word : q(parameter));
+  }
   /// The number of a parameter that not every cycle has.
   double number_or(int parameter, double fallback) const;
   int whole(int parameter) const { return static_cast<int>(number(parameter)); }

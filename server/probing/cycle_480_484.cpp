@@ -63,10 +63,11 @@ CycleResult<void> calibrate(const CycleContext& context, CycleResult<ToolProbing
   return lift(context.machine.write_tool_touch_probe(*found));
 }
 
-CycleResult<void> calibrate_at_known_place(const CycleContext& context, ParameterId height) {
+CycleResult<void> calibrate_at_known_place(const CycleContext& context) {
   const machine::Vec3& centre = context.machine.state().tt.centre;
-  return calibrate(context, ToolProbing::begin(context, context.arguments.number(height)),
-                   {centre.x, centre.y});
+  return calibrate(
+      context, ToolProbing::begin(context, context.arguments.number(ParameterId::WordHeight, 260)),
+      {centre.x, centre.y});
 }
 
 CycleResult<void> calibrate_here(const CycleContext& context) {
@@ -92,19 +93,15 @@ constinit const TouchProbeCycle kCycle30{{.number = 30,
                                           .parameters = k30Parameters,
                                           .simulated = kSimulated,
                                           .not_simulated = kNotSimulated},
-                                         [](const CycleContext& context) {
-                                           return calibrate_at_known_place(context,
-                                                                           ParameterId::WordHeight);
-                                         }};
+                                         calibrate_at_known_place};
 
-constinit const TouchProbeCycle kCycle480{
-    {.number = 480,
-     .name = "CALIBRATE TT",
-     .kind = CycleKind::Tool,
-     .parameters = k480Parameters,
-     .simulated = kSimulated,
-     .not_simulated = kNotSimulated},
-    [](const CycleContext& context) { return calibrate_at_known_place(context, q(260)); }};
+constinit const TouchProbeCycle kCycle480{{.number = 480,
+                                           .name = "CALIBRATE TT",
+                                           .kind = CycleKind::Tool,
+                                           .parameters = k480Parameters,
+                                           .simulated = kSimulated,
+                                           .not_simulated = kNotSimulated},
+                                          calibrate_at_known_place};
 
 constinit const TouchProbeCycle kCycle484{{.number = 484,
                                            .name = "CALIBRATE IR TT",

@@ -54,12 +54,9 @@ struct ToolOrder {
 };
 
 ToolOrder tool_order_of(const Arguments& arguments) {
-  const bool dotted = arguments.descriptor().dotted;
-  const auto value = [&](ParameterId word, int parameter) {
-    return arguments.number(dotted ? word : q(parameter));
-  };
-  return {static_cast<Mode>(value(ParameterId::WordCheck, 340)),
-          value(ParameterId::WordHeight, 260), value(ParameterId::WordTeeth, 341) != 0};
+  return {static_cast<Mode>(arguments.number(ParameterId::WordCheck, 340)),
+          arguments.number(ParameterId::WordHeight, 260),
+          arguments.number(ParameterId::WordTeeth, 341) != 0};
 }
 
 /// A column of tool.t that is measured, with those that judge it.
