@@ -2,25 +2,17 @@
 
 #include <doctest/doctest.h>
 
-#include "machine/simulated_machine.hpp"
+#include "unit/machine/machine_bench.hpp"
 #include "unit/machine/machine_check.hpp"
 
 using namespace fitgauge::machine;
 
 namespace {
 
+/// With the ball's centre at the origin.
 void stand_at_origin(Machine& machine) {
-  ToolCall call;
-  call.number = 30;
-  call.axis = Axis::Z;
-  REQUIRE(ok(machine.call_tool(call)));
-  LinearMove move;
-  move.target = AxisWords::linear({0, 0, -2});  // the ball's centre at the origin
-  REQUIRE(ok(machine.move(move)));
-}
-
-ProbeMove probe_along(const Vec3& direction) {
-  return {direction, 20, 500, CoordinateSystem::Input, std::nullopt, {}};
+  REQUIRE(ok(machine.call_tool(probe_call())));
+  REQUIRE(ok(machine.move(to({0, 0, -2}))));
 }
 
 }  // namespace
@@ -28,15 +20,15 @@ ProbeMove probe_along(const Vec3& direction) {
 TEST_CASE("recorded contacts are replayed in order") {
   ScriptedMachine machine(MachineSetup{}, {{Vec3{10.5, 0.01, 0}}, {std::nullopt}, {Vec3{0, 9, 0}}});
   stand_at_origin(machine);
-  const auto first = machine.probe(probe_along({1, 0, 0}));
+  const auto first = machine.probe(towards({1, 0, 0}));
   REQUIRE(ok(first));
   check_near(first->ball_centre, {10.5, 0, 0});
   check_near(first->surface, {12.5, 0, 0});
-  CHECK(fault_of(machine.probe(probe_along({0, 0, 1}))) == FaultKind::NoContact);
+  CHECK(fault_of(machine.probe(towards({0, 0, 1}))) == FaultKind::NoContact);
   CHECK(machine.remaining() == 1);
   stand_at_origin(machine);
-  CHECK(fault_of(machine.probe(probe_along({1, 0, 0}))) == FaultKind::ScriptedDifferent);
-  CHECK(fault_of(machine.probe(probe_along({1, 0, 0}))) == FaultKind::ScriptExhausted);
+  CHECK(fault_of(machine.probe(towards({1, 0, 0}))) == FaultKind::ScriptedDifferent);
+  CHECK(fault_of(machine.probe(towards({1, 0, 0}))) == FaultKind::ScriptExhausted);
 }
 
 TEST_CASE("the contacts of a simulated run give the same run again") {
@@ -49,13 +41,13 @@ TEST_CASE("the contacts of a simulated run give the same run again") {
   std::vector<ContactPoint> found;
   const std::vector<Vec3> directions{{1, 0, 0}, {1, 2, 0}, {-1, 0, 0}, {0, -1, 0}};
   for (const Vec3& direction : directions) {
-    found.push_back(simulated.probe(probe_along(direction)).value());
+    found.push_back(simulated.probe(towards(direction)).value());
     log.push_back({found.back().ball_centre});
   }
   ScriptedMachine scripted(setup.machine, log);
   stand_at_origin(scripted);
   for (std::size_t k = 0; k < directions.size(); ++k) {
-    const auto contact = scripted.probe(probe_along(directions[k]));
+    const auto contact = scripted.probe(towards(directions[k]));
     REQUIRE(ok(contact));
     check_near(contact->surface, found[k].surface);
   }
