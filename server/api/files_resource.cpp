@@ -28,8 +28,7 @@ std::string href(std::string_view path) {
   std::string out = "/v1/files/";
   for (const char c : path.substr(kDrive.size())) {
     constexpr std::string_view kPlain = "-._~!$&'()*+,;=:@";
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                       kPlain.find(c) != std::string_view::npos;
+    const bool plain = is_ascii_alphanumeric(c) || kPlain.find(c) != std::string_view::npos;
     constexpr std::string_view kDigits = "0123456789ABCDEF";
     const auto byte = static_cast<unsigned char>(c);
     if (c == '\\') {

@@ -12,7 +12,7 @@
 namespace fitgauge::klartext {
 namespace {
 
-bool continues_word(char c) { return is_letter(c) || is_digit(c) || c == '_'; }
+bool continues_word(char c) { return is_ascii_letter(c) || is_digit(c) || c == '_'; }
 
 /// Literals have at most nine digits before the point.
 constexpr double kLargestNumber = 1e9;
@@ -144,7 +144,7 @@ void Lexer::expect_prefix(std::string_view prefix) {
 std::string_view Lexer::letters() {
   skip_blanks();
   const char* end = at_;
-  while (end != end_ && is_letter(*end) && !(end != at_ && is_parameter(end))) ++end;
+  while (end != end_ && is_ascii_letter(*end) && !(end != at_ && is_parameter(end))) ++end;
   return {at_, static_cast<std::size_t>(end - at_)};
 }
 

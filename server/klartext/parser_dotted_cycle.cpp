@@ -88,7 +88,7 @@ void parse_loose_part(BlockReader& in, CycleFamily family, unsigned part) {
       in.add_word({.letter = Letter::Result, .value = in.parameter()});
     } else if (at_value(in)) {
       in.add_word({.letter = Letter::Value, .value = parse_number(in)});
-    } else if (is_letter(c)) {
+    } else if (is_ascii_letter(c)) {
       parse_loose_letters(in, probe);
     } else {
       in.move_to(in.at() + 1);

@@ -44,7 +44,7 @@ static_assert(std::size(kWordsOf) == std::size(kPaths));
 bool parse_compensation(BlockReader& in, Motion& motion) {
   const char c = ascii_upper(in.peek(1));
   const char behind = in.peek(2);
-  if ((c != '0' && c != 'L' && c != 'R') || is_letter(behind) || is_digit(behind) ||
+  if ((c != '0' && c != 'L' && c != 'R') || is_ascii_letter(behind) || is_digit(behind) ||
       behind == '.' || behind == ',') {
     return false;
   }

@@ -47,7 +47,7 @@ Word WordReader::parse_name() {
     return word;
   }
   std::string_view name = in_.letters();
-  if (ascii_iequals(name, "P") && is_digit(in_.peek(1)) && is_letter(in_.peek(2))) {
+  if (ascii_iequals(name, "P") && is_digit(in_.peek(1)) && is_ascii_letter(in_.peek(2))) {
     name = {in_.at(), 3};  // P1X
   }
   std::optional<Letter> letter = find_letter(name);

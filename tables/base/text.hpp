@@ -25,6 +25,9 @@ constexpr char ascii_lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 constexpr bool is_ascii_letter(char c) { return ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z'; }
+constexpr bool is_ascii_alphanumeric(char c) {
+  return is_ascii_letter(c) || (c >= '0' && c <= '9');
+}
 std::string ascii_upper(std::string_view text);
 std::string ascii_lower(std::string_view text);
 bool ascii_iequals(std::string_view a, std::string_view b);

@@ -30,9 +30,7 @@ std::optional<Enum> find(const std::array<std::string_view, Count>& texts, std::
 }
 
 constexpr bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
-constexpr bool is_name_character(char c) {
-  return is_ascii_letter(c) || (c >= '0' && c <= '9') || c == '_';
-}
+constexpr bool is_name_character(char c) { return is_ascii_alphanumeric(c) || c == '_'; }
 
 }  // namespace
 

@@ -35,12 +35,10 @@ std::size_t value_end(std::string_view text) {
   return std::min(text.find_first_of(",)]\n"), text.size());
 }
 
-bool is_key_character(char c) { return ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z'; }
-
 /// The word that ends before `end`.
 std::string_view key_before(std::string_view text, std::size_t end) {
   std::size_t begin = end;
-  while (begin > 0 && is_key_character(text[begin - 1])) --begin;
+  while (begin > 0 && is_ascii_letter(text[begin - 1])) --begin;
   return text.substr(begin, end - begin);
 }
 

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -63,9 +61,8 @@ std::string_view reason(int status) {
 
 /// Written for every answer, where a format string to read costs more than the number.
 void append_number(std::string& out, std::size_t number) {
-  std::array<char, std::numeric_limits<std::size_t>::digits10 + 1> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-  out.append(digits.data(), end);
+  const fmt::format_int digits(number);
+  out.append(digits.data(), digits.size());
 }
 
 /// A line break inside a value would begin a field of its own: it becomes a blank.

@@ -90,7 +90,7 @@ void IoThread::schedule_sweep() {
 void IoThread::update_clock() {
   now_ = std::chrono::steady_clock::now();
   const Timestamp wall = SystemClock().now();
-  const std::int64_t second = wall.nanoseconds / 1'000'000'000;
+  const std::int64_t second = wall.nanoseconds / kNanosecondsPerSecond;
   if (second == date_second_) return;
   date_second_ = second;
   date_ = format_http_date(wall);

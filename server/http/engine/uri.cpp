@@ -16,16 +16,12 @@ int hex_digit(char c) {
   return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
-constexpr bool is_alphanumeric(char c) {
-  return (c >= '0' && c <= '9') || (ascii_lower(c) >= 'a' && ascii_lower(c) <= 'z');
-}
-
 /// The characters of a reg-name or IPv4address: unreserved, sub-delims and %XX.
 constexpr std::array<bool, 256> kHostCharacters = [] {
   std::array<bool, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const char c = static_cast<char>(i);
-    table[i] = is_alphanumeric(c) ||
+    table[i] = is_ascii_alphanumeric(c) ||
                std::string_view("-._~%!$&'()*+,;=").find(c) != std::string_view::npos;
   }
   return table;
@@ -36,7 +32,7 @@ constexpr auto is_host_character = [](char c) {
   return kHostCharacters[static_cast<unsigned char>(c)];
 };
 constexpr auto is_ip_literal_character = [](char c) {
-  return is_alphanumeric(c) || c == ':' || c == '.';
+  return is_ascii_alphanumeric(c) || c == ':' || c == '.';
 };
 
 }  // namespace
