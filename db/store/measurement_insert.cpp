@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 #include "store/measurement_fields.hpp"
@@ -11,10 +12,10 @@
 namespace fitgauge::store {
 namespace {
 
-constexpr std::size_t kRowsPerStatement = 32;
+constexpr std::size_t kMostRowsPerStatement = 32;
 constexpr std::uint64_t kAllFields = ~std::uint64_t{0};
 /// Statements kept; clients that fill ever other fields get the one with all columns.
-constexpr std::size_t kMostStatements = 32;
+constexpr std::size_t kMostStatements = 64;
 
 template <class T>
 bool is_given(const T&) {
@@ -29,14 +30,13 @@ bool contains(std::uint64_t fields, unsigned bit) { return ((fields >> bit) & 1U
 
 }  // namespace
 
-MeasurementInsert::Place MeasurementInsert::append(Place last,
-                                                   std::span<const MeasurementRow> rows) {
+void MeasurementInsert::append(std::span<const MeasurementRow> rows) {
   while (!rows.empty()) {
-    const std::size_t count = rows.size() < kRowsPerStatement ? 1 : kRowsPerStatement;
-    insert(rows.first(count), last);
+    // Powers of two: few statements fit every number of rows.
+    const std::size_t count = std::min(std::bit_floor(rows.size()), kMostRowsPerStatement);
+    insert(rows.first(count));
     rows = rows.subspan(count);
   }
-  return last;
 }
 
 MeasurementInsert::Fields MeasurementInsert::fields_of(std::span<const MeasurementRow> rows) {
@@ -72,25 +72,22 @@ std::pair<const MeasurementInsert::Shape, sqlite::Statement>& MeasurementInsert:
   return *statements_.try_emplace(made, connection_, insert_sql(made)).first;
 }
 
-void MeasurementInsert::insert(std::span<const MeasurementRow> rows, Place& last) {
+void MeasurementInsert::insert(std::span<const MeasurementRow> rows) {
   auto& made = statement_for({fields_of(rows), rows.size()});
   const Fields fields = made.first.fields;
   sqlite::Statement& statement = made.second;
-  hashes_.resize(std::max(hashes_.size(), rows.size()));
   int index = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    ++last.id;
-    last.hash = hashes_[i] = hasher_(last.hash, last.id, rows[i]);
+  for (const MeasurementRow& row : rows) {
     unsigned bit = 0;
-    for_each_field(rows[i], [&](const char*, const auto& value) {
+    for_each_field(row, [&](const char*, const auto& value) {
       if (contains(fields, bit++)) statement.bind(++index, value);
     });
-    statement.bind(++index, hashes_[i]);
+    statement.bind(++index, row.hash);
   }
   statement.run();
   // SQLite finds the end of the table without a search where it gives the ids itself.
-  if (connection_.last_inserted_id() != last.id) {
-    throw std::logic_error(fmt::format("measurement {} was stored under another id", last.id));
+  if (const std::int64_t id = rows.back().id; connection_.last_inserted_id() != id) {
+    throw std::logic_error(fmt::format("measurement {} was stored under another id", id));
   }
 }
 

@@ -7,9 +7,8 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "store/measurement_hash.hpp"
+#include "store/measurement_row.hpp"
 #include "store/sqlite/statement.hpp"
 
 namespace fitgauge::store {
@@ -20,13 +19,8 @@ class MeasurementInsert {
  public:
   explicit MeasurementInsert(sqlite::Connection& connection) : connection_(connection) {}
 
-  /// The place a row gets: the one after `last`.
-  struct Place {
-    std::int64_t id = 0;
-    Digest hash{};
-  };
-  /// @returns the place of the last row.
-  Place append(Place last, std::span<const MeasurementRow> rows);
+  /// @param rows linked to the end of the chain.
+  void append(std::span<const MeasurementRow> rows);
 
  private:
   /// A set of fields, one bit each in the order of for_each_field.
@@ -42,12 +36,10 @@ class MeasurementInsert {
   static Fields fields_of(std::span<const MeasurementRow> rows);
   static std::string insert_sql(const Shape& shape);
   std::pair<const Shape, sqlite::Statement>& statement_for(const Shape& shape);
-  void insert(std::span<const MeasurementRow> rows, Place& last);
+  void insert(std::span<const MeasurementRow> rows);
 
   sqlite::Connection& connection_;
   std::map<Shape, sqlite::Statement> statements_;
-  MeasurementHasher hasher_;
-  std::vector<Digest> hashes_;  ///< bound without a copy while a statement runs
 };
 
 }  // namespace fitgauge::store

@@ -19,7 +19,7 @@ enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2 };
 /// millionths. Texts are views: of the caller's memory until the job that appends them is done, or
 /// of the database's own while a visitor runs.
 struct MeasurementRow {
-  std::int64_t id = 0;  ///< assigned by `append`, rising; what is given is ignored
+  std::int64_t id = 0;  ///< rising; given with the hash
   Source source = Source::Gauge;
   std::int64_t measured_at_ns = 0;
   std::int64_t received_at_ns = 0;
@@ -58,7 +58,7 @@ struct MeasurementRow {
   std::optional<std::int64_t> correction_of{};  ///< id of the row this one replaces
   std::optional<std::string_view> correction_reason{};
 
-  Digest hash{};  ///< computed by `append`
+  Digest hash{};  ///< given by MeasurementChain when the row is appended
 
   std::int64_t upper_limit_nm() const { return nominal_nm + upper_deviation_nm; }
   std::int64_t lower_limit_nm() const { return nominal_nm + lower_deviation_nm; }

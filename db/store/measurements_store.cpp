@@ -78,7 +78,7 @@ struct MeasurementsStore::Statements {
         lookup(c),
         whole_rows(c, measurement_columns()) {}
 
-  MeasurementInsert::Place last() {
+  MeasurementChain::End chain_end() {
     Rows rows = newest.query();
     if (!rows.next()) return {};
     return {rows.get<std::int64_t>(0), rows.get<Digest>(1)};
@@ -136,7 +136,15 @@ MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
     : statements_(std::make_unique<Statements>(connection)) {}
 MeasurementsStore::~MeasurementsStore() = default;
 
-Result<IdRange> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
+Result<IdRange> MeasurementsStore::append(std::span<MeasurementRow> rows) {
+  MeasurementChain chain(chain_end());
+  const std::int64_t first = chain.end().id + 1;
+  chain.link(rows);
+  if (const Result<void> appended = append_linked(rows); !appended) return appended.error();
+  return IdRange{first, chain.end().id};
+}
+
+Result<void> MeasurementsStore::append_linked(std::span<const MeasurementRow> rows) {
   for (const MeasurementRow& row : rows) {
     if (row.correction_of) {
       if (Result<void> open = statements_->require_current(*row.correction_of); !open) {
@@ -145,10 +153,11 @@ Result<IdRange> MeasurementsStore::append(std::span<const MeasurementRow> rows) 
     }
     if (row.table_revision) statements_->require_revision(*row.table_revision);
   }
-  const MeasurementInsert::Place last = statements_->last();
-  const MeasurementInsert::Place end = statements_->insert.append(last, rows);
-  return IdRange{last.id + 1, end.id};
+  statements_->insert.append(rows);
+  return {};
 }
+
+MeasurementChain::End MeasurementsStore::chain_end() const { return statements_->chain_end(); }
 
 bool MeasurementsStore::find(std::int64_t id, const Visitor& visit) const {
   Rows rows = statements_->by_id.query(id);
@@ -181,7 +190,7 @@ std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& fil
 
 bool MeasurementsStore::index_block() { return statements_->lookup.take_in_block(); }
 
-std::int64_t MeasurementsStore::last_id() const { return statements_->last().id; }
+std::int64_t MeasurementsStore::last_id() const { return chain_end().id; }
 
 Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFilter& filter,
                                                              GroupBy group_by,

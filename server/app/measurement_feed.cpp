@@ -2,10 +2,10 @@
 
 namespace fitgauge::app {
 
-std::optional<std::int64_t> MeasurementFeed::first_id() {
+std::optional<store::MeasurementChain::End> MeasurementFeed::chain_end() {
   std::unique_lock lock(mutex_);
-  wait(lock, [this] { return first_id_.has_value(); });
-  return first_id_;
+  wait(lock, [this] { return chain_end_.has_value(); });
+  return chain_end_;
 }
 
 void MeasurementFeed::put(Piece piece) {
@@ -29,8 +29,8 @@ Result<Answer> MeasurementFeed::outcome() {
   return *std::move(outcome_);
 }
 
-void MeasurementFeed::begin(std::int64_t first_id) {
-  change([&] { first_id_ = first_id; });
+void MeasurementFeed::begin(const store::MeasurementChain::End& chain_end) {
+  change([&] { chain_end_ = chain_end; });
 }
 
 Result<MeasurementFeed::Piece> MeasurementFeed::take() {

@@ -10,6 +10,7 @@ namespace {
 
 void store_all(store::Stores& stores, std::vector<MeasurementQueue::Request>& requests) {
   std::vector<store::MeasurementRow> rows;
+  rows.reserve(requests.size());
   for (const auto& request : requests) append_rows(rows, request.measurements, request.revision);
   std::int64_t id = stores.measurements.append(rows).value().first;
   for (auto& request : requests) {

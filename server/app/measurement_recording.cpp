@@ -51,16 +51,15 @@ Result<std::int64_t> append(store::Stores& stores, std::span<const Measurement> 
   return first;
 }
 
-/// The same of the pieces of a long request, from the thread that reads it.
-Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed,
-                             const TableCatalog& tables) {
-  feed.begin(stores.measurements.last_id() + 1);
+/// Stores the pieces of a long request, from the thread that reads it.
+Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed) {
+  feed.begin(stores.measurements.chain_end());
   while (true) {
     const auto piece = feed.take();
     if (!piece) return piece.error();
-    if (*piece == nullptr) return feed.take_answer();
-    const auto stored = append(stores, **piece, revision_of(**piece, tables));
-    if (!stored) return stored.error();
+    if (piece->empty()) return feed.take_answer();
+    const auto appended = stores.measurements.append_linked(*piece);
+    if (!appended) return appended.error();
   }
 }
 
@@ -135,27 +134,29 @@ void MeasurementService::record(std::vector<Measurement> measurements,
 Result<Answer> MeasurementService::record_while_reading(
     const Read& read, const std::optional<IdempotencyScope>& scope, Rendering& rendering) {
   const auto feed = std::make_shared<MeasurementFeed>();
+  std::optional<store::MeasurementChain> chain;
   const auto begin = [&] {
     submit(
-        scope,
-        [this, feed](store::Stores& stores) { return append_pieces(stores, *feed, tables_); },
+        scope, [feed](store::Stores& stores) { return append_pieces(stores, *feed); },
         [feed](Result<Answer> outcome) { feed->end(std::move(outcome)); });
-    return feed->first_id();
+    if (const auto end = feed->chain_end()) chain.emplace(*end);
   };
   bool begun = false;
-  std::optional<std::int64_t> next_id;
   const auto take = [&](std::vector<Measurement> measurements) {
-    if (!std::exchange(begun, true)) next_id = begin();
-    if (!next_id) return;  // refused before a row was stored
-    next_id = number_from(*next_id, measurements);
-    const auto piece = std::make_shared<const std::vector<Measurement>>(std::move(measurements));
-    feed->put(piece);
-    rendering.add(*piece);
+    if (!std::exchange(begun, true)) begin();
+    if (!chain) return;  // refused before a row was stored
+    number_from(chain->end().id + 1, measurements);
+    MeasurementFeed::Piece piece;
+    piece.reserve(measurements.size());
+    append_rows(piece, measurements, revision_of(measurements, tables_));
+    chain->link(piece);
+    feed->put(std::move(piece));
+    rendering.add(measurements);
   };
   Result<void> complete;
   try {
     complete = read(take);
-    if (complete && next_id) feed->finish(rendering.finish());
+    if (complete && chain) feed->finish(rendering.finish());
   } catch (const std::exception& bug) {
     complete = internal_error(bug);
   }

@@ -75,7 +75,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return Seconds(std::chrono::steady_clock::now() - start).count();
 }
 
-double insert_batch(Database& database, const Sample& sample) {
+double insert_batch(Database& database, Sample& sample) {
   const auto start = std::chrono::steady_clock::now();
   database.writer()
       .wait([&](Stores& stores) { return stores.measurements.append(sample.rows); })
@@ -83,7 +83,7 @@ double insert_batch(Database& database, const Sample& sample) {
   return seconds_since(start);
 }
 
-double insert_singles(Database& database, const Sample& sample) {
+double insert_singles(Database& database, Sample& sample) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::thread> clients;
   for (std::size_t c = 0; c < kClients; ++c) {

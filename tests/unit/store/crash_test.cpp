@@ -120,7 +120,7 @@ TEST_CASE("measurements acknowledged before a kill are there after it") {
     run_and_kill(random, std::chrono::milliseconds(300), [&] {
       const auto database = Database::open(options, clock);
       while (database.has_value()) {
-        const MeasurementRow row = sample_row();
+        MeasurementRow row = sample_row();
         const auto ids = (*database)->writer().wait(
             [&](Stores& stores) { return stores.measurements.append(std::span(&row, 1)); });
         if (ids && ::write(channel[1], &ids->last, sizeof ids->last) < 0) ::_exit(1);

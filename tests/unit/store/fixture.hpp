@@ -89,7 +89,8 @@ struct Fixture {
   }
 
   Result<IdRange> append(std::span<const MeasurementRow> rows) {
-    return write([rows](Stores& stores) { return stores.measurements.append(rows); });
+    std::vector<MeasurementRow> linked(rows.begin(), rows.end());
+    return write([&linked](Stores& stores) { return stores.measurements.append(linked); });
   }
   Result<IdRange> append(const MeasurementRow& row) { return append(std::span(&row, 1)); }
 

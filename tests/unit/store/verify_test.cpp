@@ -49,6 +49,31 @@ TEST_CASE("a sound database verifies") {
   CHECK(report->findings.empty());
 }
 
+TEST_CASE("measurements linked on another thread continue the chain") {
+  VerifyFixture fixture;
+  MeasurementChain chain(*fixture.read([](const Stores& stores) -> Result<MeasurementChain::End> {
+    return stores.measurements.chain_end();
+  }));
+  CHECK(chain.end().id == 5);
+  std::vector<MeasurementRow> rows(70, sample_row());
+  chain.link(std::span(rows).first(30));
+  chain.link(std::span(rows).subspan(30));
+  const auto append = [&] {
+    return fixture.write([&](Stores& stores) -> Result<bool> {
+      if (const auto done = stores.measurements.append_linked(rows); !done) return done.error();
+      return true;
+    });
+  };
+  REQUIRE(append().has_value());
+  REQUIRE(fixture.append(sample_row())->first == 76);
+  const auto report = fixture.database->verify();
+  CHECK(report->measurements == 76);
+  CHECK(report->findings.empty());
+  // Another end than that of the chain: refused, not stored with a gap.
+  CHECK(append().error().code == ErrorCode::Internal);
+  CHECK(fixture.last_id() == 76);
+}
+
 TEST_CASE("the first altered measurement is named") {
   VerifyFixture fixture;
   SUBCASE("a value") {

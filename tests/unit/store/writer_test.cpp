@@ -25,7 +25,7 @@ IdempotentRequest request(std::string key, std::string_view body = "body") {
 }
 
 Result<StoredAnswer> store_one(Stores& stores) {
-  const MeasurementRow row = sample_row();
+  MeasurementRow row = sample_row();
   const auto ids = stores.measurements.append(std::span(&row, 1));
   if (!ids) return ids.error();
   return StoredAnswer{.status = 201,
@@ -71,7 +71,7 @@ TEST_CASE("an error of one job undoes its own changes and no other's") {
   };
   const auto append_then = [](Result<int> outcome) {
     return [outcome](Stores& stores) -> Result<int> {
-      const MeasurementRow row = sample_row();
+      MeasurementRow row = sample_row();
       REQUIRE(stores.measurements.append(std::span(&row, 1)).has_value());
       return outcome;
     };
@@ -135,7 +135,7 @@ TEST_CASE("a full queue refuses, and a shutdown runs what is queued") {
   for (int i = 0; i < 6; ++i) {
     fixture.database->writer().submit(
         [](Stores& stores) {
-          const MeasurementRow row = sample_row();
+          MeasurementRow row = sample_row();
           return stores.measurements.append(std::span(&row, 1));
         },
         [&](const Result<IdRange>& outcome) {
