@@ -34,6 +34,10 @@ struct OpenOptions {
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
   std::int64_t event_retention = 100'000;     ///< events kept for replay
 
+  /// Called on the writer thread after each commit to call what it is given, which tells the jobs
+  /// their outcomes. None: that is called by itself.
+  std::function<void(const std::function<void()>&)> around_outcomes{};
+
   /// Called on the writer thread after each commit, when its jobs have their outcomes; must not
   /// block. Lives as long as the database.
   std::function<void()> committed{};

@@ -66,9 +66,12 @@ void Writer::Engine::commit(Jobs jobs) {
   std::vector<std::optional<Error>> errors(jobs.size());
   const std::optional<Error> error = try_commit(jobs, errors);
   if (error) errors.assign(jobs.size(), error);
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    errors[i] ? jobs[i]->refuse(*std::move(errors[i])) : jobs[i]->deliver();
-  }
+  const auto tell_outcomes = [&] {
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      errors[i] ? jobs[i]->refuse(*std::move(errors[i])) : jobs[i]->deliver();
+    }
+  };
+  options_.around_outcomes ? options_.around_outcomes(tell_outcomes) : tell_outcomes();
   if (!error && options_.committed) options_.committed();
 }
 

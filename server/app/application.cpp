@@ -22,6 +22,7 @@ store::OpenOptions options_of_store(const ApplicationOptions& options) {
   open.run_retention = std::chrono::days(
       options.run_retention_days == 0 ? kForEverDays : options.run_retention_days);
   open.event_retention = options.event_retention;
+  open.around_outcomes = options.around_outcomes;
   return open;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,8 @@ struct ApplicationOptions {
   std::int64_t idempotency_days = 30;
   std::int64_t run_retention_days = 90;  ///< 0: for ever
   std::int64_t event_retention = 100'000;
+  /// Calls what it is given, on the writer thread: the `done` of everything a commit has stored.
+  std::function<void(const std::function<void()>&)> around_outcomes{};
 };
 
 /// The service without its network: the database and one object per use case. Thread-safe once

@@ -20,6 +20,7 @@
 #include "daemon/application_options.hpp"
 #include "daemon/file_limit.hpp"
 #include "daemon/log.hpp"
+#include "http/answer_batch.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -154,6 +155,12 @@ void wait_for_end(http::Server& server) {
   }
 }
 
+/// A commit has answers for many requests.
+void answer_together(const std::function<void()>& answer) {
+  const http::AnswerBatch batch;
+  answer();
+}
+
 }  // namespace
 
 Result<void> serve(const Config& config, const std::string& port_file) {
@@ -164,7 +171,9 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   const SystemClock machine_clock;
   ForwardClock clock(machine_clock,
                      [](const std::string& what) { log_warning("clock_set_back", what); });
-  auto opened = app::Application::open(application_options(config), clock);
+  app::ApplicationOptions options = application_options(config);
+  options.around_outcomes = answer_together;
+  auto opened = app::Application::open(options, clock);
   if (!opened) return opened.error();
   app::Application& app = **opened;
   // A page that cannot be read shows in the readiness, and is no reason not to start.

@@ -4,12 +4,13 @@
 #include <utility>
 
 #include "http/engine/connection.hpp"
+#include "http/engine/posts.hpp"
 
 namespace fitgauge::http {
 
 template <class Function>
 void Connection::post(Function function) {
-  thread_.post([self = shared_from_this(), function = std::move(function)]() mutable {
+  auto run = [self = shared_from_this(), function = std::move(function)]() mutable {
     if (self->phase_ == Phase::Closed) return;
     try {
       function(*self);
@@ -17,7 +18,12 @@ void Connection::post(Function function) {
     } catch (const std::exception&) {
       self->close();
     }
-  });
+  };
+  if (Posts* const posts = Posts::kept()) {
+    posts->add(thread_, std::move(run));
+  } else {
+    thread_.post(std::move(run));
+  }
 }
 
 void Connection::post_answer(Response response) {

@@ -3,10 +3,13 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 
+#include "http/answer_batch.hpp"
 #include "test_server.hpp"
 #include "worker.hpp"
 
@@ -53,6 +56,47 @@ TEST_CASE("pipelined requests are answered in order, whoever answers them") {
     REQUIRE(answer);
     CHECK(answer->body == fmt::format("{} {}", i % 3 ? "fast" : "slow", i));
   }
+}
+
+TEST_CASE("answers given together leave when the batch ends") {
+  std::mutex mutex;
+  std::vector<Responder> waiting;
+  ServerOptions options;
+  options.io_threads = 2;
+  TestServer server({{.pattern = "/wait",
+                      .handler =
+                          [&](const Request&, Responder responder) {
+                            const std::lock_guard lock(mutex);
+                            waiting.push_back(std::move(responder));
+                          }},
+                     fast()},
+                    options);
+  std::vector<Client> clients;
+  for (int i = 0; i < 8; ++i) {
+    clients.push_back(server.connect());
+    clients.back().send(get("/wait"));
+  }
+  const auto count = [&] {
+    const std::lock_guard lock(mutex);
+    return waiting.size();
+  };
+  while (count() < clients.size()) std::this_thread::yield();
+  {
+    const AnswerBatch batch;
+    for (std::size_t i = 0; i < 6; ++i) waiting[i].answer(text("together"));
+    waiting[6].fail({ErrorCode::StorageBusy, "full"});
+    // A thread without a batch of its own is not held up by this one.
+    std::thread other([&] { CHECK(server.ask(get("/fast/1")).body == "fast 1"); });
+    other.join();
+    waiting.clear();  // the last one without an answer
+  }
+  // Two I/O threads: which client is which has been left open.
+  const auto together = std::count_if(clients.begin(), clients.end(), [](Client& client) {
+    const auto answer = client.read();
+    REQUIRE(answer);
+    return answer->status == 200 && answer->body == "together";
+  });
+  CHECK(together == 6);
 }
 
 TEST_CASE("answers that pile up before a slow reader stay whole and in order") {
