@@ -29,6 +29,8 @@ struct OpenOptions {
       1024;              ///< write jobs and read jobs waiting, each; one more is StorageBusy
   unsigned readers = 2;  ///< reader threads, each with a connection of its own
 
+  int checkpoint_pages = 4000;  ///< in the log when it begins to be copied into the database
+
   std::uintmax_t check_at_open_limit = std::uintmax_t{256} << 20;  ///< bytes; larger: in background
   std::chrono::hours idempotency_retention{30 * 24};
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces

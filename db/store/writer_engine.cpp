@@ -23,6 +23,7 @@ Error internal_error(const std::exception& bug) {
 
 Writer::Engine::Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health)
     : options_(options), clock_(clock), health_(health), queue_(options.queue_limit) {
+  checkpointer_.emplace(options);
   session();
   thread_ = std::thread([this] { run(); });
 }
@@ -57,7 +58,9 @@ void Writer::Engine::run() {
     } else {
       commit(std::move(jobs));
     }
+    if (session_) checkpointer_->go_on(session_->connection);
   }
+  checkpointer_.reset();
   session_.reset();  // the last connection to close also checkpoints
 }
 
@@ -153,7 +156,10 @@ void Writer::Engine::fail(const Error& error) {
 }
 
 Session& Writer::Engine::session() {
-  if (!session_) session_.emplace(options_, clock_, sqlite::Mode::Write);
+  if (!session_) {
+    session_.emplace(options_, clock_, sqlite::Mode::Write);
+    checkpointer_->take_over(session_->connection);
+  }
   return *session_;
 }
 

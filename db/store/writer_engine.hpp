@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "store/checkpointer.hpp"
 #include "store/health_monitor.hpp"
 #include "store/job_queue.hpp"
 #include "store/session.hpp"
@@ -55,6 +56,7 @@ class Writer::Engine {
   std::mutex under_way_mutex_;
   std::set<RequestKey> under_way_;
   std::optional<Session> session_;  // the thread's own from here on
+  std::optional<Checkpointer> checkpointer_;
   bool failing_ = false;
   std::chrono::milliseconds patience_{0};  ///< how long to wait for work before idle()
   std::thread thread_;
