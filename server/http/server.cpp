@@ -1,12 +1,14 @@
 #include "http/server.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <random>
 #include <thread>
 #include <utility>
 
+#include "http/engine/exchange.hpp"
 #include "http/engine/io_thread.hpp"
 #include "http/engine/listener.hpp"
 #include "http/engine/plain_connection.hpp"
@@ -16,9 +18,6 @@ namespace fitgauge::http {
 
 namespace {
 
-constexpr std::string_view kFull =
-    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\n"
-    "Connection: close\r\n\r\n";
 constexpr auto kDrainStep = std::chrono::milliseconds(5);
 
 using TlsContext = std::shared_ptr<asio::ssl::context>;
@@ -39,6 +38,7 @@ class Server::Impl {
 
  private:
   void take(IoThread& thread, Socket socket, Peer peer);
+  void turn_away(Socket socket, const Peer& peer);
   void stop_threads();
   bool wait_for_connections(std::chrono::milliseconds timeout) const;
 
@@ -88,9 +88,7 @@ void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
   accepted_.fetch_add(1, std::memory_order_relaxed);
   if (shared_.connections_open.load(std::memory_order_relaxed) >= shared_.options.max_connections) {
     refused_.fetch_add(1, std::memory_order_relaxed);
-    error_code ignored;
-    if (!shared_.options.tls) socket.write_some(asio::buffer(kFull), ignored);
-    return;
+    return turn_away(std::move(socket), peer);
   }
   TlsContext tls;
   if (shared_.options.tls) {
@@ -111,6 +109,28 @@ void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
     thread.add(connection);
     connection->start();
   });
+}
+
+/// There are as many connections as the service takes: says so without reading a request, where
+/// that needs no handshake. On the first I/O thread.
+void Server::Impl::turn_away(Socket socket, const Peer& peer) {
+  if (shared_.options.tls) return;
+  IoThread& thread = *threads_.front();
+  RequestHead nothing_read;
+  Exchange exchange(shared_.routes, shared_.hooks, peer);
+  Response response = exchange.refuse(nothing_read, thread.next_request_id(),
+                                      {503, ErrorCode::Overloaded,
+                                       "As many connections are open as the service takes; close "
+                                       "one, or try again soon."});
+  std::string text;
+  OutputQueue out(text);
+  append_answer(out, response, {.keep_alive = false}, thread.date());
+  error_code ignored;
+  socket.write_some(asio::buffer(text), ignored);
+  socket.shutdown(Socket::shutdown_send, ignored);
+  // What has come by now would make the closing a reset, which can overtake the answer.
+  std::array<char, 4096> unread;
+  socket.read_some(asio::buffer(unread), ignored);
 }
 
 Result<void> Server::Impl::reload_tls() {

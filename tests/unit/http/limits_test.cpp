@@ -22,7 +22,9 @@ std::vector<Route> limited_routes() {
           echo(Method::Post, "/p", {.use = BodyUse::Optional, .limit = kLimit}),
           {.pattern = "/large",
            .handler = [](const Request&) -> Result<Response> {
-             return Response(200, "text/plain", std::string(20'000'000, 'x'));
+             std::string large;
+             large.resize(20'000'000, 'x');
+             return Response(200, "text/plain", std::move(large));
            },
            .response_types = {}}};
 }
@@ -103,7 +105,12 @@ TEST_CASE("a reader that takes nothing is dropped") {
 TEST_CASE("connections beyond the cap are answered 503 and closed") {
   ServerOptions options;
   options.max_connections = 2;
-  TestServer server(limited_routes(), options);
+  ServerHooks hooks;
+  hooks.format_error = [](const Error& error, std::optional<int> status, const Request& request) {
+    return Response(*status, "application/problem+json", error.message + request.id_text())
+        .with("Retry-After", "1");
+  };
+  TestServer server(limited_routes(), options, hooks);
   Client first = server.connect();
   Client second = server.connect();
   CHECK(first.ask(get("/a"))->status == 200);
@@ -113,6 +120,9 @@ TEST_CASE("connections beyond the cap are answered 503 and closed") {
   REQUIRE(answer);
   CHECK(answer->status == 503);
   CHECK(answer->field("Retry-After") == "1");
+  CHECK(answer->field("Connection") == "close");
+  CHECK(answer->field("Content-Type") == "application/problem+json");
+  CHECK(answer->body.starts_with("As many connections are open"));
   CHECK(third.is_closed_by_server());
   CHECK(server.server().counters().connections_refused == 1);
   CHECK(first.ask(get("/a"))->status == 200);
