@@ -57,6 +57,21 @@ class Repeats(DaemonTest):
                                     "idempotency.key_invalid")
         self.assertEqual(self.daemon.measure(PART, key("x" * 255)).status, 201)
 
+    def test_two_keys_are_none(self):
+        connection = self.daemon.connect()
+        for keys in (("one", "two"), ("same", "same")):
+            with self.subTest(keys):
+                connection.putrequest("POST", "/v1/measurements")
+                body = json.dumps(PART).encode()
+                for text in keys:
+                    connection.putheader("Idempotency-Key", text)
+                connection.putheader("Content-Type", "application/json")
+                connection.putheader("Content-Length", str(len(body)))
+                connection.endheaders(body)
+                answer = connection.getresponse()
+                self.assertEqual(answer.status, 400)
+                self.assertEqual(json.load(answer)["code"], "idempotency.key_invalid")
+
     def test_the_scope_has_the_path(self):
         record = self.daemon.measure(PART, key("scope")).json
         answer = self.daemon.post(f"/v1/measurements/{record['id']}/corrections",
