@@ -30,6 +30,7 @@ class MeasurementInsert {
     Fields fields = 0;
     std::size_t rows = 0;
 
+    // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
     friend auto operator<=>(const Shape&, const Shape&) = default;
   };
 

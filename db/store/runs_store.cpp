@@ -89,13 +89,13 @@ std::int64_t RunsStore::create(const Run& run) {
 }
 
 Result<void> RunsStore::start(std::int64_t id) {
-  if (const Result<void> open = statements_->require_unfinished(id); !open) return open;
+  if (Result<void> open = statements_->require_unfinished(id); !open) return open;
   statements_->start.run(id);
   return {};
 }
 
 Result<void> RunsStore::finish(std::int64_t id, const RunOutcome& outcome, std::int64_t now_ns) {
-  if (const Result<void> open = statements_->require_unfinished(id); !open) return open;
+  if (Result<void> open = statements_->require_unfinished(id); !open) return open;
   statements_->finish.run(id, outcome.status, outcome.result, now_ns);
   statements_->insert_trace.run(id, Blob{outcome.trace});
   for (const RunFile& file : outcome.files) {

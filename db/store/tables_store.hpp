@@ -25,6 +25,7 @@ struct TableCell {
   std::int64_t up_to_nm = 0;
   std::optional<std::int64_t> value_nm{};  ///< none: the standard defines nothing there
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
   friend auto operator<=>(const TableCell&, const TableCell&) = default;
 };
 
@@ -37,6 +38,7 @@ struct CustomCell {
   std::int64_t upper_nm = 0;
   std::int64_t lower_nm = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
   friend auto operator<=>(const CustomCell&, const CustomCell&) = default;
 };
 

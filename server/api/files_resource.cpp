@@ -80,7 +80,7 @@ void delete_file(const Services& services, const http::Request& request,
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
   services.files.remove(*std::move(path), caller_of(request),
-                        [shared = share(std::move(responder))](Result<bool> removed) {
+                        [shared = share(std::move(responder))](const Result<bool>& removed) {
                           if (!removed) return shared->fail(removed.error());
                           shared->answer(http::Response(204));
                         });

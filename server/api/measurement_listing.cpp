@@ -116,7 +116,7 @@ std::string next_link(const http::Request& request, std::string_view cursor) {
 }
 
 void answer_page(const http::Request& request, http::Responder& responder, Form form,
-                 std::string rows, const app::ListPage& page) {
+                 const std::string& rows, const app::ListPage& page) {
   std::string body;
   const std::string cursor = page.next ? cursor_text(page) : std::string();
   if (form == Form::Json) {

@@ -21,7 +21,7 @@ void find_measurement(const Services& services, const http::Request& request,
   services.measurements.find(
       *id, [body](const app::Measurement& measurement) { append_measurement(*body, measurement); },
       [body, responder = std::make_shared<http::Responder>(std::move(responder))](
-          Result<std::int64_t> found) {
+          const Result<std::int64_t>& found) {
         if (!found) return responder->fail(found.error());
         responder->answer({200, "application/json", std::move(*body)});
       });

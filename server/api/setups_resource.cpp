@@ -61,7 +61,7 @@ void get_setup(const Services& services, const http::Request& request, http::Res
 void delete_setup(const Services& services, const http::Request& request,
                   http::Responder responder) {
   services.setups.remove(std::string(*request.text("name")),
-                         [shared = share(std::move(responder))](Result<bool> removed) {
+                         [shared = share(std::move(responder))](const Result<bool>& removed) {
                            if (!removed) return shared->fail(removed.error());
                            shared->answer(http::Response(204));
                          });

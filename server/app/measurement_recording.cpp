@@ -165,7 +165,7 @@ Result<Answer> MeasurementService::record_while_reading(
   return feed->outcome();
 }
 
-void MeasurementService::run(std::function<void()> work, std::function<void(Error)> failed) {
+void MeasurementService::run(std::function<void()> work, const std::function<void(Error)>& failed) {
   auto job = [work = std::move(work), failed] {
     try {
       work();

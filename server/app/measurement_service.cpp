@@ -66,7 +66,7 @@ void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t>
       std::move(done));
 }
 
-void MeasurementService::list(MeasurementQuery query, std::int64_t after, std::size_t limit,
+void MeasurementService::list(const MeasurementQuery& query, std::int64_t after, std::size_t limit,
                               Visitor visit, Done<ListPage> done) {
   database_.readers().submit(
       [this, filter = measurement_filter(query), after, limit,
@@ -81,7 +81,7 @@ void MeasurementService::list(MeasurementQuery query, std::int64_t after, std::s
       std::move(done));
 }
 
-void MeasurementService::summary(MeasurementQuery query, std::string_view group_by,
+void MeasurementService::summary(const MeasurementQuery& query, std::string_view group_by,
                                  Done<std::vector<MeasurementGroup>> done) {
   const auto field = std::find(kSummaryFields.begin(), kSummaryFields.end(), group_by);
   if (field == kSummaryFields.end()) {

@@ -137,16 +137,16 @@ class MeasurementService {
   /// Visits up to `limit` matching measurements after the id `after`, in storage order. A query
   /// without `as_of` is read in the newest state; the pages that follow name the one it gives, so
   /// that the list is of one piece however much is recorded and corrected meanwhile.
-  void list(MeasurementQuery query, std::int64_t after, std::size_t limit, Visitor visit,
+  void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
             Done<ListPage> done);
 
   /// Groups by one of the text fields. @errors QueryInvalid for another field or too many groups.
-  void summary(MeasurementQuery query, std::string_view group_by,
+  void summary(const MeasurementQuery& query, std::string_view group_by,
                Done<std::vector<MeasurementGroup>> done);
 
   /// Runs `work` on a thread for long requests, which may block. Calls `failed` when it throws, or
   /// at once when too many wait. @errors Internal, StorageBusy.
-  void run(std::function<void()> work, std::function<void(Error)> failed);
+  void run(std::function<void()> work, const std::function<void(Error)>& failed);
 
  private:
   template <class Work>

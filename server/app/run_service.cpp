@@ -86,7 +86,7 @@ RunService::~RunService() { stop(); }
 Result<void> RunService::open(RunFormat format) {
   format_ = std::move(format);
   for (const RunState state : {RunState::Queued, RunState::Running}) {
-    if (const auto closed = close_interrupted(state); !closed) return closed;
+    if (auto closed = close_interrupted(state); !closed) return closed;
   }
   return {};
 }
@@ -262,11 +262,13 @@ Result<FinishedRun> RunService::keep(const RunReport& report, const RunTrace& tr
   const std::string trace_text = format_.trace(trace);
   const std::string event = format_.event(report);
   std::vector<store::RunFile> files;
+  files.reserve(report.result.files.size());
   for (const interpreter::WrittenFile& file : report.result.files) {
     files.push_back({.path = file.path.text(), .content = file.bytes});
   }
   const std::vector<Measurement> measurements = measurements_of(report, caller);
   std::vector<store::MeasurementRow> rows;
+  rows.reserve(measurements.size());
   for (const Measurement& measurement : measurements) {
     rows.push_back(to_store(measurement, std::nullopt));
   }

@@ -191,7 +191,7 @@ Result<void> read_toml(const std::string& path, Config& config) {
     return invalid(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
   for (const auto& [key, node] : file) {
-    const auto place = [&](const std::string& message) {
+    const auto place = [&, &key = key](const std::string& message) {
       return invalid(fmt::format("{}:{}: {}", path, key.source().begin.line, message));
     };
     const Setting* setting = find(key.str(), toml_key);

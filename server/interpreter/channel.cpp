@@ -31,7 +31,7 @@ NcResult<ControlPath> Channel::resolve(std::string_view written) const {
 }
 
 NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
-  const auto path = resolve(written);
+  auto path = resolve(written);
   if (!path) return path;
   return path->with_default_extension(kProgramExtension);
 }

@@ -86,7 +86,7 @@ NcResult<void> Contour::add(Channel& channel, Element element) {
   if (const auto end = element.curve.end_direction()) direction = end;
   if (corner_follows(channel)) {
     set_plane_target(element, working_plane(channel), element.curve.end);
-    kept_ = std::move(element);
+    kept_ = element;
     return {};
   }
   return move(channel, element);
@@ -129,7 +129,7 @@ NcResult<void> Contour::turn_corner(Channel& channel, Element& next) {
 
 NcResult<void> Contour::add(Channel& channel, Approach approach) {
   if (auto done = finish(channel); !done) return done;
-  approach_ = std::move(approach);
+  approach_ = approach;
   return {};
 }
 

@@ -104,7 +104,7 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Word
       const auto [minor_sine, minor_cosine] = machine::sine_cosine(get(words, Letter::ProMin));
       const Vec3 along_x{main_cosine, 0, main_sine};
       const Vec3 along_y{0, minor_cosine, minor_sine};
-      const auto plane = plane_of(cross(along_x, along_y), along_x);
+      auto plane = plane_of(cross(along_x, along_y), along_x);
       if (!plane) return plane;
       return *plane * around(Letter::Spc, get(words, Letter::Rot));
     }

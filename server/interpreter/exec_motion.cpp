@@ -263,7 +263,7 @@ class Positioning {
     Element element{curve, {}, *feed};
     element.target.values[plane_.first] = curve.end.x;
     element.target.values[plane_.second] = curve.end.y;
-    return contour().add(channel_, std::move(element));
+    return contour().add(channel_, element);
   }
 
   Channel& channel_;

@@ -226,7 +226,7 @@ const Instruction* Executor<kFollowed>::end_program() {
 #define FITGAUGE_OP(name) op_##name
 #define FITGAUGE_NEXT() goto* kHandlers[static_cast<std::size_t>(pc->op)]
 #else
-#define FITGAUGE_OP(name) case Op::name
+#define FITGAUGE_OP(name) case Op::name  // NOLINT(bugprone-macro-parentheses)
 #define FITGAUGE_NEXT() continue
 #endif
 

@@ -90,7 +90,7 @@ std::vector<ParameterValue> QParameters::all() const {
   };
   add_numbers(QSpace::Q);
   add_numbers(QSpace::Qr);
-  for (std::uint16_t i = 0; i < strings_.size(); ++i) {
+  for (std::uint16_t i = 0; i < parameter_count(QSpace::Qs); ++i) {
     if (strings_[i]) values.push_back({{QSpace::Qs, i}, *strings_[i]});
   }
   add_numbers(QSpace::Ql);

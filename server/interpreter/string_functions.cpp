@@ -38,7 +38,7 @@ NcResult<std::size_t> count(Channel& channel, const Expr& expr) {
 NcResult<std::string> concatenate(Channel& channel, Operands operands) {
   std::string joined;
   for (const Expr& operand : operands) {
-    const auto part = text(channel, operand);
+    auto part = text(channel, operand);
     if (!part) return part;
     joined += *part;
     if (joined.size() > kLongestText) return nc_error("a text has more than 255 characters");
@@ -60,7 +60,7 @@ NcResult<std::string> number_text(Channel& channel, Operands operands) {
 
 /// BEG counts from 0; without LEN up to the end.
 NcResult<std::string> sub_string(Channel& channel, Operands operands) {
-  const auto source = text(channel, operands[0]);
+  auto source = text(channel, operands[0]);
   if (!source) return source;
   std::size_t begin = 0;
   std::size_t length = source->size();

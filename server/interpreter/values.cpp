@@ -34,7 +34,7 @@ NcResult<double> arithmetic(Channel& channel, NodeIndex index) {
   const auto operands = channel.program().operands(index);
   double values[2] = {0, 0};
   for (std::size_t i = 0; i < operands.size() && i < 2; ++i) {
-    const auto value = number(channel, operands[i]);
+    auto value = number(channel, operands[i]);
     if (!value) return value;
     values[i] = *value;
   }

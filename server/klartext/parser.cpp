@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -57,10 +56,7 @@ class Parser {
 };
 
 std::size_t Parser::find_line_end(std::size_t begin) const {
-  const std::string& source = parts_.source;
-  const void* end = std::memchr(source.data() + begin, '\n', source.size() - begin);
-  return end == nullptr ? source.size()
-                        : static_cast<std::size_t>(static_cast<const char*>(end) - source.data());
+  return std::min(parts_.source.find('\n', begin), parts_.source.size());
 }
 
 /// The physical line ends with `~`, perhaps with blanks behind it.

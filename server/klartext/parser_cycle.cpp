@@ -55,8 +55,6 @@ void parse_cycle_value(BlockReader& in, CycleParameter& parameter) {
   in.skip_blanks();
   if (in.peek() == '"') {
     parameter.value = in.quoted_text(kLongestString, "the text");
-  } else if (in.accept_word("FMAX") || in.accept_word("MAX")) {
-    parameter.kind = CycleValue::Max;
   } else if (in.accept_word("FAUTO") || in.accept_word("AUTO")) {
     parameter.kind = CycleValue::Auto;
   } else if (in.accept_word("PREDEF")) {
@@ -67,7 +65,8 @@ void parse_cycle_value(BlockReader& in, CycleParameter& parameter) {
   } else if (in.accept_prefix("FZ")) {
     parameter.kind = CycleValue::Fz;
     parameter.value = parse_number(in);
-  } else if (in.accept_prefix("F") && in.accept_word("MAX")) {
+  } else if (in.accept_word("FMAX") || in.accept_word("MAX") ||
+             (in.accept_prefix("F") && in.accept_word("MAX"))) {
     parameter.kind = CycleValue::Max;
   } else {
     parameter.value = parse_value(in);

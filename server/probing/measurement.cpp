@@ -52,7 +52,8 @@ MeasuringRecord make_record(const CycleContext& context, const Measurement& meas
                             .limits = value.limits,
                             .verdict = value.verdict()});
   }
-  std::ranges::stable_partition(record.sizes, [](const auto& size) { return !size.is_position; });
+  std::stable_partition(record.sizes.begin(), record.sizes.end(),
+                        [](const MeasuredSize& size) { return !size.is_position; });
   return record;
 }
 

@@ -112,7 +112,7 @@ Result<Timestamp> parse_rfc3339(std::string_view text) {
     reader.literal(':');
     const int offset_minute = reader.digits(2);
     if (offset_hour > 23 || offset_minute > 59) reader.literal('\0');
-    offset_minutes = (zone == '-' ? -1 : 1) * (offset_hour * 60 + offset_minute);
+    offset_minutes = std::int64_t{zone == '-' ? -1 : 1} * (offset_hour * 60 + offset_minute);
   }
 
   bool valid_date = false;

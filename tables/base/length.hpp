@@ -41,6 +41,7 @@ class Length {
   friend constexpr Length operator*(Length a, std::int64_t factor) {
     return Length(a.nanometres_ * factor);
   }
+  // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
   friend constexpr auto operator<=>(Length, Length) = default;
 
  private:

@@ -104,6 +104,7 @@ Feature feature_of_name(std::string_view name);
 struct ClassId {
   std::uint16_t index = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
   friend constexpr auto operator<=>(ClassId, ClassId) = default;
 };
 

@@ -49,9 +49,7 @@ class Statement {
   /// For long lists of values: bind from 1 on, then run() or query().
   template <class T>
   void bind(int index, const T& value) {
-    if constexpr (std::is_enum_v<T>) {
-      bind_integer(index, static_cast<std::int64_t>(value));
-    } else if constexpr (std::is_integral_v<T>) {
+    if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
       bind_integer(index, static_cast<std::int64_t>(value));
     } else if constexpr (std::is_same_v<T, Digest>) {
       bind_blob(index, value.data(), value.size());

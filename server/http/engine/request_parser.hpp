@@ -9,11 +9,11 @@
 
 namespace fitgauge::http {
 
-inline constexpr std::size_t kMaxTarget = 8 * 1024;
-inline constexpr std::size_t kMaxHeaderSection = 32 * 1024;
+inline constexpr std::size_t kMaxTarget = std::size_t{8} << 10;
+inline constexpr std::size_t kMaxHeaderSection = std::size_t{32} << 10;
 inline constexpr std::size_t kMaxFields = 100;
 /// A chunk line, a trailer section, or any run of framing that yields no byte of the body.
-inline constexpr std::size_t kMaxFraming = 16 * 1024;
+inline constexpr std::size_t kMaxFraming = std::size_t{16} << 10;
 
 /// Beast's parser for one request, with what it lets through checked here (RFC 9112 sections 5 to
 /// 7). It collects views in a RequestHead and no copies. One object per request; after Refused it

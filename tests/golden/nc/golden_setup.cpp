@@ -141,7 +141,7 @@ bool read_standard(const std::string& word, std::istringstream& in,
 machine::AxisSetup& rotary_axis(std::istringstream& in, machine::MachineSetup& machine) {
   std::string name;
   in >> name;
-  return machine.axes.at(static_cast<std::size_t>(name.at(0) - 'A' + 3)).value();
+  return machine.axes.at(3 + static_cast<std::size_t>(name.at(0) - 'A')).value();
 }
 
 /// How the rotary axes really are, and where the sphere is expected.

@@ -48,15 +48,16 @@ TEST_CASE("a file is checked as what its extension says: program, mask or table"
   const auto findings = [&](std::string_view name) {
     return service.prepared([&] { return service->runs().check(path(name)); });
   };
-  for (const auto& [name, line] :
+  for (const auto& expected :
        {std::pair{"TNC:\\p.h", 2U}, std::pair{"TNC:\\m.a", 1U}, std::pair{"TNC:\\t.tab", 3U}}) {
+    const std::string_view name = expected.first;
     CAPTURE(name);
     const auto found = findings(name);
     REQUIRE(found.has_value());
     REQUIRE_FALSE(found->empty());
     CHECK(found->front().severity == klartext::Severity::Error);
     CHECK(found->front().program == name);
-    CHECK(found->front().range.begin.line == line);
+    CHECK(found->front().range.begin.line == expected.second);
   }
   CHECK(findings("TNC:\\none.h").error().code == ErrorCode::ProgramUnknown);
 }

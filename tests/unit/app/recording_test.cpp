@@ -188,6 +188,7 @@ TEST_CASE("small requests at once are all stored, each with the ids of its own r
     }
   };
   std::vector<std::jthread> clients;
+  clients.reserve(kThreads);
   for (int i = 0; i < kThreads; ++i) clients.emplace_back(client, i);
   clients.clear();
   CHECK(answered == kThreads * kEach);

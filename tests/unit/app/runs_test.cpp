@@ -1,3 +1,5 @@
+#include <array>
+
 #include "app/run_measurements.hpp"
 #include "service_fixture.hpp"
 
@@ -157,8 +159,8 @@ TEST_CASE("an answer is kept under its key with the run") {
 TEST_CASE("runs are listed the newest first, by state and program") {
   Service service;
   service.program("Q1 = 1");
-  std::vector<std::int64_t> ids;
-  for (int i = 0; i < 3; ++i) ids.push_back(service.run(Service::order()).id);
+  std::array<std::int64_t, 3> ids{};
+  for (std::int64_t& id : ids) id = service.run(Service::order()).id;
   const auto list = [&](RunQuery query, std::optional<std::int64_t> after, std::size_t limit) {
     return wait_for<RunService::Page>([&](auto done) {
              service->runs().list(std::move(query), after, limit, std::move(done));

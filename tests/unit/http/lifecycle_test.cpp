@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <future>
 #include <mutex>
@@ -213,11 +214,11 @@ TEST_CASE("several I/O threads and addresses serve side by side") {
   options.listen = {{.host = "127.0.0.1", .port = 0}, {.host = "127.0.0.1", .port = 0}};
   TestServer server({echo(Method::Get, "/a")}, options);
   REQUIRE(server.server().ports().size() == 2);
-  std::vector<std::thread> clients;
+  std::array<std::thread, 8> clients;
   std::atomic<int> good = 0;
-  for (int i = 0; i < 8; ++i) {
-    clients.emplace_back([&, i] {
-      Client client(server.server().ports()[static_cast<std::size_t>(i % 2)]);
+  for (std::size_t i = 0; i < clients.size(); ++i) {
+    clients.at(i) = std::thread([&, i] {
+      Client client(server.server().ports()[i % 2]);
       for (int n = 0; n < 50; ++n) {
         const auto answer = client.ask(get("/a"));
         good += answer && answer->body == "fixed";

@@ -13,7 +13,7 @@ using namespace fitgauge::http::test;
 namespace {
 
 /// A route that answers its pattern and its text arguments.
-Route show(Method method, std::string pattern, std::vector<Parameter> parameters = {}) {
+Route show(Method method, const std::string& pattern, std::vector<Parameter> parameters = {}) {
   return {.method = method,
           .pattern = pattern,
           .handler = [pattern](const Request& request) -> Result<Response> {

@@ -91,9 +91,9 @@ class Events final : public BodyStream {
   std::optional<ChunkSink> sink_;
 };
 
-Route events(std::shared_ptr<Events> stream, std::chrono::milliseconds heartbeat = 10s) {
+Route events(const std::shared_ptr<Events>& stream, std::chrono::milliseconds heartbeat = 10s) {
   return {.pattern = "/events",
-          .handler = [=](const Request&) -> Result<Response> {
+          .handler = [stream, heartbeat](const Request&) -> Result<Response> {
             return Response(200, "text/event-stream", StreamedBody{stream, ": \n\n", heartbeat});
           },
           .response_types = {"text/event-stream"}};

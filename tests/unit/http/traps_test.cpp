@@ -138,7 +138,7 @@ TEST_CASE("a target longer than 8 KiB is 414, one of 8 KiB is read") {
 }
 
 TEST_CASE("a header section over 32 KiB or 100 fields is 431") {
-  check_refused("GET /a HTTP/1.1\r\nHost: h\r\nX: " + std::string(32 * 1024, 'x') + "\r\n\r\n", 431,
+  check_refused("GET /a HTTP/1.1\r\nHost: h\r\nX: " + std::string(32'768, 'x') + "\r\n\r\n", 431,
                 "request.header_too_large");
   check_refused("GET /a HTTP/1.1\r\nHost: h\r\nX: " + std::string(100'000, 'x'), 431,
                 "request.header_too_large");

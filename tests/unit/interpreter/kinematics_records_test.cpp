@@ -38,8 +38,9 @@ TEST_CASE("records of kinematics come back as they were written") {
   const auto again = read_kinematics_records(files);
   REQUIRE(again.has_value());
   REQUIRE(again->size() == 3);
-  for (const auto& [name, model] : records) {
-    CAPTURE(name);
+  for (const auto& record : records) {
+    const auto& [name, model] = record;
+    CAPTURE(record.first);
     const Kinematics& found = again->at(name);
     CHECK(found.offset() == model.offset());
     REQUIRE(found.axes().size() == model.axes().size());
@@ -61,8 +62,8 @@ TEST_CASE("a file of records that is not one is error 1096 and says where") {
                           "0   ONE   C     TABLE  0     0     zero  0     0     1\n",
                           "0   ONE   C     TABLE  0     0     0     0     0\n",
                           "0   ONE   C     TABLE  0     0     0     0     0     0\n",
-                          "0   ONE   C     TABLE  0     0     0     0     0     1\n"
-                          "1   ONE   C     TABLE  0     0     0     0     0     1\n",
+                          ("0   ONE   C     TABLE  0     0     0     0     0     1\n"
+                           "1   ONE   C     TABLE  0     0     0     0     0     1\n"),
                           "1   ONE   C     TABLE  0     0     0     0     0     1\n"}) {
     CAPTURE(row);
     const auto records = read(row);

@@ -77,7 +77,7 @@ TEST_CASE("a DIST that ends before the nominal contact is noted") {
   Control control;
   control.setup.machine.probes[0].row.distance = 3;
   control.setup.features = {machine::Block{.min = {0, 0, -40}, .max = {100, 80, 0.1}}};
-  const auto measure = [&control](std::string clearance) {
+  const auto measure = [&control](const std::string& clearance) {
     return control.run(
         "TOOL CALL 30 Z\nTCH PROBE 427 MEASURE COORDINATE ~\n Q263=+50 ~\n Q264=+40 ~\n"
         " Q261=+0 ~\n Q272=+3 ~\n Q267=-1 ~\n Q260=+50 ~\n Q320=" +

@@ -51,9 +51,8 @@ class Control {
     machine = std::make_unique<machine::SimulatedMachine>(setup);
     tracing = std::make_unique<machine::TracingMachine>(
         *machine, machine::TraceOptions{.block = {}, .longest = 1000, .lines = true});
-    RunResult result =
-        interpreter::run(file->program, {*tracing, disk, programs, clock, observer}, options, stop);
-    return result;
+    return interpreter::run(file->program, {*tracing, disk, programs, clock, observer}, options,
+                            std::move(stop));
   }
   /// Runs one body and returns the result.
   RunResult run(std::string_view body) {

@@ -10,7 +10,7 @@ TEST_CASE("Each kind of mistake is named with its line and column") {
     std::string_view lines;
     std::string_view finding;
   };
-  for (const auto& [lines, finding] : std::initializer_list<Bad>{
+  for (const Bad& bad : std::initializer_list<Bad>{
            {"14 CALL LBL", "2:12 syntax.error"},
            {"L X+", "2:5 syntax.error"},
            {"L X+1 X+2", "2:7 word.repeated"},
@@ -51,8 +51,8 @@ TEST_CASE("Each kind of mistake is named with its line and column") {
            {"L X+1 \x01", "2:7 text.control_character"},
            {"1234567890 L X+1", "2:1 number.out_of_range"},
        }) {
-    CAPTURE(lines);
-    CHECK(first_finding(lines) == finding);
+    CAPTURE(bad.lines);
+    CHECK(first_finding(bad.lines) == bad.finding);
   }
 }
 

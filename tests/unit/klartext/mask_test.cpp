@@ -19,7 +19,7 @@ std::vector<MaskPiece> pieces(std::string line) {
   return std::get<MaskFormat>(mask.mask.lines[0].content).pieces;
 }
 
-MaskPlaceholder placeholder(std::string format, std::string value) {
+MaskPlaceholder placeholder(const std::string& format, const std::string& value) {
   const auto found = pieces("\"" + format + "\", " + value + ";");
   REQUIRE(found.size() == 1);
   return std::get<MaskPlaceholder>(found[0]);
@@ -71,7 +71,9 @@ TEST_CASE("Placeholders in all their forms") {
 }
 
 TEST_CASE("Escapes") {
-  const auto text = [](std::string line) { return std::get<std::string>(pieces(line).at(0)); };
+  const auto text = [](std::string line) {
+    return std::get<std::string>(pieces(std::move(line)).at(0));
+  };
   CHECK(text(R"("100%% \"ok\" \\ C:\test\n")") == "100% \"ok\" \\ C:\\test\n");
   CHECK(text("\"; no comment, Q1\"") == "; no comment, Q1");
   CHECK(pieces("\"\";").empty());
@@ -104,7 +106,7 @@ TEST_CASE("Every language line") {
     const char* line;
     MaskLanguage language;
   };
-  for (const auto& [line, language] :
+  for (const Row& row :
        std::initializer_list<Row>{{"L_ENGLISH", MaskLanguage::English},
                                   {"L_GERMAN", MaskLanguage::German},
                                   {"L_CZECH", MaskLanguage::Czech},
@@ -128,10 +130,10 @@ TEST_CASE("Every language line") {
                                   {"L_SLOVAK", MaskLanguage::Slovak},
                                   {"L_TURKISH", MaskLanguage::Turkish},
                                   {"L_ALL", MaskLanguage::All}}) {
-    CAPTURE(line);
-    const ParsedMask mask = parsed(line);
+    CAPTURE(row.line);
+    const ParsedMask mask = parsed(row.line);
     REQUIRE(mask.mask.lines.size() == 1);
-    CHECK(std::get<MaskLanguage>(mask.mask.lines[0].content) == language);
+    CHECK(std::get<MaskLanguage>(mask.mask.lines[0].content) == row.language);
   }
 }
 

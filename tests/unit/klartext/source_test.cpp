@@ -12,8 +12,8 @@ TEST_CASE("Line ends, byte order mark and code page do not matter") {
   for (const std::string_view text :
        {"BEGIN PGM T MM\r\nL X+1 ;\xC3\x84\r\nEND PGM T MM\r\n",
         "BEGIN PGM T MM\rL X+1 ;\xC3\x84\rEND PGM T MM\r",
-        "\xEF\xBB\xBF"
-        "BEGIN PGM T MM\nL X+1 ;\xC3\x84\nEND PGM T MM",
+        ("\xEF\xBB\xBF"
+         "BEGIN PGM T MM\nL X+1 ;\xC3\x84\nEND PGM T MM"),
         "BEGIN PGM T MM\nL X+1 ;\xC4\nEND PGM T MM\n",
         "BEGIN PGM T MM\n\n\t\nL X+1 ;\xC4\n\nEND PGM T MM\nignored"}) {
     const ParsedProgram parsed = parse_program(std::string(text), "other.h");

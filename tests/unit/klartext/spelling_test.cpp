@@ -12,10 +12,10 @@ struct Spelling {
 };
 
 void check(std::initializer_list<Spelling> spellings) {
-  for (const auto& [written, expected] : spellings) {
-    CAPTURE(written);
-    CHECK(canonical(written) == expected);
-    CHECK(canonical(expected) == expected);
+  for (const Spelling& spelling : spellings) {
+    CAPTURE(spelling.written);
+    CHECK(canonical(spelling.written) == spelling.canonical);
+    CHECK(canonical(spelling.canonical) == spelling.canonical);
   }
 }
 

@@ -61,10 +61,10 @@ TEST_CASE("random points are triangulated with empty circles") {
   const std::uint64_t seed = 8210;
   INFO("seed ", seed);
   Random random(seed);
-  for (const int count : {3, 4, 10, 60}) {
-    std::vector<Vec3> points;
-    for (int k = 0; k < count; ++k) {
-      points.push_back({std::round(random.normal() * 1e4) / 100, random.normal() * 50, 0});
+  for (const std::size_t count : {3U, 4U, 10U, 60U}) {
+    std::vector<Vec3> points(count);
+    for (Vec3& point : points) {
+      point = {std::round(random.normal() * 1e4) / 100, random.normal() * 50, 0};
     }
     check_triangulation(points);
   }
@@ -93,9 +93,9 @@ TEST_CASE("the tree finds the nearest point and the height as a search of all tr
   const std::uint64_t seed = 82101;
   INFO("seed ", seed);
   Random random(seed);
-  std::vector<Vec3> points;
-  for (int k = 0; k < 120; ++k) {
-    points.push_back({random.normal() * 30, random.normal() * 30, random.normal()});
+  std::vector<Vec3> points(120);
+  for (Vec3& point : points) {
+    point = {random.normal() * 30, random.normal() * 30, random.normal()};
   }
   std::vector<Triangle> triangles;
   for (const auto& [a, b, c] : delaunay(points).triangles) {

@@ -80,8 +80,8 @@ TEST_CASE("pretravel lengthens every contact, repeatability scatters it by its s
     SimulatedMachine machine(setup);
     REQUIRE(ok(machine.call_tool(probe_call())));
     REQUIRE(ok(machine.move(to({50, 40, -12}))));
-    std::vector<double> found;
-    for (int k = 0; k < 500; ++k) found.push_back(machine.probe(towards({1, 0, 0}))->ball_centre.x);
+    std::vector<double> found(500);
+    for (double& x : found) x = machine.probe(towards({1, 0, 0}))->ball_centre.x;
     return found;
   };
   const auto first = contacts(7);

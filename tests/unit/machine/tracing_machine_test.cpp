@@ -91,8 +91,8 @@ TEST_CASE("each command writes a line") {
       "L X+26.0000 Y+28.0000 Z+10.0000 F600",
       "ARC X+26.0000 Y+28.0000 Z+10.0000 CC X+26.0000 Y+20.0000 Z+0.0000 -360.0000 F1000",
       "PROBE X+0.0000 Y+0.0000 Z-1.0000 F120 TOUCHED X+26.0000 Y+28.0000 Z+0.0000",
-      "L X+26.0000 Y+28.0000 Z+0.0000 F600 ! Touch probe collision: the ball stands at "
-      "X+26.0000 Y+28.0000 Z+2.2500",
+      ("L X+26.0000 Y+28.0000 Z+0.0000 F600 ! Touch probe collision: the ball stands at "
+       "X+26.0000 Y+28.0000 Z+2.2500"),
       "DWELL 0.5",
       "MESSAGE GOOD",
       "STOP M0",

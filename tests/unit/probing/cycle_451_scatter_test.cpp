@@ -192,8 +192,9 @@ std::vector<std::map<Axis, Findings>> measure_machines(const Table& table,
 }
 
 void check_as_claimed(const std::map<Axis, Findings>& axes) {
-  for (const auto& [axis, found] : axes) {
-    CAPTURE(name(axis));
+  for (const auto& entry : axes) {
+    const Findings& found = entry.second;
+    CAPTURE(name(entry.first));
     CAPTURE(found.location.mean());
     CAPTURE(found.direction.mean());
     CAPTURE(found.optimised.mean());

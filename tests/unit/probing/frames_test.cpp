@@ -161,8 +161,8 @@ Setup kinematics_setup() {
 /// Values of a block that depend on the frames.
 using FrameBlock = std::function<Values(const Frames&)>;
 
-Scenario on_machine(int cycle, const Setup& setup, int tool, const Vec3& tip, FrameBlock block,
-                    Read read) {
+Scenario on_machine(int cycle, const Setup& setup, int tool, const Vec3& tip,
+                    const FrameBlock& block, const Read& read) {
   return {cycle, false, [=](const Frames& frames) {
             ProbingBench bench(setup);
             REQUIRE(bench.machine.call_tool({.number = tool, .axis = Axis::Z, .spindle_rpm = {}})

@@ -164,7 +164,7 @@ TEST_CASE("runs are listed newest first, filtered, in pages, and purged when old
           runs.create({.program = i % 2 == 0 ? "TNC:\\even.h" : "TNC:\\odd.h", .request = "{}"});
       if (i == 5) continue;
       const std::vector<RunFile> files{{"log", "x"}};
-      REQUIRE(runs.finish(id, {.trace = "t", .files = files}, i * 10).has_value());
+      REQUIRE(runs.finish(id, {.trace = "t", .files = files}, std::int64_t{i} * 10).has_value());
     }
     const auto page = runs.list({}, std::nullopt, 2);
     REQUIRE(page.runs.size() == 2);

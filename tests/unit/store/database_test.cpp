@@ -108,9 +108,9 @@ TEST_CASE("a damaged page is found at the start") {
   const TempDirectory directory;
   create_database(directory);
   std::string content = content_of(directory.file());
-  SUBCASE("in the middle") { content.replace(5 * 4096, 200, 200, '\xFF'); }
+  SUBCASE("in the middle") { content.replace(20'480, 200, 200, '\xFF'); }
   SUBCASE("the schema") { content.replace(100, 300, 300, '\xFF'); }
-  SUBCASE("cut off") { content.resize(content.size() - 2 * 4096); }
+  SUBCASE("cut off") { content.resize(content.size() - 8'192); }
   write_file(directory.file(), content);
   check_refused_untouched(directory, ErrorCode::StorageCorrupt);
 }
@@ -128,7 +128,7 @@ TEST_CASE("a large file is checked in the background, and damage stops writes") 
   SUBCASE("damaged") {
     // The free bytes of a page in the middle: reads still work, quick_check sees it.
     std::string content = content_of(fixture.directory.file());
-    content.replace(5 * 4096, 200, 200, '\xFF');
+    content.replace(20'480, 200, 200, '\xFF');
     write_file(fixture.directory.file(), content);
     fixture.open();
     while (fixture.database->health().state == HealthState::Checking) std::this_thread::yield();

@@ -144,7 +144,7 @@ TEST_CASE("a damaged page ends the verification with a finding") {
   fixture.database.reset();
   fixture.options.check_at_open_limit = 0;
   std::string content = content_of(fixture.directory.file());
-  content.replace(7 * 4096, 300, 300, '\xFF');
+  content.replace(28'672, 300, 300, '\xFF');
   write_file(fixture.directory.file(), content);
   fixture.open();
   CHECK_FALSE(fixture.findings().empty());

@@ -69,7 +69,7 @@ TEST_CASE("an error of one job undoes its own changes and no other's") {
       delivered.count_down();
     });
   };
-  const auto append_then = [](Result<int> outcome) {
+  const auto append_then = [](const Result<int>& outcome) {
     return [outcome](Stores& stores) -> Result<int> {
       MeasurementRow row = sample_row();
       REQUIRE(stores.measurements.append(std::span(&row, 1)).has_value());
@@ -106,6 +106,7 @@ TEST_CASE("what arrives during a commit is the next batch, and all of it is kept
   constexpr int kThreads = 8;
   constexpr int kRows = 20;
   std::vector<std::thread> threads;
+  threads.reserve(kThreads);
   for (int t = 0; t < kThreads; ++t) {
     threads.emplace_back([&fixture] {
       for (int i = 0; i < kRows; ++i) CHECK(fixture.append(sample_row()).has_value());
@@ -203,6 +204,7 @@ TEST_CASE("a hundred parallel requests with one key store one row") {
   std::vector<std::thread> threads;
   std::atomic<int> created = 0;
   std::atomic<int> in_progress = 0;
+  threads.reserve(100);
   for (int i = 0; i < 100; ++i) {
     threads.emplace_back([&] {
       const auto answer = post_once(fixture, request("k"));
@@ -224,7 +226,7 @@ TEST_CASE("a full disk refuses writes, answers reads, and is left behind when th
   REQUIRE(fixture.append(sample_row()).has_value());
   const std::vector<MeasurementRow> many(10'000, sample_row());
   {
-    const FullDisk full(64 * 1024);
+    const FullDisk full(rlim_t{64} << 10);
     const auto refused = fixture.append(many);
     REQUIRE(refused.has_error());
     CHECK_MESSAGE(refused.error().code == ErrorCode::StorageUnavailable, refused.error().message);
