@@ -54,6 +54,7 @@ describe('the page', () => {
     if (view === 'gauge') {
       await page.waitForSelector('.echo .figures');
       await page.keyboard.type('25.0131\n');
+      await page.waitForSelector('.verdict[data-verdict="good"]');
       await page.waitForSelector('.recent .mark-of');
     }
     if (view === 'fit') await page.waitForSelector('.class-zones :checked');
