@@ -224,9 +224,10 @@ const Instruction* Executor<kFollowed>::end_program() {
 
 #if FITGAUGE_THREADED
 #define FITGAUGE_OP(name) op_##name
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a statement
 #define FITGAUGE_NEXT() goto* kHandlers[static_cast<std::size_t>(pc->op)]
 #else
-#define FITGAUGE_OP(name) case Op::name  // NOLINT(bugprone-macro-parentheses)
+#define FITGAUGE_OP(name) case Op::name
 #define FITGAUGE_NEXT() continue
 #endif
 
