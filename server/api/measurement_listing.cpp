@@ -197,7 +197,7 @@ void list_measurements(const Services& services, const http::Request& request,
   }
   auto rows = std::make_shared<std::string>();
   services.measurements.list(
-      std::move(query), cursor->after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
+      query, cursor->after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
       [rows, form](const app::Measurement& measurement) {
         if (form == Form::Json && !rows->empty()) *rows += ',';
         append_row(*rows, form, measurement);
@@ -205,7 +205,7 @@ void list_measurements(const Services& services, const http::Request& request,
       [&request, rows, form, responder = std::make_shared<http::Responder>(std::move(responder))](
           Result<app::ListPage> page) {
         if (!page) return responder->fail(page.error());
-        answer_page(request, *responder, form, std::move(*rows), *page);
+        answer_page(request, *responder, form, *rows, *page);
       });
 }
 

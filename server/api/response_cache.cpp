@@ -22,11 +22,11 @@ http::SyncHandler ResponseCache::cached(std::shared_ptr<ResponseCache> cache, Ta
   return [cache = std::move(cache),
           make = std::move(make)](const http::Request& request) -> Result<http::Response> {
     const auto state = cache->tables_.state();
-    if (auto found = cache->find(request, state.get())) return http::Response(found);
+    if (auto found = cache->find(request, state.get())) return http::Response(std::move(found));
     if (state->tables == nullptr) return cache->tables_.tables().error();
     Result<http::Response> made = make(request, *state->tables);
     if (!made || made->status != 200 || made->prepared) return made;
-    Prepared prepared = http::prepare(std::move(*made));
+    Prepared prepared = http::prepare(*made);
     cache->keep(request, state, prepared);
     return http::Response(std::move(prepared));
   };

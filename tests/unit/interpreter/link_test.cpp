@@ -104,6 +104,7 @@ TEST_CASE("one linked program runs on several threads at once") {
   const auto file = control.programs.get(*control.disk.find(Control::main_path()));
   std::vector<RunResult> results(4);
   std::vector<std::jthread> threads;
+  threads.reserve(results.size());
   for (RunResult& result : results) {
     threads.emplace_back([&] {
       machine::SimulatedMachine machine(control.setup);
