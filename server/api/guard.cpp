@@ -1,5 +1,7 @@
 #include "api/guard.hpp"
 
+#include <algorithm>
+
 #include "base/text.hpp"
 
 namespace fitgauge::api {
@@ -43,8 +45,9 @@ bool may_be_rebound(const http::Request& request) {
   std::string_view host = request.header("Host").value_or("localhost");
   if (host.starts_with('[')) return false;
   host = host.substr(0, host.find(':'));
-  return host.find('.') != std::string_view::npos &&
-         host.find_first_not_of("0123456789.") != std::string_view::npos;
+  const auto is_of_number = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+  return !std::all_of(host.begin(), host.end(), is_of_number) &&
+         host.find('.') != std::string_view::npos;
 }
 
 }  // namespace
