@@ -42,15 +42,16 @@ void Checkpointer::take_over(sqlite::Connection& writer) {
 }
 
 void Checkpointer::go_on(sqlite::Connection& writer) {
-  if (pages_ < options_.checkpoint_pages) return;
   std::unique_lock lock(mutex_);
-  if (state_ == State::Idle) {
-    state_ = State::Copying;
-    changed_.notify_all();
-  } else if (state_ == State::Copied || pages_ >= kPatience * options_.checkpoint_pages) {
-    if (state_ == State::Copied) state_ = State::Idle;
+  const bool is_copied = state_ == State::Copied;
+  if (is_copied) state_ = State::Idle;
+  if (pages_ < options_.checkpoint_pages) return;
+  if (is_copied || pages_ >= kPatience * options_.checkpoint_pages) {
     lock.unlock();
     copy_log(writer);
+  } else if (state_ == State::Idle) {
+    state_ = State::Copying;
+    changed_.notify_all();
   }
 }
 
