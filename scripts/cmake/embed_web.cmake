@@ -1,5 +1,5 @@
 # cmake -DOUT=<file> -DROOT=<folder> -DFILES=<names> -P embed_web.cmake
-# Writes the table of server/api/page_assets.hpp: every file of the page as it is and gzipped, with its
+# Writes the table of server/api/service/page_assets.hpp: every file of the page as it is and gzipped, with its
 # media type and an entity tag made of its content.
 
 set(type_html "text/html; charset=utf-8")
@@ -40,7 +40,7 @@ foreach(name IN LISTS FILES)
 endforeach()
 
 file(WRITE "${OUT}"
-"#include \"api/page_assets.hpp\"\n
+"#include \"api/service/page_assets.hpp\"\n
 namespace fitgauge::api {
 namespace {\n
 ${arrays}

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "app/readiness.hpp"
+#include "app/service/readiness.hpp"
 #include "base/clock.hpp"
 
 namespace fitgauge::app {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/mapping.hpp"
+#include "app/measurements/mapping.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "app/commit_signal.hpp"
-#include "app/event_service.hpp"
-#include "app/file_service.hpp"
-#include "app/key_service.hpp"
-#include "app/measurement_service.hpp"
-#include "app/readiness.hpp"
-#include "app/run_service.hpp"
-#include "app/setup_service.hpp"
-#include "app/table_catalog.hpp"
+#include "app/files/file_service.hpp"
+#include "app/measurements/measurement_service.hpp"
+#include "app/runs/run_service.hpp"
+#include "app/runs/setup_service.hpp"
+#include "app/service/commit_signal.hpp"
+#include "app/service/event_service.hpp"
+#include "app/service/key_service.hpp"
+#include "app/service/readiness.hpp"
+#include "app/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
 

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <map>
 
-#include "api/version.hpp"
+#include "api/service/version.hpp"
 #include "daemon/commands.hpp"
 #include "daemon/config.hpp"
 #include "daemon/healthcheck.hpp"

@@ -3,7 +3,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "api/json_writer.hpp"
+#include "api/wire/json_writer.hpp"
 
 namespace fitgauge::daemon {
 namespace {

@@ -10,11 +10,11 @@
 #include <fstream>
 #include <iostream>
 
-#include "api/guard.hpp"
-#include "api/metrics.hpp"
-#include "api/problem.hpp"
 #include "api/routes.hpp"
-#include "api/run_codec.hpp"
+#include "api/runs/run_codec.hpp"
+#include "api/service/guard.hpp"
+#include "api/service/metrics.hpp"
+#include "api/wire/problem.hpp"
 #include "base/forward_clock.hpp"
 #include "base/text.hpp"
 #include "daemon/application_options.hpp"

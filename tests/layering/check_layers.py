@@ -11,12 +11,12 @@ from pathlib import Path
 
 FOLDERS = {
     "base": "tables/base", "iso286": "tables/iso286", "tabfile": "tables/tabfile",
-    "store": "db/store", "gauging": "server/gauging", "klartext": "server/klartext",
+    "store": "db/store", "sqlite": "db/sqlite", "gauging": "server/gauging", "klartext": "server/klartext",
     "machine": "server/machine", "probing": "server/probing",
-    "interpreter": "server/interpreter", "app": "server/app", "http": "server/http",
+    "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http",
     "api": "server/api", "daemon": "server/daemon", "clients": "clients",
 }
-DOMAIN = {"iso286", "tabfile", "gauging", "klartext", "machine", "probing", "interpreter"}
+DOMAIN = {"iso286", "tabfile", "gauging", "klartext", "machine", "probing", "program", "run"}
 
 
 def allowed_edges(architecture: str) -> dict[str, set[str]]:
@@ -39,7 +39,7 @@ def allowed_edges(architecture: str) -> dict[str, set[str]]:
 
 # A library of others, and the only layers that may include it.
 BORDERS = {
-    r"(sqlite3\.h|SQLiteCpp/)": {"store"},
+    r"(sqlite3\.h|SQLiteCpp/)": {"sqlite"},
     r"boost/(beast|asio)": {"http", "clients"},
     r"(nlohmann/|simdjson)": {"api", "daemon", "clients"},
 }

@@ -6,9 +6,9 @@
 #include <ctime>
 #include <string>
 
-#include "interpreter/interpreter.hpp"
 #include "machine/machine_setup.hpp"
 #include "machine/simulated_machine.hpp"
+#include "run/interpreter.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::interpreter;

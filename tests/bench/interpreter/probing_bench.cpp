@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/interpreter.hpp"
 #include "machine/simulated_machine.hpp"
+#include "run/interpreter.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::interpreter;

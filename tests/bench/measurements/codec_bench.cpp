@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "api/measurement_answer.hpp"
-#include "api/measurement_batch.hpp"
+#include "api/measurements/measurement_answer.hpp"
+#include "api/measurements/measurement_batch.hpp"
 #include "http/request.hpp"
 #include "iso286/designation.hpp"
 

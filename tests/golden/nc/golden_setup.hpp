@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "interpreter/interpreter.hpp"
 #include "machine/machine_setup.hpp"
+#include "run/interpreter.hpp"
 
 namespace fitgauge::interpreter::golden {
 

@@ -9,9 +9,9 @@
 #include <set>
 
 #include "golden_setup.hpp"
-#include "interpreter/check.hpp"
 #include "machine/simulated_machine.hpp"
 #include "machine/tracing_machine.hpp"
+#include "program/check.hpp"
 #include "tabfile/iso286_projection.hpp"
 #include "tabfile/tab_writer.hpp"
 

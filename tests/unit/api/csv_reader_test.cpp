@@ -1,4 +1,4 @@
-#include "api/csv_reader.hpp"
+#include "api/wire/csv_reader.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
-#include "api/json_value.hpp"
+#include "api/wire/json_value.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "api/json_writer.hpp"
+#include "api/wire/json_writer.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

@@ -1,4 +1,4 @@
-#include "api/measurement_batch.hpp"
+#include "api/measurements/measurement_batch.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "api/measurement_codec.hpp"
+#include "api/measurements/measurement_codec.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
-#include "api/run_codec.hpp"
+#include "api/runs/run_codec.hpp"
 
 #include <doctest/doctest.h>
 
-#include "api/json_value.hpp"
+#include "api/wire/json_value.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

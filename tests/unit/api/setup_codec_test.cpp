@@ -1,8 +1,8 @@
-#include "api/setup_codec.hpp"
+#include "api/runs/setup_codec.hpp"
 
 #include <doctest/doctest.h>
 
-#include "api/run_order_codec.hpp"
+#include "api/runs/run_order_codec.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

@@ -1,4 +1,4 @@
-#include "app/active_run.hpp"
+#include "app/runs/active_run.hpp"
 
 #include <doctest/doctest.h>
 

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/live_tables.hpp"
-#include "app/run_executor.hpp"
+#include "app/runs/run_executor.hpp"
+#include "app/tables/live_tables.hpp"
 #include "iso286/table_data.hpp"
 
 namespace fitgauge::app {

@@ -1,4 +1,4 @@
-#include "app/control_tables.hpp"
+#include "app/runs/control_tables.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "app/run_measurements.hpp"
+#include "app/runs/run_measurements.hpp"
 #include "service_fixture.hpp"
 
 namespace fitgauge::app {

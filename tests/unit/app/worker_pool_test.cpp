@@ -1,4 +1,4 @@
-#include "app/worker_pool.hpp"
+#include "app/runs/worker_pool.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "probing/circle_fit.hpp"
+#include "probing/touch/circle_fit.hpp"
 
 #include <doctest/doctest.h>
 

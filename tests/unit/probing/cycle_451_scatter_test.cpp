@@ -4,7 +4,7 @@
 #include <map>
 
 #include "kinematics_bench.hpp"
-#include "probing/kinematics_positions.hpp"
+#include "probing/kinematics/positions.hpp"
 
 /// Cycle 451 on machines of which every axis scatters. What is to be expected follows from the
 /// measuring circles alone, in variances of one coordinate:

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "kinematics_bench.hpp"
-#include "probing/kinematics_positions.hpp"
+#include "probing/kinematics/positions.hpp"
 #include "probing/measured_value.hpp"
 
 namespace fitgauge::probing {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "probing/tolerance_text.hpp"
+#include "probing/measuring/tolerance_text.hpp"
 
 namespace fitgauge::probing {
 namespace {

@@ -1,0 +1,86 @@
+#include "sqlite/connection.hpp"
+
+#include <fmt/format.h>
+
+#include "sqlite/statement.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store::sqlite {
+namespace {
+
+constexpr int kBusyMilliseconds = 5'000;
+
+int flags_of(Mode mode) {
+  switch (mode) {
+    case Mode::Read: return SQLite::OPEN_READONLY | SQLite::OPEN_NOMUTEX;
+    case Mode::Write: return SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX;
+    case Mode::Create: return SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | SQLite::OPEN_NOMUTEX;
+  }
+  return 0;
+}
+
+/// Without its memory statistics SQLite takes no global lock for every allocation. Takes effect
+/// before the first connection of the process only.
+void configure_library() {
+  static const int configured = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
+  static_cast<void>(configured);
+}
+
+SQLite::Database open(const std::filesystem::path& file, Mode mode) {
+  configure_library();
+  try {
+    return {file.string(), flags_of(mode), kBusyMilliseconds};
+  } catch (const SQLite::Exception& failure) {
+    throw_failure(nullptr, failure.getExtendedErrorCode(), "opening " + file.string());
+  }
+}
+
+std::string_view name_of(Synchronous synchronous) {
+  switch (synchronous) {
+    case Synchronous::Off: return "OFF";
+    case Synchronous::Normal: return "NORMAL";
+    case Synchronous::Full: return "FULL";
+  }
+  return "FULL";
+}
+
+}  // namespace
+
+Connection::Connection(const std::filesystem::path& file, Mode mode, Synchronous synchronous)
+    : database_(open(file, mode)) {
+  sqlite3_extended_result_codes(handle(), 1);
+  // temp_store: savepoints keep what they may undo in memory, so no temporary directory is needed.
+  // recursive_triggers: REPLACE, too, fires the triggers that refuse DELETE.
+  execute(
+      "PRAGMA foreign_keys = ON; PRAGMA recursive_triggers = ON; PRAGMA trusted_schema = OFF;"
+      "PRAGMA cell_size_check = ON; PRAGMA temp_store = MEMORY; PRAGMA cache_size = -4000;");
+  if (mode == Mode::Read) return;
+  execute(fmt::format("PRAGMA synchronous = {}", name_of(synchronous)));
+  if (mode == Mode::Write) {
+    execute(
+        "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 4000;"
+        "PRAGMA journal_size_limit = 67108864; PRAGMA cache_size = -16000;");
+  }
+}
+
+void Connection::execute(const std::string& sql) {
+  require_ok(handle(), sqlite3_exec(handle(), sql.c_str(), nullptr, nullptr, nullptr), "storage");
+}
+
+std::int64_t Connection::query_integer(const std::string& sql) {
+  Statement statement(*this, sql);
+  Rows rows = statement.query();
+  return rows.next() ? rows.get<std::int64_t>(0) : 0;
+}
+
+std::string Connection::query_text(const std::string& sql) {
+  Statement statement(*this, sql);
+  Rows rows = statement.query();
+  return rows.next() ? rows.get<std::string>(0) : std::string();
+}
+
+void Connection::rollback() noexcept {
+  if (sqlite3_get_autocommit(handle()) == 0) database_.tryExec("ROLLBACK");
+}
+
+}  // namespace fitgauge::store::sqlite

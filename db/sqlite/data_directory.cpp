@@ -1,0 +1,122 @@
+#include "sqlite/data_directory.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "sqlite/migrator.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  Descriptor(const std::filesystem::path& path, int flags)
+      : value_(::open(path.c_str(), flags | O_CLOEXEC, 0640)) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+
+  bool is_open() const { return value_ >= 0; }
+  int get() const { return value_; }
+  int release() { return std::exchange(value_, -1); }
+
+ private:
+  int value_;
+};
+
+Error system_error(std::string_view doing, const std::filesystem::path& path) {
+  return {ErrorCode::StorageUnavailable,
+          fmt::format("cannot {} {}: {}", doing, path.string(), std::strerror(errno))};
+}
+
+/// SQLite's header: the first 16 bytes and the application id at 68, big-endian.
+constexpr std::size_t kHeaderSize = 100;
+using Header = std::array<unsigned char, kHeaderSize>;
+
+std::string_view magic_of(const Header& header) {
+  return {reinterpret_cast<const char*>(header.data()), 16};
+}
+
+std::uint32_t application_id_of(const Header& header) {
+  return std::uint32_t{header[68]} << 24U | std::uint32_t{header[69]} << 16U |
+         std::uint32_t{header[70]} << 8U | std::uint32_t{header[71]};
+}
+
+}  // namespace
+
+Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& directory) {
+  std::error_code failure;
+  std::filesystem::create_directories(directory, failure);
+  if (failure) {
+    errno = failure.value();
+    return system_error("create the data directory", directory);
+  }
+  const std::filesystem::path file = directory / "fitgauge.lock";
+  Descriptor descriptor(file, O_RDWR | O_CREAT);
+  if (!descriptor.is_open()) return system_error("write to the data directory:", file);
+  if (::flock(descriptor.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK) return system_error("lock", file);
+    return Error{ErrorCode::DatabaseInUse,
+                 fmt::format("{} is in use by another fitgauged; stop it, or choose another data "
+                             "directory",
+                             directory.string())};
+  }
+  return DirectoryLock(descriptor.release());
+}
+
+DirectoryLock::DirectoryLock(DirectoryLock&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+DirectoryLock::~DirectoryLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<void> inspect_file(const std::filesystem::path& file) {
+  const Descriptor descriptor(file, O_RDWR);
+  if (!descriptor.is_open()) return system_error("open", file);
+  Header header{};
+  const ssize_t size = ::pread(descriptor.get(), header.data(), header.size(), 0);
+  if (size < 0) return system_error("read", file);
+  const auto foreign = [&](std::string_view what) {
+    return Error{ErrorCode::DatabaseForeign,
+                 fmt::format("{} {}; it was left as it is. Restore a backup in its place, or move "
+                             "it away to start with a new database",
+                             file.string(), what)};
+  };
+  using namespace std::string_view_literals;
+  if (size == 0) return foreign("is empty");
+  if (magic_of(header) != "SQLite format 3\0"sv) return foreign("is not a database");
+  if (application_id_of(header) != std::uint32_t{sqlite::kApplicationId}) {
+    return foreign("is not a fitgauge database");
+  }
+  return {};
+}
+
+Result<void> reserve_name(const std::filesystem::path& file) {
+  if (Descriptor(file, O_WRONLY | O_CREAT | O_EXCL).is_open()) return {};
+  return system_error("create", file);
+}
+
+Result<void> sync_file(const std::filesystem::path& file) {
+  const Descriptor content(file, O_RDONLY);
+  if (!content.is_open() || ::fsync(content.get()) != 0) return system_error("write", file);
+  const std::filesystem::path parent = file.has_parent_path() ? file.parent_path() : ".";
+  const Descriptor directory(parent, O_RDONLY | O_DIRECTORY);
+  if (!directory.is_open() || ::fsync(directory.get()) != 0) return system_error("write", parent);
+  return {};
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,191 @@
+#include "sqlite/database_file.hpp"
+
+#include <SQLiteCpp/Backup.h>
+#include <fmt/format.h>
+
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "sqlite/data_directory.hpp"
+#include "sqlite/file_check.hpp"
+#include "sqlite/session.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path with_suffix(fs::path path, std::string_view suffix) { return path += suffix; }
+
+Error unavailable(std::string message) {
+  return {ErrorCode::StorageUnavailable, std::move(message)};
+}
+
+/// Gives a finished file its name, durably.
+Result<void> publish(const fs::path& finished, const fs::path& name) {
+  if (Result<void> synced = sync_file(finished); !synced) return synced;
+  std::error_code failure;
+  fs::rename(finished, name, failure);
+  if (failure) {
+    return unavailable(fmt::format("cannot create {}: {}", name.string(), failure.message()));
+  }
+  return sync_file(name);
+}
+
+/// What an earlier attempt left under a temporary name.
+void remove_leftover(const fs::path& file) {
+  std::error_code ignored;
+  for (const std::string_view suffix : {"", "-journal", "-wal", "-shm"}) {
+    fs::remove(with_suffix(file, suffix), ignored);
+  }
+}
+
+Result<void> create_file(const fs::path& file, std::span<const sqlite::Migration> known,
+                         std::int64_t now_ns) {
+  if (fs::exists(with_suffix(file, "-wal"))) {
+    return Error{ErrorCode::DatabaseForeign,
+                 fmt::format("{0} is missing, but its log {0}-wal is there; restore a backup, or "
+                             "move the log away to start with a new database",
+                             file.string())};
+  }
+  const fs::path draft = with_suffix(file, ".new");
+  remove_leftover(draft);
+  {
+    sqlite::Connection connection(draft, sqlite::Mode::Create);
+    sqlite::migrate(connection, known, now_ns);
+  }
+  return publish(draft, file);
+}
+
+Result<void> upgrade_file(const fs::path& file, std::span<const sqlite::Migration> known,
+                          int version, std::int64_t now_ns) {
+  const fs::path backup = with_suffix(file, fmt::format(".schema-{}.backup", version));
+  remove_leftover(backup);
+  if (Result<void> copied = copy_database(file, backup); !copied) return copied;
+  sqlite::Connection connection(file, sqlite::Mode::Write);
+  sqlite::migrate(connection, known, now_ns);
+  return {};
+}
+
+/// A kill while the file is changed to WAL mode, at the first start or with a restored backup,
+/// leaves a rollback journal. A read-only connection may not roll it back and would refuse the
+/// file.
+void roll_back_interrupted_change(const fs::path& file) {
+  if (!fs::exists(with_suffix(file, "-journal"))) return;
+  sqlite::Connection connection(file, sqlite::Mode::Create);
+  sqlite::schema_version(connection);
+}
+
+/// A read-only connection to a file in WAL mode makes an empty log with its index and leaves both
+/// behind. While this lives, the directory is the caller's alone; what was not there before goes
+/// again.
+class LeavesNoLog {
+ public:
+  explicit LeavesNoLog(const fs::path& file)
+      : log_(with_suffix(file, "-wal")),
+        index_(with_suffix(file, "-shm")),
+        kept_(fs::exists(log_)) {}
+  LeavesNoLog(const LeavesNoLog&) = delete;
+  LeavesNoLog& operator=(const LeavesNoLog&) = delete;
+  ~LeavesNoLog() {
+    std::error_code ignored;
+    if (kept_ || !fs::is_empty(log_, ignored) || ignored) return;
+    fs::remove(log_, ignored);
+    fs::remove(index_, ignored);
+  }
+
+ private:
+  fs::path log_;
+  fs::path index_;
+  bool kept_;
+};
+
+/// Opens the existing file read-only, so that whatever is refused is also left untouched.
+Result<int> checked_version(const OpenOptions& options, const fs::path& file,
+                            std::span<const sqlite::Migration> known) {
+  // Beside a running daemon the log is the daemon's.
+  std::optional<LeavesNoLog> leaves_no_log;
+  if (options.access == Access::Serve) leaves_no_log.emplace(file);
+  try {
+    sqlite::Connection connection(file, sqlite::Mode::Read);
+    const int version = sqlite::schema_version(connection);
+    std::optional<Error> foreign;
+    if (const Result<void> history = sqlite::check_history(connection, known); !history) {
+      foreign = history.error();
+      foreign->message.insert(0, file.string() + ": ");
+      if (foreign->code == ErrorCode::DatabaseNewer) return *foreign;
+    }
+    if (options.access == Access::Serve && fs::file_size(file) <= options.check_at_open_limit) {
+      if (const Result<void> sound = check_file(file); !sound) return sound.error();
+    }
+    if (foreign) return *foreign;
+    return version;
+  } catch (const StorageFailure& failure) {
+    if (failure.error().code != ErrorCode::StorageCorrupt) throw;
+    return Error{ErrorCode::StorageCorrupt,
+                 fmt::format("{} is damaged: {}. Restore a backup in its place", file.string(),
+                             failure.error().message)};
+  }
+}
+
+Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite::Migration> known,
+                              std::int64_t now_ns) {
+  const fs::path file = options.directory / kDatabaseFile;
+  if (!fs::exists(file)) {
+    if (options.access == Access::Serve) return create_file(file, known, now_ns);
+    return unavailable(fmt::format("{} does not exist; start fitgauged once", file.string()));
+  }
+  if (Result<void> ours = inspect_file(file); !ours) return ours;
+  if (options.access == Access::Serve) roll_back_interrupted_change(file);
+  const Result<int> version = checked_version(options, file, known);
+  if (!version) return version.error();
+  if (*version == static_cast<int>(known.size())) return {};
+  if (options.access == Access::Serve) return upgrade_file(file, known, *version, now_ns);
+  return unavailable(
+      fmt::format("{} has an older schema; start fitgauged once to upgrade it", file.string()));
+}
+
+}  // namespace
+
+Result<void> prepare_file(const OpenOptions& options, std::span<const sqlite::Migration> known,
+                          std::int64_t now_ns) {
+  try {
+    return prepare_or_throw(options, known, now_ns);
+  } catch (const StorageFailure& failure) {
+    return failure.error();
+  } catch (const fs::filesystem_error& failure) {
+    return unavailable(failure.what());
+  }
+}
+
+Result<void> copy_database(const fs::path& source, const fs::path& target) {
+  if (Result<void> reserved = reserve_name(target); !reserved) return reserved;
+  const fs::path draft = with_suffix(target, ".partial");
+  remove_leftover(draft);
+  const auto give_up = [&](Error error) {
+    remove_leftover(draft);
+    remove_leftover(target);
+    return error;
+  };
+  try {
+    sqlite::Connection from(source, sqlite::Mode::Read);
+    sqlite::Connection to(draft, sqlite::Mode::Create);
+    SQLite::Backup copy(to.database(), from.database());
+    copy.executeStep();
+    // One file without a log beside it, readable from a read-only medium too.
+    to.execute("PRAGMA journal_mode = DELETE");
+  } catch (const StorageFailure& failure) {
+    return give_up(failure.error());
+  } catch (const SQLite::Exception& failure) {
+    return give_up(
+        unavailable(fmt::format("cannot write {}: {}", target.string(), failure.what())));
+  }
+  if (const Result<void> published = publish(draft, target); !published) {
+    return give_up(published.error());
+  }
+  return {};
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,73 @@
+#include "store/idempotency_store.hpp"
+
+#include "sqlite/statement.hpp"
+
+namespace fitgauge::store {
+
+using sqlite::Blob;
+using sqlite::Rows;
+
+struct IdempotencyStore::Statements {
+  Statements(sqlite::Connection& c, const Clock& time, std::chrono::hours kept_for)
+      : clock(time),
+        retention(kept_for),
+        find(c,
+             "SELECT body_digest, status, content_type, location, body FROM idempotent_answers "
+             "WHERE key = ? AND caller = ? AND method = ? AND path = ? AND expires_at > ?"),
+        // An expired answer that was not purged yet makes room.
+        insert(c,
+               "INSERT OR REPLACE INTO idempotent_answers (key, caller, method, path, body_digest, "
+               "status, content_type, location, body, expires_at) "
+               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        remove(c,
+               "DELETE FROM idempotent_answers WHERE id IN "
+               "(SELECT id FROM idempotent_answers WHERE expires_at <= ? LIMIT ?) RETURNING 1") {}
+
+  const Clock& clock;
+  std::chrono::hours retention;
+  sqlite::Statement find;
+  sqlite::Statement insert;
+  sqlite::Statement remove;
+};
+
+IdempotencyStore::IdempotencyStore(sqlite::Connection& connection, const Clock& clock,
+                                   std::chrono::hours retention)
+    : statements_(std::make_unique<Statements>(connection, clock, retention)) {}
+IdempotencyStore::~IdempotencyStore() = default;
+
+Result<std::optional<StoredAnswer>> IdempotencyStore::find(const IdempotentRequest& request) const {
+  Rows rows = statements_->find.query(request.key, request.caller, request.method, request.path,
+                                      statements_->clock.now().nanoseconds);
+  if (!rows.next()) return std::optional<StoredAnswer>();
+  if (rows.get<Digest>(0) != request.body) {
+    return Error{
+        ErrorCode::IdempotencyKeyReused,
+        "this Idempotency-Key was used with another body; use a new key for a new request"};
+  }
+  return std::optional(StoredAnswer{.status = rows.get<int>(1),
+                                    .content_type = rows.get<std::string>(2),
+                                    .location = rows.get<std::string>(3),
+                                    .body = std::string(rows.get<Blob>(4).bytes),
+                                    .replayed = true});
+}
+
+Result<StoredAnswer> IdempotencyStore::once(const IdempotentRequest& request,
+                                            const std::function<Result<StoredAnswer>()>& work) {
+  Result<std::optional<StoredAnswer>> kept = find(request);
+  if (!kept) return kept.error();
+  if (*kept) return **std::move(kept);
+  Result<StoredAnswer> answer = work();
+  if (!answer || answer->status < 200 || answer->status > 299) return answer;
+  const std::int64_t expires_at = statements_->clock.now().nanoseconds +
+                                  std::chrono::nanoseconds(statements_->retention).count();
+  statements_->insert.run(request.key, request.caller, request.method, request.path, request.body,
+                          answer->status, answer->content_type, answer->location,
+                          Blob{answer->body}, expires_at);
+  return answer;
+}
+
+std::int64_t IdempotencyStore::purge(std::int64_t limit) {
+  return statements_->remove.run_counting(statements_->clock.now().nanoseconds, limit);
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,117 @@
+#include "store/keys_store.hpp"
+
+#include <fmt/format.h>
+#include <openssl/rand.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "sqlite/statement.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sqlite::Rows;
+
+constexpr std::size_t kShortestToken = 16;
+
+std::string select_keys(std::string_view rest) {
+  return fmt::format("SELECT id, name, role, token_hash, created_at, revoked_at FROM api_keys {}",
+                     rest);
+}
+
+std::vector<ApiKey> read_keys(Rows rows) {
+  std::vector<ApiKey> keys;
+  while (rows.next()) {
+    keys.push_back({.id = rows.get<std::int64_t>(0),
+                    .name = rows.get<std::string>(1),
+                    .role = rows.get<Role>(2),
+                    .token_hash = rows.get<Digest>(3),
+                    .created_at_ns = rows.get<std::int64_t>(4),
+                    .revoked_at_ns = rows.get<std::optional<std::int64_t>>(5)});
+  }
+  return keys;
+}
+
+}  // namespace
+
+std::string new_token() {
+  std::array<std::uint8_t, 32> bits{};
+  if (RAND_bytes(bits.data(), static_cast<int>(bits.size())) != 1) {
+    throw std::runtime_error("OpenSSL has no random numbers");
+  }
+  return "fg_" + to_hex(bits);
+}
+
+const ApiKey* KeyRing::find(std::string_view token) const {
+  const Digest hash = sha256(token);
+  const ApiKey* found = nullptr;
+  for (const ApiKey& key : keys_) {
+    if (equal_in_constant_time(key.token_hash, hash)) found = &key;
+  }
+  return found;
+}
+
+struct KeysStore::Statements {
+  explicit Statements(sqlite::Connection& c)
+      : all(c, select_keys("ORDER BY id")),
+        valid(c, select_keys("WHERE revoked_at IS NULL ORDER BY id")),
+        clash(c,
+              "SELECT name = ?1 FROM api_keys "
+              "WHERE (name = ?1 AND revoked_at IS NULL) OR token_hash = ?2 ORDER BY 1 DESC"),
+        insert(c,
+               "INSERT INTO api_keys (name, role, token_hash, created_at) VALUES (?, ?, ?, ?) "
+               "RETURNING id"),
+        revoke(c,
+               "UPDATE api_keys SET revoked_at = ?2 WHERE name = ?1 AND revoked_at IS NULL "
+               "RETURNING 1") {}
+
+  sqlite::Statement all;
+  sqlite::Statement valid;
+  sqlite::Statement clash;
+  sqlite::Statement insert;
+  sqlite::Statement revoke;
+};
+
+KeysStore::KeysStore(sqlite::Connection& connection)
+    : statements_(std::make_unique<Statements>(connection)) {}
+KeysStore::~KeysStore() = default;
+
+Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_view token,
+                                 std::int64_t now_ns) {
+  if (name.empty()) return Error{ErrorCode::FieldInvalid, "a key needs a name", "name"};
+  if (token.size() < kShortestToken) {
+    return Error{ErrorCode::FieldInvalid,
+                 fmt::format("a key needs at least {} characters", kShortestToken), "token"};
+  }
+  ApiKey key{.id = 0,
+             .name = std::string(name),
+             .role = role,
+             .token_hash = sha256(token),
+             .created_at_ns = now_ns,
+             .revoked_at_ns = std::nullopt};
+  if (Rows clash = statements_->clash.query(name, key.token_hash); clash.next()) {
+    if (clash.get<bool>(0)) {
+      return Error{
+          ErrorCode::FieldConflict,
+          fmt::format("there is a key '{}'; revoke it first, or choose another name", name),
+          "name"};
+    }
+    return Error{ErrorCode::FieldConflict, "this token was used before; make a new one", "token"};
+  }
+  key.id = statements_->insert.returning<std::int64_t>(name, role, key.token_hash, now_ns);
+  return key;
+}
+
+Result<void> KeysStore::revoke(std::string_view name, std::int64_t now_ns) {
+  if (statements_->revoke.run_counting(name, now_ns) == 0) {
+    return Error{ErrorCode::NotFound, fmt::format("there is no valid key '{}'", name)};
+  }
+  return {};
+}
+
+std::vector<ApiKey> KeysStore::list() const { return read_keys(statements_->all.query()); }
+
+KeyRing KeysStore::ring() const { return KeyRing(read_keys(statements_->valid.query())); }
+
+}  // namespace fitgauge::store

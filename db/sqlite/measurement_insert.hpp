@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "sqlite/statement.hpp"
+#include "store/measurement_row.hpp"
+
+namespace fitgauge::store {
+
+/// Inserts measurements at the end of the chain: many rows a statement, and only the columns that
+/// one of them fills. A statement stepped for every row with every column takes half as long again.
+class MeasurementInsert {
+ public:
+  explicit MeasurementInsert(sqlite::Connection& connection) : connection_(connection) {}
+
+  /// @param rows linked to the end of the chain.
+  void append(std::span<const MeasurementRow> rows);
+
+ private:
+  /// A set of fields, one bit each in the order of for_each_field.
+  using Fields = std::uint64_t;
+  /// What a statement is made for.
+  struct Shape {
+    Fields fields = 0;
+    std::size_t rows = 0;
+
+    // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
+    friend auto operator<=>(const Shape&, const Shape&) = default;
+  };
+
+  static Fields fields_of(std::span<const MeasurementRow> rows);
+  static std::string insert_sql(const Shape& shape);
+  std::pair<const Shape, sqlite::Statement>& statement_for(const Shape& shape);
+  void insert(std::span<const MeasurementRow> rows);
+
+  sqlite::Connection& connection_;
+  std::map<Shape, sqlite::Statement> statements_;
+};
+
+}  // namespace fitgauge::store

@@ -1,0 +1,51 @@
+#include "sqlite/read_pool_engine.hpp"
+
+#include <exception>
+#include <optional>
+
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store {
+
+ReadPool::Engine::Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health)
+    : options_(options), clock_(clock), health_(health), queue_(options.queue_limit) {
+  for (unsigned i = 0; i < options.readers; ++i) threads_.emplace_back([this] { run(); });
+}
+
+ReadPool::Engine::~Engine() {
+  queue_.close();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void ReadPool::Engine::run() {
+  std::optional<Session> session;
+  while (const std::unique_ptr<ReadJob> job = queue_.take_one()) {
+    std::optional<Error> error;
+    try {
+      read(session, *job);
+    } catch (const StorageFailure& failure) {
+      error = failure.error();
+    } catch (const std::exception& bug) {
+      error = Error{ErrorCode::Internal, std::string("a storage job failed: ") + bug.what()};
+    }
+    if (!error) {
+      job->deliver();
+      continue;
+    }
+    session.reset();
+    if (error->code == ErrorCode::StorageCorrupt) health_.damaged(error->message);
+    job->refuse(*std::move(error));
+  }
+}
+
+/// In a transaction, so that all statements of the job see the same state.
+void ReadPool::Engine::read(std::optional<Session>& session, ReadJob& job) {
+  if (!session) session.emplace(options_, clock_, sqlite::Mode::Read);
+  session->begin_reading.run();
+  job.run(session->stores);
+  session->commit.run();
+}
+
+void ReadPool::enqueue(std::unique_ptr<Job<const Stores>> job) { engine_.enqueue(std::move(job)); }
+
+}  // namespace fitgauge::store

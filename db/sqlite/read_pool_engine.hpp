@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "sqlite/health_monitor.hpp"
+#include "sqlite/session.hpp"
+#include "store/job_queue.hpp"
+#include "store/read_pool.hpp"
+
+namespace fitgauge::store {
+
+/// The reader threads with their connections. Destroying it runs what is queued.
+class ReadPool::Engine {
+ public:
+  using ReadJob = Job<const Stores>;
+
+  Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  ~Engine();
+
+  void enqueue(std::unique_ptr<ReadJob> job) { queue_.push(std::move(job)); }
+
+ private:
+  void run();
+  void read(std::optional<Session>& session, ReadJob& job);
+
+  const OpenOptions options_;
+  const Clock& clock_;
+  HealthMonitor& health_;
+  JobQueue<ReadJob> queue_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace fitgauge::store

@@ -1,0 +1,125 @@
+#include "sqlite/verifier.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "sqlite/migrator.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+constexpr std::size_t kMostFindings = 100;
+constexpr std::size_t kPage = 10'000;
+
+/// `table measurements: CREATE TABLE …` for each object, sorted.
+std::vector<std::string> schema_of(sqlite::Connection& connection) {
+  sqlite::Statement objects(connection,
+                            "SELECT type || ' ' || name || ': ' || coalesce(sql, '') "
+                            "FROM sqlite_schema WHERE name NOT LIKE 'sqlite_stat%' ORDER BY 1");
+  std::vector<std::string> schema;
+  for (sqlite::Rows rows = objects.query(); rows.next();) {
+    schema.push_back(rows.get<std::string>(0));
+  }
+  return schema;
+}
+
+}  // namespace
+
+VerifyReport Verifier::run() {
+  try {
+    check_file();
+    check_schema();
+    check_tables();
+    check_measurements();
+  } catch (const StorageFailure& failure) {
+    if (failure.error().code != ErrorCode::StorageCorrupt) throw;
+    note(failure.error().message);
+  }
+  return std::move(report_);
+}
+
+void Verifier::check_file() {
+  sqlite::Statement integrity(session_.connection, "PRAGMA integrity_check");
+  for (sqlite::Rows rows = integrity.query(); rows.next();) {
+    if (auto finding = rows.get<std::string>(0); finding != "ok") note(std::move(finding));
+  }
+  sqlite::Statement references(session_.connection,
+                               "SELECT \"table\", rowid, parent FROM pragma_foreign_key_check");
+  for (sqlite::Rows rows = references.query(); rows.next();) {
+    note(fmt::format("row {} of {} refers to a row of {} that is not there",
+                     rows.get<std::int64_t>(1), rows.get<std::string>(0),
+                     rows.get<std::string>(2)));
+  }
+}
+
+/// What is in the file against what the migrations of this build make.
+void Verifier::check_schema() {
+  if (const auto history = sqlite::check_history(session_.connection, sqlite::migrations());
+      !history) {
+    note(history.error().message);
+  }
+  sqlite::Connection fresh(":memory:", sqlite::Mode::Create);
+  sqlite::migrate(fresh, sqlite::migrations(), 0);
+  const std::vector<std::string> expected = schema_of(fresh);
+  const std::vector<std::string> found = schema_of(session_.connection);
+  const auto note_difference = [this](const auto& a, const auto& b, std::string_view what) {
+    std::vector<std::string> difference;
+    std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(difference));
+    for (const std::string& object : difference) {
+      note(fmt::format("the schema {} {}", what, object.substr(0, object.find(':'))));
+    }
+  };
+  note_difference(expected, found, "lacks, or has altered,");
+  note_difference(found, expected, "has, unlike this build,");
+}
+
+void Verifier::check_tables() {
+  const TablesStore& tables = session_.stores.tables;
+  for (const TableRevision& revision : tables.list()) {
+    revisions_.insert(revision.number);
+    const auto loaded = tables.load(revision.number);
+    if (loaded && loaded->computed != revision.digest) {
+      note(fmt::format("table revision {} differs from its digest", revision.id));
+    }
+  }
+}
+
+void Verifier::check_measurements() {
+  const MeasurementsStore& measurements = session_.stores.measurements;
+  const MeasurementFilter all{.source = std::nullopt, .history = true};
+  const auto check = [this](const MeasurementRow& row) { check_measurement(row); };
+  std::optional<std::int64_t> after = 0;
+  while (after) after = measurements.list(all, *after, kPage, check);
+}
+
+void Verifier::check_measurement(const MeasurementRow& row) {
+  const std::int64_t expected_id = last_id_ + 1;
+  if (row.id != expected_id) {
+    note(fmt::format("measurements {} to {} are missing", expected_id, row.id - 1));
+  } else if (hasher_(last_hash_, row.id, row) != row.hash) {
+    note(fmt::format("measurement {} was altered: its hash is another", row.id));
+  }
+  if (row.table_revision && !revisions_.contains(*row.table_revision)) {
+    note(fmt::format("measurement {} names table revision {}, which is not there", row.id,
+                     *row.table_revision));
+  }
+  if (check_) {
+    if (const std::optional<std::string> wrong = check_(row)) {
+      note(fmt::format("measurement {}: {}", row.id, *wrong));
+    }
+  }
+  last_id_ = row.id;
+  last_hash_ = row.hash;
+  ++report_.measurements;
+}
+
+void Verifier::note(std::string finding) {
+  if (report_.findings.size() < kMostFindings) report_.findings.push_back(std::move(finding));
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "sqlite/checkpointer.hpp"
+#include "sqlite/health_monitor.hpp"
+#include "sqlite/session.hpp"
+#include "store/job_queue.hpp"
+#include "store/writer.hpp"
+
+namespace fitgauge::store {
+
+/// The writer's thread with its connection. Destroying it runs what is queued, checkpoints and
+/// closes.
+class Writer::Engine {
+ public:
+  using WriteJob = Job<Stores>;
+
+  /// Opens the connection, so that a start on a database that cannot be opened fails.
+  Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  ~Engine();
+
+  void enqueue(std::unique_ptr<WriteJob> job) { queue_.push(std::move(job)); }
+
+  /// @returns whether no request of the same scope and key is under way.
+  bool begin(const IdempotentRequest& request);
+  void end(const IdempotentRequest& request);
+
+ private:
+  using Jobs = JobQueue<WriteJob>::Jobs;
+  using RequestKey = std::tuple<std::string, std::string, std::string, std::string>;
+
+  void run();
+  void commit(Jobs jobs);
+  std::optional<Error> try_commit(Jobs& jobs, std::vector<std::optional<Error>>& errors);
+  std::optional<Error> run_in_savepoint(WriteJob& job);
+  void idle();
+  void succeed();
+  void fail(const Error& error);
+  Session& session();
+
+  const OpenOptions options_;
+  const Clock& clock_;
+  HealthMonitor& health_;
+  JobQueue<WriteJob> queue_;
+  std::mutex under_way_mutex_;
+  std::set<RequestKey> under_way_;
+  std::optional<Session> session_;  // the thread's own from here on
+  std::optional<Checkpointer> checkpointer_;
+  bool failing_ = false;
+  std::chrono::milliseconds patience_{0};  ///< how long to wait for work before idle()
+  std::thread thread_;
+};
+
+}  // namespace fitgauge::store

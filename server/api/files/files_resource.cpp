@@ -1,0 +1,181 @@
+#include "api/files/files_resource.hpp"
+
+#include <algorithm>
+
+#include "api/handlers.hpp"
+#include "api/runs/run_codec.hpp"
+#include "api/wire/json_writer.hpp"
+#include "api/wire/request_facts.hpp"
+#include "app/files/file_service.hpp"
+#include "app/runs/run_service.hpp"
+#include "base/text.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using interpreter::ControlPath;
+
+constexpr std::size_t kBodyLimit = std::size_t{8} << 20;
+constexpr std::string_view kDrive = "TNC:\\";
+
+/// `nc_prog/8255/8255.h` is TNC:\nc_prog\8255\8255.h.
+Result<ControlPath> path_of(const http::Request& request) {
+  return ControlPath::parse(std::string(kDrive) + std::string(*request.text("path")));
+}
+
+/// The same the other way round, as a path of this service.
+std::string href(std::string_view path) {
+  std::string out = "/v1/files/";
+  for (const char c : path.substr(kDrive.size())) {
+    constexpr std::string_view kPlain = "-._~!$&'()*+,;=:@";
+    const bool plain = is_ascii_alphanumeric(c) || kPlain.find(c) != std::string_view::npos;
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\\') {
+      out += '/';
+    } else if (plain) {
+      out += c;
+    } else {
+      out += {'%', kDigits[byte >> 4U], kDigits[byte & 0xFU]};
+    }
+  }
+  return out;
+}
+
+std::string etag(std::int64_t revision) { return '"' + std::to_string(revision) + '"'; }
+
+std::optional<std::string> caller_of(const http::Request& request) {
+  const auto name = caller_name(request);
+  return name ? std::optional<std::string>(*name) : std::nullopt;
+}
+
+void put_file(const Services& services, const http::Request& request, http::Responder responder) {
+  auto path = path_of(request);
+  if (!path) return responder.fail(path.error());
+  const std::string location = href(path->text());
+  services.files.write(
+      *std::move(path), request.body(), caller_of(request),
+      [location, shared = share(std::move(responder))](Result<app::FileService::Written> written) {
+        if (!written) return shared->fail(written.error());
+        http::Response response(written->created ? 201 : 200);
+        response.with("Location", location).with("ETag", etag(written->revision));
+        shared->answer(std::move(response));
+      });
+}
+
+void get_file(const Services& services, const http::Request& request, http::Responder responder) {
+  auto path = path_of(request);
+  if (!path) return responder.fail(path.error());
+  services.files.read(
+      *std::move(path), [shared = share(std::move(responder))](Result<app::DiskFile> file) {
+        if (!file) return shared->fail(file.error());
+        http::Response response = foreign_bytes("application/octet-stream", std::move(file->bytes));
+        response.etag = etag(file->revision);
+        shared->answer(std::move(response));
+      });
+}
+
+void delete_file(const Services& services, const http::Request& request,
+                 http::Responder responder) {
+  auto path = path_of(request);
+  if (!path) return responder.fail(path.error());
+  services.files.remove(*std::move(path), caller_of(request),
+                        [shared = share(std::move(responder))](const Result<bool>& removed) {
+                          if (!removed) return shared->fail(removed.error());
+                          shared->answer(http::Response(204));
+                        });
+}
+
+void list_files(const Services& services, const http::Request& request, http::Responder responder) {
+  std::string prefix(request.text("prefix").value_or(""));
+  std::replace(prefix.begin(), prefix.end(), '/', '\\');
+  if (!ascii_iequals(prefix.substr(0, kDrive.size()), kDrive)) prefix.insert(0, kDrive);
+  services.files.list(std::move(prefix), [shared = share(std::move(responder))](
+                                             Result<std::vector<app::DiskFile>> files) {
+    if (!files) return shared->fail(files.error());
+    std::string body;
+    JsonWriter json(body);
+    json.begin_object().key("files").begin_array();
+    for (const app::DiskFile& file : *files) {
+      json.begin_object()
+          .member("path", file.path)
+          .member("href", href(file.path))
+          .member("size", file.size)
+          .member("modified_at", format_rfc3339(file.modified_at))
+          .end_object();
+    }
+    json.end_array().end_object();
+    shared->answer({200, "application/json", std::move(body)});
+  });
+}
+
+void check_file(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto path = path_of(request);
+  if (!path) return responder.fail(path.error());
+  const auto shared = share(std::move(responder));
+  services.runs.prepare(
+      [&services, path = *path, shared] {
+        auto found = services.runs.check(path);
+        if (found) return shared->answer({200, "application/json", diagnostics_json(*found)});
+        Error error = std::move(found).error();
+        // Here it is the request's path that names what is not there.
+        if (error.code == ErrorCode::ProgramUnknown) error.code = ErrorCode::FileUnknown;
+        shared->fail(std::move(error));
+      },
+      [shared](Error error) { shared->fail(std::move(error)); });
+}
+
+const http::Parameter kPath{.name = "path",
+                            .place = http::ParameterPlace::Path,
+                            .description = "nc_prog/8255/8255.h is TNC:\\nc_prog\\8255\\8255.h"};
+
+}  // namespace
+
+void add_files_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back({
+      .pattern = "/v1/files",
+      .handler = with(services, list_files),
+      .summary = "The files of the control's disk",
+      .parameters = {{.name = "prefix", .description = "Only paths that begin so: nc_prog/8255/"}},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/files/{path*}",
+      .handler = with(services, get_file),
+      .summary = "A file, byte for byte",
+      .parameters = {kPath},
+      .response_types = {},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .method = http::Method::Put,
+      .pattern = "/v1/files/{path*}",
+      .handler = with(services, put_file),
+      .summary = "Store a program, mask or table as it is on the control",
+      .parameters = {kPath},
+      .body = {.use = http::BodyUse::Required, .limit = kBodyLimit},
+      .access = "admin",
+  });
+  routes.push_back({
+      .method = http::Method::Delete,
+      .pattern = "/v1/files/{path*}",
+      .handler = with(services, delete_file),
+      .summary = "Delete a file",
+      .parameters = {kPath},
+      .access = "admin",
+  });
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/files/{path*}",
+      .handler = with(services, check_file),
+      .summary = "Check a program with those it calls, a mask or a table; nothing runs",
+      .parameters = {kPath,
+                     {.name = "action",
+                      .type = http::Words{{"check"}},
+                      .required = true,
+                      .description = "check"}},
+      .access = "viewer",
+  });
+}
+
+}  // namespace fitgauge::api

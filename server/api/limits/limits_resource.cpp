@@ -1,0 +1,136 @@
+#include "api/limits/limits_resource.hpp"
+
+#include "api/limits/limits_codec.hpp"
+#include "iso286/designation.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using iso286::ToleranceTables;
+
+Result<http::Response> limits_response(iso286::NominalSize size, std::string_view class_name,
+                                       const ToleranceTables& tables) {
+  const auto limits = tables.limits_of_size(size, class_name);
+  if (!limits) return limits.error();
+  std::string body;
+  JsonWriter json(body);
+  write_limits(json, *limits, tables);
+  http::Response response(200, "application/json", std::move(body));
+  response.etag = etag_of(tables);
+  return response;
+}
+
+Result<http::Response> limits_of_designation(const http::Request& request,
+                                             const ToleranceTables& tables) {
+  const auto designation = iso286::parse_designation(*request.text("designation"));
+  if (!designation) return designation.error();
+  return limits_response(designation->nominal_size, designation->class_name, tables);
+}
+
+Result<http::Response> limits_of_query(const http::Request& request,
+                                       const ToleranceTables& tables) {
+  const auto size = iso286::NominalSize::make(*request.length("nominal_mm"));
+  if (!size) return size.error();
+  return limits_response(*size, *request.text("tolerance_class"), tables);
+}
+
+Result<http::Response> fit_response(const iso286::FitDesignation& designation,
+                                    const ToleranceTables& tables) {
+  const auto hole = tables.find_class(designation.hole_class);
+  if (!hole) return hole.error();
+  const auto shaft = tables.find_class(designation.shaft_class);
+  if (!shaft) return shaft.error();
+  const auto fit = tables.fit(designation.nominal_size, *hole, *shaft);
+  if (!fit) return fit.error();
+
+  const std::string text =
+      designation_text(designation.nominal_size.length(), designation.hole_class) + '/' +
+      designation.shaft_class;
+  std::string body;
+  JsonWriter json(body);
+  json.begin_object().member("designation", std::string_view(text)).key("hole");
+  write_limits(json, fit->hole, tables);
+  json.key("shaft");
+  write_limits(json, fit->shaft, tables);
+  json.member("type", word(fit->kind()))
+      .member_um("max_clearance_um", fit->max_clearance())
+      .member_um("min_clearance_um", fit->min_clearance())
+      .end_object();
+  http::Response response(200, "application/json", std::move(body));
+  response.etag = etag_of(tables);
+  return response;
+}
+
+Result<http::Response> fit_of_two_segments(const http::Request& request,
+                                           const ToleranceTables& tables) {
+  const auto designation =
+      iso286::parse_fit_designation(*request.text("hole"), *request.text("shaft"));
+  if (!designation) return designation.error();
+  return fit_response(*designation, tables);
+}
+
+Result<http::Response> fit_of_one_segment(const http::Request& request,
+                                          const ToleranceTables& tables) {
+  const auto designation = iso286::parse_fit_designation(*request.text("fit"));
+  if (!designation) return designation.error();
+  return fit_response(*designation, tables);
+}
+
+}  // namespace
+
+void add_limits_routes(std::vector<http::Route>& routes,
+                       const std::shared_ptr<ResponseCache>& cache) {
+  routes.push_back({
+      .pattern = "/v1/limits/{designation}",
+      .handler = ResponseCache::cached(cache, limits_of_designation),
+      .summary = "Limits of size of a designation",
+      .description = "Deviations and limits of a nominal size and tolerance class (ISO 286-1).",
+      .parameters = {{.name = "designation",
+                      .place = http::ParameterPlace::Path,
+                      .description =
+                          "Size and class: 25H7, 25 H7, Ø25H7; a comma may mark decimals"}},
+      .access = "open",
+  });
+  routes.push_back({
+      .pattern = "/v1/limits",
+      .handler = ResponseCache::cached(cache, limits_of_query),
+      .summary = "Limits of size of a nominal size and a tolerance class",
+      .parameters = {{.name = "nominal_mm",
+                      .type = http::LengthIn{},
+                      .required = true,
+                      .description = "Nominal size, 0 < D <= 3150"},
+                     {.name = "tolerance_class",
+                      .required = true,
+                      .description = "H7, g6 or a column of the shop's own"}},
+      .access = "open",
+  });
+}
+
+void add_fits_routes(std::vector<http::Route>& routes,
+                     const std::shared_ptr<ResponseCache>& cache) {
+  routes.push_back({
+      .pattern = "/v1/fits/{hole}/{shaft}",
+      .handler = ResponseCache::cached(cache, fit_of_two_segments),
+      .summary = "Fit of a hole and a shaft",
+      .description = "Limits of both and the clearances; interference is negative clearance.",
+      .parameters = {{.name = "hole",
+                      .place = http::ParameterPlace::Path,
+                      .description = "Size and class of the hole: 25H7"},
+                     {.name = "shaft",
+                      .place = http::ParameterPlace::Path,
+                      .description = "Class of the shaft: g6"}},
+      .access = "open",
+  });
+  routes.push_back({
+      .pattern = "/v1/fits/{fit}",
+      .handler = ResponseCache::cached(cache, fit_of_one_segment),
+      .summary = "Fit of a hole and a shaft, written as one",
+      .description = "The same with an encoded stroke: 25H7%2Fg6.",
+      .parameters = {{.name = "fit",
+                      .place = http::ParameterPlace::Path,
+                      .description = "25H7/g6, the stroke percent-encoded"}},
+      .access = "open",
+  });
+}
+
+}  // namespace fitgauge::api

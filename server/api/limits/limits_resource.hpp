@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "api/wire/response_cache.hpp"
+#include "http/route.hpp"
+
+namespace fitgauge::api {
+
+/// /v1/limits: the limits of size of one designation.
+void add_limits_routes(std::vector<http::Route>& routes,
+                       const std::shared_ptr<ResponseCache>& cache);
+
+/// /v1/fits: a hole and a shaft of one nominal size.
+void add_fits_routes(std::vector<http::Route>& routes, const std::shared_ptr<ResponseCache>& cache);
+
+}  // namespace fitgauge::api

@@ -1,0 +1,45 @@
+#include "api/measurements/measurement_answer.hpp"
+
+#include "api/measurements/measurement_codec.hpp"
+
+namespace fitgauge::api {
+
+void MeasurementAnswer::expect(std::size_t body_size) {
+  constexpr std::size_t kRecordPerRow = 4;  // a record is seldom longer than so many rows
+  if (wanted_ == Preference::Representation) answer_.body.reserve(kRecordPerRow * body_size);
+}
+
+void MeasurementAnswer::add(std::span<const app::Measurement> measurements) {
+  if (count_ == 0) first_id_ = measurements.front().id;
+  last_id_ = measurements.back().id;
+  if (lists_records()) {
+    answer_.body += count_ == 0 ? R"({"measurements":[)" : ",";
+    append_measurements(answer_.body, measurements);
+  } else if (single_ && wanted_ != Preference::Minimal) {
+    append_measurement(answer_.body, measurements.front());
+  }
+  count_ += static_cast<std::int64_t>(measurements.size());
+  for (const app::Measurement& m : measurements) {
+    ++verdicts_.at(static_cast<std::size_t>(m.result.verdict));
+  }
+}
+
+app::Answer MeasurementAnswer::finish() {
+  if (single_) answer_.location = "/v1/measurements/" + app::measurement_id_text(first_id_);
+  if (wanted_ == Preference::Minimal) {
+    answer_.content_type.clear();
+  } else if (lists_records()) {
+    answer_.body += "]}";
+  } else if (!single_) {
+    JsonWriter json(answer_.body);
+    json.begin_object()
+        .member("accepted", count_)
+        .member("first_id", app::measurement_id_text(first_id_))
+        .member("last_id", app::measurement_id_text(last_id_));
+    write_verdict_counts(json, verdicts_[0], verdicts_[1], verdicts_[2], verdicts_[3]);
+    json.end_object();
+  }
+  return std::move(answer_);
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "api/wire/request_facts.hpp"
+#include "app/measurements/measurement_service.hpp"
+
+namespace fitgauge::api {
+
+/// The 201 to stored measurements, in the form the client prefers: the record of one, the records
+/// of all, their number with the counts of verdicts, or nothing.
+class MeasurementAnswer final : public app::Rendering {
+ public:
+  explicit MeasurementAnswer(Preference wanted) : wanted_(wanted) {}
+
+  /// Before add(): whether the body was one object, not a list.
+  void set_single(bool single) { single_ = single; }
+  /// Takes room for the answer to a list of so many bytes.
+  void expect(std::size_t body_size);
+
+  void add(std::span<const app::Measurement> measurements) override;
+  app::Answer finish() override;
+
+ private:
+  bool lists_records() const { return !single_ && wanted_ == Preference::Representation; }
+
+  const Preference wanted_;
+  bool single_ = false;
+  app::Answer answer_{
+      .status = 201, .content_type = "application/json", .location = {}, .body = {}};
+  std::int64_t first_id_ = 0;
+  std::int64_t last_id_ = 0;
+  std::int64_t count_ = 0;
+  std::array<std::int64_t, 4> verdicts_{};
+};
+
+}  // namespace fitgauge::api

@@ -1,0 +1,162 @@
+#include "api/measurements/measurement_correction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "api/measurements/measurement_posting.hpp"
+#include "api/measurements/measurement_row_reader.hpp"
+#include "api/wire/request_facts.hpp"
+#include "app/measurements/measurement_service.hpp"
+#include "app/tables/table_catalog.hpp"
+#include "base/decimal.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::size_t kLongestReason = 2000;
+constexpr std::array<std::string_view, 6> kLimitsFields = {
+    "designation", "nominal_mm", "tolerance_class", "feature", "upper_um", "lower_um"};
+
+/// What the texts of the correction are views of.
+struct Sources {
+  JsonValue body;
+  app::KeptMeasurement original;
+  std::shared_ptr<const iso286::ToleranceTables> tables;
+};
+
+/// Gives the row a field of the original; one that it has stays.
+void offer(MeasurementRowReader& reader, std::string_view name,
+           const std::optional<std::string_view>& text) {
+  if (text) reader.field(name, {.kind = RawValue::Kind::String, .text = *text});
+}
+
+bool names_any(const JsonValue& body, std::span<const std::string_view> fields) {
+  return std::any_of(fields.begin(), fields.end(),
+                     [&](std::string_view field) { return body.find(field) != nullptr; });
+}
+
+/// A correction that names no limits keeps those that were applied; one that names some takes the
+/// others over.
+void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
+                      const app::Measurement& original) {
+  if (!names_any(body, kLimitsFields)) return reader.take_limits(original);
+  if (body.find("designation") != nullptr) return;
+  offer(reader, "nominal_mm", format_mm(original.nominal_size));
+  if (body.find("tolerance_class") != nullptr) return;
+  const bool by_drawing = names_any(body, std::span(kLimitsFields).last(3));
+  if (!by_drawing && original.class_name) {
+    return offer(reader, "tolerance_class", original.class_name);
+  }
+  offer(reader, "feature", word(original.feature));
+  offer(reader, "upper_um", format_um(original.deviations.upper));
+  offer(reader, "lower_um", format_um(original.deviations.lower));
+}
+
+void take_over(MeasurementRowReader& reader, const JsonValue& body,
+               const app::Measurement& original) {
+  take_over_limits(reader, body, original);
+  for (const auto& [name, text] : app::kMeasurementTexts) {
+    offer(reader, name, original.texts.*text);
+  }
+  offer(reader, "measured_at", format_rfc3339(original.measured_at));
+  offer(reader, "rule", word(original.rule.kind()));
+  if (original.standard_uncertainty) {
+    offer(reader, "uncertainty_um", format_um(*original.standard_uncertainty));
+  }
+  if (original.coverage_factor) {
+    offer(reader, "coverage_factor", format(*original.coverage_factor));
+  }
+  if (original.temperature) {
+    offer(reader, "temperature_c",
+          format_decimal(*original.temperature, app::kTemperatureDecimals));
+  }
+}
+
+std::optional<std::string_view> read_reason(const JsonValue& body, FieldErrors& errors) {
+  const auto wrong = [&errors](ErrorCode code, std::string message) {
+    errors.add(code, "/reason", std::move(message));
+    return std::nullopt;
+  };
+  const JsonValue* reason = body.find("reason");
+  if (reason == nullptr) return wrong(ErrorCode::FieldMissing, "reason is required");
+  if (!reason->is(JsonValue::Kind::String)) {
+    return wrong(ErrorCode::FieldType,
+                 fmt::format("reason takes a string, not {}", name_of(reason->kind)));
+  }
+  const std::string_view text = reason->text;
+  if (text.size() > kLongestReason) {
+    return wrong(ErrorCode::FieldTooLong,
+                 fmt::format("reason takes at most {} bytes", kLongestReason));
+  }
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
+      text.find('\0') != std::string_view::npos) {
+    return wrong(ErrorCode::FieldInvalid, "reason says why the measurement is corrected");
+  }
+  return text;
+}
+
+Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
+                                Timestamp received_at, std::optional<std::string_view> caller) {
+  FieldErrors errors;
+  const JsonValue& body = sources->body;
+  if (!body.is(JsonValue::Kind::Object)) {
+    errors.add(ErrorCode::FieldType, "",
+               fmt::format("a correction is an object, not {}", name_of(body.kind)));
+    return *errors.take();
+  }
+  const auto reason = read_reason(body, errors);
+  MeasurementRowReader reader(*sources->tables, received_at, caller, errors);
+  reader.begin(std::nullopt);
+  for (const auto& [name, value] : body.members) {
+    if (name != "reason" && !reader.field(name, raw_value(value))) reader.report_unknown(name);
+  }
+  take_over(reader, body, *sources->original);
+  const app::Measurement* row = reader.end();
+  if (auto error = errors.take()) return *std::move(error);
+  MeasurementBatch batch{.rows = {*row}, .single = true, .texts = sources};
+  batch.rows.front().correction_of = sources->original->id;
+  batch.rows.front().correction_reason = reason;
+  return batch;
+}
+
+void correct(const SharedPosting& posting, const app::Measurement& original) {
+  if (original.source == app::Source::Simulation) {
+    return posting->responder.fail({ErrorCode::MeasurementSimulated,
+                                    "a simulated measurement takes no correction: correct "
+                                    "its program or setup and run it again"});
+  }
+  const auto tables = posting->services.tables.tables();
+  if (!tables) return posting->responder.fail(tables.error());
+  auto body = parse_json(posting->request.body());
+  if (!body) return posting->responder.fail(body.error());
+  auto batch = decode(std::shared_ptr<const Sources>(
+                          new Sources{*std::move(body), app::KeptMeasurement(original), *tables}),
+                      posting->services.clock.now(), caller_name(posting->request));
+  if (!batch) return posting->responder.fail(batch.error());
+  record(posting, *std::move(batch));
+}
+
+void find_and_correct(const SharedPosting& posting, std::int64_t id) {
+  const auto original = std::make_shared<std::optional<app::KeptMeasurement>>();
+  posting->services.measurements.find(
+      id, [original](const app::Measurement& found) { original->emplace(found); },
+      [posting, original](const Result<std::int64_t>& found) {
+        if (!found) return posting->responder.fail(found.error());
+        correct(posting, ***original);
+      });
+}
+
+}  // namespace
+
+void post_correction(const Services& services, const http::Request& request,
+                     http::Responder responder) {
+  const auto id = app::parse_measurement_id(*request.text("id"));
+  if (!id) return responder.fail(id.error());
+  post_once(services, request, std::move(responder),
+            [id = *id](const SharedPosting& posting) { find_and_correct(posting, id); });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,212 @@
+#include "api/measurements/measurement_listing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "api/measurements/measurement_codec.hpp"
+#include "http/body_stream.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::int64_t kDefaultLimit = 100;
+constexpr std::size_t kRowsAPiece = 200;
+
+enum class Form { Json, Ndjson, Csv };
+
+Form form_of(const http::Request& request) {
+  if (request.response_type() == "text/csv") return Form::Csv;
+  if (request.response_type() == "application/x-ndjson") return Form::Ndjson;
+  return Form::Json;
+}
+
+std::string media_type(Form form) {
+  switch (form) {
+    case Form::Csv: return "text/csv; charset=utf-8; header=present";
+    case Form::Ndjson: return "application/x-ndjson";
+    case Form::Json: break;
+  }
+  return "application/json";
+}
+
+void append_row(std::string& out, Form form, const app::Measurement& measurement) {
+  if (form == Form::Csv) return append_measurement_csv(out, measurement);
+  append_measurement(out, measurement);
+  if (form == Form::Ndjson) out += '\n';
+}
+
+/// Where a page begins.
+struct Cursor {
+  std::int64_t after = 0;             ///< the id before its first row
+  std::optional<std::int64_t> as_of;  ///< the state its list is read in; none: the newest
+};
+
+/// `m100.m250`: the rows after m100, in the state when m250 was the newest.
+std::string cursor_text(const app::ListPage& page) {
+  return fmt::format("{}.{}", app::measurement_id_text(*page.next),
+                     app::measurement_id_text(page.as_of));
+}
+
+/// The id of a measurement is a cursor too: what was recorded after it.
+Result<Cursor> cursor_of(const http::Request& request) {
+  const auto text = request.text("after");
+  if (!text) return Cursor();
+  const std::size_t point = text->find('.');
+  const auto after = app::parse_measurement_id(text->substr(0, point));
+  if (after && point == std::string_view::npos) return Cursor{.after = *after, .as_of = {}};
+  if (after) {
+    const auto as_of = app::parse_measurement_id(text->substr(point + 1));
+    if (as_of) return Cursor{.after = *after, .as_of = *as_of};
+  }
+  return Error{ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
+}
+
+/// All measurements that match, read page by page while they are sent.
+class MeasurementStream final : public http::BodyStream,
+                                public std::enable_shared_from_this<MeasurementStream> {
+ public:
+  MeasurementStream(app::MeasurementService& measurements, app::MeasurementQuery query,
+                    std::int64_t after, Form form)
+      : measurements_(measurements), query_(std::move(query)), after_(after), form_(form) {}
+
+  void next(http::ChunkSink sink) override {
+    auto piece = std::make_shared<std::string>();
+    if (form_ == Form::Csv && !begun_) *piece = measurement_csv_header();
+    begun_ = true;
+    measurements_.list(
+        query_, after_, kRowsAPiece,
+        [piece, form = form_](const app::Measurement& measurement) {
+          append_row(*piece, form, measurement);
+        },
+        [self = shared_from_this(), piece,
+         sink = std::make_shared<http::ChunkSink>(std::move(sink))](Result<app::ListPage> page) {
+          if (!page) return sink->fail();
+          if (!page->next) return sink->finish(std::move(*piece));
+          self->after_ = *page->next;
+          self->query_.as_of = page->as_of;
+          sink->put(std::move(*piece));
+        });
+  }
+
+ private:
+  app::MeasurementService& measurements_;
+  app::MeasurementQuery query_;
+  std::int64_t after_;
+  Form form_;
+  bool begun_ = false;
+};
+
+/// The link to the next page keeps the filters and replaces the cursor.
+std::string next_link(const http::Request& request, std::string_view cursor) {
+  std::string link(request.path());
+  char separator = '?';
+  std::string_view rest = request.query();
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('&'), rest.size());
+    const std::string_view pair = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (pair.empty() || pair.starts_with("after=")) continue;
+    link += separator;
+    link += pair;
+    separator = '&';
+  }
+  return fmt::format("<{}{}after={}>; rel=\"next\"", link, separator, cursor);
+}
+
+void answer_page(const http::Request& request, http::Responder& responder, Form form,
+                 const std::string& rows, const app::ListPage& page) {
+  std::string body;
+  const std::string cursor = page.next ? cursor_text(page) : std::string();
+  if (form == Form::Json) {
+    JsonWriter json(body);
+    json.begin_object().key("measurements").raw("[" + rows + "]").key("next");
+    if (page.next) {
+      json.value(cursor);
+    } else {
+      json.null();
+    }
+    json.end_object();
+  } else {
+    body = (form == Form::Csv ? measurement_csv_header() : std::string()) + rows;
+  }
+  http::Response response(200, media_type(form), std::move(body));
+  response.with("Vary", "Accept");
+  if (page.next) response.with("Link", next_link(request, cursor));
+  responder.answer(std::move(response));
+}
+
+}  // namespace
+
+std::vector<http::Parameter> measurement_filter_parameters() {
+  return {
+      {.name = "part_id", .description = "Exactly this part"},
+      {.name = "characteristic", .description = "Exactly this characteristic"},
+      {.name = "order", .description = "Exactly this order"},
+      {.name = "machine", .description = "Exactly this machine"},
+      {.name = "verdict",
+       .type = http::Words{{"good", "rework", "reject", "indeterminate"}},
+       .description = "Only this verdict"},
+      {.name = "source",
+       .type = http::Words{{"gauge", "simulation", "all"}},
+       .description = "gauge when absent"},
+      {.name = "from", .type = http::Time{}, .description = "measured_at from then on"},
+      {.name = "to", .type = http::Time{}, .description = "measured_at before then"},
+      {.name = "history",
+       .type = http::Words{{"current", "all"}},
+       .description = "all shows corrected rows too"},
+  };
+}
+
+app::MeasurementQuery measurement_query(const http::Request& request) {
+  const auto text = [&](std::string_view name) -> std::optional<std::string> {
+    const auto value = request.text(name);
+    return value ? std::optional<std::string>(*value) : std::nullopt;
+  };
+  app::MeasurementQuery query;
+  query.part_id = text("part_id");
+  query.characteristic = text("characteristic");
+  query.order = text("order");
+  query.machine = text("machine");
+  if (const auto verdict = request.text("verdict")) {
+    query.verdict = gauging::verdict_from_word(*verdict);
+  }
+  // `all` is no source, so that the filter is off.
+  if (const auto source = request.text("source")) query.source = app::source_from_word(*source);
+  query.from = request.time("from");
+  query.to = request.time("to");
+  query.history = request.text("history") == "all";
+  return query;
+}
+
+void list_measurements(const Services& services, const http::Request& request,
+                       http::Responder responder) {
+  const auto cursor = cursor_of(request);
+  if (!cursor) return responder.fail(cursor.error());
+  const Form form = form_of(request);
+  const auto limit = request.integer("limit");
+  app::MeasurementQuery query = measurement_query(request);
+  query.as_of = cursor->as_of;
+  if (!limit && form != Form::Json) {
+    http::Response response(
+        200, media_type(form),
+        http::StreamedBody{.source = std::make_shared<MeasurementStream>(
+                               services.measurements, std::move(query), cursor->after, form)});
+    return responder.answer(std::move(response).with("Vary", "Accept"));
+  }
+  auto rows = std::make_shared<std::string>();
+  services.measurements.list(
+      query, cursor->after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
+      [rows, form](const app::Measurement& measurement) {
+        if (form == Form::Json && !rows->empty()) *rows += ',';
+        append_row(*rows, form, measurement);
+      },
+      [&request, rows, form, responder = std::make_shared<http::Responder>(std::move(responder))](
+          Result<app::ListPage> page) {
+        if (!page) return responder->fail(page.error());
+        answer_page(request, *responder, form, *rows, *page);
+      });
+}
+
+}  // namespace fitgauge::api

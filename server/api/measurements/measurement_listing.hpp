@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "api/services.hpp"
+#include "app/measurements/measurement_service.hpp"
+#include "http/route.hpp"
+
+namespace fitgauge::api {
+
+/// The parameters of a list and of a summary that choose measurements.
+std::vector<http::Parameter> measurement_filter_parameters();
+
+/// The query of a request to a route with these parameters.
+app::MeasurementQuery measurement_query(const http::Request& request);
+
+/// GET /v1/measurements: a page with its cursor, or, as CSV or NDJSON without `limit`, all that
+/// match as a stream in constant memory.
+void list_measurements(const Services& services, const http::Request& request,
+                       http::Responder responder);
+
+}  // namespace fitgauge::api

@@ -1,0 +1,121 @@
+#include "api/measurements/measurement_posting.hpp"
+
+#include <utility>
+
+#include "api/measurements/measurement_answer.hpp"
+#include "api/wire/request_facts.hpp"
+#include "app/tables/table_catalog.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+/// Decoding more than this would keep other connections of the I/O thread waiting.
+constexpr std::size_t kLargeBody = std::size_t{64} << 10;
+
+http::Response response_of(app::Answer answer, Preference applied) {
+  http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
+  if (!answer.location.empty()) response.with("Location", std::move(answer.location));
+  if (applied == Preference::Minimal) response.with("Preference-Applied", "return=minimal");
+  if (applied == Preference::Representation) {
+    response.with("Preference-Applied", "return=representation");
+  }
+  return response;
+}
+
+BatchContext context_of(const Posting& posting, const app::TableCatalog::Tables& tables) {
+  return {.tables = *tables,
+          .received_at = posting.services.clock.now(),
+          .caller = caller_name(posting.request)};
+}
+
+void judge_and_record(const SharedPosting& posting) {
+  const auto tables = posting->services.tables.tables();
+  if (!tables) return posting->responder.fail(tables.error());
+  const http::Request& request = posting->request;
+  MeasurementBatch batch;
+  const auto decoded = decode_measurements(request.body(), request.media_type(),
+                                           context_of(*posting, *tables), batch);
+  if (!decoded) return posting->responder.fail(decoded.error());
+  // The class names of the rows are views of the tables.
+  batch.texts = std::make_shared<std::pair<std::shared_ptr<const void>, app::TableCatalog::Tables>>(
+      std::move(batch.texts), *tables);
+  record(posting, std::move(batch));
+}
+
+/// The same on a thread that may block: the first rows are stored while the last are being read.
+void judge_while_recording(const SharedPosting& posting) {
+  const auto tables = posting->services.tables.tables();
+  if (!tables) return posting->responder.fail(tables.error());
+  const http::Request& request = posting->request;
+  const Preference wanted = preference_of(request);
+  MeasurementAnswer rendering(wanted);
+  rendering.expect(request.body().size());
+  MeasurementBatch batch;
+  const auto read = [&](const app::MeasurementService::Take& take) -> Result<void> {
+    BatchContext context = context_of(*posting, *tables);
+    context.take = take;
+    auto decoded = decode_measurements(request.body(), request.media_type(), context, batch);
+    rendering.set_single(batch.single);
+    if (decoded && !batch.rows.empty()) take(std::move(batch.rows));
+    return decoded;
+  };
+  auto answer =
+      posting->services.measurements.record_while_reading(read, posting->scope, rendering);
+  // The writer went on with others; it need not wait for the exact reader.
+  if (batch.wants_whole) return judge_and_record(posting);
+  if (!answer) return posting->responder.fail(answer.error());
+  posting->responder.answer(response_of(*std::move(answer), wanted));
+}
+
+void judge_where_it_may_take_long(const SharedPosting& posting) {
+  if (posting->request.body().size() <= kLargeBody) return judge_and_record(posting);
+  posting->services.measurements.run(
+      [posting] { judge_while_recording(posting); },
+      [posting](Error error) { posting->responder.fail(std::move(error)); });
+}
+
+}  // namespace
+
+void post_once(const Services& services, const http::Request& request, http::Responder responder,
+               std::function<void(const SharedPosting&)> first_time) {
+  const auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});
+  const auto key = idempotency_key(request);
+  if (!key) return posting->responder.fail(key.error());
+  if (!*key) return first_time(posting);
+  posting->scope = app::IdempotencyScope{.caller = std::string(caller_name(request).value_or("")),
+                                         .method = "POST",
+                                         .path = std::string(request.path()),
+                                         .key = **key,
+                                         .body = request.body()};
+  services.measurements.find_answer(*posting->scope, [posting, first_time = std::move(first_time)](
+                                                         Result<std::optional<app::Answer>> kept) {
+    if (!kept) return posting->responder.fail(kept.error());
+    if (!*kept) return first_time(posting);
+    posting->responder.answer(
+        response_of(**std::move(kept), Preference::None).with("Idempotency-Replayed", "true"));
+  });
+}
+
+void record(const SharedPosting& posting, MeasurementBatch batch) {
+  const Preference wanted = preference_of(posting->request);
+  posting->services.measurements.record(
+      std::move(batch.rows), posting->scope,
+      [single = batch.single, wanted,
+       texts = std::move(batch.texts)](std::span<const app::Measurement> stored) {
+        MeasurementAnswer rendering(wanted);
+        rendering.set_single(single);
+        rendering.add(stored);
+        return rendering.finish();
+      },
+      [posting, wanted](Result<app::Answer> answer) {
+        if (!answer) return posting->responder.fail(answer.error());
+        posting->responder.answer(response_of(*std::move(answer), wanted));
+      });
+}
+
+void post_measurements(const Services& services, const http::Request& request,
+                       http::Responder responder) {
+  post_once(services, request, std::move(responder), judge_where_it_may_take_long);
+}
+
+}  // namespace fitgauge::api

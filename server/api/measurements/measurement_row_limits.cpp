@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include "api/limits/verdict_codec.hpp"
+#include "api/measurements/measurement_row_fields.hpp"
+#include "api/measurements/measurement_row_reader.hpp"
+#include "iso286/designation.hpp"
+
+// How a row says its limits: a designation, a class with its nominal size, or those of a drawing.
+
+namespace fitgauge::api {
+
+void MeasurementRowReader::take_limits(const app::Measurement& other) {
+  app::apply_limits(draft_.measurement, other);
+  draft_.has_limits = true;
+}
+
+void MeasurementRowReader::resolve_limits() {
+  const bool by_designation = given(RowField::Designation);
+  const bool by_class = given(RowField::Class);
+  const bool by_drawing =
+      given(RowField::Upper) || given(RowField::Lower) || given(RowField::Feature);
+  const int ways = int{by_designation} + int{by_class} + int{by_drawing};
+  if (ways > 1 || (by_designation && given(RowField::Nominal))) {
+    const std::size_t second = by_designation ? (given(RowField::Nominal) ? RowField::Nominal
+                                                 : by_class               ? RowField::Class
+                                                                          : RowField::Feature)
+                                              : RowField::Class;
+    report(ErrorCode::FieldConflict, kRowFields[second].name,
+           "give the limits once: designation, or nominal_mm with tolerance_class, or nominal_mm "
+           "with feature, upper_um and lower_um");
+    return;
+  }
+  if (by_designation) return resolve_designation();
+  if (!given(RowField::Nominal)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Nominal].name,
+           "nominal_mm is required, or a designation");
+  }
+  if (by_drawing) return resolve_explicit();
+  if (by_class) return resolve_class();
+  report(ErrorCode::FieldMissing, kRowFields[RowField::Class].name,
+         "tolerance_class is required, or feature with upper_um and lower_um");
+}
+
+Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) {
+  if (last_class_id_ && name == last_class_) return *last_class_id_;
+  const auto found = tables_.find_class(name);
+  if (!found) return found.error();
+  last_class_ = name;
+  last_class_id_ = *found;
+  return *found;
+}
+
+void MeasurementRowReader::take_limits(const Result<iso286::LimitsOfSize>& limits,
+                                       std::string_view field) {
+  if (limits) {
+    app::apply_limits(draft_.measurement, *limits, tables_);
+  } else {
+    report(limits.error().code, field, limits.error().message);
+  }
+}
+
+void MeasurementRowReader::resolve_class() {
+  std::optional<iso286::NominalSize> size;
+  if (draft_.nominal) {
+    const auto made = iso286::NominalSize::make(*draft_.nominal);
+    if (made) {
+      size = *made;
+    } else {
+      report(made.error().code, kRowFields[RowField::Nominal].name, made.error().message);
+    }
+  }
+  if (!draft_.class_name) return;
+  const auto id = find_class(*draft_.class_name);
+  if (!id) {
+    report(ErrorCode::ClassUnknown, kRowFields[RowField::Class].name, id.error().message);
+  } else if (size) {
+    take_limits(tables_.limits_of_size(*size, *id), kRowFields[RowField::Class].name);
+  }
+}
+
+void MeasurementRowReader::resolve_designation() {
+  if (!draft_.designation) return;
+  const std::string_view field = kRowFields[RowField::Designation].name;
+  const auto designation = iso286::parse_designation(*draft_.designation);
+  if (!designation) return report(designation.error().code, field, designation.error().message);
+  const auto id = find_class(designation->class_name);
+  if (!id) return report(id.error().code, field, id.error().message);
+  take_limits(tables_.limits_of_size(designation->nominal_size, *id), field);
+}
+
+void MeasurementRowReader::resolve_explicit() {
+  for (const std::size_t field : {RowField::Feature, RowField::Upper, RowField::Lower}) {
+    if (!given(field)) {
+      report(ErrorCode::FieldMissing, kRowFields[field].name,
+             fmt::format("{} is required beside the other limits of a drawing",
+                         kRowFields[field].name));
+    }
+  }
+  if (!draft_.nominal || !draft_.feature || !draft_.upper || !draft_.lower) return;
+  app::Measurement& m = draft_.measurement;
+  if (*draft_.nominal <= Length() || *draft_.nominal > kLargestMeasured) {
+    report(ErrorCode::LengthOutOfRange, kRowFields[RowField::Nominal].name,
+           "nominal_mm is above 0 and at most 100000000");
+  }
+  if (*draft_.upper < *draft_.lower) {
+    report(ErrorCode::LimitsInvalid, kRowFields[RowField::Upper].name,
+           "upper_um is below lower_um");
+  } else if (*draft_.nominal + *draft_.lower <= Length()) {
+    report(ErrorCode::LimitsInvalid, kRowFields[RowField::Lower].name,
+           "the lower limit would be 0 or less");
+  }
+  m.basis = app::LimitsBasis::Explicit;
+  m.nominal_size = *draft_.nominal;
+  m.feature = *draft_.feature;
+  m.deviations = {.upper = *draft_.upper, .lower = *draft_.lower};
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,243 @@
+#include "api/measurements/measurement_row_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "api/limits/verdict_codec.hpp"
+#include "api/measurements/measurement_row_fields.hpp"
+#include "base/decimal.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::int64_t kMillion = 1'000'000;
+constexpr std::int64_t kLargestCoverage = 100 * kMillion;
+constexpr std::int64_t kAbsoluteZero = -273'150'000;
+constexpr std::int64_t kHottest = 10'000 * kMillion;
+
+std::size_t search_field(std::string_view name) {
+  const auto found = std::find_if(kRowFields.begin(), kRowFields.end(),
+                                  [&](const RowField& field) { return field.name == name; });
+  return static_cast<std::size_t>(found - kRowFields.begin());
+}
+
+std::string_view name_of(RawValue::Kind kind) {
+  static_assert(static_cast<int>(RawValue::Kind::Object) ==
+                static_cast<int>(JsonValue::Kind::Object));
+  return api::name_of(static_cast<JsonValue::Kind>(kind));
+}
+
+}  // namespace
+
+RawValue raw_value(const JsonValue& value) {
+  return {.kind = static_cast<RawValue::Kind>(value.kind), .text = value.text};
+}
+
+bool MeasurementRowReader::knows(std::string_view name) {
+  return search_field(name) < RowField::Count;
+}
+
+// Rows have their fields in one order, those of one request and mostly those of the next: the n-th
+// is most likely what it was before.
+std::size_t MeasurementRowReader::find_field(std::string_view name) {
+  static thread_local std::array<std::uint8_t, 32> order{};
+  std::uint8_t& expected = order[position_++ % order.size()];
+  if (kRowFields[expected].name == name) return expected;
+  const std::size_t field = search_field(name);
+  if (field < RowField::Count) expected = static_cast<std::uint8_t>(field);
+  return field;
+}
+
+void MeasurementRowReader::begin(std::optional<std::size_t> row, std::optional<std::size_t> line) {
+  row_ = row;
+  line_ = line;
+  position_ = 0;
+  draft_ = {};
+}
+
+void MeasurementRowReader::report(ErrorCode code, std::string_view field, std::string message) {
+  draft_.failed = true;
+  std::string pointer = row_ ? pointer_to("", *row_) : std::string();
+  if (!field.empty()) pointer = pointer_to(pointer, field);
+  errors_.add(code, std::move(pointer), std::move(message), line_);
+}
+
+void MeasurementRowReader::report_unknown(std::string_view name) {
+  report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));
+}
+
+void MeasurementRowReader::report_row(ErrorCode code, std::string message) {
+  report(code, "", std::move(message));
+}
+
+bool MeasurementRowReader::field(std::string_view name, const RawValue& value) {
+  const std::size_t field = find_field(name);
+  if (field == RowField::Count || given(field)) return false;
+  draft_.given |= 1U << field;
+  assign(field, value);
+  return true;
+}
+
+void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
+  app::Measurement& m = draft_.measurement;
+  switch (field) {
+    case RowField::Measured:
+      if (const auto measured = length(field, value, false, true)) {
+        m.measured = *measured;
+        if (const auto checked = check_measured(*measured); !checked) {
+          report(checked.error().code, kRowFields[field].name, checked.error().message);
+        }
+      }
+      break;
+    case RowField::Nominal: draft_.nominal = length(field, value, false); break;
+    case RowField::Class: draft_.class_name = text(field, value); break;
+    case RowField::Designation: draft_.designation = text(field, value); break;
+    case RowField::Feature:
+      if (const auto given_word = text(field, value)) {
+        draft_.feature = iso286::feature_from_word(*given_word);
+        if (!draft_.feature) {
+          report(ErrorCode::FieldInvalid, kRowFields[field].name, "feature is hole or shaft");
+        }
+      }
+      break;
+    case RowField::Upper: draft_.upper = length(field, value, true); break;
+    case RowField::Lower: draft_.lower = length(field, value, true); break;
+    case RowField::PartId: m.texts.part_id = text(field, value); break;
+    case RowField::Characteristic: m.texts.characteristic = text(field, value); break;
+    case RowField::Order: m.texts.order = text(field, value); break;
+    case RowField::Operation: m.texts.operation = text(field, value); break;
+    case RowField::Machine: m.texts.machine = text(field, value); break;
+    case RowField::Operator: m.texts.operator_id = text(field, value); break;
+    case RowField::Gauge: m.texts.gauge = text(field, value); break;
+    case RowField::Unit: m.texts.unit = text(field, value); break;
+    case RowField::Comment: m.texts.comment = text(field, value); break;
+    case RowField::MeasuredAt:
+      if (const auto time = text(field, value)) {
+        const auto parsed = parse_rfc3339(*time);
+        if (parsed) {
+          m.measured_at = *parsed;
+        } else {
+          report(parsed.error().code, kRowFields[field].name, parsed.error().message);
+        }
+      }
+      break;
+    case RowField::Uncertainty:
+      m.standard_uncertainty = length(field, value, true);
+      if (m.standard_uncertainty && *m.standard_uncertainty < Length()) {
+        report(ErrorCode::LengthOutOfRange, kRowFields[field].name,
+               "an uncertainty is not negative");
+      }
+      break;
+    case RowField::Coverage:
+      if (const auto factor = decimal(field, value)) {
+        const auto made = gauging::CoverageFactor::from_millionths(*factor);
+        if (made && *factor <= kLargestCoverage) {
+          m.coverage_factor = *made;
+        } else {
+          report(ErrorCode::NumberOutOfRange, kRowFields[field].name,
+                 "coverage_factor is above 0 and at most 100");
+        }
+      }
+      break;
+    case RowField::Rule:
+      if (const auto rule = text(field, value)) {
+        const auto kind = gauging::rule_from_word(*rule);
+        if (kind) {
+          draft_.rule = *kind;
+        } else {
+          report(ErrorCode::FieldInvalid, kRowFields[field].name, "rule is simple or guard_band");
+        }
+      }
+      break;
+    case RowField::Temperature:
+      m.temperature = decimal(field, value);
+      if (m.temperature && (*m.temperature < kAbsoluteZero || *m.temperature > kHottest)) {
+        report(ErrorCode::NumberOutOfRange, kRowFields[field].name,
+               "temperature_c lies from -273.15 to 10000");
+      }
+      break;
+    default: break;
+  }
+}
+
+std::optional<Length> MeasurementRowReader::length(std::size_t field, const RawValue& value,
+                                                   bool micrometres, bool round) {
+  if (value.kind != RawValue::Kind::Number && value.kind != RawValue::Kind::String) {
+    report(ErrorCode::FieldType, kRowFields[field].name,
+           fmt::format("{} takes a number, not {}", kRowFields[field].name, name_of(value.kind)));
+    return std::nullopt;
+  }
+  const LengthSyntax syntax{.decimal_comma = value.decimal_comma,
+                            .exponent = value.kind == RawValue::Kind::Number,
+                            .round_to_nearest = round};
+  const auto parsed =
+      micrometres ? parse_length_um(value.text, syntax) : parse_length_mm(value.text, syntax);
+  if (parsed) return *parsed;
+  report(parsed.error().code, kRowFields[field].name, parsed.error().message);
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> MeasurementRowReader::decimal(std::size_t field,
+                                                          const RawValue& value) {
+  if (value.kind != RawValue::Kind::Number && value.kind != RawValue::Kind::String) {
+    report(ErrorCode::FieldType, kRowFields[field].name,
+           fmt::format("{} takes a number, not {}", kRowFields[field].name, name_of(value.kind)));
+    return std::nullopt;
+  }
+  const auto parsed = parse_decimal(value.text, {.scale = 6,
+                                                 .decimal_comma = value.decimal_comma,
+                                                 .exponent = value.kind == RawValue::Kind::Number});
+  if (parsed) return *parsed;
+  const bool too_fine = parsed.error().code == ErrorCode::LengthTooFine;
+  report(too_fine ? ErrorCode::FieldInvalid : parsed.error().code, kRowFields[field].name,
+         parsed.error().message);
+  return std::nullopt;
+}
+
+std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
+                                                           const RawValue& value) {
+  const auto& [name, longest] = kRowFields[field];
+  if (value.kind != RawValue::Kind::String) {
+    report(ErrorCode::FieldType, name,
+           fmt::format("{} takes a string, not {}", name, name_of(value.kind)));
+    return std::nullopt;
+  }
+  if (value.text.size() > longest) {
+    report(ErrorCode::FieldTooLong, name, fmt::format("{} takes at most {} bytes", name, longest));
+    return std::nullopt;
+  }
+  if (value.text.find('\0') != std::string_view::npos) {
+    report(ErrorCode::FieldInvalid, name, fmt::format("{} holds a NUL character", name));
+    return std::nullopt;
+  }
+  return value.text;
+}
+
+const app::Measurement* MeasurementRowReader::end() {
+  app::Measurement& m = draft_.measurement;
+  if (!given(RowField::Measured)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Measured].name, "measured_mm is required");
+  }
+  if (!draft_.has_limits) resolve_limits();
+  if (draft_.rule == gauging::DecisionRule::Kind::GuardBand) {
+    if (!given(RowField::Uncertainty)) {
+      report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
+             "the guard band needs uncertainty_um, the standard uncertainty");
+    } else if (!draft_.failed) {
+      m.rule = gauging::DecisionRule::guard_band(
+                   *m.standard_uncertainty, m.coverage_factor.value_or(gauging::CoverageFactor()))
+                   .value();
+      m.coverage_factor = m.rule.coverage_factor();
+    }
+  }
+  if (draft_.failed) return nullptr;
+  m.received_at = received_at_;
+  if (!given(RowField::MeasuredAt)) m.measured_at = received_at_;
+  m.caller = caller_;
+  app::judge(m);
+  return &m;
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,132 @@
+#include "api/measurements/measurements_resource.hpp"
+
+#include <memory>
+
+#include "api/measurements/measurement_codec.hpp"
+#include "api/measurements/measurement_correction.hpp"
+#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurement_posting.hpp"
+#include "app/measurements/measurement_service.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::size_t kBodyLimit = std::size_t{32} << 20;
+
+void find_measurement(const Services& services, const http::Request& request,
+                      http::Responder responder) {
+  const auto id = app::parse_measurement_id(*request.text("id"));
+  if (!id) return responder.fail(id.error());
+  auto body = std::make_shared<std::string>();
+  services.measurements.find(
+      *id, [body](const app::Measurement& measurement) { append_measurement(*body, measurement); },
+      [body, responder = std::make_shared<http::Responder>(std::move(responder))](
+          const Result<std::int64_t>& found) {
+        if (!found) return responder->fail(found.error());
+        responder->answer({200, "application/json", std::move(*body)});
+      });
+}
+
+void summarise(const Services& services, const http::Request& request, http::Responder responder) {
+  const std::string_view group_by = request.text("group_by").value_or("characteristic");
+  services.measurements.summary(
+      measurement_query(request), group_by,
+      [group_by, responder = std::make_shared<http::Responder>(std::move(responder))](
+          Result<std::vector<app::MeasurementGroup>> groups) {
+        if (!groups) return responder->fail(groups.error());
+        responder->answer({200, "application/json", summary_json(group_by, *groups)});
+      });
+}
+
+http::AsyncHandler with(const Services& services,
+                        void (*handler)(const Services&, const http::Request&, http::Responder)) {
+  return [&services, handler](const http::Request& request, http::Responder responder) {
+    handler(services, request, std::move(responder));
+  };
+}
+
+std::vector<http::Parameter> posting_parameters(std::vector<http::Parameter> parameters = {}) {
+  parameters.push_back({.name = "Idempotency-Key",
+                        .place = http::ParameterPlace::Header,
+                        .description = "Makes a repeat answer what the first was answered"});
+  parameters.push_back({.name = "Prefer",
+                        .place = http::ParameterPlace::Header,
+                        .description = "return=representation or return=minimal"});
+  return parameters;
+}
+
+std::vector<http::Parameter> list_parameters() {
+  auto parameters = measurement_filter_parameters();
+  parameters.push_back({.name = "limit",
+                        .type = http::Integer{.min = 1, .max = 1000},
+                        .description = "Most rows of a page; 100 when absent"});
+  parameters.push_back({.name = "after", .description = "The cursor `next` of the page before"});
+  return parameters;
+}
+
+std::vector<http::Parameter> summary_parameters() {
+  auto parameters = measurement_filter_parameters();
+  const auto fields = app::summary_fields();
+  parameters.push_back({.name = "group_by",
+                        .type = http::Words{{fields.begin(), fields.end()}},
+                        .description = "Field whose values form the groups"});
+  return parameters;
+}
+
+}  // namespace
+
+void add_measurements_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/measurements",
+      .handler = with(services, post_measurements),
+      .summary = "Judge and store measurements, all or none",
+      .description = "201 means durable. An Idempotency-Key makes repeats safe.",
+      .parameters = posting_parameters(),
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json", "application/x-ndjson", "text/csv"},
+               .limit = kBodyLimit},
+      .access = "operator",
+  });
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/measurements/{id}/corrections",
+      .handler = with(services, post_correction),
+      .summary = "Correct a measurement by a new one that names it",
+      .description = "The body has measured_mm and reason; fields it leaves out are taken over. "
+                     "The old record stays.",
+      .parameters = posting_parameters({{.name = "id",
+                                         .place = http::ParameterPlace::Path,
+                                         .description = "The measurement to correct"}}),
+      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
+      .access = "operator",
+  });
+  routes.push_back({
+      .pattern = "/v1/measurements",
+      .handler = with(services, list_measurements),
+      .summary = "List measurements in storage order",
+      .description = "All pages show the state at the first one. CSV and NDJSON without `limit` "
+                     "stream all that match.",
+      .parameters = list_parameters(),
+      .response_types = {"application/json", "application/x-ndjson", "text/csv"},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/measurements/summary",
+      .handler = with(services, summarise),
+      .summary = "Counts and statistics by group",
+      .parameters = summary_parameters(),
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/measurements/{id}",
+      .handler = with(services, find_measurement),
+      .summary = "One measurement",
+      .parameters = {{.name = "id",
+                      .place = http::ParameterPlace::Path,
+                      .description = "As the record names it"}},
+      .access = "viewer",
+  });
+}
+
+}  // namespace fitgauge::api

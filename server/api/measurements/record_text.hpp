@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "api/wire/json_escape.hpp"
+#include "base/length.hpp"
+#include "base/write_text.hpp"
+
+namespace fitgauge::api {
+
+/// Writes at the end of a string in room that was taken beforehand, so that a piece costs its bytes
+/// and no more: for records that are written by the ten thousand. All else uses JsonWriter.
+class RecordText {
+ public:
+  /// @param room no fewer characters than will be written.
+  RecordText(std::string& out, std::size_t room) : out_(out), at_(extend(out, room)) {}
+  RecordText(const RecordText&) = delete;
+  RecordText& operator=(const RecordText&) = delete;
+  /// Gives back the room that was not needed.
+  ~RecordText() {
+    assert(size() <= out_.size());
+    out_.resize(size());
+  }
+
+  /// How long the string is so far.
+  std::size_t size() const { return static_cast<std::size_t>(at_ - out_.data()); }
+  /// What was written from `begin` on.
+  std::string_view from(std::size_t begin) const { return {out_.data() + begin, size() - begin}; }
+
+  RecordText& raw(std::string_view text) {
+    at_ = std::copy(text.begin(), text.end(), at_);
+    return *this;
+  }
+  RecordText& decimal(std::int64_t value, int scale) {
+    at_ = write_decimal(at_, value, scale);
+    return *this;
+  }
+  RecordText& mm(Length length) { return decimal(length.count(), 6); }
+  RecordText& um(Length length) { return decimal(length.count(), 3); }
+  RecordText& time(Timestamp time) {
+    at_ = write_rfc3339(at_, time);
+    return *this;
+  }
+  /// The inside of a JSON string: at most kEscaped characters for each of the text.
+  RecordText& escaped(std::string_view text);
+  /// The same between quotes.
+  RecordText& quoted(std::string_view text) { return raw("\"").escaped(text).raw("\""); }
+
+  static constexpr std::size_t kEscaped = kEscapeRoom;
+
+ private:
+  static char* extend(std::string& out, std::size_t room) {
+    const std::size_t size = out.size();
+    out.resize(size + room);
+    return out.data() + size;
+  }
+
+  std::string& out_;
+  char* at_;
+};
+
+}  // namespace fitgauge::api

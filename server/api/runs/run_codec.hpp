@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/wire/json_value.hpp"
+#include "api/wire/json_writer.hpp"
+#include "app/runs/run_service.hpp"
+#include "klartext/diagnostic.hpp"
+
+namespace fitgauge::api {
+
+/// How runs are written: the run object of the contract, its trace, its event.
+app::RunFormat run_format();
+
+/// The run object of a run that is not over yet.
+std::string unfinished_run_json(const app::ActiveRun& run);
+/// The same of a run that is known to the store alone.
+std::string unfinished_run_json(const app::StoredRun& run);
+
+/// `{"runs":[{"id","status","program","created_at","finished_at"},...],"next"}`
+std::string run_page_json(const app::RunService::Page& page);
+
+/// `{"diagnostics":[...]}`
+std::string diagnostics_json(const std::vector<klartext::Diagnostic>& diagnostics);
+void write_diagnostics(JsonWriter& json, const std::vector<klartext::Diagnostic>& diagnostics);
+
+/// Writes a value that was read as it was written, without blanks.
+void write_json(JsonWriter& json, const JsonValue& value);
+
+}  // namespace fitgauge::api

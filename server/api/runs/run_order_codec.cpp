@@ -1,0 +1,161 @@
+#include "api/runs/run_order_codec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "api/runs/run_codec.hpp"
+#include "api/runs/setup_codec.hpp"
+#include "api/wire/field_reader.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using Kind = JsonValue::Kind;
+
+constexpr std::int64_t kMostBlocks = 100'000'000;
+constexpr double kMostSeconds = 60;
+
+struct Language {
+  std::string_view word;
+  klartext::MaskLanguage language;
+};
+constexpr std::array<Language, 4> kLanguages{{{"english", klartext::MaskLanguage::English},
+                                              {"german", klartext::MaskLanguage::German},
+                                              {"dutch", klartext::MaskLanguage::Dutch},
+                                              {"italian", klartext::MaskLanguage::Italian}}};
+
+std::optional<interpreter::ControlPath> read_program(FieldReader& fields) {
+  const auto text = fields.text("program");
+  if (!text) return std::nullopt;
+  auto path = interpreter::ControlPath::parse(*text);
+  if (path) return *std::move(path);
+  fields.report(path.error().code, "program", path.error().message);
+  return std::nullopt;
+}
+
+/// The value of a parameter: a number, or for a QS a string.
+std::optional<std::variant<double, std::string>> read_value(const JsonValue& value) {
+  if (value.is(Kind::String)) return value.text;
+  double number = 0;
+  const char* const end = value.text.data() + value.text.size();
+  if (!value.is(Kind::Number) ||
+      std::from_chars(value.text.data(), end, number).ec != std::errc()) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::vector<interpreter::ParameterValue> read_parameters(FieldReader& fields, FieldErrors& errors) {
+  std::vector<interpreter::ParameterValue> parameters;
+  const JsonValue* object = fields.has("parameters") ? fields.object("parameters") : nullptr;
+  if (object == nullptr) return parameters;
+  for (const auto& [name, value] : object->members) {
+    const std::string pointer = pointer_to(fields.at("parameters"), name);
+    const auto parameter = interpreter::parse_parameter_name(name);
+    if (!parameter) {
+      errors.add(parameter.error().code, pointer, parameter.error().message);
+      continue;
+    }
+    auto read = read_value(value);
+    if (!read) {
+      errors.add(value.is(Kind::Number) ? ErrorCode::NumberOutOfRange : ErrorCode::FieldType,
+                 pointer, fmt::format("{} takes a number or a string within its range", name));
+      continue;
+    }
+    interpreter::ParameterValue given{*parameter, *std::move(read)};
+    if (const auto valid = interpreter::validate(given); !valid) {
+      errors.add(valid.error().code, pointer, valid.error().message);
+    } else {
+      parameters.push_back(std::move(given));
+    }
+  }
+  return parameters;
+}
+
+void read_limits(FieldReader& fields, FieldErrors& errors, interpreter::RunLimits& limits) {
+  if (!fields.has("limits")) return;
+  const JsonValue* object = fields.object("limits");
+  if (object == nullptr) return;
+  FieldReader reader(*object, fields.at("limits"), errors);
+  limits.blocks = static_cast<std::uint64_t>(
+      reader.integer_or("blocks", static_cast<std::int64_t>(limits.blocks), 1, kMostBlocks));
+  const double seconds = reader.number_or("seconds", limits.time.count());
+  if (seconds > 0 && seconds <= kMostSeconds) {
+    limits.time = std::chrono::duration<double>(seconds);
+  } else {
+    reader.report(ErrorCode::FieldInvalid, "seconds",
+                  fmt::format("seconds takes more than 0 and at most {}", kMostSeconds));
+  }
+  reader.refuse_unknown();
+}
+
+void read_words(FieldReader& fields, interpreter::RunOptions& options) {
+  if (const auto on_stop = fields.optional_text("on_stop")) {
+    if (*on_stop == "end") {
+      options.on_stop = interpreter::OnStop::End;
+    } else if (*on_stop != "continue") {
+      fields.report(ErrorCode::FieldInvalid, "on_stop", "on_stop takes \"continue\" or \"end\"");
+    }
+  }
+  if (const auto word = fields.optional_text("language")) {
+    const auto found = std::find_if(kLanguages.begin(), kLanguages.end(),
+                                    [&word](const Language& l) { return l.word == *word; });
+    if (found != kLanguages.end()) {
+      options.language = found->language;
+    } else {
+      fields.report(ErrorCode::FieldInvalid, "language",
+                    "language takes english, german, dutch or italian");
+    }
+  }
+}
+
+/// The setup as JSON: the member itself, or the named one, which then replaces the name.
+Result<void> put_setup_in_place(JsonValue& body, const FindSetup& find_setup, FieldErrors& errors) {
+  const auto member = std::find_if(body.members.begin(), body.members.end(),
+                                   [](const auto& entry) { return entry.first == "setup"; });
+  if (member == body.members.end() || !member->second.is(Kind::String)) return {};
+  const auto found = find_setup(member->second.text);
+  if (found) {
+    member->second = parse_json(found->text).value();
+    return {};
+  }
+  if (found.error().code != ErrorCode::SetupUnknown) return found.error();
+  errors.add(found.error().code, "/setup", found.error().message);
+  member->second = JsonValue{.kind = Kind::Object};
+  return {};
+}
+
+}  // namespace
+
+Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
+                                       const app::ControlTables& tables) {
+  FieldErrors errors;
+  if (const auto placed = put_setup_in_place(body, find_setup, errors); !placed) {
+    return placed.error();
+  }
+  FieldReader fields(body, "", errors);
+  const auto program = read_program(fields);
+  interpreter::RunOptions options;
+  options.parameters = read_parameters(fields, errors);
+  read_limits(fields, errors, options.limits);
+  read_words(fields, options);
+  options.block_skip = fields.boolean_or("block_skip", options.block_skip);
+  const JsonValue nothing{.kind = Kind::Object};
+  const JsonValue* const given = fields.optional("setup");
+  machine::Setup setup =
+      decode_setup(given != nullptr ? *given : nothing, "/setup", tables, errors);
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return std::move(*error);
+  std::string request;
+  JsonWriter json(request);
+  write_json(json, body);
+  return app::RunOrder{.program = *program,
+                       .setup = std::move(setup),
+                       .options = std::move(options),
+                       .request = std::move(request)};
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "api/wire/json_value.hpp"
+#include "app/runs/control_tables.hpp"
+#include "app/runs/run_report.hpp"
+#include "app/runs/setup_service.hpp"
+
+namespace fitgauge::api {
+
+/// Finds a named setup; may wait.
+using FindSetup = std::function<Result<app::NamedSetup>(const std::string& name)>;
+
+/// Reads the body of POST /v1/runs. The order's request is the body with a named setup put in
+/// place, so that it can be sent again.
+/// @param tables of the control: their rows are added to those of the setup
+/// @errors RequestInvalid with every bad field; those of `find_setup` but SetupUnknown.
+Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
+                                       const app::ControlTables& tables);
+
+}  // namespace fitgauge::api

@@ -1,0 +1,152 @@
+#include "api/runs/run_posting.hpp"
+
+#include "api/handlers.hpp"
+#include "api/runs/run_codec.hpp"
+#include "api/runs/run_order_codec.hpp"
+#include "api/wire/problem.hpp"
+#include "api/wire/request_facts.hpp"
+#include "app/measurements/measurement.hpp"
+#include "app/runs/run_service.hpp"
+#include "program/check.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::string_view kRuns = "/v1/runs/";
+
+/// Everything one POST needs until it is answered. The request lives as long as its responder.
+struct Posting {
+  const Services& services;
+  const http::Request& request;
+  http::Responder responder;
+  bool at_once = false;
+  std::optional<app::IdempotencyScope> scope{};
+};
+using SharedPosting = std::shared_ptr<Posting>;
+
+http::Response response_of(app::Answer answer) {
+  http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
+  response.with("Location", std::move(answer.location));
+  if (answer.status == 202) response.with("Preference-Applied", "respond-async");
+  return response;
+}
+
+/// What is kept under an Idempotency-Key: of a run that is waited for the place alone, since its
+/// report never changes.
+app::Answer accepted(const app::ActiveRun& run, bool at_once) {
+  app::Answer answer{.status = 201, .content_type = {}, .location = {}, .body = {}};
+  answer.location = std::string(kRuns) + app::run_id_text(run.id());
+  if (!at_once) return answer;
+  answer.status = 202;
+  answer.content_type = "application/json";
+  answer.body = unfinished_run_json(run);
+  return answer;
+}
+
+void answer_end(const SharedPosting& posting, std::string location,
+                const Result<app::FinishedRun>& end) {
+  if (!end) return posting->responder.fail(end.error());
+  posting->responder.answer(
+      response_of({201, "application/json", std::move(location), end->report}));
+}
+
+void replay(const SharedPosting& posting, app::Answer kept) {
+  if (kept.status == 202) {
+    return posting->responder.answer(
+        response_of(std::move(kept)).with("Idempotency-Replayed", "true"));
+  }
+  const auto id = app::parse_run_id(std::string_view(kept.location).substr(kRuns.size()));
+  posting->services.runs.find(id.value(), [posting, kept = std::move(kept)](
+                                              Result<app::StoredRun> run) mutable {
+    if (!run) return posting->responder.fail(run.error());
+    if (run->report.empty()) {
+      return posting->responder.fail({ErrorCode::IdempotencyInProgress,
+                                      "the first request with this Idempotency-Key is still "
+                                      "running; try again soon"});
+    }
+    kept.content_type = "application/json";
+    kept.body = std::move(run->report);
+    posting->responder.answer(response_of(std::move(kept)).with("Idempotency-Replayed", "true"));
+  });
+}
+
+/// The problem document with the findings of the check.
+http::Response invalid_program(const http::Request& request, const std::string& program,
+                               const std::vector<klartext::Diagnostic>& diagnostics) {
+  http::Response response = problem(
+      {ErrorCode::ProgramInvalid, program + " or a program it calls has errors; each is listed"},
+      std::nullopt, request);
+  auto& body = std::get<std::string>(response.body);
+  body.pop_back();
+  body += ",\"diagnostics\":";
+  JsonWriter json(body);
+  write_diagnostics(json, diagnostics);
+  body += '}';
+  return response;
+}
+
+/// The order of a body whose program may be run, or the answer that refuses it.
+Result<app::RunOrder> read_order(const SharedPosting& posting) {
+  auto body = parse_json(posting->request.body());
+  if (!body) return body.error();
+  const auto tables = posting->services.runs.control_tables();
+  if (!tables) return tables.error();
+  auto order = decode_run_order(
+      *std::move(body),
+      [&posting](const std::string& name) { return posting->services.setups.wait_for(name); },
+      *tables);
+  if (!order) return order;
+  if (const auto caller = caller_name(posting->request)) order->caller = std::string(*caller);
+  return order;
+}
+
+void prepare(const SharedPosting& posting) {
+  app::RunService& runs = posting->services.runs;
+  if (posting->scope) {
+    auto kept = runs.kept_answer(*posting->scope);
+    if (!kept) return posting->responder.fail(kept.error());
+    if (*kept) return replay(posting, **std::move(kept));
+  }
+  auto order = read_order(posting);
+  if (!order) return posting->responder.fail(order.error());
+  const auto diagnostics = runs.check_program(order->program);
+  if (!diagnostics) {
+    Error error = diagnostics.error();
+    if (error.code == ErrorCode::ProgramUnknown) {
+      error.details.push_back({error.code, error.message, "/program"});
+    }
+    return posting->responder.fail(std::move(error));
+  }
+  if (interpreter::has_errors(*diagnostics)) {
+    return posting->responder.answer(
+        invalid_program(posting->request, order->program.text(), *diagnostics));
+  }
+  const bool at_once = posting->at_once;
+  const auto run = runs.start(*std::move(order), posting->scope,
+                              [at_once](const app::ActiveRun& r) { return accepted(r, at_once); });
+  if (!run) return posting->responder.fail(run.error());
+  app::Answer answer = accepted(**run, at_once);
+  if (at_once) return posting->responder.answer(response_of(std::move(answer)));
+  (*run)->on_end([posting, location = std::move(answer.location)](
+                     const Result<app::FinishedRun>& end) { answer_end(posting, location, end); });
+}
+
+}  // namespace
+
+void post_run(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});
+  posting->at_once = prefers_async(request);
+  const auto key = idempotency_key(request);
+  if (!key) return posting->responder.fail(key.error());
+  if (*key) {
+    posting->scope = app::IdempotencyScope{.caller = std::string(caller_name(request).value_or("")),
+                                           .method = "POST",
+                                           .path = std::string(request.path()),
+                                           .key = **key,
+                                           .body = request.body()};
+  }
+  services.runs.prepare([posting] { prepare(posting); },
+                        [posting](Error error) { posting->responder.fail(std::move(error)); });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,260 @@
+#include "api/runs/runs_resource.hpp"
+
+#include "api/handlers.hpp"
+#include "api/runs/run_codec.hpp"
+#include "api/runs/run_events.hpp"
+#include "api/runs/run_posting.hpp"
+#include "api/runs/trace_codec.hpp"
+#include "app/measurements/measurement.hpp"
+#include "app/runs/run_service.hpp"
+#include "base/text.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::int64_t kDefaultLimit = 100;
+
+Result<std::int64_t> id_of(const http::Request& request) {
+  return app::parse_run_id(*request.text("id"));
+}
+
+/// Calls `answer(run object as JSON)` for a run in whatever state.
+template <class Answer>
+void with_run_json(const Services& services, const http::Request& request,
+                   http::Responder responder, const Answer& answer) {
+  const auto id = id_of(request);
+  if (!id) return responder.fail(id.error());
+  if (const auto active = services.runs.active(*id)) {
+    const auto end = active->news(0).end;
+    if (!end) return responder.answer(answer(unfinished_run_json(*active)));
+    if (*end) return responder.answer(answer((*end)->report));
+  }
+  services.runs.find(
+      *id, [answer, shared = share(std::move(responder))](Result<app::StoredRun> run) {
+        if (!run) return shared->fail(run.error());
+        shared->answer(
+            answer(run->report.empty() ? unfinished_run_json(*run) : std::move(run->report)));
+      });
+}
+
+http::Response json_response(std::string json) {
+  return {200, "application/json", std::move(json)};
+}
+
+void get_run(const Services& services, const http::Request& request, http::Responder responder) {
+  with_run_json(services, request, std::move(responder), json_response);
+}
+
+void get_parameters(const Services& services, const http::Request& request,
+                    http::Responder responder) {
+  with_run_json(services, request, std::move(responder), [](const std::string& run) {
+    std::string body;
+    JsonWriter json(body);
+    write_json(json, *parse_json(run).value().find("parameters"));
+    return json_response(std::move(body));
+  });
+}
+
+void get_request(const Services& services, const http::Request& request,
+                 http::Responder responder) {
+  const auto id = id_of(request);
+  if (!id) return responder.fail(id.error());
+  services.runs.find(*id, [shared = share(std::move(responder))](Result<app::StoredRun> run) {
+    if (!run) return shared->fail(run.error());
+    shared->answer(json_response(std::move(run->request)));
+  });
+}
+
+/// What a browser may show as it is; everything else is text.
+std::string media_type_of(const std::string& path) {
+  const std::string name = ascii_lower(path);
+  const bool html = name.ends_with(".html") || name.ends_with(".htm");
+  return html ? "text/html; charset=utf-8" : "text/plain; charset=utf-8";
+}
+
+void get_file(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto id = id_of(request);
+  if (!id) return responder.fail(id.error());
+  services.runs.file(
+      *id, std::string(*request.text("name")),
+      [shared = share(std::move(responder))](Result<app::RunService::File> file) {
+        if (!file) return shared->fail(file.error());
+        shared->answer(foreign_bytes(media_type_of(file->path), std::move(file->bytes)));
+      });
+}
+
+void get_trace(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto id = id_of(request);
+  if (!id) return responder.fail(id.error());
+  const bool csv = request.response_type() == "text/csv";
+  services.runs.trace(*id, [csv, shared = share(std::move(responder))](Result<std::string> trace) {
+    if (!trace) return shared->fail(trace.error());
+    http::Response response =
+        csv ? http::Response(200, "text/csv; charset=utf-8; header=present", trace_csv(*trace))
+            : json_response(*std::move(trace));
+    shared->answer(std::move(response).with("Vary", "Accept"));
+  });
+}
+
+void get_events(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto id = id_of(request);
+  if (!id) return responder.fail(id.error());
+  if (auto active = services.runs.active(*id)) {
+    return responder.answer(run_events(std::move(active)));
+  }
+  services.runs.find(*id, [shared = share(std::move(responder))](Result<app::StoredRun> run) {
+    if (!run) return shared->fail(run.error());
+    const std::string& report = run->report;
+    shared->answer(finished_run_events(report.empty() ? unfinished_run_json(*run) : report));
+  });
+}
+
+Error finished(std::int64_t id) {
+  return {ErrorCode::RunFinished,
+          "run '" + app::run_id_text(id) + "' is over and can no longer be cancelled"};
+}
+
+/// Answers when the run has ended, so that its status tells whether it was in time. A run that has
+/// ended may still be active until it is stored.
+void cancel_run(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto id = id_of(request);
+  if (!id) return responder.fail(id.error());
+  const auto shared = share(std::move(responder));
+  if (const auto active = services.runs.active(*id); active && !active->news(0).end) {
+    active->on_end([id = *id, shared](const Result<app::FinishedRun>& end) {
+      if (!end) return shared->fail(end.error());
+      if (end->state != app::RunState::Cancelled) return shared->fail(finished(id));
+      shared->answer(http::Response(204));
+    });
+    return services.runs.cancel(active);
+  }
+  services.runs.find(*id, [id = *id, shared](const Result<app::StoredRun>& run) {
+    shared->fail(run ? finished(id) : run.error());
+  });
+}
+
+void list_runs(const Services& services, const http::Request& request, http::Responder responder) {
+  app::RunQuery query;
+  if (const auto status = request.text("status")) query.state = app::run_state_from_word(*status);
+  if (const auto program = request.text("program")) {
+    const auto path = interpreter::ControlPath::parse(*program);
+    if (!path) return responder.fail(path.error());
+    query.program = path->text();
+  }
+  std::optional<std::int64_t> after;
+  if (const auto cursor = request.text("after")) {
+    const auto id = app::parse_run_id(*cursor);
+    if (!id) {
+      return responder.fail(
+          {ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"});
+    }
+    after = *id;
+  }
+  services.runs.list(std::move(query), after,
+                     static_cast<std::size_t>(request.integer("limit").value_or(kDefaultLimit)),
+                     [shared = share(std::move(responder))](Result<app::RunService::Page> page) {
+                       if (!page) return shared->fail(page.error());
+                       shared->answer(json_response(run_page_json(*page)));
+                     });
+}
+
+const http::Parameter kId{
+    .name = "id", .place = http::ParameterPlace::Path, .description = "As the run names it"};
+
+void add_reading_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back({
+      .pattern = "/v1/runs",
+      .handler = with(services, list_runs),
+      .summary = "The runs, the newest first",
+      .parameters = {{.name = "status",
+                      .type = http::Words{{"queued", "running", "completed", "stopped", "failed",
+                                           "limit_exceeded", "cancelled"}},
+                      .description = "Only this status"},
+                     {.name = "program", .description = "Only this program: TNC:\\nc_prog\\8255.h"},
+                     {.name = "limit",
+                      .type = http::Integer{.min = 1, .max = 1000},
+                      .description = "Most runs of a page; 100 when absent"},
+                     {.name = "after", .description = "The cursor `next` of the page before"}},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/runs/{id}",
+      .handler = with(services, get_run),
+      .summary = "One run with all its results",
+      .parameters = {kId},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/runs/{id}/parameters",
+      .handler = with(services, get_parameters),
+      .summary = "The parameters that are defined at the end",
+      .parameters = {kId},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/runs/{id}/request",
+      .handler = with(services, get_request),
+      .summary = "What was ordered, with the setup in place: it can be posted again",
+      .parameters = {kId},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/runs/{id}/trace",
+      .handler = with(services, get_trace),
+      .summary = "Every move with the block that commanded it",
+      .parameters = {kId},
+      .response_types = {"application/json", "text/csv"},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/runs/{id}/files/{name}",
+      .handler = with(services, get_file),
+      .summary = "A file the run has written, by its name",
+      .parameters = {kId,
+                     {.name = "name",
+                      .place = http::ParameterPlace::Path,
+                      .description = "TCHPR421.TXT, without regard to case"}},
+      .response_types = {},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/runs/{id}/events",
+      .handler = with(services, get_events),
+      .summary = "Server-Sent Events: progress, output, end",
+      .parameters = {kId},
+      .response_types = {"text/event-stream"},
+      .access = "viewer",
+  });
+}
+
+}  // namespace
+
+void add_runs_routes(std::vector<http::Route>& routes, const Services& services) {
+  add_reading_routes(routes, services);
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/runs",
+      .handler = with(services, post_run),
+      .summary = "Run a program on a simulated machine",
+      .description = "201 with the run when it is over, or 202 at once with "
+                     "`Prefer: respond-async`. A program with errors is refused with all of them.",
+      .parameters = {{.name = "Idempotency-Key",
+                      .place = http::ParameterPlace::Header,
+                      .description = "Makes a repeat answer what the first was answered"},
+                     {.name = "Prefer",
+                      .place = http::ParameterPlace::Header,
+                      .description = "respond-async"}},
+      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
+      .access = "operator",
+  });
+  routes.push_back({
+      .method = http::Method::Delete,
+      .pattern = "/v1/runs/{id}",
+      .handler = with(services, cancel_run),
+      .summary = "Cancel a run that is queued or under way",
+      .parameters = {kId},
+      .access = "operator",
+  });
+}
+
+}  // namespace fitgauge::api

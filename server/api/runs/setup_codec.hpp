@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "api/wire/field_reader.hpp"
+#include "app/runs/control_tables.hpp"
+
+namespace fitgauge::api {
+
+/// Reads a machine setup and adds the rows of the control's tables to it; what it leaves out has
+/// the default of the contract. What cannot be accepted goes to `errors` with its JSON pointer
+/// below `pointer`; the setup is then not to be used.
+machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
+                            const app::ControlTables& tables, FieldErrors& errors);
+
+}  // namespace fitgauge::api

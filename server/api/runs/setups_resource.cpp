@@ -1,0 +1,125 @@
+#include "api/runs/setups_resource.hpp"
+
+#include <algorithm>
+
+#include "api/handlers.hpp"
+#include "api/runs/setup_codec.hpp"
+#include "api/wire/json_writer.hpp"
+#include "api/wire/request_facts.hpp"
+#include "app/runs/run_service.hpp"
+#include "app/runs/setup_service.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::size_t kLongestName = 100;
+
+/// What a name may be, so that it stands in a path and in a message as it is.
+Result<std::string> name_of(const http::Request& request) {
+  const std::string_view name = *request.text("name");
+  const bool printable = std::none_of(name.begin(), name.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' || c == '/' || c == '\\' || c == '\x7f';
+  });
+  if (!name.empty() && name.size() <= kLongestName && printable) return std::string(name);
+  return Error{ErrorCode::PathMalformed,
+               "the name of a setup has 1 to 100 bytes without / and \\ and control characters"};
+}
+
+/// Decoding may take long (a surface of many points), so it is not done on an I/O thread.
+void put_setup(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto name = name_of(request);
+  if (!name) return responder.fail(name.error());
+  const auto shared = share(std::move(responder));
+  services.runs.prepare(
+      [&services, &request, name = *name, shared] {
+        const auto body = parse_json(request.body());
+        if (!body) return shared->fail(body.error());
+        const auto tables = services.runs.control_tables();
+        if (!tables) return shared->fail(tables.error());
+        FieldErrors errors;
+        decode_setup(*body, "", *tables, errors);
+        if (auto error = errors.take()) return shared->fail(std::move(*error));
+        const auto caller = caller_name(request);
+        services.setups.write(name, std::string(request.body()),
+                              caller ? std::optional<std::string>(*caller) : std::nullopt,
+                              [shared](Result<bool> created) {
+                                if (!created) return shared->fail(created.error());
+                                shared->answer(http::Response(*created ? 201 : 200));
+                              });
+      },
+      [shared](Error error) { shared->fail(std::move(error)); });
+}
+
+void get_setup(const Services& services, const http::Request& request, http::Responder responder) {
+  services.setups.read(std::string(*request.text("name")),
+                       [shared = share(std::move(responder))](Result<app::NamedSetup> setup) {
+                         if (!setup) return shared->fail(setup.error());
+                         shared->answer({200, "application/json", std::move(setup->text)});
+                       });
+}
+
+void delete_setup(const Services& services, const http::Request& request,
+                  http::Responder responder) {
+  services.setups.remove(std::string(*request.text("name")),
+                         [shared = share(std::move(responder))](const Result<bool>& removed) {
+                           if (!removed) return shared->fail(removed.error());
+                           shared->answer(http::Response(204));
+                         });
+}
+
+void list_setups(const Services& services, const http::Request&, http::Responder responder) {
+  services.setups.list(
+      [shared = share(std::move(responder))](Result<std::vector<app::NamedSetup>> setups) {
+        if (!setups) return shared->fail(setups.error());
+        std::string body;
+        JsonWriter json(body);
+        json.begin_object().key("setups").begin_array();
+        for (const app::NamedSetup& setup : *setups) {
+          json.begin_object()
+              .member("name", setup.name)
+              .member("modified_at", format_rfc3339(setup.modified_at))
+              .end_object();
+        }
+        json.end_array().end_object();
+        shared->answer({200, "application/json", std::move(body)});
+      });
+}
+
+}  // namespace
+
+void add_setups_routes(std::vector<http::Route>& routes, const Services& services) {
+  const http::Parameter name{
+      .name = "name", .place = http::ParameterPlace::Path, .description = "Of the setup"};
+  routes.push_back({
+      .pattern = "/v1/setups",
+      .handler = with(services, list_setups),
+      .summary = "The named setups",
+      .access = "viewer",
+  });
+  routes.push_back({
+      .pattern = "/v1/setups/{name}",
+      .handler = with(services, get_setup),
+      .summary = "A setup as it was stored",
+      .parameters = {name},
+      .access = "viewer",
+  });
+  routes.push_back({
+      .method = http::Method::Put,
+      .pattern = "/v1/setups/{name}",
+      .handler = with(services, put_setup),
+      .summary = "Store a machine, its tools and the workpiece on its table",
+      .parameters = {name},
+      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
+      .access = "admin",
+  });
+  routes.push_back({
+      .method = http::Method::Delete,
+      .pattern = "/v1/setups/{name}",
+      .handler = with(services, delete_setup),
+      .summary = "Delete a setup",
+      .parameters = {name},
+      .access = "admin",
+  });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,148 @@
+#include "api/runs/trace_codec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "api/wire/json_value.hpp"
+#include "api/wire/json_writer.hpp"
+#include "base/text.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using machine::Axis;
+
+constexpr std::size_t kLinearAxes = 3;
+constexpr std::string_view kHead = "{\"moves\":[\n";
+
+/// Ten decimals without trailing zeros: what the arithmetic of a path adds beyond is noise.
+std::string number(double value) {
+  std::string digits = fmt::format("{:.10f}", value);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits == "-0" ? "0" : digits;
+}
+
+void write_position(JsonWriter& json, std::string_view which, const machine::Position& position,
+                    const std::vector<Axis>& axes) {
+  json.key(std::string(which) + "_mm").begin_object();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (i == kLinearAxes) json.end_object().key(std::string(which) + "_deg").begin_object();
+    json.key(name(axes[i])).raw(number(position[axes[i]]));
+  }
+  json.end_object();
+}
+
+void write_move(JsonWriter& json, const machine::TracedMove& move, const app::RunTrace& trace) {
+  const app::RunTrace::Place& place = trace.places[static_cast<std::size_t>(move.block)];
+  json.begin_object().member("kind", name(move.kind)).key("block");
+  if (place.block) {
+    json.value(*place.block);
+  } else {
+    json.null();
+  }
+  json.member("line", place.line).member("program", place.program);
+  write_position(json, "start", move.start, trace.axes);
+  write_position(json, "end", move.end, trace.axes);
+  json.key("feed_mm_min").raw(number(move.feed_mm_min)).key("seconds").raw(number(move.seconds));
+  json.key("contact_mm");
+  if (move.contact) {
+    json.begin_object();
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+      json.key(name(axis)).raw(number((*move.contact)[index(axis)]));
+    }
+    json.end_object();
+  } else {
+    json.null();
+  }
+  json.end_object();
+}
+
+/// A column of the CSV: a member of a move, or one axis of a position.
+struct Column {
+  std::string member;
+  std::string axis{};
+
+  std::string title() const {
+    if (axis.empty()) return member;
+    const std::size_t unit = member.rfind('_');
+    return member.substr(0, unit + 1) + ascii_lower(axis) + member.substr(unit);
+  }
+};
+
+std::vector<Column> columns_of(const JsonValue& move) {
+  std::vector<Column> columns;
+  for (const auto& [name, value] : move.members) {
+    if (name == "contact_mm") {
+      for (const char* axis : {"X", "Y", "Z"}) columns.push_back({name, axis});
+    } else if (value.is(JsonValue::Kind::Object)) {
+      for (const auto& [axis, coordinate] : value.members) columns.push_back({name, axis});
+    } else {
+      columns.push_back({name});
+    }
+  }
+  return columns;
+}
+
+void append_cell(std::string& out, const JsonValue* value) {
+  if (value == nullptr) return;
+  const std::string& text = value->text;
+  if (text.find_first_of(",\"") == std::string::npos) {
+    out += text;
+    return;
+  }
+  out += '"';
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  out += '"';
+}
+
+template <class Cell>
+void append_row(std::string& out, const std::vector<Column>& columns, const Cell& cell) {
+  for (const Column& column : columns) {
+    if (&column != &columns.front()) out += ',';
+    cell(column);
+  }
+  out += "\r\n";
+}
+
+}  // namespace
+
+std::string trace_json(const app::RunTrace& trace) {
+  std::string out(kHead);
+  for (const machine::TracedMove& move : trace.moves) {
+    if (&move != &trace.moves.front()) out += ",\n";
+    JsonWriter json(out);
+    write_move(json, move, trace);
+  }
+  out += fmt::format("\n],\"dropped\":{}}}", trace.dropped);
+  return out;
+}
+
+std::string trace_csv(std::string_view json) {
+  std::string out;
+  std::vector<Column> columns;
+  json.remove_prefix(std::min(kHead.size(), json.size()));
+  while (json.starts_with('{')) {
+    const std::size_t end = std::min(json.find('\n'), json.size());
+    std::string_view line = json.substr(0, end);
+    json.remove_prefix(std::min(end + 1, json.size()));
+    if (line.ends_with(',')) line.remove_suffix(1);
+    const JsonValue move = parse_json(line).value();
+    if (columns.empty()) {
+      columns = columns_of(move);
+      append_row(out, columns, [&out](const Column& column) { out += column.title(); });
+    }
+    append_row(out, columns, [&](const Column& column) {
+      const JsonValue* value = move.find(column.member);
+      append_cell(out, column.axis.empty() || value == nullptr ? value : value->find(column.axis));
+    });
+  }
+  return out;
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,96 @@
+#include "api/service/guard.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+/// What a route asks for, in rising order: `public` (health, even in keys mode), `open`, and roles.
+enum class Access { Public, Open, Viewer, Operator, Admin };
+
+Access access_of(const http::Route& route) {
+  if (route.access == "public") return Access::Public;
+  if (route.access == "open") return Access::Open;
+  if (route.access == "viewer") return Access::Viewer;
+  if (route.access == "operator") return Access::Operator;
+  return Access::Admin;
+}
+
+bool is_write(http::Method method) {
+  return method != http::Method::Get && method != http::Method::Head &&
+         method != http::Method::Options;
+}
+
+/// `Authorization: Bearer fg_…`, or `X-API-Key: fg_…` for clients that cannot set the former.
+std::optional<std::string_view> token_of(const http::Request& request) {
+  constexpr std::string_view kScheme = "bearer ";
+  if (const auto header = request.header("Authorization")) {
+    const std::string_view text = trim(*header);
+    if (ascii_iequals(text.substr(0, kScheme.size()), kScheme)) {
+      return trim(text.substr(kScheme.size()));
+    }
+    return std::string_view();
+  }
+  if (const auto header = request.header("X-API-Key")) return trim(*header);
+  return std::nullopt;
+}
+
+/// A page of another site whose name was made to resolve to this machine addresses it by that name,
+/// and every write of a page has an Origin. An address is no such name, nor is one without a dot:
+/// it is of this machine or its network.
+bool may_be_rebound(const http::Request& request) {
+  if (is_write(request.method()) && !request.header("Origin")) return false;
+  std::string_view host = request.header("Host").value_or("localhost");
+  if (host.starts_with('[')) return false;
+  host = host.substr(0, host.find(':'));
+  const auto is_of_number = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+  return !std::all_of(host.begin(), host.end(), is_of_number) &&
+         host.find('.') != std::string_view::npos;
+}
+
+}  // namespace
+
+Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
+                                                        const http::Route& route) const {
+  if (is_write(request.method())) {
+    const auto origin = request.header("Origin");
+    if (origin && !ascii_iequals(*origin, request.own_origin())) {
+      return Error{ErrorCode::OriginRefused,
+                   "a page of " + std::string(origin->substr(0, 200)) + " may not write here"};
+    }
+  }
+
+  std::optional<app::KnownCaller> caller;
+  if (const auto token = token_of(request)) {
+    caller = keys_.find(*token);
+    if (!caller) {
+      return Error{ErrorCode::KeyInvalid, "this key is not valid: it is unknown or was revoked"};
+    }
+    request.set_caller(Caller{caller->name});
+  }
+  if (mode_ == AuthMode::Open && request.is_local() && !may_be_rebound(request)) {
+    return std::optional<http::Response>();
+  }
+  const Access access = access_of(route);
+  if (access == Access::Public || (mode_ != AuthMode::Keys && access == Access::Open)) {
+    return std::optional<http::Response>();
+  }
+  if (!caller) {
+    return Error{ErrorCode::Unauthenticated,
+                 "send a key: `Authorization: Bearer fg_…`; an administrator makes one with "
+                 "`fitgauged key create`"};
+  }
+  const int needed = access == Access::Admin      ? static_cast<int>(app::Role::Admin)
+                     : access == Access::Operator ? static_cast<int>(app::Role::Operator)
+                                                  : static_cast<int>(app::Role::Viewer);
+  if (static_cast<int>(caller->role) < needed) {
+    return Error{ErrorCode::Forbidden, "the key " + caller->name + " is of a " +
+                                           std::string(word(caller->role)) + ", this needs " +
+                                           std::string(word(static_cast<app::Role>(needed)))};
+  }
+  return std::optional<http::Response>();
+}
+
+}  // namespace fitgauge::api

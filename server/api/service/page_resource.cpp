@@ -1,0 +1,89 @@
+#include "api/service/page_resource.hpp"
+
+#include <map>
+#include <memory>
+
+#include "api/service/page_assets.hpp"
+#include "api/wire/request_facts.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using Prepared = std::shared_ptr<const http::PreparedResponse>;
+
+/// One file of the page, ready to be sent in both forms.
+struct PageFile {
+  Prepared plain;
+  Prepared gzipped;
+};
+using PageFiles = std::map<std::string_view, PageFile>;
+
+constexpr std::string_view kEntry = "index.html";
+
+/// The page loads nothing from elsewhere, runs no script but its own, and stands in no other
+/// site's frame.
+constexpr std::string_view kPolicy =
+    "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
+http::Response response_of(const PageAsset& asset, std::span<const unsigned char> bytes) {
+  return http::Response(200, std::string(asset.content_type),
+                        std::string(bytes.begin(), bytes.end()))
+      .with("Cache-Control", "no-cache")
+      .with("Content-Security-Policy", std::string(kPolicy))
+      .with("Referrer-Policy", "no-referrer")
+      .with("Vary", "Accept-Encoding")
+      .with("X-Content-Type-Options", "nosniff");
+}
+
+PageFile prepare_file(const PageAsset& asset) {
+  http::Response plain = response_of(asset, asset.plain);
+  plain.etag = '"' + std::string(asset.digest) + '"';
+  http::Response gzipped = response_of(asset, asset.gzipped);
+  gzipped.with("Content-Encoding", "gzip");
+  gzipped.etag = '"' + std::string(asset.digest) + "-gzip\"";
+  return {http::prepare(plain), http::prepare(gzipped)};
+}
+
+PageFiles prepare_files() {
+  PageFiles files;
+  for (const PageAsset& asset : page_assets()) files.emplace(asset.path, prepare_file(asset));
+  return files;
+}
+
+Result<http::Response> answer(const PageFiles& files, std::string_view path,
+                              const http::Request& request) {
+  const auto found = files.find(path);
+  if (found == files.end()) {
+    return Error{ErrorCode::NotFound, "the page has no file " + std::string(path)};
+  }
+  return http::Response(accepts_gzip(request) ? found->second.gzipped : found->second.plain);
+}
+
+}  // namespace
+
+void add_page_routes(std::vector<http::Route>& routes) {
+  const auto files = std::make_shared<const PageFiles>(prepare_files());
+  routes.push_back({
+      .pattern = "/",
+      .handler = http::SyncHandler(
+          [files](const http::Request& request) { return answer(*files, kEntry, request); }),
+      .summary = "The page",
+      .response_types = {"text/html"},
+      .access = "open",
+  });
+  routes.push_back({
+      .pattern = "/web/{path*}",
+      .handler = http::SyncHandler([files](const http::Request& request) {
+        return answer(*files, *request.text("path"), request);
+      }),
+      .summary = "A file of the page",
+      .parameters = {{.name = "path",
+                      .place = http::ParameterPlace::Path,
+                      .description = "app.js"}},
+      .response_types = {},
+      .access = "open",
+  });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,59 @@
+#include "api/service/service_resource.hpp"
+
+#include "api/service/metrics.hpp"
+#include "api/service/version.hpp"
+#include "api/wire/json_writer.hpp"
+#include "app/service/readiness.hpp"
+#include "app/tables/table_catalog.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+http::Response live() { return {200, "application/json", std::string(R"({"status":"live"})")}; }
+
+Result<http::Response> ready(const Services& services) {
+  app::Readiness readiness = services.readiness();
+  if (!readiness.findings.empty()) {
+    const Error& first = readiness.findings.front();
+    return Error{first.code, first.message, first.where, std::move(readiness.findings)};
+  }
+  const auto tables = services.tables.state();
+  std::string body;
+  JsonWriter json(body);
+  json.begin_object()
+      .member("status", "ready")
+      .member("version", kVersion)
+      .member("database", readiness.database)
+      .member("table_revision", std::string_view(tables->tables->revision().id))
+      .end_object();
+  return http::Response(200, "application/json", std::move(body)).with("Cache-Control", "no-store");
+}
+
+}  // namespace
+
+void add_service_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back({
+      .pattern = "/livez",
+      .handler = [](const http::Request&) -> Result<http::Response> { return live(); },
+      .summary = "The process answers",
+      .access = "public",
+  });
+  routes.push_back({
+      .pattern = "/readyz",
+      .handler = [&services](const http::Request&) { return ready(services); },
+      .summary = "The service may be used: database, schema and tables are in order",
+      .access = "public",
+  });
+  routes.push_back({
+      .pattern = "/metrics",
+      .handler = [&services](const http::Request&) -> Result<http::Response> {
+        return http::Response(200, "text/plain; version=0.0.4; charset=utf-8",
+                              services.metrics.text());
+      },
+      .summary = "Counters for Prometheus",
+      .response_types = {},
+      .access = "open",
+  });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,142 @@
+#include "api/tables/table_codec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "api/wire/field_reader.hpp"
+#include "api/wire/json_writer.hpp"
+#include "iso286/range_deviations.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using iso286::ClassId;
+using iso286::Feature;
+using iso286::LimitDeviations;
+using iso286::NominalSizeRange;
+using iso286::ToleranceTables;
+
+void append_class_cells(std::string& out, const std::optional<LimitDeviations>& deviations) {
+  out += ',';
+  if (deviations) append_um(out, deviations->upper);
+  out += ',';
+  if (deviations) append_um(out, deviations->lower);
+}
+
+}  // namespace
+
+Result<std::vector<ClassId>> chosen_classes(std::string_view names, Feature feature,
+                                            const ToleranceTables& tables) {
+  if (names.empty()) {
+    const auto all = tables.classes(feature);
+    return std::vector<ClassId>(all.begin(), all.end());
+  }
+  std::vector<ClassId> chosen;
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t comma = std::min(names.find(',', begin), names.size());
+    const std::string_view name = names.substr(begin, comma - begin);
+    begin = comma + 1;
+    const auto id = tables.find_class(name);
+    if (!id) return Error{ErrorCode::ClassUnknown, id.error().message};
+    if (tables.feature(*id) != feature) {
+      return Error{ErrorCode::ClassUnknown,
+                   fmt::format("{} is not a class of the {} table", name, word(feature))};
+    }
+    if (std::find(chosen.begin(), chosen.end(), *id) == chosen.end()) chosen.push_back(*id);
+  }
+  return chosen;
+}
+
+std::string table_json(Feature feature, const std::vector<ClassId>& classes,
+                       const ToleranceTables& tables) {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object()
+      .member("revision", std::string_view(tables.revision().id))
+      .member("feature", word(feature))
+      .key("rows")
+      .begin_array();
+  for (const NominalSizeRange& range : tables.ranges()) {
+    json.begin_object()
+        .member_mm("over_mm", range.over)
+        .member_mm("up_to_mm", range.up_to)
+        .key("limits")
+        .begin_object();
+    for (const ClassId id : classes) {
+      const auto deviations = deviations_in_range(tables, id, range);
+      if (!deviations) continue;
+      json.key(tables.class_name(id))
+          .begin_object()
+          .member_um("upper_um", deviations->upper)
+          .member_um("lower_um", deviations->lower)
+          .end_object();
+    }
+    json.end_object().end_object();
+  }
+  json.end_array().end_object();
+  return out;
+}
+
+std::string table_csv(const std::vector<ClassId>& classes, const ToleranceTables& tables) {
+  std::string out = "over_mm,up_to_mm";
+  for (const ClassId id : classes) {
+    out += fmt::format(",{0}_upper_um,{0}_lower_um", tables.class_name(id));
+  }
+  out += "\r\n";
+  for (const NominalSizeRange& range : tables.ranges()) {
+    append_mm(out, range.over);
+    out += ',';
+    append_mm(out, range.up_to);
+    for (const ClassId id : classes) {
+      append_class_cells(out, deviations_in_range(tables, id, range));
+    }
+    out += "\r\n";
+  }
+  return out;
+}
+
+std::string table_index_json(const ToleranceTables& tables) {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object()
+      .member("revision", std::string_view(tables.revision().id))
+      .key("tables")
+      .begin_array();
+  for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
+    json.begin_object().member("feature", word(feature)).key("classes").begin_array();
+    for (const ClassId id : tables.classes(feature)) json.value(tables.class_name(id));
+    json.end_array().member("size_ranges", std::uint64_t{tables.ranges().size()}).end_object();
+  }
+  json.end_array().end_object();
+  return out;
+}
+
+Result<std::vector<iso286::CustomRow>> decode_custom_rows(const JsonValue& body) {
+  FieldErrors errors;
+  std::vector<iso286::CustomRow> rows;
+  FieldReader fields(body, "", errors);
+  if (const JsonValue* list = fields.array("rows")) {
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      FieldReader row(list->items[i], pointer_to("/rows", i), errors);
+      const auto over = row.mm("over_mm");
+      const auto up_to = row.mm("up_to_mm");
+      const auto upper = row.um("upper_um");
+      const auto lower = row.um("lower_um");
+      row.refuse_unknown();
+      if (over && up_to && upper && lower) {
+        rows.push_back({.range = {.over = *over, .up_to = *up_to},
+                        .deviations = {.upper = *upper, .lower = *lower}});
+      }
+    }
+    if (list->items.empty()) {
+      errors.add(ErrorCode::FieldInvalid, "/rows", "a column needs at least one row");
+    }
+  }
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return std::move(*error);
+  return rows;
+}
+
+}  // namespace fitgauge::api

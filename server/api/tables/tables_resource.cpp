@@ -1,0 +1,195 @@
+#include "api/tables/tables_resource.hpp"
+
+#include "api/limits/limits_codec.hpp"
+#include "api/tables/table_codec.hpp"
+#include "api/wire/json_value.hpp"
+#include "api/wire/request_facts.hpp"
+#include "tabfile/iso286_projection.hpp"
+#include "tabfile/tab_writer.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using iso286::Feature;
+using iso286::ToleranceTables;
+
+bool wants_csv(const http::Request& request) {
+  if (const auto format = request.text("format")) return *format == "csv";
+  return request.response_type() == "text/csv";
+}
+
+/// A strong tag names one form of one revision.
+std::string form_etag(const ToleranceTables& tables, std::string_view form) {
+  return '"' + tables.revision().id + '.' + std::string(form) + '"';
+}
+
+Result<http::Response> table_response(const http::Request& request, Feature feature,
+                                      const ToleranceTables& tables) {
+  const auto classes = chosen_classes(request.text("classes").value_or(""), feature, tables);
+  if (!classes) return classes.error();
+  const bool csv = wants_csv(request);
+  http::Response response =
+      csv ? http::Response(200, "text/csv; charset=utf-8; header=present",
+                           table_csv(*classes, tables))
+          : http::Response(200, "application/json", table_json(feature, *classes, tables));
+  response.etag = form_etag(tables, csv ? "csv" : "json");
+  response.with("Vary", "Accept");
+  return response;
+}
+
+/// The tables in use from the cache, an older revision from the store.
+http::AsyncHandler table_handler(const Services& services,
+                                 const std::shared_ptr<ResponseCache>& cache, Feature feature) {
+  auto current = ResponseCache::cached(
+      cache, [feature](const http::Request& request, const ToleranceTables& tables) {
+        return table_response(request, feature, tables);
+      });
+  return [&services, feature, current = std::move(current)](const http::Request& request,
+                                                            http::Responder responder) {
+    const auto revision = request.text("revision");
+    if (!revision) {
+      auto response = current(request);
+      if (!response) return responder.fail(response.error());
+      return responder.answer(*std::move(response));
+    }
+    services.tables.at_revision(
+        std::string(*revision),
+        [&request, feature, responder = std::make_shared<http::Responder>(std::move(responder))](
+            Result<app::TableCatalog::Tables> tables) {
+          if (!tables) return responder->fail(tables.error());
+          auto response = table_response(request, feature, **tables);
+          if (!response) return responder->fail(response.error());
+          responder->answer(*std::move(response));
+        });
+  };
+}
+
+Result<http::Response> index_response(const http::Request&, const ToleranceTables& tables) {
+  http::Response response(200, "application/json", table_index_json(tables));
+  response.etag = etag_of(tables);
+  return response;
+}
+
+Result<http::Response> tab_response(Feature feature, const ToleranceTables& tables) {
+  http::Response response(200, "text/plain; charset=utf-8",
+                          tabfile::write_tab(tabfile::project(tables, feature)));
+  response.etag = form_etag(tables, "tab");
+  return response;
+}
+
+/// The answer to a change: the new revision and its tag, with which the next change can be guarded.
+void answer_change(const std::shared_ptr<http::Responder>& responder, int status,
+                   const app::TableCatalog::ColumnStored& stored) {
+  http::Response response(status);
+  if (status != 204) {
+    std::string body;
+    JsonWriter json(body);
+    json.begin_object().member("revision", stored.revision).end_object();
+    response = http::Response(status, "application/json", std::move(body));
+  }
+  responder->answer(std::move(response).with("ETag", '"' + stored.revision + '"'));
+}
+
+void put_column(const Services& services, Feature feature, const http::Request& request,
+                http::Responder responder) {
+  const auto parsed = parse_json(request.body());
+  if (!parsed) return responder.fail(parsed.error());
+  auto rows = decode_custom_rows(*parsed);
+  if (!rows) return responder.fail(rows.error());
+  const auto shared = std::make_shared<http::Responder>(std::move(responder));
+  services.tables.put_column(
+      {.feature = feature, .name = std::string(*request.text("name")), .rows = *std::move(rows)},
+      revisions_to_match(request), [shared](Result<app::TableCatalog::ColumnStored> stored) {
+        if (stored) return answer_change(shared, stored->created ? 201 : 200, *stored);
+        Error error = std::move(stored).error();
+        if (error.code == ErrorCode::TableRowsInvalid) error.code = ErrorCode::RequestInvalid;
+        shared->fail(std::move(error));
+      });
+}
+
+void remove_column(const Services& services, Feature feature, const http::Request& request,
+                   http::Responder responder) {
+  const auto shared = std::make_shared<http::Responder>(std::move(responder));
+  services.tables.remove_column(feature, std::string(*request.text("name")),
+                                revisions_to_match(request),
+                                [shared](Result<app::TableCatalog::ColumnStored> stored) {
+                                  if (!stored) return shared->fail(stored.error());
+                                  answer_change(shared, 204, *stored);
+                                });
+}
+
+http::AsyncHandler with(const Services& services, Feature feature,
+                        void (*handler)(const Services&, Feature, const http::Request&,
+                                        http::Responder)) {
+  return [&services, feature, handler](const http::Request& request, http::Responder responder) {
+    handler(services, feature, request, std::move(responder));
+  };
+}
+
+void add_feature_routes(std::vector<http::Route>& routes, const Services& services,
+                        const std::shared_ptr<ResponseCache>& cache, Feature feature) {
+  const std::string path = "/v1/tables/" + std::string(word(feature));
+  routes.push_back({
+      .pattern = path,
+      .handler = table_handler(services, cache, feature),
+      .summary = "Limit deviations of every class and size range",
+      .parameters = {{.name = "classes", .description = "H7,JS7: only these classes"},
+                     {.name = "format",
+                      .type = http::Words{{"json", "csv"}},
+                      .description = "Instead of Accept"},
+                     {.name = "revision", .description = "Answers from an older revision"}},
+      .response_types = {"application/json", "text/csv"},
+      .access = "open",
+  });
+  routes.push_back({
+      .pattern = path + ".tab",
+      .handler =
+          ResponseCache::cached(cache,
+                                [feature](const http::Request&, const ToleranceTables& tables) {
+                                  return tab_response(feature, tables);
+                                }),
+      .summary = "The table as the control's freely definable table, as program 8255 reads it",
+      .response_types = {"text/plain"},
+      .access = "open",
+  });
+  const http::Parameter name{.name = "name",
+                             .place = http::ParameterPlace::Path,
+                             .description = "Letter, then letters, digits and _; at most 16"};
+  const http::Parameter if_match{.name = "If-Match",
+                                 .place = http::ParameterPlace::Header,
+                                 .description = "Tag of the tables the change follows"};
+  routes.push_back({
+      .method = http::Method::Put,
+      .pattern = path + "/classes/{name}",
+      .handler = with(services, feature, put_column),
+      .summary = "Store a column of the shop's own as a new revision",
+      .parameters = {name, if_match},
+      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
+      .access = "admin",
+  });
+  routes.push_back({
+      .method = http::Method::Delete,
+      .pattern = path + "/classes/{name}",
+      .handler = with(services, feature, remove_column),
+      .summary = "Back to the standard",
+      .parameters = {name, if_match},
+      .access = "admin",
+  });
+}
+
+}  // namespace
+
+void add_tables_routes(std::vector<http::Route>& routes, const Services& services,
+                       const std::shared_ptr<ResponseCache>& cache) {
+  routes.push_back({
+      .pattern = "/v1/tables",
+      .handler = ResponseCache::cached(cache, index_response),
+      .summary = "The tables in use and their classes",
+      .access = "open",
+  });
+  for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
+    add_feature_routes(routes, services, cache, feature);
+  }
+}
+
+}  // namespace fitgauge::api

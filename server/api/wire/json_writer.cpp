@@ -1,0 +1,128 @@
+#include "api/wire/json_writer.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+#include "api/wire/json_escape.hpp"
+#include "base/decimal.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+template <class Number>
+void append_number(std::string& out, Number value) {
+  char digits[32];
+  const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
+  out.append(std::begin(digits), end);
+}
+
+}  // namespace
+
+void JsonWriter::separate() {
+  if (!first_ && !after_key_) out_ += ',';
+  first_ = false;
+  after_key_ = false;
+}
+
+JsonWriter& JsonWriter::open(char bracket) {
+  separate();
+  out_ += bracket;
+  first_ = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::close(char bracket) {
+  out_ += bracket;
+  first_ = false;
+  return *this;
+}
+
+JsonWriter& JsonWriter::key(std::string_view name) {
+  separate();
+  append_json_string(out_, name);
+  out_ += ':';
+  after_key_ = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(std::int64_t value) {
+  separate();
+  append_number(out_, value);
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(std::uint64_t value) {
+  separate();
+  append_number(out_, value);
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(double value) {
+  if (!std::isfinite(value)) return null();
+  separate();
+  append_number(out_, value);
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(std::string_view text) {
+  separate();
+  append_json_string(out_, text);
+  return *this;
+}
+
+JsonWriter& JsonWriter::mm(Length length) {
+  separate();
+  append_mm(out_, length);
+  return *this;
+}
+
+JsonWriter& JsonWriter::um(Length length) {
+  separate();
+  append_um(out_, length);
+  return *this;
+}
+
+JsonWriter& JsonWriter::decimal(std::int64_t value, int scale) {
+  separate();
+  append_decimal(out_, value, scale);
+  return *this;
+}
+
+JsonWriter& JsonWriter::raw(std::string_view json) {
+  separate();
+  out_ += json;
+  return *this;
+}
+
+char* write_escape(char* to, char c) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  *to++ = '\\';
+  switch (byte) {
+    case '"':
+    case '\\': *to++ = c; break;
+    case '\n': *to++ = 'n'; break;
+    case '\r': *to++ = 'r'; break;
+    case '\t': *to++ = 't'; break;
+    default:
+      for (const char digit : {'u', '0', '0', kHex[byte >> 4], kHex[byte & 15]}) *to++ = digit;
+  }
+  return to;
+}
+
+void append_json_string(std::string& out, std::string_view text) {
+  out += '"';
+  std::size_t copied = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!needs_escape(text[i])) continue;
+    out += text.substr(copied, i - copied);
+    copied = i + 1;
+    char escape[kEscapeRoom];
+    out.append(escape, write_escape(escape, text[i]));
+  }
+  out += text.substr(copied);
+  out += '"';
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+#include "app/tables/table_catalog.hpp"
+#include "http/route.hpp"
+
+namespace fitgauge::api {
+
+/// Answers made from the tables, serialised once per target and form; dropped when the tables
+/// change. Bounded, thread-safe, shared by the routes that are given it.
+class ResponseCache {
+ public:
+  explicit ResponseCache(const app::TableCatalog& tables) : tables_(tables) {}
+
+  using TableHandler =
+      std::function<Result<http::Response>(const http::Request&, const iso286::ToleranceTables&)>;
+
+  /// A handler that answers from the cache, or from `make` with the tables in use. Only 200 is
+  /// kept.
+  /// @errors TablesInconsistent where the tables fail their audit; those of `make`.
+  static http::SyncHandler cached(std::shared_ptr<ResponseCache> cache, TableHandler make);
+
+ private:
+  using Prepared = std::shared_ptr<const http::PreparedResponse>;
+
+  Prepared find(const http::Request& request, const app::TableState* state);
+  void keep(const http::Request& request, std::shared_ptr<const app::TableState> state,
+            Prepared response);
+
+  const app::TableCatalog& tables_;
+  std::mutex mutex_;
+  std::shared_ptr<const app::TableState> state_;  // the tables the answers were made from
+  std::unordered_map<std::string, Prepared> answers_;
+  std::string key_;  // reused, so that a hit allocates nothing
+};
+
+}  // namespace fitgauge::api

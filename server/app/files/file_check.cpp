@@ -1,0 +1,48 @@
+#include "app/files/file_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "base/text.hpp"
+#include "klartext/mask_file.hpp"
+#include "program/check.hpp"
+#include "tabfile/tab_reader.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::array<std::string_view, 5> kTableExtensions = {".tab", ".t", ".tp", ".pr", ".d"};
+
+/// What refuses a table stands in one of its lines: `line 12`.
+std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& file) {
+  const auto table = tabfile::read_tab_file(*file.bytes);
+  if (table) return {};
+  const Error error = table.error();
+  klartext::Diagnostic diagnostic{.message = error.message, .program = file.path.text()};
+  constexpr std::string_view kLine = "line ";
+  const std::string_view where = error.where;
+  SourcePosition& begin = diagnostic.range.begin;
+  std::from_chars(where.data() + kLine.size(), where.data() + where.size(), begin.line);
+  diagnostic.range.end = begin;
+  return {std::move(diagnostic)};
+}
+
+}  // namespace
+
+Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlPath& path,
+                                                     const interpreter::ControlDisk& disk,
+                                                     interpreter::ProgramCache& programs) {
+  const std::string_view name = path.file_name();
+  const std::string extension = ascii_lower(name.substr(std::min(name.rfind('.'), name.size())));
+  const bool is_mask = extension == ".a";
+  const bool is_table = std::find(kTableExtensions.begin(), kTableExtensions.end(), extension) !=
+                        kTableExtensions.end();
+  if (!is_mask && !is_table) return interpreter::check(path, disk, programs);
+  const auto file = disk.find(path);
+  if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
+  if (is_mask) return klartext::parse_mask(*file->bytes, file->path.text()).diagnostics;
+  return check_table(*file);
+}
+
+}  // namespace fitgauge::app

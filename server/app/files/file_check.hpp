@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "klartext/diagnostic.hpp"
+#include "program/control_disk.hpp"
+#include "program/program_cache.hpp"
+
+namespace fitgauge::app {
+
+/// Everything there is to say about a file of the control's disk, by its kind: a mask (`.a`), a
+/// table (`.tab`, `.t`, `.tp`, `.pr`, `.d`), or else a program with those it calls.
+/// @errors ProgramUnknown when there is no such file.
+Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlPath& path,
+                                                     const interpreter::ControlDisk& disk,
+                                                     interpreter::ProgramCache& programs);
+
+}  // namespace fitgauge::app

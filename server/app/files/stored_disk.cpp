@@ -1,0 +1,31 @@
+#include "app/files/stored_disk.hpp"
+
+#include "store/database.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::app {
+
+std::optional<interpreter::ControlFile> StoredDisk::find(
+    const interpreter::ControlPath& path) const {
+  const auto found = database_.readers().wait(
+      [&path](const store::Stores& stores) -> Result<std::optional<store::FileContent>> {
+        return stores.files.find(path.text());
+      });
+  if (!found) throw store::StorageFailure(found.error());
+  if (!*found) return std::nullopt;
+  const store::FileContent& file = **found;
+  return interpreter::ControlFile{.path = interpreter::ControlPath::parse(file.entry.path).value(),
+                                  .bytes = std::make_shared<const std::string>(file.content),
+                                  .revision = std::to_string(file.entry.revision),
+                                  .source = interpreter::FileSource::Stored};
+}
+
+bool StoredDisk::has_directory(std::string_view directory) const {
+  const auto found = database_.readers().wait([directory](const store::Stores& stores) {
+    return Result<bool>(!stores.files.list(directory).empty());
+  });
+  if (!found) throw store::StorageFailure(found.error());
+  return *found;
+}
+
+}  // namespace fitgauge::app

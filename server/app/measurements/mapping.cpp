@@ -1,0 +1,216 @@
+#include "app/measurements/mapping.hpp"
+
+#include <map>
+
+namespace fitgauge::app {
+namespace {
+
+template <class T>
+std::optional<std::int64_t> count_of(const std::optional<T>& length) {
+  return length ? std::optional(length->count()) : std::nullopt;
+}
+
+std::optional<Length> length_of(std::optional<std::int64_t> nanometres) {
+  return nanometres ? std::optional(Length::nanometres(*nanometres)) : std::nullopt;
+}
+
+iso286::NominalSizeRange range_of(std::int64_t over_nm, std::int64_t up_to_nm) {
+  return {.over = Length::nanometres(over_nm), .up_to = Length::nanometres(up_to_nm)};
+}
+
+}  // namespace
+
+store::TableContent to_store(const iso286::TableData& data) {
+  store::TableContent content;
+  for (const iso286::TableCell& cell : data.cells) {
+    content.cells.push_back({.table = std::string(name(cell.table)),
+                             .column = cell.column,
+                             .over_nm = cell.range.over.count(),
+                             .up_to_nm = cell.range.up_to.count(),
+                             .value_nm = count_of(cell.value)});
+  }
+  for (const iso286::CustomColumn& column : data.custom_columns) {
+    for (const iso286::CustomRow& row : column.rows) {
+      content.custom.push_back({.table = std::string(word(column.feature)),
+                                .column = column.name,
+                                .over_nm = row.range.over.count(),
+                                .up_to_nm = row.range.up_to.count(),
+                                .upper_nm = row.deviations.upper.count(),
+                                .lower_nm = row.deviations.lower.count()});
+    }
+  }
+  return content;
+}
+
+Result<iso286::TableData> from_store(const store::TableContent& content) {
+  iso286::TableData data;
+  for (const store::TableCell& cell : content.cells) {
+    const auto table = iso286::table_from_name(cell.table);
+    if (!table) {
+      return Error{ErrorCode::TablesInconsistent, "there is no table " + cell.table, cell.table};
+    }
+    data.cells.push_back({.table = *table,
+                          .range = range_of(cell.over_nm, cell.up_to_nm),
+                          .column = cell.column,
+                          .value = length_of(cell.value_nm)});
+  }
+  std::map<std::pair<iso286::Feature, std::string>, std::vector<iso286::CustomRow>> columns;
+  for (const store::CustomCell& cell : content.custom) {
+    const auto feature = iso286::feature_from_word(cell.table);
+    if (!feature) {
+      return Error{ErrorCode::TablesInconsistent, "there is no table " + cell.table, cell.table};
+    }
+    columns[{*feature, cell.column}].push_back(
+        {.range = range_of(cell.over_nm, cell.up_to_nm),
+         .deviations = {.upper = Length::nanometres(cell.upper_nm),
+                        .lower = Length::nanometres(cell.lower_nm)}});
+  }
+  for (auto& [key, rows] : columns) {
+    data.custom_columns.push_back(
+        {.feature = key.first, .name = key.second, .rows = std::move(rows)});
+  }
+  return data;
+}
+
+store::Verdict to_store(gauging::Verdict verdict) {
+  switch (verdict) {
+    case gauging::Verdict::Good: return store::Verdict::Good;
+    case gauging::Verdict::Rework: return store::Verdict::Rework;
+    case gauging::Verdict::Reject: return store::Verdict::Reject;
+    case gauging::Verdict::Indeterminate: break;
+  }
+  return store::Verdict::Indeterminate;
+}
+
+gauging::Verdict from_store(store::Verdict verdict) {
+  switch (verdict) {
+    case store::Verdict::Good: return gauging::Verdict::Good;
+    case store::Verdict::Rework: return gauging::Verdict::Rework;
+    case store::Verdict::Reject: return gauging::Verdict::Reject;
+    case store::Verdict::Indeterminate: break;
+  }
+  return gauging::Verdict::Indeterminate;
+}
+
+store::Source to_store(Source source) {
+  return source == Source::Gauge ? store::Source::Gauge : store::Source::Simulation;
+}
+
+store::IdempotentRequest to_store(const IdempotencyScope& scope) {
+  return {.caller = scope.caller,
+          .method = scope.method,
+          .path = scope.path,
+          .key = scope.key,
+          .body = store::sha256(scope.body)};
+}
+
+Answer from_store(store::StoredAnswer stored) {
+  return {.status = stored.status,
+          .content_type = std::move(stored.content_type),
+          .location = std::move(stored.location),
+          .body = std::move(stored.body)};
+}
+
+store::StoredAnswer to_store(Answer answer) {
+  return {.status = answer.status,
+          .content_type = std::move(answer.content_type),
+          .location = std::move(answer.location),
+          .body = std::move(answer.body)};
+}
+
+store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t> revision) {
+  store::MeasurementRow row;
+  row.source = to_store(m.source);
+  row.measured_at_ns = m.measured_at.nanoseconds;
+  row.received_at_ns = m.received_at.nanoseconds;
+  row.nominal_nm = m.nominal_size.count();
+  row.tolerance_class = m.class_name;
+  row.feature = m.feature == iso286::Feature::Hole ? store::Feature::Hole : store::Feature::Shaft;
+  row.upper_deviation_nm = m.deviations.upper.count();
+  row.lower_deviation_nm = m.deviations.lower.count();
+  if (m.size_range) {
+    row.size_over_nm = m.size_range->over.count();
+    row.size_up_to_nm = m.size_range->up_to.count();
+  }
+  switch (m.basis) {
+    case LimitsBasis::Iso286: row.basis = store::Basis::Iso286; break;
+    case LimitsBasis::Custom: row.basis = store::Basis::Custom; break;
+    case LimitsBasis::Explicit: row.basis = store::Basis::Explicit; break;
+  }
+  row.table_revision = revision;
+  row.measured_nm = m.measured.count();
+  row.verdict = to_store(m.result.verdict);
+  row.rule = m.rule.kind() == gauging::DecisionRule::Kind::Simple ? store::Rule::Simple
+                                                                  : store::Rule::GuardBand;
+  row.uncertainty_nm = count_of(m.standard_uncertainty);
+  if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
+  row.part_id = m.texts.part_id;
+  row.characteristic = m.texts.characteristic;
+  row.order = m.texts.order;
+  row.operation = m.texts.operation;
+  row.machine = m.texts.machine;
+  row.operator_id = m.texts.operator_id;
+  row.gauge = m.texts.gauge;
+  row.temperature = m.temperature;
+  row.unit = m.texts.unit;
+  row.comment = m.texts.comment;
+  row.caller = m.caller;
+  row.run_id = m.run_id;
+  row.cycle = m.cycle;
+  row.correction_of = m.correction_of;
+  row.correction_reason = m.correction_reason;
+  return row;
+}
+
+Measurement from_store(const store::MeasurementRow& row, const RevisionIds& revision_ids) {
+  Measurement m;
+  m.id = row.id;
+  m.source = row.source == store::Source::Gauge ? Source::Gauge : Source::Simulation;
+  m.measured_at = {row.measured_at_ns};
+  m.received_at = {row.received_at_ns};
+  m.nominal_size = Length::nanometres(row.nominal_nm);
+  m.class_name = row.tolerance_class;
+  m.feature = row.feature == store::Feature::Hole ? iso286::Feature::Hole : iso286::Feature::Shaft;
+  m.deviations = {.upper = Length::nanometres(row.upper_deviation_nm),
+                  .lower = Length::nanometres(row.lower_deviation_nm)};
+  if (row.size_over_nm && row.size_up_to_nm) {
+    m.size_range = range_of(*row.size_over_nm, *row.size_up_to_nm);
+  }
+  switch (row.basis) {
+    case store::Basis::Iso286: m.basis = LimitsBasis::Iso286; break;
+    case store::Basis::Custom: m.basis = LimitsBasis::Custom; break;
+    case store::Basis::Explicit: m.basis = LimitsBasis::Explicit; break;
+  }
+  if (row.table_revision) m.table_revision = revision_ids(*row.table_revision);
+  m.measured = Length::nanometres(row.measured_nm);
+  m.standard_uncertainty = length_of(row.uncertainty_nm);
+  if (row.coverage_factor) {
+    m.coverage_factor = gauging::CoverageFactor::from_millionths(*row.coverage_factor).value();
+  }
+  if (row.rule == store::Rule::GuardBand) {
+    m.rule =
+        gauging::DecisionRule::guard_band(m.standard_uncertainty.value_or(Length()),
+                                          m.coverage_factor.value_or(gauging::CoverageFactor()))
+            .value();
+  }
+  judge(m);  // the excess is not stored; the verdict is, and that one holds
+  m.result.verdict = from_store(row.verdict);
+  m.texts = {.part_id = row.part_id,
+             .characteristic = row.characteristic,
+             .order = row.order,
+             .operation = row.operation,
+             .machine = row.machine,
+             .operator_id = row.operator_id,
+             .gauge = row.gauge,
+             .unit = row.unit,
+             .comment = row.comment};
+  m.temperature = row.temperature;
+  m.caller = row.caller;
+  m.run_id = row.run_id;
+  m.cycle = row.cycle;
+  m.correction_of = row.correction_of;
+  m.correction_reason = row.correction_reason;
+  return m;
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "app/measurements/measurement.hpp"
+#include "app/measurements/measurement_service.hpp"
+#include "iso286/table_data.hpp"
+#include "store/idempotency_store.hpp"
+#include "store/measurement_row.hpp"
+#include "store/tables_store.hpp"
+
+namespace fitgauge::app {
+
+/// Table content between the field's types and the store's plain integers.
+store::TableContent to_store(const iso286::TableData& data);
+/// @errors TablesInconsistent for a table or column the standard does not know.
+Result<iso286::TableData> from_store(const store::TableContent& content);
+
+/// @param revision the number of the table revision the limits were taken from; none for Explicit.
+store::MeasurementRow to_store(const Measurement& measurement,
+                               std::optional<std::int64_t> revision);
+
+/// The id text of a table revision's number; valid as long as the catalog.
+using RevisionIds = std::function<std::string_view(std::int64_t number)>;
+Measurement from_store(const store::MeasurementRow& row, const RevisionIds& revision_ids);
+
+store::Verdict to_store(gauging::Verdict verdict);
+gauging::Verdict from_store(store::Verdict verdict);
+store::Source to_store(Source source);
+
+store::IdempotentRequest to_store(const IdempotencyScope& scope);
+store::StoredAnswer to_store(Answer answer);
+Answer from_store(store::StoredAnswer stored);
+
+}  // namespace fitgauge::app

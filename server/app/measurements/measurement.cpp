@@ -1,0 +1,94 @@
+#include "app/measurements/measurement.hpp"
+
+#include <charconv>
+
+namespace fitgauge::app {
+namespace {
+
+constexpr char kMeasurementPrefix = 'm';
+constexpr char kRunPrefix = 'r';
+
+std::string id_text(char prefix, std::int64_t id) { return prefix + std::to_string(id); }
+
+std::optional<std::int64_t> parse_id(char prefix, std::string_view text) {
+  std::int64_t id = 0;
+  const char* const end = text.data() + text.size();
+  const bool readable = text.size() > 1 && text.front() == prefix && text[1] != '0' &&
+                        text[1] != '-' && std::from_chars(text.data() + 1, end, id).ptr == end &&
+                        id > 0;
+  return readable ? std::optional(id) : std::nullopt;
+}
+
+}  // namespace
+
+std::string_view word(Source source) { return source == Source::Gauge ? "gauge" : "simulation"; }
+
+std::string_view word(LimitsBasis basis) {
+  switch (basis) {
+    case LimitsBasis::Iso286: return "iso286";
+    case LimitsBasis::Custom: return "custom";
+    case LimitsBasis::Explicit: return "explicit";
+  }
+  return "";
+}
+
+std::optional<Source> source_from_word(std::string_view text) {
+  if (text == word(Source::Gauge)) return Source::Gauge;
+  if (text == word(Source::Simulation)) return Source::Simulation;
+  return std::nullopt;
+}
+
+KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(measurement) {
+  const auto keep = [this](std::optional<std::string_view>& text) {
+    if (text) text = texts_.emplace_back(*text);
+  };
+  for (const auto& [name, text] : kMeasurementTexts) keep(measurement_.texts.*text);
+  keep(measurement_.class_name);
+  keep(measurement_.caller);
+  keep(measurement_.correction_reason);
+}
+
+void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
+                  const iso286::ToleranceTables& tables) {
+  measurement.nominal_size = limits.nominal_size.length();
+  measurement.class_name = tables.class_name(limits.class_id);
+  measurement.feature = limits.feature;
+  measurement.deviations = limits.deviations;
+  measurement.size_range = limits.size_range;
+  measurement.basis =
+      limits.basis == iso286::Basis::Custom ? LimitsBasis::Custom : LimitsBasis::Iso286;
+  measurement.table_revision = tables.revision().id;
+}
+
+void apply_limits(Measurement& measurement, const Measurement& other) {
+  measurement.nominal_size = other.nominal_size;
+  measurement.class_name = other.class_name;
+  measurement.feature = other.feature;
+  measurement.deviations = other.deviations;
+  measurement.size_range = other.size_range;
+  measurement.basis = other.basis;
+  measurement.table_revision = other.table_revision;
+}
+
+void judge(Measurement& measurement) {
+  measurement.result =
+      gauging::gauge(measurement.feature, measurement.upper_limit(), measurement.lower_limit(),
+                     measurement.measured, measurement.rule);
+}
+
+std::string measurement_id_text(std::int64_t id) { return id_text(kMeasurementPrefix, id); }
+
+std::string run_id_text(std::int64_t id) { return id_text(kRunPrefix, id); }
+
+Result<std::int64_t> parse_measurement_id(std::string_view text) {
+  if (const auto id = parse_id(kMeasurementPrefix, text)) return *id;
+  return Error{ErrorCode::MeasurementUnknown,
+               "there is no measurement '" + std::string(text.substr(0, 40)) + "'"};
+}
+
+Result<std::int64_t> parse_run_id(std::string_view text) {
+  if (const auto id = parse_id(kRunPrefix, text)) return *id;
+  return Error{ErrorCode::RunUnknown, "there is no run '" + std::string(text.substr(0, 40)) + "'"};
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,73 @@
+#include "app/measurements/measurement_queue.hpp"
+
+#include <utility>
+
+#include "app/measurements/measurement_storage.hpp"
+#include "store/database.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+void store_all(store::Stores& stores, std::vector<MeasurementQueue::Request>& requests) {
+  std::vector<store::MeasurementRow> rows;
+  rows.reserve(requests.size());
+  for (const auto& request : requests) append_rows(rows, request.measurements, request.revision);
+  std::int64_t id = stores.measurements.append(rows).value().first;
+  for (auto& request : requests) {
+    id = number_from(id, request.measurements);
+    request.answer = request.render(request.measurements);
+  }
+}
+
+}  // namespace
+
+void MeasurementQueue::record(Request request) {
+  std::unique_lock lock(mutex_);
+  if (open_ && open_->size() >= most_waiting_) {
+    lock.unlock();
+    return request.done(too_much_work());
+  }
+  const bool begins = open_ == nullptr || each_apart_;
+  if (begins) open_ = std::make_shared<Load>();
+  open_->push_back(std::move(request));
+  const std::shared_ptr<Load> load = begins ? open_ : nullptr;
+  lock.unlock();
+  if (load) submit(load);
+}
+
+void MeasurementQueue::submit(const std::shared_ptr<Load>& load) {
+  database_.writer().submit(
+      [self = shared_from_this(), load](store::Stores& stores) -> Result<bool> {
+        self->close(load);
+        store_all(stores, *load);
+        return true;
+      },
+      [self = shared_from_this(), load](const Result<bool>& stored) {
+        self->close(load);  // when the job was refused, it has not begun
+        self->finish(*load, stored);
+      });
+}
+
+/// No request joins any more.
+void MeasurementQueue::close(const std::shared_ptr<Load>& load) {
+  const std::lock_guard lock(mutex_);
+  if (open_ == load) open_ = nullptr;
+}
+
+/// A bug may lie in one request alone: then the others do not suffer for it.
+void MeasurementQueue::finish(Load& load, const Result<bool>& stored) {
+  const bool again = !stored && stored.error().code == ErrorCode::Internal && load.size() > 1;
+  for (Request& request : load) {
+    if (again) {
+      const auto alone = std::make_shared<Load>();
+      alone->push_back(std::move(request));
+      submit(alone);
+    } else if (stored) {
+      request.done(std::move(request.answer));
+    } else {
+      request.done(stored.error());
+    }
+  }
+}
+
+}  // namespace fitgauge::app

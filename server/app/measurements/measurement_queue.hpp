@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "app/measurements/measurement_service.hpp"
+
+namespace fitgauge::app {
+
+/// Where small requests wait for the writer. All that come before its job begins are stored by that
+/// one job: their rows fill the same statements, and one savepoint serves them all. Thread-safe;
+/// lives until its last job is done, of which the database sees to the end.
+class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
+ public:
+  /// @param most_waiting requests; one more is StorageBusy.
+  /// @param each_apart every request is a job, and so a commit, of its own.
+  MeasurementQueue(store::Database& database, std::size_t most_waiting, bool each_apart)
+      : database_(database), most_waiting_(most_waiting), each_apart_(each_apart) {}
+
+  struct Request {
+    std::vector<Measurement> measurements;
+    std::optional<std::int64_t> revision;  ///< of the tables that have judged them
+    MeasurementService::Render render;
+    MeasurementService::Done<Answer> done;
+    Answer answer{};
+  };
+
+  /// As MeasurementService::record, of measurements that correct none.
+  void record(Request request);
+
+ private:
+  /// What one job stores.
+  using Load = std::vector<Request>;
+
+  void submit(const std::shared_ptr<Load>& load);
+  void close(const std::shared_ptr<Load>& load);
+  void finish(Load& load, const Result<bool>& stored);
+
+  store::Database& database_;
+  const std::size_t most_waiting_;
+  const bool each_apart_;
+  std::mutex mutex_;
+  std::shared_ptr<Load> open_;  ///< of the job that has not begun; null when there is none
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/measurements/measurement.hpp"
+
+namespace fitgauge::store {
+class Database;
+}
+
+namespace fitgauge::app {
+
+class MeasurementQueue;
+class TableCatalog;
+class WorkerPool;
+
+/// An answer that can be kept under an idempotency key and given again.
+struct Answer {
+  int status = 200;
+  std::string content_type;
+  std::string location;  ///< empty: none
+  std::string body;
+};
+
+/// What makes a request the same as an earlier one.
+struct IdempotencyScope {
+  std::string caller;
+  std::string method;
+  std::string path;
+  std::string key;
+  std::string_view body;  ///< alive until the answer
+};
+
+/// Which measurements a list shows.
+struct MeasurementQuery {
+  std::optional<std::string> part_id;
+  std::optional<std::string> characteristic;
+  std::optional<std::string> order;
+  std::optional<std::string> machine;
+  std::optional<gauging::Verdict> verdict;
+  std::optional<Source> source = Source::Gauge;  ///< none: all
+  std::optional<Timestamp> from;                 ///< from <= measured_at
+  std::optional<Timestamp> to;                   ///< measured_at < to
+  bool history = false;                          ///< corrected rows too
+  std::optional<std::int64_t> as_of;             ///< the state when this id was the newest
+};
+
+/// How a list goes on after a page.
+struct ListPage {
+  std::optional<std::int64_t> next;  ///< the last id of the page; none when nothing follows
+  std::int64_t as_of = 0;            ///< the state all pages of the list are read in
+};
+
+/// Counts and statistics of one group; texts are exact decimals in mm.
+struct MeasurementGroup {
+  std::optional<std::string> value;
+  std::int64_t count = 0;
+  std::int64_t good = 0;
+  std::int64_t rework = 0;
+  std::int64_t reject = 0;
+  std::int64_t indeterminate = 0;
+  std::string mean_mm;
+  std::optional<std::string> standard_deviation_mm;
+  Length min;
+  Length max;
+};
+
+struct MeasurementServiceOptions {
+  std::size_t most_waiting = 4096;  ///< requests; one more is StorageBusy
+  bool commit_each = false;         ///< every request its own commit: the benchmark's peer
+};
+
+/// Makes the answer to a long request while it is being read. Used by one thread.
+class Rendering {
+ public:
+  Rendering() = default;
+  Rendering(const Rendering&) = delete;
+  Rendering& operator=(const Rendering&) = delete;
+  virtual ~Rendering() = default;
+
+  /// The next measurements, with their ids.
+  virtual void add(std::span<const Measurement> measurements) = 0;
+  virtual Answer finish() = 0;
+};
+
+/// Stores and reads measurements. Nothing here blocks but what says so; `done` comes exactly once,
+/// on a storage thread or, when refused at once, on the caller's. Thread-safe.
+class MeasurementService {
+ public:
+  MeasurementService(store::Database& database, const TableCatalog& tables,
+                     const MeasurementServiceOptions& options);
+  ~MeasurementService();
+
+  template <class T>
+  using Done = std::function<void(Result<T>)>;
+  /// Makes the answer from the stored measurements; called on the writer thread before the commit.
+  using Render = std::function<Answer(std::span<const Measurement>)>;
+
+  /// The answer kept for this request, or none. @errors IdempotencyKeyReused, StorageUnavailable.
+  void find_answer(const IdempotencyScope& scope, Done<std::optional<Answer>> done);
+
+  /// Stores judged measurements, all or none; `done` comes when they are durable. The texts of the
+  /// measurements stay alive until then.
+  /// @param scope keeps the answer for repeats, in the same transaction.
+  /// @errors StorageUnavailable, StorageBusy, IdempotencyKeyReused, IdempotencyInProgress,
+  ///   MeasurementUnknown and MeasurementCorrected of a correction.
+  void record(std::vector<Measurement> measurements, const std::optional<IdempotencyScope>& scope,
+              Render render, Done<Answer> done);
+
+  /// Takes the next measurements of a request.
+  using Take = std::function<void(std::vector<Measurement>)>;
+  /// Reads a request to its end, at least one measurement or an error. What was taken stays unkept
+  /// when there is one.
+  using Read = std::function<Result<void>(const Take&)>;
+
+  /// Stores judged measurements while `read` goes on reading, all or none. Blocks until they are
+  /// durable: for the threads of run(). The texts of the measurements stay alive until it returns.
+  /// @errors those of `read` and of record().
+  Result<Answer> record_while_reading(const Read& read,
+                                      const std::optional<IdempotencyScope>& scope,
+                                      Rendering& rendering);
+
+  /// Called on a reader thread; the measurement's texts are valid during the call.
+  using Visitor = std::function<void(const Measurement&)>;
+
+  /// Visits one measurement; `corrected_by` is set if it was. @errors MeasurementUnknown.
+  void find(std::int64_t id, Visitor visit, Done<std::int64_t> done);
+
+  /// Visits up to `limit` matching measurements after the id `after`, in storage order. A query
+  /// without `as_of` is read in the newest state; the pages that follow name the one it gives, so
+  /// that the list is of one piece however much is recorded and corrected meanwhile.
+  void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
+            Done<ListPage> done);
+
+  /// Groups by one of the text fields. @errors QueryInvalid for another field or too many groups.
+  void summary(const MeasurementQuery& query, std::string_view group_by,
+               Done<std::vector<MeasurementGroup>> done);
+
+  /// Runs `work` on a thread for long requests, which may block. Calls `failed` when it throws, or
+  /// at once when too many wait. @errors Internal, StorageBusy.
+  void run(std::function<void()> work, const std::function<void(Error)>& failed);
+
+ private:
+  template <class Work>
+  void submit(const std::optional<IdempotencyScope>& scope, Work work, Done<Answer> done);
+
+  store::Database& database_;
+  const TableCatalog& tables_;
+  const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs
+  const std::unique_ptr<WorkerPool> long_requests_;
+};
+
+/// The fields a summary can group by, as the API names them.
+std::span<const std::string_view> summary_fields();
+
+}  // namespace fitgauge::app

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "app/runs/active_run.hpp"
+#include "app/runs/run_report.hpp"
+
+namespace fitgauge::app {
+
+/// What a run needs beside its order; shared by all runs.
+struct RunSurroundings {
+  const interpreter::ControlDisk& disk;
+  interpreter::ProgramCache& programs;
+  const Clock& clock;
+};
+
+struct ExecutedRun {
+  interpreter::RunResult result;
+  RunTrace trace;
+};
+
+/// Builds the machine of the run's setup and runs its program on it, on the calling thread;
+/// `active` is told of the progress. Whatever the program does is in the result.
+/// @throws when the storage fails, or for a bug.
+ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active);
+
+/// The result of a run that did not come to its first block.
+interpreter::RunResult unstarted(interpreter::RunStatus status, interpreter::MessageKind kind,
+                                 std::string text, std::string program);
+
+}  // namespace fitgauge::app

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "machine/machine_setup.hpp"
+#include "machine/tracing_machine.hpp"
+#include "run/interpreter.hpp"
+
+namespace fitgauge::app {
+
+/// A run as it is ordered.
+struct RunOrder {
+  interpreter::ControlPath program;
+  machine::Setup setup;  ///< validated
+  interpreter::RunOptions options;
+  std::string request;  ///< kept with the run, so that it can be repeated
+  std::optional<std::string> caller{};
+};
+
+enum class RunState : std::uint8_t {
+  Queued,
+  Running,
+  Completed,
+  Stopped,
+  Failed,
+  LimitExceeded,
+  Cancelled
+};
+
+/// `queued`, `running`, `completed`, ...
+std::string_view word(RunState state);
+std::optional<RunState> run_state_from_word(std::string_view text);
+RunState state_of(interpreter::RunStatus status);
+
+/// A run that is over.
+struct RunReport {
+  std::int64_t id = 0;
+  std::string program;
+  interpreter::RunResult result{};
+  std::uint64_t seed = 1;
+  Timestamp created_at{};
+  Timestamp finished_at{};
+};
+
+/// The moves of a run, and the blocks they belong to.
+struct RunTrace {
+  struct Place {
+    std::string program;
+    std::uint32_t line = 0;
+    std::optional<std::uint32_t> block{};  ///< its number as written
+  };
+
+  std::vector<machine::TracedMove> moves{};  ///< their `block` is an index into `places`
+  std::vector<Place> places{};
+  std::vector<machine::Axis> axes{};  ///< that the machine has
+  std::size_t dropped = 0;            ///< moves that came after the longest trace was full
+};
+
+/// How runs are written down; the text is opaque here and in the store.
+struct RunFormat {
+  std::function<std::string(const RunReport&)> report;
+  std::function<std::string(const RunTrace&)> trace;
+  /// The seed of the setup in an order as it was stored.
+  std::function<std::uint64_t(const std::string& request)> seed;
+  /// The payload of the event run.finished.
+  std::function<std::string(const RunReport&)> event;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,358 @@
+#include "app/runs/run_service.hpp"
+
+#include <chrono>
+
+#include "app/files/file_check.hpp"
+#include "app/measurements/mapping.hpp"
+#include "app/runs/run_executor.hpp"
+#include "app/runs/run_measurements.hpp"
+#include "program/check.hpp"
+#include "store/database.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using interpreter::MessageKind;
+using interpreter::RunStatus;
+
+constexpr std::string_view kFinishedEvent = "run.finished";
+/// Requests that wait to be checked.
+constexpr std::size_t kPreparing = 256;
+/// Runs an answer or a start looks at together.
+constexpr std::size_t kPage = 100;
+
+store::RunStatus run_status(RunState state) {
+  switch (state) {
+    case RunState::Queued: return store::RunStatus::Queued;
+    case RunState::Running: return store::RunStatus::Running;
+    case RunState::Completed: return store::RunStatus::Completed;
+    case RunState::Stopped: return store::RunStatus::Stopped;
+    case RunState::Failed: return store::RunStatus::Failed;
+    case RunState::LimitExceeded: return store::RunStatus::LimitExceeded;
+    case RunState::Cancelled: break;
+  }
+  return store::RunStatus::Cancelled;
+}
+
+RunState run_state(store::RunStatus status) {
+  switch (status) {
+    case store::RunStatus::Queued: return RunState::Queued;
+    case store::RunStatus::Running: return RunState::Running;
+    case store::RunStatus::Completed: return RunState::Completed;
+    case store::RunStatus::Stopped: return RunState::Stopped;
+    case store::RunStatus::Failed: return RunState::Failed;
+    case store::RunStatus::LimitExceeded: return RunState::LimitExceeded;
+    case store::RunStatus::Cancelled: break;
+  }
+  return RunState::Cancelled;
+}
+
+StoredRun stored_run(store::Run run) {
+  StoredRun stored{.id = run.id,
+                   .state = run_state(run.status),
+                   .program = std::move(run.program),
+                   .request = std::move(run.request),
+                   .report = std::move(run.result),
+                   .created_at = {run.created_at_ns},
+                   .finished_at = {}};
+  if (run.finished_at_ns) stored.finished_at = Timestamp{*run.finished_at_ns};
+  return stored;
+}
+
+Error unknown(std::int64_t id) {
+  return {ErrorCode::RunUnknown, "there is no run '" + run_id_text(id) + "'"};
+}
+
+Error stopping() {
+  return {ErrorCode::ShuttingDown, "the service is shutting down and takes no more runs"};
+}
+
+}  // namespace
+
+RunService::RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+                       RunServiceOptions options)
+    : database_(database),
+      clock_(clock),
+      options_(options),
+      live_tables_(tables),
+      stored_(database),
+      preparing_(1, kPreparing),
+      // What may be queued is limited where runs are started.
+      running_(options.workers, options.workers + options.queue) {}
+
+RunService::~RunService() { stop(); }
+
+Result<void> RunService::open(RunFormat format) {
+  format_ = std::move(format);
+  for (const RunState state : {RunState::Queued, RunState::Running}) {
+    if (auto closed = close_interrupted(state); !closed) return closed;
+  }
+  return {};
+}
+
+Result<void> RunService::close_interrupted(RunState state) {
+  while (true) {
+    const auto page = database_.readers().wait(
+        [state](const store::Stores& stores) -> Result<store::RunsStore::Page> {
+          return stores.runs.list({.status = run_status(state)}, {}, kPage);
+        });
+    if (!page) return page.error();
+    for (const store::Run& run : page->runs) {
+      const RunReport report{.id = run.id,
+                             .program = run.program,
+                             .result = unstarted(RunStatus::Failed, MessageKind::Error,
+                                                 "the service ended before the run did; nothing "
+                                                 "it had done was kept",
+                                                 run.program),
+                             .seed = format_.seed(run.request),
+                             .created_at = {run.created_at_ns},
+                             .finished_at = clock_.now()};
+      const auto kept = keep(report, {}, run.caller);
+      if (!kept) return kept.error();
+    }
+    if (!page->next) return {};
+  }
+}
+
+void RunService::stop() {
+  stopping_ = true;
+  preparing_.stop();
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, run] : active_) run->cancel();
+  }
+  running_.stop();
+}
+
+void RunService::prepare(std::function<void()> work, const std::function<void(Error)>& refused) {
+  auto guarded = [work = std::move(work)] {
+    try {
+      work();
+    } catch (const std::exception&) {
+      // A bug: the work dropped what it had to answer, and that answers for itself.
+    }
+  };
+  if (preparing_.submit(std::move(guarded))) return;
+  if (stopping_) return refused(stopping());
+  refused({ErrorCode::Overloaded, "too many runs and checks wait already; try again soon"});
+}
+
+Result<RunService::Diagnostics> RunService::check(const interpreter::ControlPath& path) {
+  return check_with(check_file, path);
+}
+
+Result<RunService::Diagnostics> RunService::check_program(const interpreter::ControlPath& path) {
+  return check_with(interpreter::check, path);
+}
+
+Result<RunService::Diagnostics> RunService::check_with(Check find_all,
+                                                       const interpreter::ControlPath& path) try {
+  const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
+  return find_all(path, disk, programs_);
+} catch (const store::StorageFailure& failure) {
+  return failure.error();
+}
+
+Result<ControlTables> RunService::control_tables() try {
+  return read_control_tables(stored_);
+} catch (const store::StorageFailure& failure) {
+  return failure.error();
+}
+
+Result<std::optional<Answer>> RunService::kept_answer(const IdempotencyScope& scope) {
+  return database_.readers().wait(
+      [request = to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
+        auto found = stores.idempotency.find(request);
+        if (!found) return found.error();
+        if (!*found) return std::optional<Answer>();
+        return std::optional(from_store(**std::move(found)));
+      });
+}
+
+Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
+                                                     const std::optional<IdempotencyScope>& scope,
+                                                     const Accepted& accepted) {
+  if (stopping_) return stopping();
+  {
+    // Only the preparing thread adds runs, so that there is still room when the row is stored.
+    const std::lock_guard lock(mutex_);
+    if (active_.size() >= options_.workers + options_.queue) {
+      return Error{ErrorCode::Overloaded, "too many runs wait already; try again soon"};
+    }
+  }
+  const auto shared = std::make_shared<const RunOrder>(std::move(order));
+  const store::Run row{.status = store::RunStatus::Queued,
+                       .program = shared->program.text(),
+                       .request = shared->request,
+                       .created_at_ns = clock_.now().nanoseconds,
+                       .caller = shared->caller};
+  std::shared_ptr<ActiveRun> active;
+  const auto create = [&](store::Stores& stores) -> Result<store::StoredAnswer> {
+    active =
+        std::make_shared<ActiveRun>(stores.runs.create(row), shared, Timestamp{row.created_at_ns});
+    return to_store(accepted(*active));
+  };
+  const auto created = scope ? database_.writer().wait_once(to_store(*scope), create)
+                             : database_.writer().wait(create);
+  if (!created) return created.error();
+  if (created->replayed) {
+    return Error{ErrorCode::IdempotencyInProgress,
+                 "another request with this Idempotency-Key came first; try again"};
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    active_.emplace(active->id(), active);
+  }
+  running_.submit([this, active] { run(*active); });
+  return active;
+}
+
+void RunService::run(ActiveRun& active) {
+  if (!active.claim()) return;  // cancelled while it was queued
+  active.started();
+  // Not waited for: the writer keeps the order of its jobs.
+  database_.writer().submit(
+      [id = active.id()](store::Stores& stores) { return stores.runs.start(id); },
+      [](const Result<void>&) {});
+  RunTrace trace;
+  interpreter::RunResult result = execute_guarded(active, trace);
+  end(active, std::move(result), trace);
+}
+
+void RunService::end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace) {
+  const RunReport report{.id = active.id(),
+                         .program = active.program(),
+                         .result = std::move(result),
+                         .seed = active.order().setup.seed,
+                         .created_at = active.created_at(),
+                         .finished_at = clock_.now()};
+  active.finished(keep(report, trace, active.order().caller));
+  const std::lock_guard lock(mutex_);
+  active_.erase(report.id);
+}
+
+void RunService::cancel(const std::shared_ptr<ActiveRun>& active) {
+  active->cancel();
+  // Where this finds no room, the worker whose turn it is ends the run.
+  preparing_.submit([this, active] {
+    if (!active->claim()) return;
+    end(*active,
+        unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
+                  "the run was cancelled before its first block", active->program()),
+        {});
+  });
+}
+
+/// A bug or broken storage ends the run, not the service.
+interpreter::RunResult RunService::execute_guarded(ActiveRun& active, RunTrace& trace) try {
+  const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
+  ExecutedRun executed = execute({disk, programs_, clock_}, active);
+  trace = std::move(executed.trace);
+  return std::move(executed.result);
+} catch (const std::exception& failure) {
+  return unstarted(RunStatus::Failed, MessageKind::Error,
+                   std::string("the service failed: ") + failure.what(), active.program());
+}
+
+/// One transaction for all that a run leaves.
+Result<FinishedRun> RunService::keep(const RunReport& report, const RunTrace& trace,
+                                     const std::optional<std::string>& caller) {
+  FinishedRun finished{.state = state_of(report.result.status), .report = format_.report(report)};
+  const std::string trace_text = format_.trace(trace);
+  const std::string event = format_.event(report);
+  std::vector<store::RunFile> files;
+  files.reserve(report.result.files.size());
+  for (const interpreter::WrittenFile& file : report.result.files) {
+    files.push_back({.path = file.path.text(), .content = file.bytes});
+  }
+  const std::vector<Measurement> measurements = measurements_of(report, caller);
+  std::vector<store::MeasurementRow> rows;
+  rows.reserve(measurements.size());
+  for (const Measurement& measurement : measurements) {
+    rows.push_back(to_store(measurement, std::nullopt));
+  }
+  const auto store = [&](store::Stores& stores) -> Result<bool> {
+    const std::int64_t now = report.finished_at.nanoseconds;
+    const auto closed = stores.runs.finish(report.id,
+                                           {.status = run_status(finished.state),
+                                            .result = finished.report,
+                                            .trace = trace_text,
+                                            .files = files},
+                                           now);
+    if (!closed) return closed.error();
+    if (const auto appended = stores.measurements.append(rows); !appended) return appended.error();
+    stores.events.append(kFinishedEvent, event, now);
+    return true;
+  };
+  // What a run has done is not thrown away because the writer is busy for a moment.
+  for (int attempt = 0;; ++attempt) {
+    const auto stored = database_.writer().wait(store);
+    if (stored) return finished;
+    constexpr int kAttempts = 100;
+    if (stored.error().code != ErrorCode::StorageBusy || attempt == kAttempts) {
+      return stored.error();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = active_.find(id);
+  return found == active_.end() ? nullptr : found->second;
+}
+
+void RunService::find(std::int64_t id, Done<StoredRun> done) {
+  database_.readers().submit(
+      [id](const store::Stores& stores) -> Result<StoredRun> {
+        auto run = stores.runs.find(id);
+        if (!run) return unknown(id);
+        return stored_run(*std::move(run));
+      },
+      std::move(done));
+}
+
+void RunService::trace(std::int64_t id, Done<std::string> done) {
+  database_.readers().submit(
+      [id](const store::Stores& stores) -> Result<std::string> {
+        if (auto trace = stores.runs.trace(id)) return *std::move(trace);
+        if (!stores.runs.find(id)) return unknown(id);
+        return Error{ErrorCode::RunUnfinished,
+                     "run '" + run_id_text(id) + "' is not over; its trace comes with its end"};
+      },
+      std::move(done));
+}
+
+void RunService::file(std::int64_t id, std::string name, Done<File> done) {
+  database_.readers().submit(
+      [id, name = std::move(name)](const store::Stores& stores) -> Result<File> {
+        if (auto file = stores.runs.file(id, name)) {
+          return File{.path = std::move(file->path), .bytes = std::move(file->content)};
+        }
+        if (!stores.runs.find(id)) return unknown(id);
+        return Error{ErrorCode::FileUnknown,
+                     "run '" + run_id_text(id) + "' has written no file '" + name + "'"};
+      },
+      std::move(done));
+}
+
+void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::size_t limit,
+                      Done<Page> done) {
+  store::RunFilter filter{.program = std::move(query.program)};
+  if (query.state) filter.status = run_status(*query.state);
+  database_.readers().submit(
+      [filter = std::move(filter), after, limit](const store::Stores& stores) -> Result<Page> {
+        store::RunsStore::Page found = stores.runs.list(filter, after, limit);
+        Page page{.runs = {}, .next = found.next};
+        for (store::Run& run : found.runs) {
+          run.request.clear();
+          run.result.clear();
+          page.runs.push_back(stored_run(std::move(run)));
+        }
+        return page;
+      },
+      std::move(done));
+}
+
+}  // namespace fitgauge::app

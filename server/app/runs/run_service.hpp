@@ -1,0 +1,146 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/files/stored_disk.hpp"
+#include "app/measurements/measurement_service.hpp"
+#include "app/runs/active_run.hpp"
+#include "app/runs/control_tables.hpp"
+#include "app/runs/run_report.hpp"
+#include "app/runs/worker_pool.hpp"
+#include "app/tables/live_tables.hpp"
+#include "klartext/diagnostic.hpp"
+
+namespace fitgauge::app {
+
+struct RunServiceOptions {
+  unsigned workers = 2;    ///< runs at the same time
+  std::size_t queue = 64;  ///< runs that wait for a worker
+};
+
+/// A run as the store has it.
+struct StoredRun {
+  std::int64_t id = 0;
+  RunState state = RunState::Queued;
+  std::string program;
+  std::string request;
+  std::string report;  ///< empty until it is over
+  Timestamp created_at;
+  std::optional<Timestamp> finished_at;
+};
+
+struct RunQuery {
+  std::optional<RunState> state;
+  std::optional<std::string> program;  ///< the whole path, without regard to case
+};
+
+/// Checks programs, runs them on workers of its own and keeps what they leave. Thread-safe.
+/// Functions with `done` do not block: it comes exactly once, on a storage thread or, when refused
+/// at once, on the caller's.
+class RunService {
+ public:
+  template <class T>
+  using Done = std::function<void(Result<T>)>;
+
+  RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+             RunServiceOptions options);
+  RunService(const RunService&) = delete;
+  RunService& operator=(const RunService&) = delete;
+  ~RunService();
+
+  /// Marks as failed what an earlier process left queued or running, and from then on takes orders.
+  /// @errors StorageUnavailable.
+  Result<void> open(RunFormat format);
+
+  /// Takes no more orders, cancels every run and stores what they left. Blocks.
+  void stop();
+
+  /// Runs `work` on the one thread that prepares runs, on which the functions below may be called,
+  /// or calls `refused` at once. @errors Overloaded, ShuttingDown.
+  void prepare(std::function<void()> work, const std::function<void(Error)>& refused);
+
+  // On the preparing thread; these block.
+
+  using Diagnostics = std::vector<klartext::Diagnostic>;
+  /// Everything there is to say about a file, by its kind: program, mask or table.
+  /// @errors ProgramUnknown, StorageUnavailable.
+  Result<Diagnostics> check(const interpreter::ControlPath& path);
+  /// The same of a file that is to be run, whatever it is called.
+  Result<Diagnostics> check_program(const interpreter::ControlPath& path);
+
+  /// The tool, probe and preset tables of the control's disk.
+  /// @errors TableFileMalformed, StorageUnavailable.
+  Result<ControlTables> control_tables();
+
+  /// The answer that was kept for a request, if any. @errors IdempotencyKeyReused,
+  /// StorageUnavailable.
+  Result<std::optional<Answer>> kept_answer(const IdempotencyScope& scope);
+
+  /// Stores the order as a queued run and queues it.
+  /// @param scope keeps the answer `accepted` makes of the run's id, in the same transaction.
+  /// @errors Overloaded, ShuttingDown, StorageBusy, StorageUnavailable, IdempotencyInProgress.
+  using Accepted = std::function<Answer(const ActiveRun&)>;
+  Result<std::shared_ptr<ActiveRun>> start(RunOrder order,
+                                           const std::optional<IdempotencyScope>& scope,
+                                           const Accepted& accepted);
+
+  // From any thread.
+
+  /// The run while it is queued or under way, else null.
+  std::shared_ptr<ActiveRun> active(std::int64_t id) const;
+
+  /// Ends a run that is queued or under way soon; a queued one without waiting for a worker.
+  void cancel(const std::shared_ptr<ActiveRun>& active);
+
+  /// @errors RunUnknown, StorageUnavailable.
+  void find(std::int64_t id, Done<StoredRun> done);
+  /// @errors RunUnknown; RunUnfinished while there is none yet.
+  void trace(std::int64_t id, Done<std::string> done);
+  struct File {
+    std::string path;
+    std::string bytes;
+  };
+  /// By its file name, without regard to case. @errors RunUnknown, FileUnknown.
+  void file(std::int64_t id, std::string name, Done<File> done);
+
+  struct Page {
+    std::vector<StoredRun> runs;  ///< the newest first, without request and report
+    std::optional<std::int64_t> next;
+  };
+  void list(RunQuery query, std::optional<std::int64_t> after, std::size_t limit, Done<Page> done);
+
+ private:
+  using Check = Result<Diagnostics> (*)(const interpreter::ControlPath&,
+                                        const interpreter::ControlDisk&,
+                                        interpreter::ProgramCache&);
+  Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path);
+  void run(ActiveRun& active);
+  void end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace);
+  interpreter::RunResult execute_guarded(ActiveRun& active, RunTrace& trace);
+  Result<FinishedRun> keep(const RunReport& report, const RunTrace& trace,
+                           const std::optional<std::string>& caller);
+  Result<void> close_interrupted(RunState state);
+
+  store::Database& database_;
+  const Clock& clock_;
+  const RunServiceOptions options_;
+  LiveTables live_tables_;
+  StoredDisk stored_;
+  interpreter::ProgramCache programs_;
+  RunFormat format_;
+  std::atomic<bool> stopping_{false};
+  mutable std::mutex mutex_;
+  std::map<std::int64_t, std::shared_ptr<ActiveRun>> active_;
+  // The workers end before what they use.
+  WorkerPool preparing_;
+  WorkerPool running_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,24 @@
+#include "app/service/readiness.hpp"
+
+#include "app/tables/table_catalog.hpp"
+#include "store/database.hpp"
+
+namespace fitgauge::app {
+
+Readiness readiness(const store::Database& database, const TableCatalog& tables) {
+  Readiness readiness{.findings = tables.state()->findings, .database = "ok"};
+  const store::Health health = database.health();
+  switch (health.state) {
+    case store::HealthState::Ok: break;
+    case store::HealthState::Checking: readiness.database = "checking"; break;
+    case store::HealthState::WritesFailing:
+      readiness.findings.push_back({ErrorCode::StorageUnavailable, health.reason, "database"});
+      break;
+    case store::HealthState::Damaged:
+      readiness.findings.push_back({ErrorCode::StorageCorrupt, health.reason, "database"});
+      break;
+  }
+  return readiness;
+}
+
+}  // namespace fitgauge::app

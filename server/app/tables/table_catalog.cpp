@@ -1,0 +1,205 @@
+#include "app/tables/table_catalog.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/measurements/mapping.hpp"
+#include "iso286/table_rules.hpp"
+#include "store/database.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::string_view kStandardSource = "ISO 286-1:2010 and ISO 286-2:2010, tables/data";
+
+TableState failed(const store::TableRevision& revision, std::vector<Error> findings) {
+  return {.tables = nullptr, .number = revision.number, .findings = std::move(findings)};
+}
+
+/// Everything that must hold before one limit is read from stored tables: the content is that of
+/// the stored digest, it obeys the rules, and the standard's cells are the compiled-in ones.
+TableState audit(const store::LoadedTables& loaded) {
+  const auto data = from_store(loaded.content);
+  if (!data) return failed(loaded.revision, {data.error()});
+  std::vector<Error> findings = iso286::compare_with_compiled_in(*data);
+  if (findings.empty() && loaded.computed != loaded.revision.digest) {
+    findings.push_back({ErrorCode::TablesInconsistent,
+                        "a cell of revision " + loaded.revision.id +
+                            " differs from what was stored: its digest does not match"});
+  }
+  auto tables = iso286::ToleranceTables::make(*data, {loaded.revision.id});
+  if (!tables) {
+    const std::vector<Error>& broken = tables.error().details;
+    findings.insert(findings.end(), broken.begin(), broken.end());
+  }
+  if (!findings.empty()) return failed(loaded.revision, std::move(findings));
+  return {.tables = std::make_shared<const iso286::ToleranceTables>(*std::move(tables)),
+          .number = loaded.revision.number,
+          .findings = {}};
+}
+
+Error inconsistent(const std::vector<Error>& findings) {
+  return {ErrorCode::TablesInconsistent,
+          "the tolerance tables fail their audit: " + findings.front().message,
+          findings.front().where, findings};
+}
+
+Error unknown_revision(std::string_view id) {
+  return {ErrorCode::RevisionUnknown, fmt::format("there is no table revision '{}'", id)};
+}
+
+Result<store::LoadedTables> load_or_import(store::Stores& stores, Timestamp now) {
+  if (auto latest = stores.tables.load_latest()) return *std::move(latest);
+  const store::TableImport standard{.content = to_store(iso286::compiled_in_tables()),
+                                    .source = std::string(kStandardSource),
+                                    .parent = {},
+                                    .caller = {}};
+  if (const auto imported = stores.tables.import(standard, now.nanoseconds); !imported) {
+    return imported.error();
+  }
+  return stores.tables.load_latest().value();
+}
+
+auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature feature,
+                 std::string_view name) {
+  return std::find_if(columns.begin(), columns.end(), [&](const iso286::CustomColumn& column) {
+    return column.feature == feature && column.name == name;
+  });
+}
+
+}  // namespace
+
+Result<std::unique_ptr<TableCatalog>> TableCatalog::open(store::Database& database,
+                                                         const Clock& clock) {
+  std::unique_ptr<TableCatalog> catalog(new TableCatalog(database, clock));
+  const auto loaded = database.writer().wait(
+      [&clock](store::Stores& stores) { return load_or_import(stores, clock.now()); });
+  if (!loaded) return loaded.error();
+  const auto revisions = database.readers().wait(
+      [](const store::Stores& stores) -> Result<std::vector<store::TableRevision>> {
+        return stores.tables.list();
+      });
+  if (!revisions) return revisions.error();
+  for (const store::TableRevision& revision : *revisions) {
+    catalog->remember(revision.number, revision.id);
+  }
+  catalog->state_.set(std::make_shared<const TableState>(audit(*loaded)));
+  return catalog;
+}
+
+Result<TableCatalog::Tables> TableCatalog::tables() const {
+  const auto current = state();
+  if (current->tables != nullptr) return current->tables;
+  return inconsistent(current->findings);
+}
+
+void TableCatalog::at_revision(std::string revision, Callback<Tables> done) {
+  const auto current = state();
+  if (current->tables != nullptr && current->tables->revision().id == revision) {
+    return done(current->tables);
+  }
+  database_.readers().submit(
+      [revision = std::move(revision)](const store::Stores& stores) -> Result<Tables> {
+        const auto loaded = stores.tables.load(std::string_view(revision));
+        if (!loaded) return unknown_revision(revision);
+        TableState state = audit(*loaded);
+        if (state.tables == nullptr) return inconsistent(state.findings);
+        return std::move(state.tables);
+      },
+      std::move(done));
+}
+
+void TableCatalog::put_column(iso286::CustomColumn column,
+                              std::optional<std::vector<std::string>> condition,
+                              Callback<ColumnStored> done) {
+  if (const auto checked = iso286::check_custom_column(column); !checked) {
+    return done(checked.error());
+  }
+  change(
+      [column = std::move(column)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
+        const auto found = find_column(columns, column.feature, column.name);
+        const bool created = found == columns.end();
+        if (created) {
+          columns.push_back(column);
+        } else {
+          *found = column;
+        }
+        return created;
+      },
+      std::move(condition), std::move(done));
+}
+
+void TableCatalog::remove_column(iso286::Feature feature, std::string name,
+                                 std::optional<std::vector<std::string>> condition,
+                                 Callback<ColumnStored> done) {
+  change(
+      [feature,
+       name = std::move(name)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
+        const auto found = find_column(columns, feature, name);
+        if (found == columns.end()) {
+          return Error{ErrorCode::ClassUnknown,
+                       fmt::format("the {} table has no custom column {}", word(feature), name)};
+        }
+        columns.erase(found);
+        return false;
+      },
+      std::move(condition), std::move(done));
+}
+
+void TableCatalog::change(Edit edit, std::optional<std::vector<std::string>> condition,
+                          Callback<ColumnStored> done) {
+  struct Changed {
+    bool created = false;
+    store::LoadedTables loaded;
+  };
+  database_.writer().submit(
+      [this, edit = std::move(edit),
+       condition = std::move(condition)](store::Stores& stores) -> Result<Changed> {
+        const auto latest = stores.tables.load_latest().value();
+        if (condition && std::find(condition->begin(), condition->end(), latest.revision.id) ==
+                             condition->end()) {
+          return Error{ErrorCode::PreconditionFailed,
+                       "the tables have changed since: read them again, then repeat the change"};
+        }
+        const TableState state = audit(latest);
+        if (state.tables == nullptr) return inconsistent(state.findings);
+        auto data = from_store(latest.content).value();
+        const auto created = edit(data.custom_columns);
+        if (!created) return created.error();
+        const auto imported = stores.tables.import({.content = to_store(data),
+                                                    .source = "custom column",
+                                                    .parent = latest.revision.number,
+                                                    .caller = {}},
+                                                   clock_.now().nanoseconds);
+        if (!imported) return imported.error();
+        return Changed{*created, stores.tables.load_latest().value()};
+      },
+      [this, done = std::move(done)](Result<Changed> changed) {
+        if (!changed) return done(changed.error());
+        const store::TableRevision& revision = changed->loaded.revision;
+        remember(revision.number, revision.id);
+        state_.set(std::make_shared<const TableState>(audit(changed->loaded)));
+        done(ColumnStored{changed->created, revision.id});
+      });
+}
+
+void TableCatalog::remember(std::int64_t number, std::string_view id) {
+  const std::lock_guard lock(ids_mutex_);
+  ids_.emplace(number, id);
+}
+
+std::string_view TableCatalog::revision_id(std::int64_t number) const {
+  const std::lock_guard lock(ids_mutex_);
+  const auto found = ids_.find(number);
+  return found == ids_.end() ? std::string_view() : found->second;
+}
+
+std::optional<std::int64_t> TableCatalog::revision_number(std::string_view id) const {
+  const std::lock_guard lock(ids_mutex_);
+  const auto found =
+      std::find_if(ids_.begin(), ids_.end(), [&](const auto& known) { return known.second == id; });
+  return found == ids_.end() ? std::nullopt : std::optional(found->first);
+}
+
+}  // namespace fitgauge::app

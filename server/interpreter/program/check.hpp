@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "base/result.hpp"
+#include "klartext/diagnostic.hpp"
+#include "program/control_disk.hpp"
+#include "program/program_cache.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Everything to say about a program and every program it names literally, without running
+/// anything. Errors keep a run from starting; warnings name what would fail when its block is
+/// reached: a missing program, table or mask, an unavailable cycle or M function, an ERROR block.
+/// @errors ProgramUnknown when there is no such file.
+Result<std::vector<klartext::Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
+                                                ProgramCache& programs);
+
+bool has_errors(const std::vector<klartext::Diagnostic>& diagnostics);
+
+}  // namespace fitgauge::interpreter

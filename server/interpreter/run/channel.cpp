@@ -1,0 +1,56 @@
+#include "run/channel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "klartext/diagnostic.hpp"
+
+namespace fitgauge::interpreter {
+
+Channel::Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& run_environment,
+                 const RunOptions& run_options, std::stop_token stop)
+    : environment(run_environment),
+      options(run_options),
+      budget(run_options.limits, std::move(stop)),
+      output(run_options.limits.output_bytes),
+      log(output, run_environment.observer),
+      files(run_environment.disk, output, run_options.limits.files),
+      calls(std::move(main), run_options.limits) {}
+
+NcResult<void> Channel::programmed_stop(std::string reason) {
+  machine().stop(reason);
+  if (options.on_stop == OnStop::End) return NcError{NcErrorKind::Stop, 0, std::move(reason)};
+  return log.report(MessageKind::Stop, 0, std::move(reason), place());
+}
+
+NcResult<ControlPath> Channel::resolve(std::string_view written) const {
+  auto path = ControlPath::resolve(written, linked().path());
+  if (path.has_error()) return from_error(path.error());
+  return *std::move(path);
+}
+
+NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
+  auto path = resolve(written);
+  if (!path) return path;
+  return path->with_default_extension(kProgramExtension);
+}
+
+NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const ControlPath& path) {
+  const auto file = files.find(path);
+  if (!file) return nc_error(fmt::format("program {} does not exist", path.text()));
+  std::shared_ptr<const LinkedProgram>& known = loaded_[path.key() + '|' + file->revision];
+  if (known != nullptr) return known;
+  const auto linked = environment.programs.get(*file);
+  if (auto used = budget.use_memory(linked->memory_bytes); !used) return used.error();
+  if (linked->program == nullptr) {
+    const auto first =
+        std::find_if(linked->diagnostics.begin(), linked->diagnostics.end(),
+                     [](const auto& found) { return found.severity == klartext::Severity::Error; });
+    return nc_error(fmt::format("program {} has errors, the first in line {}: {}", path.text(),
+                                first->range.begin.line, first->message));
+  }
+  return known = linked->program;
+}
+
+}  // namespace fitgauge::interpreter

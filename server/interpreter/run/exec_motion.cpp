@@ -1,0 +1,310 @@
+#include <fmt/format.h>
+
+#include "run/channel.hpp"
+#include "run/m_functions.hpp"
+#include "run/motion_words.hpp"
+#include "run/statements.hpp"
+#include "run/values.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Motion;
+using klartext::Path;
+using klartext::RadiusCompensation;
+using machine::CoordinateSystem;
+
+/// The geometry of one positioning block.
+class Positioning {
+ public:
+  Positioning(Channel& channel, const Motion& motion, const MotionWords& words)
+      : channel_(channel),
+        motion_(motion),
+        words_(words),
+        plane_(working_plane(channel)),
+        position_(channel.contour.position(channel)),
+        start_(plane_.project(position_.linear)) {}
+
+  NcResult<void> run() {
+    switch (motion_.path) {
+      case Path::Cc: return set_pole();
+      case Path::Rnd: return corner(words_.r, false);
+      case Path::Chf: return corner(words_.chamfer, true);
+      case Path::L:
+      case Path::Ln:
+        if (words_.has_m(91) || words_.has_m(92)) return machine_line();
+        [[fallthrough]];
+      case Path::Lp: return line();
+      case Path::C:
+      case Path::Cp:
+      case Path::Cr:
+      case Path::Ct:
+      case Path::Ctp: return arc();
+      case Path::DepLt:
+      case Path::DepLn:
+      case Path::DepCt:
+      case Path::DepLct:
+      case Path::DepPlct: return depart();
+      default: return approach();
+    }
+  }
+
+ private:
+  Contour& contour() { return channel_.contour; }
+
+  static double resolved(const Coordinate& word, double last) {
+    return word.incremental ? last + word.value : word.value;
+  }
+
+  /// The axes the block names, absolute.
+  machine::AxisWords target(const machine::Position& from) const {
+    machine::AxisWords target;
+    for (const machine::Axis axis : machine::kAllAxes) {
+      if (const auto& word = words_.axes[machine::index(axis)]) {
+        target[axis] = resolved(*word, from[axis]);
+      }
+    }
+    return target;
+  }
+
+  bool is_polar() const {
+    switch (motion_.path) {
+      case Path::Lp:
+      case Path::Cp:
+      case Path::Ctp:
+      case Path::ApprPlt:
+      case Path::ApprPln:
+      case Path::ApprPct:
+      case Path::ApprPlct:
+      case Path::DepPlct: return true;
+      default: return false;
+    }
+  }
+
+  /// Where the block ends in the working plane. @errors no pole.
+  NcResult<Vec2> end_point() {
+    if (!is_polar()) {
+      const auto words = target(position_);
+      return Vec2{words.values[plane_.first].value_or(start_.x),
+                  words.values[plane_.second].value_or(start_.y)};
+    }
+    if (!contour().pole) return nc_error("polar coordinates need a pole: CC stands before them");
+    Vec2& last = contour().last_polar;
+    const Vec2 from_pole = start_ - *contour().pole;
+    if (motion_.path == Path::Cp) {
+      last = {norm(from_pole), machine::degrees(std::atan2(from_pole.y, from_pole.x))};
+    }
+    if (words_.pr) last.x = resolved(*words_.pr, last.x);
+    if (words_.pa) last.y = resolved(*words_.pa, last.y);
+    return *contour().pole + polar(last.x, last.y);
+  }
+
+  NcResult<Element> element(const Curve& curve) {
+    const auto feed = use_feed(channel_, words_.feed);
+    if (!feed) return feed.error();
+    Element element{curve, target(position_), *feed};
+    if (is_polar()) {
+      element.target.values[plane_.first] = curve.end.x;
+      element.target.values[plane_.second] = curve.end.y;
+    }
+    return element;
+  }
+
+  NcResult<void> add(const Curve& curve) {
+    auto made = element(curve);
+    if (!made) return made.error();
+    return contour().add(channel_, *std::move(made));
+  }
+
+  /// A pole is not moved to, so decision 3 holds for its coordinates.
+  NcResult<void> set_pole() {
+    for (const klartext::Word& word : channel_.program().view(motion_.words)) {
+      if (!is_axis(word.letter) || is_absent(word.value)) continue;
+      if (const auto value = number(channel_, word.value); !value) return value.error();
+    }
+    const auto end = end_point();
+    if (!end) return end.error();
+    contour().pole = *end;
+    contour().last_polar = {};
+    return {};
+  }
+
+  NcResult<void> corner(const std::optional<double>& size, bool is_chamfer) {
+    return contour().set_corner(size.value_or(0), is_chamfer, words_.feed);
+  }
+
+  /// M91, M92: coordinates of the spindle nose from the machine datum.
+  NcResult<void> machine_line() {
+    if (auto done = contour().finish(channel_); !done) return done;
+    const auto feed = use_feed(channel_, words_.feed);
+    if (!feed) return feed.error();
+    const auto from = channel_.machine().position(CoordinateSystem::Reference);
+    return contour().add(channel_, {{}, target(from), *feed, CoordinateSystem::Reference});
+  }
+
+  NcResult<void> line() {
+    if (!words_.names_axes()) {
+      // `L FMAX M99`, or every coordinate undefined: the feed may change, nothing moves.
+      const auto feed = use_feed(channel_, words_.feed);
+      return feed ? NcResult<void>() : feed.error();
+    }
+    const auto end = end_point();
+    if (!end) return end.error();
+    return add({start_, *end, std::nullopt, 0});
+  }
+
+  NcResult<void> arc() {
+    for (std::size_t axis = 3; axis < machine::kAxes; ++axis) {
+      if (words_.axes[axis]) return nc_error(1019, "a rotary axis cannot follow an arc");
+    }
+    const auto end = end_point();
+    if (!end) return end.error();
+    const auto curve = motion_.path == Path::Cr                                ? radius_arc(*end)
+                       : motion_.path == Path::Ct || motion_.path == Path::Ctp ? tangential(*end)
+                                                                               : centre_arc(*end);
+    if (!curve) return curve.error();
+    return add(*curve);
+  }
+
+  bool left_turn() const { return motion_.rotation != klartext::Rotation::Negative; }
+
+  NcResult<Curve> radius_arc(Vec2 end) const {
+    if (!words_.r) return nc_error("CR needs a radius R");
+    const auto arc = arc_of_radius(start_, end, *words_.r, left_turn());
+    if (!arc) {
+      return nc_error(fmt::format("CR: no arc of radius {} mm joins two points {:.4f} mm apart",
+                                  *words_.r, norm(end - start_)));
+    }
+    return *arc;
+  }
+
+  NcResult<Curve> tangential(Vec2 end) {
+    if (!contour().direction) {
+      return nc_error("CT needs a contour element before it that it continues");
+    }
+    return tangential_arc(start_, *contour().direction, end);
+  }
+
+  NcResult<Curve> centre_arc(Vec2 end) {
+    if (!contour().pole) return nc_error("an arc needs a centre: CC stands before it");
+    // The control accepts an end point that lies this far beside the circle (mm).
+    constexpr double kCircleTolerance = 0.016;
+    const Vec2 centre = *contour().pole;
+    const double radius = norm(start_ - centre);
+    if (radius < kSamePoint) return nc_error("the arc begins in its centre");
+    const double error = norm(end - centre) - radius;
+    if (std::abs(error) > kCircleTolerance) {
+      return nc_error(fmt::format("the end of the arc lies {:.4f} mm beside its circle", error));
+    }
+    double turn = sweep(start_, end, centre, left_turn());
+    if (motion_.path == Path::Cp && words_.pa && words_.pa->incremental) {
+      const double angle = std::abs(words_.pa->value);
+      turn = left_turn() ? angle : -angle;
+    }
+    return Curve{start_, end, centre, turn};
+  }
+
+  double side() const { return motion_.compensation == RadiusCompensation::Rr ? -1 : 1; }
+
+  NcResult<void> approach() {
+    const auto end = end_point();
+    if (!end) return end.error();
+    auto to_start = element({start_, *end, std::nullopt, 0});
+    if (!to_start) return to_start.error();
+    to_start->target.values[plane_.first] = end->x;
+    to_start->target.values[plane_.second] = end->y;
+    return contour().add(
+        channel_, Contour::Approach{cartesian(), *std::move(to_start), words_.len.value_or(0),
+                                    words_.cca.value_or(0), words_.r.value_or(0), side()});
+  }
+
+  Path cartesian() const {
+    switch (motion_.path) {
+      case Path::ApprPlt: return Path::ApprLt;
+      case Path::ApprPln: return Path::ApprLn;
+      case Path::ApprPct: return Path::ApprCt;
+      case Path::ApprPlct: return Path::ApprLct;
+      default: return motion_.path;
+    }
+  }
+
+  NcResult<void> depart() {
+    if (!contour().direction) return nc_error("DEP needs a contour element before it");
+    const Vec2 direction = *contour().direction;
+    const double length = words_.len.value_or(0);
+    const double radius = words_.r.value_or(0);
+    const Vec2 centre = start_ + left_of(direction) * (side() * radius);
+    const bool left = side() > 0;
+    switch (motion_.path) {
+      case Path::DepLt: return leave({start_, start_ + direction * length, std::nullopt, 0});
+      case Path::DepLn:
+        return leave({start_, start_ + left_of(direction) * (side() * length), std::nullopt, 0});
+      case Path::DepCt: {
+        const double angle = side() * words_.cca.value_or(0);
+        return leave({start_, centre + turned(start_ - centre, angle), centre, angle});
+      }
+      default: break;
+    }
+    const auto end = end_point();
+    if (!end) return end.error();
+    // DEP LCT is APPR LCT run backwards: the circle turns the other way seen from the end.
+    const auto met = tangent_point(*end, centre, radius, !left);
+    if (!met) return nc_error(1023, "DEP LCT ends inside its circle");
+    if (auto done = leave({start_, *met, centre, sweep(start_, *met, centre, left)}); !done) {
+      return done;
+    }
+    return add({*met, *end, std::nullopt, 0});
+  }
+
+  /// A move of the working plane alone.
+  NcResult<void> leave(const Curve& curve) {
+    const auto feed = use_feed(channel_, words_.feed);
+    if (!feed) return feed.error();
+    Element element{curve, {}, *feed};
+    element.target.values[plane_.first] = curve.end.x;
+    element.target.values[plane_.second] = curve.end.y;
+    return contour().add(channel_, element);
+  }
+
+  Channel& channel_;
+  const Motion& motion_;
+  const MotionWords& words_;
+  const WorkingPlane plane_;
+  const machine::Position position_;
+  const Vec2 start_;
+};
+
+}  // namespace
+
+NcResult<Next> execute(Channel& channel, const Motion& motion) {
+  const auto words = read_words(channel, motion.words);
+  if (!words) return words.error();
+  if (motion.compensation == RadiusCompensation::Rl ||
+      motion.compensation == RadiusCompensation::Rr) {
+    auto noted =
+        channel.note("radius compensation RL and RR: the simulated path is the programmed contour");
+    if (!noted) return noted.error();
+  }
+  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
+  return end_m_functions(channel, *words);
+}
+
+NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions) {
+  const auto words = read_words(channel, functions.words);
+  if (!words) return words.error();
+  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  return end_m_functions(channel, *words);
+}
+
+NcResult<Next> execute(Channel& channel, const klartext::Stop& stop) {
+  const auto words = read_words(channel, stop.words);
+  if (!words) return words.error();
+  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  auto next = end_m_functions(channel, *words);
+  if (!next || next->kind != Next::Kind::Block) return next;
+  if (auto done = channel.programmed_stop("programmed stop"); !done) return done.error();
+  return next;
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,154 @@
+#include "run/frame_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "run/channel.hpp"
+#include "run/preassigned.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::PlanePositioning;
+using machine::Axis;
+using machine::Frames;
+using machine::Vec3;
+
+template <class Change>
+NcResult<void> change_frames(Channel& channel, const Change& change) {
+  Frames frames = channel.machine().state().frames;
+  change(frames);
+  return checked(channel.machine().set_frames(frames));
+}
+
+/// The rotary positions for a plane, the one that SEQ asks for first.
+NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& frames,
+                                               const PlaneMoves& moves) {
+  const machine::MachineState& state = channel.machine().state();
+  Frames plane;
+  plane.set_preset(frames.preset());
+  plane.set_plane(frames.plane());
+  const Vec3 normal =
+      machine::unit(plane.direction_to_machine(machine::unit_vector(state.tool_axis())));
+  auto solutions = state.kinematics.orientations(normal, state.nose.rotary, state.tool_axis());
+  // The master axis is the last one of the machine that a solution turns.
+  const auto fits = [&](const Vec3& rotary) {
+    if (moves.sequence == 0) return true;
+    const auto& axes = state.kinematics.axes();
+    const auto master = std::find_if(axes.begin(), axes.end(),
+                                     [](const auto& axis) { return axis.axis != Axis::C; });
+    if (master == axes.end()) return true;
+    const double angle = rotary[machine::index(master->axis) - 3];
+    return moves.sequence > 0 ? angle >= 0 : angle <= 0;
+  };
+  std::erase_if(solutions, [&](const Vec3& rotary) { return !fits(rotary); });
+  if (!solutions.empty()) return std::optional(solutions.front());
+  const bool turns =
+      moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;
+  if (turns || !state.kinematics.axes().empty()) {
+    return nc_error(1013, "no position of the rotary axes reaches the plane");
+  }
+  return std::optional<Vec3>();
+}
+
+/// MOVE keeps the tip where it is on the workpiece, TURN leaves the linear axes alone.
+NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& moves) {
+  machine::Machine& machine = channel.machine();
+  const machine::Modes before = machine.state().modes;
+  machine::Modes during = before;
+  during.tcpm = moves.positioning == PlanePositioning::Move;
+  if (auto set = checked(machine.set_modes(during)); !set) return set;
+  machine::AxisWords target;
+  for (const machine::RotaryAxis& axis : machine.state().kinematics.axes()) {
+    target[axis.axis] = rotary[machine::index(axis.axis) - 3];
+  }
+  auto moved = checked(machine.move({target, moves.feed, machine::CoordinateSystem::Machine}));
+  if (auto set = checked(machine.set_modes(before)); !set) return set;
+  return moved;
+}
+
+NcResult<void> apply(Channel& channel, const Frames& frames, const PlaneMoves& moves) {
+  const auto rotary = rotary_positions(channel, frames, moves);
+  if (!rotary) return rotary.error();
+  if (auto set = checked(channel.machine().set_frames(frames)); !set) return set;
+  if (!*rotary) return {};
+  set_plane_angles(channel, **rotary);
+  const bool turns =
+      moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;
+  return turns ? turn(channel, **rotary, moves) : NcResult<void>();
+}
+
+/// The datum shift relative to the workpiece system, tilted or not.
+machine::Position untilted_shift(const Frames& frames) {
+  machine::Position shift = frames.datum_shift();
+  if (frames.plane()) shift.linear = frames.plane()->origin;
+  return shift;
+}
+
+}  // namespace
+
+NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes) {
+  return change_frames(channel, [&](Frames& frames) {
+    machine::Position shift = frames.datum_shift();
+    for (const Axis axis : machine::kAllAxes) {
+      const auto& word = axes[machine::index(axis)];
+      if (word) shift[axis] = word->incremental ? shift[axis] + word->value : word->value;
+    }
+    frames.set_datum_shift(shift);
+  });
+}
+
+NcResult<void> shift_datum_to_row(Channel& channel, std::int64_t row) {
+  const auto values = channel.tables.datum(row);
+  if (!values) return values.error();
+  AxisCoordinates axes;
+  for (const Axis axis : machine::kAllAxes) {
+    if ((*values)[axis]) axes[machine::index(axis)] = Coordinate{*(*values)[axis], false};
+  }
+  return shift_datum(channel, axes);
+}
+
+NcResult<void> reset_datum_shift(Channel& channel) {
+  return change_frames(channel, [](Frames& frames) { frames.set_datum_shift({}); });
+}
+
+NcResult<void> mirror(Channel& channel, const std::array<bool, 3>& axes) {
+  return change_frames(channel, [&](Frames& frames) { frames.set_mirror(axes); });
+}
+
+NcResult<void> rotate(Channel& channel, const Coordinate& angle) {
+  const Axis tool_axis = channel.machine().state().tool_axis();
+  return change_frames(channel, [&](Frames& frames) {
+    const double last = angle.incremental ? frames.rotation().angle_deg : 0;
+    frames.set_rotation({last + angle.value, tool_axis});
+  });
+}
+
+NcResult<void> scale(Channel& channel, const machine::Scaling& scaling) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (scaling.factor[axis] <= 0) {
+      return nc_error(1011, fmt::format("scaling factor {}", scaling.factor[axis]));
+    }
+  }
+  return change_frames(channel, [&](Frames& frames) { frames.set_scaling(scaling); });
+}
+
+NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const PlaneMoves& moves) {
+  Frames frames = channel.machine().state().frames;
+  machine::Position shift = untilted_shift(frames);
+  frames.set_plane(machine::TiltedPlane{machine::spatial_angles(rotation), shift.linear});
+  shift.linear = {};
+  frames.set_datum_shift(shift);
+  return apply(channel, frames, moves);
+}
+
+NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves) {
+  Frames frames = channel.machine().state().frames;
+  const machine::Position shift = untilted_shift(frames);
+  frames.set_plane(std::nullopt);
+  frames.set_datum_shift(shift);
+  return apply(channel, frames, moves);
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "klartext/mask_file.hpp"
+#include "machine/machine.hpp"
+#include "program/control_disk.hpp"
+#include "program/parameter.hpp"
+#include "program/program_cache.hpp"
+#include "run/run_limits.hpp"
+#include "run/run_observer.hpp"
+#include "run/run_result.hpp"
+
+namespace fitgauge::interpreter {
+
+/// What happens at STOP, M0, M1 and Q281 = 2: the run goes on as if NC Start was pressed, or ends.
+enum class OnStop : std::uint8_t { Continue, End };
+
+struct RunOptions {
+  std::vector<ParameterValue> parameters;  ///< set before block 0; each valid for `validate`
+  RunLimits limits;
+  OnStop on_stop = OnStop::Continue;
+  bool block_skip = false;  ///< blocks that begin with `/` are passed over
+  klartext::MaskLanguage language = klartext::MaskLanguage::English;  ///< of the control's dialog
+};
+
+/// What a run works on. All must outlive the run; machine and observer belong to it alone, the
+/// others may be shared with other runs.
+struct RunEnvironment {
+  machine::Machine& machine;
+  const ControlDisk& disk;
+  ProgramCache& programs;
+  const Clock& clock;
+  RunObserver& observer;
+};
+
+/// Runs a program to its end, on the calling thread.
+///
+/// To run a file: `check` it and refuse the run when an error is among the diagnostics; build a
+/// machine from the setup; then
+///
+///     const auto file = programs.get(*disk.find(path));
+///     RunResult result = run(file->program, {machine, disk, programs, clock, observer}, options,
+///                            stop_source.get_token());
+///
+/// Never throws for what a program does: NC errors, machine faults, budgets and cancellation are
+/// in the result, whose last message then names the block. Broken storage (ControlDisk) passes
+/// through as an exception. Cancel with the stop token from any thread: it is seen within a few
+/// thousand blocks of formulas or a few blocks of motion. Files the run writes are in the result
+/// only.
+RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& environment,
+              const RunOptions& options, std::stop_token stop = {});
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "run/motion_words.hpp"
+#include "run/statements.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Those that take effect at the start of the block: spindle and coolant on, TCPM.
+NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls);
+
+/// Those that take effect at its end: spindle and coolant off, M140, stops, cycle call, end of the
+/// program.
+NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words);
+
+}  // namespace fitgauge::interpreter

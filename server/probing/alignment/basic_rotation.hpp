@@ -1,0 +1,25 @@
+#pragma once
+
+#include "probing/touch/probing_motion.hpp"
+
+namespace fitgauge::probing {
+
+/// The angle, in -90 < angle <= 90, of a line in the plane to the main axis of the workpiece
+/// system, which the basic rotation turns; `direction` in plane coordinates of the input system.
+double workpiece_angle(const machine::Frames& frames, const WorkingPlane& plane,
+                       const Vec3& direction);
+
+/// Measuring and alignment cycles begin without a basic rotation.
+CycleResult<void> reset_basic_rotation(machine::Machine& machine);
+
+/// What every alignment cycle begins with: resets an active basic rotation.
+/// @errors 1008 and 1007 with mirror and scaling active; those of ProbingMotion::begin.
+CycleResult<ProbingMotion> begin_alignment(const CycleContext& context);
+
+/// Sets the basic rotation around the probe axis. Row 0: active at once, in no table; -1: also in
+/// the row of the active preset; otherwise only stored in that row (one that does not exist yet
+/// begins as the active preset) until cycle 247 activates it.
+/// @errors 1085 the row is write-protected.
+CycleResult<void> set_basic_rotation(const CycleContext& context, double angle_deg, int row);
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "probing/kinematics/positions.hpp"
+#include "probing/kinematics/probing.hpp"
+
+namespace fitgauge::probing {
+
+/// What was measured of one rotary axis.
+struct AxisMeasurement {
+  AxisPlan plan;
+  std::vector<SpherePose> poses;  ///< the reference at 0 first, then the positions
+  AxisErrors errors;
+  Spread before;      ///< by the kinematics that were active
+  Spread after;       ///< by the corrected kinematics
+  double radius = 0;  ///< of the measuring circle, in mm
+  std::optional<double> backlash_deg{};
+  std::string_view no_backlash{};  ///< why there is none
+};
+
+struct KinematicsMeasurement {
+  std::vector<AxisMeasurement> axes;  ///< those measured, in the order A, B, C
+  machine::Kinematics corrected;      ///< the active kinematics with what was found
+};
+
+/// Measures the planned axes one after the other, the others at their angle of incidence: with
+/// backlash (Q432) each position is approached from either side, and the first side counts.
+/// Evaluates from the bed to the workpiece and from the column to the tool, each axis with what was
+/// found of those before it.
+/// @errors those of KinematicsProbing::measure.
+CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& context,
+                                                      KinematicsProbing& probing,
+                                                      std::span<const AxisPlan> plans,
+                                                      bool directions);
+
+/// Q141 to Q149, in mm whatever the unit of the program; -1 for axes that were not measured.
+void write_kinematics_results(CycleHost& host, const KinematicsMeasurement& measurement,
+                              const Vec3& offset);
+
+}  // namespace fitgauge::probing

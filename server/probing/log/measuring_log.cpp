@@ -1,0 +1,93 @@
+#include "probing/log/measuring_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "probing/touch_probe_cycle.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+constexpr std::string_view kRule = "------------------------------------------------------------\n";
+constexpr double kMmPerInch = 25.4;
+
+std::string fixed4(double value) {
+  std::string text = fmt::format("{:.4f}", value);
+  return text == "-0.0000" ? text.substr(1) : text;
+}
+
+}  // namespace
+
+std::string log_text(Length value, bool inch) {
+  return fixed4(inch ? value.to_mm() / kMmPerInch : value.to_mm());
+}
+
+MeasuringLog::MeasuringLog(const CycleDescriptor& cycle, const CycleHost& host)
+    : inch_(host.is_inch()) {
+  const CivilTime time = civil_time(host.now());
+  text_ = fmt::format(
+      "****** Measuring log of touch-probe cycle {} {} ******\n"
+      "Date: {:02}-{:02}-{:04}\n"
+      "Time: {}:{:02}:{:02}\n"
+      "Measuring program: {}\n"
+      "Unit (0=MM / 1=INCH): {}\n",
+      cycle.number, cycle.name, time.day, time.month, time.year, time.hour, time.minute,
+      time.second, host.program_path(), inch_ ? 1 : 0);
+}
+
+void MeasuringLog::section(std::string_view title) {
+  text_ += kRule;
+  fmt::format_to(std::back_inserter(text_), "{}:\n", title);
+}
+
+void MeasuringLog::length(std::string_view label, Length value) {
+  line(label, log_text(value, inch_));
+}
+
+void MeasuringLog::angle(std::string_view label, double degrees) { line(label, fixed4(degrees)); }
+
+void MeasuringLog::line(std::string_view label, std::string_view value) {
+  fmt::format_to(std::back_inserter(text_), "{:<44}{:>16}\n", fmt::format("{}:", label), value);
+}
+
+std::string MeasuringLog::finish() && {
+  text_ += kRule;
+  text_ += "****** End of measuring log ******\n\n";
+  return std::move(text_);
+}
+
+std::string MeasuringLog::file_name(const CycleDescriptor& cycle) {
+  return fmt::format("TCHPR{}.TXT", cycle.number);
+}
+
+void add_values(MeasuringLog& log, std::span<const MeasuredValue> values) {
+  log.section("Nominal values");
+  for (const auto& value : values) log.length(value.characteristic, value.nominal);
+  if (std::ranges::any_of(values, [](const auto& value) { return value.limits.has_value(); })) {
+    log.section("Limits");
+  }
+  for (const auto& value : values) {
+    if (!value.limits) continue;
+    log.length(fmt::format("{}, maximum", value.characteristic), value.limits->upper);
+    log.length(fmt::format("{}, minimum", value.characteristic), value.limits->lower);
+  }
+  log.section("Actual values");
+  for (const auto& value : values) log.length(value.characteristic, value.measured);
+  log.section("Deviations");
+  for (const auto& value : values) log.length(value.characteristic, value.deviation());
+}
+
+CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log) {
+  const int where = context.arguments.whole(281);
+  if (where == 0) return {};
+  const std::string text = std::move(log).finish();
+  if (where == 1) {
+    return context.host.append_log(MeasuringLog::file_name(context.arguments.descriptor()), text);
+  }
+  if (context.host.memory().fast_probing.interrupts) context.host.show_and_stop(text);
+  return {};
+}
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,45 @@
+#include <array>
+
+#include "probing/cycles.hpp"
+#include "probing/log/measuring_log.hpp"
+#include "probing/measuring/measurement.hpp"
+#include "probing/parameters.hpp"
+#include "probing/touch/line_probing.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kParameters = join(line(kMeasuringAxis), std::array{kMeasuringLog});
+
+constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
+
+CycleResult<void> measure(const CycleContext& context) {
+  auto motion = begin_measurement(context);
+  if (!motion) return motion.error();
+  const auto edge = probe_line(context, *motion);
+  if (!edge) return edge.error();
+  const double angle = to_angle(edge->angle_deg());
+  context.host.set_q(150, angle, Unit::Angle);
+  MeasuringLog log(context.arguments.descriptor(), context.host);
+  log.section("Actual values");
+  log.angle("Measured angle", angle);
+  log.section("Further results");
+  log.length("Measuring height", to_length(context.arguments.number(261)));
+  return deliver_log(context, std::move(log));
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle420{
+    {.number = 420,
+     .name = "MEASURE ANGLE",
+     .kind = CycleKind::Measuring,
+     .parameters = kParameters,
+     .results = kResults,
+     .simulated = "All parameters. The angle is that of the line to the main axis, with Q272 = 3 "
+                  "to the axis along which the points differ."},
+    measure};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,78 @@
+#include "probing/touch/circle_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace fitgauge::probing {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Points = Matrix<double, Eigen::Dynamic, 2>;
+using Columns3 = Matrix<double, Eigen::Dynamic, 3>;
+
+/// Below this ratio of the singular directions the points count as one line.
+constexpr double kCollinear = 1e-10;
+constexpr int kMostSteps = 50;
+constexpr double kConverged = 1e-15;  ///< of the points' spread
+
+/// Centre x, y and radius of the algebraic fit (Kåsa), exact for points on a circle.
+/// Nothing when the points lie on a line.
+std::optional<Vector3d> algebraic_fit(const Points& points) {
+  Columns3 a(points.rows(), 3);
+  a << points, Eigen::VectorXd::Ones(points.rows());
+  Eigen::ColPivHouseholderQR<Columns3> qr(a);
+  qr.setThreshold(kCollinear);
+  if (qr.rank() < 3) return std::nullopt;
+  const Vector3d s = qr.solve(points.rowwise().squaredNorm());
+  const Vector2d centre = s.head<2>() / 2;
+  return Vector3d(centre.x(), centre.y(), std::sqrt(s.z() + centre.squaredNorm()));
+}
+
+Eigen::VectorXd distances(const Points& points, const Vector3d& circle) {
+  return (points.rowwise() - circle.head<2>().transpose()).rowwise().norm();
+}
+
+/// One Gauss-Newton step on the orthogonal distances; false when it ends or leads nowhere.
+bool refine(const Points& points, Vector3d& circle) {
+  const Eigen::VectorXd distance = distances(points, circle);
+  if (distance.minCoeff() == 0) return false;
+  Columns3 jacobian(points.rows(), 3);
+  jacobian << ((points.rowwise() - circle.head<2>().transpose()).array().colwise() /
+               distance.array())
+                  .matrix(),
+      Eigen::VectorXd::Ones(points.rows());
+  const Eigen::VectorXd residual = distance.array() - circle.z();
+  const Vector3d step = jacobian.colPivHouseholderQr().solve(residual);
+  if (!step.allFinite()) return false;
+  circle += step;
+  return step.norm() > kConverged;
+}
+
+}  // namespace
+
+CycleResult<Circle> fit_circle(std::span<const Point2> points) {
+  if (points.size() < 3) return nc_error(1081, "a circle needs three points");
+  Points all(static_cast<Index>(points.size()), 2);
+  for (Index row = 0; const Point2& p : points) all.row(row++) << p.x, p.y;
+
+  // Around their mean and at unit size the points lose no digits.
+  const Eigen::RowVector2d mean = all.colwise().mean();
+  all.rowwise() -= mean;
+  const double spread = all.rowwise().norm().maxCoeff();
+  if (spread > 0) all /= spread;
+  auto circle = algebraic_fit(all);
+  if (!circle) return nc_error(1081, "the touched points lie on a straight line");
+  for (int step = 0; step < kMostSteps && refine(all, *circle);) ++step;
+
+  const double residual = (distances(all, *circle).array() - circle->z()).abs().maxCoeff();
+  return Circle{{circle->x() * spread + mean.x(), circle->y() * spread + mean.y()},
+                circle->z() * spread,
+                residual * spread};
+}
+
+}  // namespace fitgauge::probing

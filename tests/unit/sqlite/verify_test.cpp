@@ -1,0 +1,151 @@
+#include "store/verify.hpp"
+
+#include "fixture.hpp"
+#include "sqlite/connection.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::store;
+using namespace fitgauge::store::test;
+
+namespace {
+
+/// A database of five measurements and one table revision, closed.
+struct VerifyFixture : Fixture {
+  VerifyFixture() {
+    REQUIRE(append(std::vector<MeasurementRow>(5, sample_row())).has_value());
+    REQUIRE(write([](Stores& stores) {
+              return stores.tables.import(
+                  {.content = {.cells = {{"it", "IT7", 18, 30, 21}}}, .source = "test"}, 1);
+            }).has_value());
+  }
+
+  /// Does with the file what fitgauge itself refuses.
+  void tamper(const std::string& sql) {
+    sqlite::Connection connection(directory.file(), sqlite::Mode::Write);
+    connection.execute(
+        "DROP TRIGGER measurements_are_not_updated; DROP TRIGGER measurements_are_not_deleted; "
+        "PRAGMA foreign_keys = OFF;" +
+        sql +
+        "; CREATE TRIGGER measurements_are_not_updated BEFORE UPDATE ON measurements\nBEGIN "
+        "SELECT RAISE(ABORT, 'a measurement is never changed: store a correction'); END;"
+        "CREATE TRIGGER measurements_are_not_deleted BEFORE DELETE ON measurements\nBEGIN SELECT "
+        "RAISE(ABORT, 'a measurement is never deleted'); END;");
+  }
+
+  std::vector<std::string> findings(const MeasurementCheck& check = {}) {
+    const auto report = database->verify(check);
+    REQUIRE(report.has_value());
+    return report->findings;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a sound database verifies") {
+  VerifyFixture fixture;
+  const auto report = fixture.database->verify();
+  REQUIRE(report.has_value());
+  CHECK(report->measurements == 5);
+  CHECK(report->findings.empty());
+}
+
+TEST_CASE("measurements linked on another thread continue the chain") {
+  VerifyFixture fixture;
+  MeasurementChain chain(*fixture.read([](const Stores& stores) -> Result<MeasurementChain::End> {
+    return stores.measurements.chain_end();
+  }));
+  CHECK(chain.end().id == 5);
+  std::vector<MeasurementRow> rows(70, sample_row());
+  chain.link(std::span(rows).first(30));
+  chain.link(std::span(rows).subspan(30));
+  const auto append = [&] {
+    return fixture.write([&](Stores& stores) -> Result<bool> {
+      if (const auto done = stores.measurements.append_linked(rows); !done) return done.error();
+      return true;
+    });
+  };
+  REQUIRE(append().has_value());
+  REQUIRE(fixture.append(sample_row())->first == 76);
+  const auto report = fixture.database->verify();
+  CHECK(report->measurements == 76);
+  CHECK(report->findings.empty());
+  // Another end than that of the chain: refused, not stored with a gap.
+  CHECK(append().error().code == ErrorCode::Internal);
+  CHECK(fixture.last_id() == 76);
+}
+
+TEST_CASE("the first altered measurement is named") {
+  VerifyFixture fixture;
+  SUBCASE("a value") {
+    fixture.tamper("UPDATE measurements SET measured_nm = 25014000 WHERE id >= 3");
+    const auto findings = fixture.findings();
+    REQUIRE(findings.size() == 3);
+    CHECK(findings[0].find("measurement 3 ") != std::string::npos);
+  }
+  SUBCASE("a text that was not given") {
+    fixture.tamper("UPDATE measurements SET comment = '' WHERE id = 1");
+    const auto findings = fixture.findings();
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].find("measurement 1 ") != std::string::npos);
+  }
+  SUBCASE("a hash") {
+    fixture.tamper("UPDATE measurements SET hash = zeroblob(32) WHERE id = 2");
+    const auto findings = fixture.findings();
+    REQUIRE(findings.size() == 2);
+    CHECK(findings[0].find("measurement 2 ") != std::string::npos);
+  }
+  SUBCASE("rows taken out") {
+    fixture.tamper("DELETE FROM measurements WHERE id IN (2, 3)");
+    const auto findings = fixture.findings();
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].find("2 to 3 are missing") != std::string::npos);
+  }
+}
+
+TEST_CASE("an altered cell, schema or reference is named") {
+  VerifyFixture fixture;
+  std::string place;
+  SUBCASE("cell") {
+    fixture.tamper("UPDATE table_cells SET value_nm = 22");
+    place = "table revision 1-";
+  }
+  SUBCASE("dropped index") {
+    fixture.tamper("DROP INDEX measurement_corrections");
+    place = "index measurement_corrections";
+  }
+  SUBCASE("added trigger") {
+    fixture.tamper("CREATE TRIGGER extra AFTER INSERT ON events BEGIN SELECT 1; END");
+    place = "trigger extra";
+  }
+  SUBCASE("table revision of a measurement") {
+    fixture.tamper("UPDATE measurements SET table_revision = 9, basis = 1, tolerance_class = 'H7'");
+    place = "measurement 1 ";
+  }
+  SUBCASE("reference") {
+    fixture.tamper("UPDATE table_revisions SET table_set = 77");
+    place = "table_sets";
+  }
+  const auto findings = fixture.findings();
+  REQUIRE_FALSE(findings.empty());
+  CHECK_MESSAGE(findings[0].find(place) != std::string::npos, findings[0]);
+}
+
+TEST_CASE("what the caller finds wrong with a measurement is in the report") {
+  VerifyFixture fixture;
+  const auto findings = fixture.findings([](const MeasurementRow& row) {
+    return row.id == 4 ? std::optional<std::string>("the verdict does not follow") : std::nullopt;
+  });
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0] == "measurement 4: the verdict does not follow");
+}
+
+TEST_CASE("a damaged page ends the verification with a finding") {
+  VerifyFixture fixture;
+  fixture.database.reset();
+  fixture.options.check_at_open_limit = 0;
+  std::string content = content_of(fixture.directory.file());
+  content.replace(28'672, 300, 300, '\xFF');
+  write_file(fixture.directory.file(), content);
+  fixture.open();
+  CHECK_FALSE(fixture.findings().empty());
+}
