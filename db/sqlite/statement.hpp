@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "store/digest.hpp"
+#include "base/digest.hpp"
 
 namespace fitgauge::store::sqlite {
 

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "store/digest.hpp"
+#include "base/digest.hpp"
 
 namespace fitgauge::store {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "base/clock.hpp"
+#include "base/digest.hpp"
 #include "base/result.hpp"
-#include "store/digest.hpp"
 
 namespace fitgauge::store {
 

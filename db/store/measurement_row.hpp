@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "store/digest.hpp"
+#include "base/digest.hpp"
 
 namespace fitgauge::store {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/digest.hpp"
 #include "base/result.hpp"
-#include "store/digest.hpp"
 
 namespace fitgauge::store {
 

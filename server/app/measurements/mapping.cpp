@@ -101,7 +101,7 @@ store::IdempotentRequest to_store(const IdempotencyScope& scope) {
           .method = scope.method,
           .path = scope.path,
           .key = scope.key,
-          .body = store::sha256(scope.body)};
+          .body = sha256(scope.body)};
 }
 
 Answer from_store(store::StoredAnswer stored) {

@@ -1,8 +1,8 @@
-#include "store/digest.hpp"
+#include "base/digest.hpp"
 
 #include <doctest/doctest.h>
 
-using namespace fitgauge::store;
+using namespace fitgauge;
 
 // The examples of FIPS 180-4 ("abc", the empty message).
 TEST_CASE("digests are SHA-256") {

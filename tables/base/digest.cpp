@@ -1,11 +1,11 @@
-#include "store/digest.hpp"
+#include "base/digest.hpp"
 
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 
 #include <stdexcept>
 
-namespace fitgauge::store {
+namespace fitgauge {
 namespace {
 
 void require(bool succeeded) {
@@ -70,4 +70,4 @@ bool equal_in_constant_time(std::span<const std::uint8_t> a, std::span<const std
   return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
-}  // namespace fitgauge::store
+}  // namespace fitgauge

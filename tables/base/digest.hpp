@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace fitgauge::store {
+namespace fitgauge {
 
 /// A SHA-256 digest (FIPS 180-4).
 using Digest = std::array<std::uint8_t, 32>;
@@ -40,4 +40,4 @@ std::string to_hex(std::span<const std::uint8_t> bytes);
 /// Compares in a time that depends on the sizes alone.
 bool equal_in_constant_time(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
-}  // namespace fitgauge::store
+}  // namespace fitgauge
