@@ -134,7 +134,6 @@ bool Connection::open_exchange() {
   if (!head_.keep_alive || thread_.shared().stopping.load(std::memory_order_relaxed)) {
     close_after_ = true;
   }
-  head_size_ = input_.parsed_size();
   if (auto early = exchange_.open(head_, thread_.next_request_id())) {
     skip_buffered_body();
     answer(std::move(*early));
@@ -167,6 +166,7 @@ bool Connection::begin_body() {
     run_handler();
     return true;
   }
+  input_.pin_head();
   body_.start(plan);
   phase_ = Phase::ReadingBody;
   last_body_byte_ = thread_.now();
@@ -336,7 +336,7 @@ void Connection::read_more() {
   if (phase_ == Phase::Lingering) {
     room = input_.room_to_discard();
   } else if (phase_ == Phase::ReadingBody) {
-    room = reads_directly_ ? body_.room() : input_.room_for_body(head_, head_size_, kMaxFraming);
+    room = reads_directly_ ? body_.room() : input_.room_for_body(kMaxFraming);
   } else {
     if (!in_request_) deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
     room = input_.room_for_head(head_);

@@ -136,7 +136,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   InputBuffer input_;
   OutputQueue output_;
   RequestHead head_;
-  std::size_t head_size_ = 0;
   std::optional<RequestParser> parser_;
   Exchange exchange_;
   BodyReader body_;

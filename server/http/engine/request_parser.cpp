@@ -166,7 +166,7 @@ void RequestParser::on_field_impl(beast::http::field field, beast::string_view n
         break;
       case beast::http::field::transfer_encoding:
         once(has_transfer_encoding_);
-        transfer_encoding_ = value;
+        head_.chunked = ascii_iequals(value, "chunked");
         break;
       case beast::http::field::content_length:
         once(has_content_length_);
@@ -200,13 +200,10 @@ bool RequestParser::check_head() {
     if (has_content_length_) {
       return fail("Transfer-Encoding and Content-Length exclude each other.");
     }
-    if (!ascii_iequals(transfer_encoding_, "chunked")) {
-      return fail("The one Transfer-Encoding understood is chunked.");
-    }
+    if (!head_.chunked) return fail("The one Transfer-Encoding understood is chunked.");
   }
   if (!has_host_ && !head_.http_1_0) return fail("The Host field is missing.");
   if (has_host_ && !is_authority(head_.host)) return fail("The Host field is not a host and port.");
-  head_.chunked = has_transfer_encoding_;
   if (has_content_length_) head_.content_length = *content_length();
   head_.keep_alive = keep_alive();
   return true;

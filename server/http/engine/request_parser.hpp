@@ -65,7 +65,6 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
   RequestHead& head_;
   Refusal refusal_{};
   std::string_view piece_;
-  std::string_view transfer_encoding_;
   std::size_t head_bytes_ = 0;   ///< header section consumed so far
   std::size_t framing_run_ = 0;  ///< bytes since the last byte of the body
   bool head_done_ = false;

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fitgauge::http::test {
+
+/// `text` as one gzip member.
+std::string gzip(std::string_view text);
+
+}  // namespace fitgauge::http::test
