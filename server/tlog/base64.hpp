@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fitgauge::tlog {
+
+/// RFC 4648, section 4, with padding.
+std::string to_base64(std::span<const std::uint8_t> bytes);
+
+/// @returns none for anything but the one spelling that to_base64 gives.
+std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
+
+}  // namespace fitgauge::tlog
