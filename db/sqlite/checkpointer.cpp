@@ -9,12 +9,10 @@
 namespace fitgauge::store {
 namespace {
 
-/// The writer copies all by itself when the log has become so many times too long: the thread is
-/// not getting anywhere.
-constexpr int kPatience = 4;
+constexpr int kForceFactor = 2;
 
-/// What no reader needs any more; readers and writers go on.
-void copy_log(const sqlite::Connection& connection) {
+/// Copies what no reader needs any more; readers and writers go on.
+void passive_checkpoint(const sqlite::Connection& connection) {
   sqlite3_wal_checkpoint_v2(connection.handle(), nullptr, SQLITE_CHECKPOINT_PASSIVE, nullptr,
                             nullptr);
 }
@@ -33,7 +31,7 @@ Checkpointer::~Checkpointer() {
   thread_.join();
 }
 
-void Checkpointer::take_over(sqlite::Connection& writer) {
+void Checkpointer::install(sqlite::Connection& writer) {
   const auto count = [](void* pages, sqlite3*, const char*, int in_log) {
     *static_cast<int*>(pages) = in_log;
     return SQLITE_OK;
@@ -41,16 +39,21 @@ void Checkpointer::take_over(sqlite::Connection& writer) {
   sqlite3_wal_hook(writer.handle(), count, &pages_);
 }
 
-void Checkpointer::go_on(sqlite::Connection& writer) {
+void Checkpointer::after_commit(sqlite::Connection& writer) {
   std::unique_lock lock(mutex_);
-  const bool is_copied = state_ == State::Copied;
-  if (is_copied) state_ = State::Idle;
+  // A checkpoint beside the thread's would copy nothing: there is one at a time.
+  if (pages_ >= kForceFactor * options_.checkpoint_pages) {
+    changed_.wait(lock, [this] { return state_ != State::Running; });
+  }
+  const bool forced = pages_ >= kForceFactor * options_.checkpoint_pages;
+  const bool finished = state_ == State::Finished;
+  if (finished) state_ = State::Idle;
   if (pages_ < options_.checkpoint_pages) return;
-  if (is_copied || pages_ >= kPatience * options_.checkpoint_pages) {
+  if (finished || forced) {
     lock.unlock();
-    copy_log(writer);
+    passive_checkpoint(writer);
   } else if (state_ == State::Idle) {
-    state_ = State::Copying;
+    state_ = State::Running;
     changed_.notify_all();
   }
 }
@@ -58,22 +61,23 @@ void Checkpointer::go_on(sqlite::Connection& writer) {
 void Checkpointer::run() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || state_ == State::Copying; });
+    changed_.wait(lock, [this] { return stopping_ || state_ == State::Running; });
     if (stopping_) return;
     lock.unlock();
     try {
-      copy();
+      checkpoint();
     } catch (const std::exception&) {  // the file cannot be opened: commits will say so
     }
     lock.lock();
-    state_ = State::Copied;
+    state_ = State::Finished;
+    changed_.notify_all();
   }
 }
 
-void Checkpointer::copy() {
+void Checkpointer::checkpoint() {
   const sqlite::Connection connection(options_.directory / kDatabaseFile, sqlite::Mode::Write,
                                       options_.synchronous);
-  copy_log(connection);
+  passive_checkpoint(connection);
 }
 
 }  // namespace fitgauge::store

@@ -10,10 +10,12 @@
 
 namespace fitgauge::store {
 
-/// Copies the write-ahead log into the database on a thread of its own, so that no commit waits
-/// until thousands of pages are copied. The log starts anew only when nothing in it is left to copy
-/// between two commits: what was committed meanwhile the writer copies itself.
-/// A copy that fails is tried again; that the log then grows is for the commits to report.
+/// Checkpoints the write-ahead log on a thread of its own, so that commits do not wait until
+/// thousands of pages are copied into the database. The log starts anew only when all of it is
+/// copied between two commits: the writer copies what was committed during the thread's checkpoint.
+/// A log that grows faster than the thread copies makes the writer wait for it, so its length is
+/// bounded: kForceFactor times checkpoint_pages and one transaction.
+/// A checkpoint that fails is tried again; that the log then grows is for the commits to report.
 class Checkpointer {
  public:
   explicit Checkpointer(const OpenOptions& options);
@@ -23,16 +25,18 @@ class Checkpointer {
 
   // By the writer.
 
-  /// From now on the log is copied when this says so, no more by SQLite at a commit.
-  void take_over(sqlite::Connection& writer);
-  /// Between two transactions.
-  void go_on(sqlite::Connection& writer);
+  /// Takes checkpoints over from SQLite, which would make them at a commit.
+  void install(sqlite::Connection& writer);
+  /// Between two transactions; waits for the thread when the log is kForceFactor times too long.
+  void after_commit(sqlite::Connection& writer);
+
+  int log_pages() const { return pages_; }  ///< at the last commit; the writer's
 
  private:
-  enum class State : std::uint8_t { Idle, Copying, Copied };
+  enum class State : std::uint8_t { Idle, Running, Finished };
 
   void run();
-  void copy();
+  void checkpoint();
 
   const OpenOptions options_;
   int pages_ = 0;  ///< in the log; the writer's

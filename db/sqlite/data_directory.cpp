@@ -3,11 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <string_view>
 #include <system_error>
@@ -37,9 +39,21 @@ class Descriptor {
   int value_;
 };
 
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
 Error system_error(std::string_view doing, const std::filesystem::path& path) {
   return {ErrorCode::StorageUnavailable,
           fmt::format("cannot {} {}: {}", doing, path.string(), std::strerror(errno))};
+}
+
+/// What root makes in the folder of a service's user belongs to that user, who is to open it later.
+bool give_to_owner_of_folder(const Descriptor& descriptor, const std::filesystem::path& file) {
+  if (::geteuid() != 0) return true;
+  struct stat folder {};
+  return ::stat(folder_of(file).c_str(), &folder) == 0 &&
+         ::fchown(descriptor.get(), folder.st_uid, folder.st_gid) == 0;
 }
 
 /// SQLite's header: the first 16 bytes and the application id at 68, big-endian.
@@ -66,7 +80,9 @@ Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& direct
   }
   const std::filesystem::path file = directory / "fitgauge.lock";
   Descriptor descriptor(file, O_RDWR | O_CREAT);
-  if (!descriptor.is_open()) return system_error("write to the data directory:", file);
+  if (!descriptor.is_open() || !give_to_owner_of_folder(descriptor, file)) {
+    return system_error("write to the data directory:", file);
+  }
   if (::flock(descriptor.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK) return system_error("lock", file);
     return Error{ErrorCode::DatabaseInUse,
@@ -105,15 +121,35 @@ Result<void> inspect_file(const std::filesystem::path& file) {
   return {};
 }
 
+void close_to_others(const std::filesystem::path& database) {
+  using std::filesystem::perms;
+  for (const std::string_view suffix : {"", "-wal", "-shm"}) {
+    std::filesystem::path file = database;
+    std::error_code ignored;
+    std::filesystem::permissions(file += suffix, perms::others_all,
+                                 std::filesystem::perm_options::remove, ignored);
+  }
+}
+
 Result<void> reserve_name(const std::filesystem::path& file) {
-  if (Descriptor(file, O_WRONLY | O_CREAT | O_EXCL).is_open()) return {};
+  const Descriptor descriptor(file, O_WRONLY | O_CREAT | O_EXCL);
+  if (descriptor.is_open() && give_to_owner_of_folder(descriptor, file)) return {};
   return system_error("create", file);
+}
+
+Result<void> rename_to_new(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return {};
+  // Some network file systems cannot: link() takes no name that is taken either.
+  if (errno == EINVAL && ::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0) {
+    return {};
+  }
+  return system_error("create", to);
 }
 
 Result<void> sync_file(const std::filesystem::path& file) {
   const Descriptor content(file, O_RDONLY);
   if (!content.is_open() || ::fsync(content.get()) != 0) return system_error("write", file);
-  const std::filesystem::path parent = file.has_parent_path() ? file.parent_path() : ".";
+  const std::filesystem::path parent = folder_of(file);
   const Descriptor directory(parent, O_RDONLY | O_DIRECTORY);
   if (!directory.is_open() || ::fsync(directory.get()) != 0) return system_error("write", parent);
   return {};

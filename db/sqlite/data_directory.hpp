@@ -30,9 +30,17 @@ class DirectoryLock {
 /// @errors DatabaseForeign; StorageUnavailable when it cannot be read and written.
 Result<void> inspect_file(const std::filesystem::path& file);
 
-/// Creates an empty file where there is none: the name is taken before the content is made.
+/// Takes a file and what SQLite keeps beside it from everybody but its owner and group: an older
+/// version made them with the umask alone. One that is another's stays as it is.
+void close_to_others(const std::filesystem::path& database);
+
+/// Creates an empty file that its owner writes and its group reads (0640 less the umask). SQLite
+/// gives a database's log and its index the same rights.
 /// @errors StorageUnavailable, also when it exists.
 Result<void> reserve_name(const std::filesystem::path& file);
+
+/// Renames a file to a name that is free. @errors StorageUnavailable, also when it is taken.
+Result<void> rename_to_new(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Makes the file and its directory entry durable.
 /// @errors StorageUnavailable

@@ -21,6 +21,7 @@ struct Database::Parts {
         options(chosen),
         clock(time),
         file(chosen.directory / kDatabaseFile),
+        monitor(chosen.health_changed),
         writer_engine(chosen, time, monitor),
         reader_engine(chosen, time, monitor),
         writer(writer_engine),

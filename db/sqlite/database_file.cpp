@@ -23,14 +23,10 @@ Error unavailable(std::string message) {
   return {ErrorCode::StorageUnavailable, std::move(message)};
 }
 
-/// Gives a finished file its name, durably.
+/// Gives a finished file its name, durably. The name is free: nothing is replaced.
 Result<void> publish(const fs::path& finished, const fs::path& name) {
   if (Result<void> synced = sync_file(finished); !synced) return synced;
-  std::error_code failure;
-  fs::rename(finished, name, failure);
-  if (failure) {
-    return unavailable(fmt::format("cannot create {}: {}", name.string(), failure.message()));
-  }
+  if (Result<void> named = rename_to_new(finished, name); !named) return named;
   return sync_file(name);
 }
 
@@ -52,6 +48,7 @@ Result<void> create_file(const fs::path& file, std::span<const sqlite::Migration
   }
   const fs::path draft = with_suffix(file, ".new");
   remove_leftover(draft);
+  if (Result<void> reserved = reserve_name(draft); !reserved) return reserved;
   {
     sqlite::Connection connection(draft, sqlite::Mode::Create);
     sqlite::migrate(connection, known, now_ns);
@@ -138,7 +135,10 @@ Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite
     return unavailable(fmt::format("{} does not exist; start fitgauged once", file.string()));
   }
   if (Result<void> ours = inspect_file(file); !ours) return ours;
-  if (options.access == Access::Serve) roll_back_interrupted_change(file);
+  if (options.access == Access::Serve) {
+    close_to_others(file);
+    roll_back_interrupted_change(file);
+  }
   const Result<int> version = checked_version(options, file, known);
   if (!version) return version.error();
   if (*version == static_cast<int>(known.size())) return {};
@@ -161,15 +161,19 @@ Result<void> prepare_file(const OpenOptions& options, std::span<const sqlite::Mi
 }
 
 Result<void> copy_database(const fs::path& source, const fs::path& target) {
-  if (Result<void> reserved = reserve_name(target); !reserved) return reserved;
+  if (fs::exists(fs::symlink_status(target))) {
+    return unavailable(fmt::format(
+        "{} is there already: a backup replaces nothing; name a new file", target.string()));
+  }
   const fs::path draft = with_suffix(target, ".partial");
   remove_leftover(draft);
   const auto give_up = [&](Error error) {
     remove_leftover(draft);
-    remove_leftover(target);
     return error;
   };
   try {
+    // Only the service's user and group may read it, whatever the umask.
+    if (Result<void> reserved = reserve_name(draft); !reserved) return reserved;
     sqlite::Connection from(source, sqlite::Mode::Read);
     sqlite::Connection to(draft, sqlite::Mode::Create);
     SQLite::Backup copy(to.database(), from.database());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstring>
 #include <stdexcept>
 
@@ -10,22 +11,34 @@
 namespace fitgauge::store::sqlite {
 namespace {
 
-std::string describe(sqlite3* handle, int code, std::string_view doing) {
+/// Whether a call to the system may have failed: only then errno says something.
+bool is_of_the_system(int code) {
+  const int primary = code & 0xFF;
+  return primary == SQLITE_IOERR || primary == SQLITE_FULL || primary == SQLITE_CANTOPEN ||
+         primary == SQLITE_READONLY || primary == SQLITE_PERM;
+}
+
+/// `storage: disk I/O error (SQLite code 778, errno 27: File too large)`
+std::string describe(sqlite3* handle, int code, int system_error, std::string_view doing) {
   std::string text = fmt::format("{}: {}", doing, sqlite3_errstr(code));
-  if (handle == nullptr) return text;
-  if (const std::string_view message = sqlite3_errmsg(handle); message != sqlite3_errstr(code)) {
-    text += fmt::format(" ({})", message);
+  if (handle != nullptr) {
+    const std::string_view message = sqlite3_errmsg(handle);
+    if (message != sqlite3_errstr(code)) text += fmt::format(": {}", message);
   }
-  if (const int number = sqlite3_system_errno(handle); number != 0) {
-    text += fmt::format(" [{}]", std::strerror(number));
+  text += fmt::format(" (SQLite code {}", code);
+  if (is_of_the_system(code) && system_error != 0) {
+    text += fmt::format(", errno {}: {}", system_error, std::strerror(system_error));
   }
-  return text;
+  return text + ")";
 }
 
 }  // namespace
 
 void throw_failure(sqlite3* handle, int code, std::string_view doing) {
-  const std::string what = describe(handle, code, doing);
+  // SQLite loses the number where a commit fails, so the last call's own is taken.
+  const int last_error = errno;
+  const int kept = handle == nullptr ? 0 : sqlite3_system_errno(handle);
+  const std::string what = describe(handle, code, kept != 0 ? kept : last_error, doing);
   switch (code & 0xFF) {
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB: throw StorageFailure({ErrorCode::StorageCorrupt, what});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <string>
 
@@ -7,9 +8,15 @@
 
 namespace fitgauge::store {
 
-/// Collects what the writer, the readers and the background check find out. Thread-safe.
+/// Collects what the writer, the readers and the checks find out, and reports each change of state
+/// once. Thread-safe.
 class HealthMonitor {
  public:
+  using Report = std::function<void(const Health&)>;
+
+  /// @param report called in the order of the changes, on the thread that found out.
+  explicit HealthMonitor(Report report = {}) : report_(std::move(report)) {}
+
   void checking(std::string reason);
   void check_passed();
   void damaged(std::string reason);  ///< for good; the first reason stays
@@ -19,6 +26,11 @@ class HealthMonitor {
   Health health() const;
 
  private:
+  template <class Change>
+  void change(Change change);
+  Health current() const;
+
+  const Report report_;
   mutable std::mutex mutex_;
   std::string checking_;
   std::string damage_;

@@ -27,6 +27,7 @@ void ReadPool::Engine::run() {
       error = failure.error();
     } catch (const std::exception& bug) {
       error = Error{ErrorCode::Internal, std::string("a storage job failed: ") + bug.what()};
+      if (options_.job_threw) options_.job_threw(*error);
     }
     if (!error) {
       job->deliver();

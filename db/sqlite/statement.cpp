@@ -1,5 +1,6 @@
 #include "sqlite/statement.hpp"
 
+#include <cerrno>
 #include <utility>
 
 #include "sqlite/connection.hpp"
@@ -20,6 +21,7 @@ void Statement::prepare() {
 }
 
 bool Statement::step() {
+  errno = 0;  // what a failure finds there is of this step
   const int code = sqlite3_step(prepared());
   if (code == SQLITE_ROW) return true;
   if (code != SQLITE_DONE) throw_failure(connection_->handle(), code, "storage");

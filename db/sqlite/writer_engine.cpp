@@ -1,8 +1,8 @@
 #include "sqlite/writer_engine.hpp"
 
 #include <exception>
+#include <iterator>
 
-#include "sqlite/maintenance.hpp"
 #include "store/storage_failure.hpp"
 
 namespace fitgauge::store {
@@ -10,10 +10,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kAtOnce{0};
 constexpr milliseconds kProbeInterval{1'000};
-constexpr milliseconds kQuiet{200};  ///< without a write: time to tidy up
-constexpr milliseconds kTidyInterval{60'000};
+/// Jobs that are waiting when a transaction has taken so long go into the next one.
+constexpr milliseconds kLongestBatch{20};
 
 Error internal_error(const std::exception& bug) {
   return {ErrorCode::Internal, std::string("a storage job failed: ") + bug.what()};
@@ -44,41 +43,46 @@ void Writer::Engine::end(const IdempotentRequest& request) {
 }
 
 void Writer::Engine::run() {
+  Jobs jobs;
   while (true) {
-    Jobs jobs = queue_.take_all(patience_);
-    if (jobs.empty()) {
-      if (queue_.closed()) break;
-      idle();
-    } else if (options_.commit_each) {
-      for (std::unique_ptr<WriteJob>& job : jobs) {
-        Jobs one;
-        one.push_back(std::move(job));
-        commit(std::move(one));
-      }
-    } else {
-      commit(std::move(jobs));
-    }
-    if (session_) checkpointer_->go_on(session_->connection);
+    if (jobs.empty()) jobs = queue_.take_all(patience());
+    if (jobs.empty() && queue_.is_finished()) break;
+    const bool had_jobs = !jobs.empty();
+    if (had_jobs) commit(jobs);
+    if (session_) checkpointer_->after_commit(session_->connection);
+    if (failing_ && !had_jobs) probe();
+    if (!failing_ && (!had_jobs || pace_.is_due(MaintenancePace::Clock::now()))) maintain();
   }
   checkpointer_.reset();
   session_.reset();  // the last connection to close also checkpoints
 }
 
-/// One transaction for all jobs, then their outcomes.
-void Writer::Engine::commit(Jobs jobs) {
-  std::vector<std::optional<Error>> errors(jobs.size());
+/// One transaction for the first jobs, which it takes away, then their outcomes.
+void Writer::Engine::commit(Jobs& jobs) {
+  Jobs rest;
+  if (options_.commit_each) {
+    std::move(std::next(jobs.begin()), jobs.end(), std::back_inserter(rest));
+    jobs.resize(1);
+  }
+  std::vector<std::optional<Error>> errors;
   const std::optional<Error> error = try_commit(jobs, errors);
   if (error) errors.assign(jobs.size(), error);
+  std::move(jobs.begin() + static_cast<std::ptrdiff_t>(errors.size()), jobs.end(),
+            std::back_inserter(rest));
   const auto tell_outcomes = [&] {
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
+    for (std::size_t i = 0; i < errors.size(); ++i) {
       errors[i] ? jobs[i]->refuse(*std::move(errors[i])) : jobs[i]->deliver();
     }
   };
   options_.around_outcomes ? options_.around_outcomes(tell_outcomes) : tell_outcomes();
+  jobs = std::move(rest);
   if (!error && options_.committed) options_.committed();
 }
 
-/// @returns what concerns the whole batch; `errors` gets what concerns one job.
+/// Runs jobs until the transaction has taken long enough: one at least, so that none waits for
+/// more than a long one before it.
+/// @param errors gets what concerns one job, an entry for each that was run.
+/// @returns what concerns the whole batch, run or not.
 std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
                                                 std::vector<std::optional<Error>>& errors) {
   const Health health = health_.health();
@@ -86,10 +90,13 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
   std::optional<Error> error;
   try {
     session().begin_writing.run();
-    for (std::size_t i = 0; i < jobs.size(); ++i) errors[i] = run_in_savepoint(*jobs[i]);
+    const auto end = MaintenancePace::Clock::now() + kLongestBatch;
+    do {
+      errors.push_back(run_in_savepoint(*jobs[errors.size()]));
+    } while (errors.size() < jobs.size() && MaintenancePace::Clock::now() < end);
     session().commit.run();
     succeed();
-    patience_ = kQuiet;
+    pace_.committed(MaintenancePace::Clock::now());
   } catch (const StorageFailure& failure) {
     error = failure.error();
   } catch (const std::exception& bug) {
@@ -111,25 +118,40 @@ std::optional<Error> Writer::Engine::run_in_savepoint(WriteJob& job) {
     throw;
   } catch (const std::exception& thrown) {
     bug = internal_error(thrown);
+    if (options_.job_threw) options_.job_threw(*bug);
   }
   if (!keep) session.undo.run();
   session.release.run();
   return bug;
 }
 
-/// Nothing to write: find out whether commits work again, or tidy up.
-void Writer::Engine::idle() {
-  if (health_.health().state == HealthState::Damaged) {
-    patience_ = kTidyInterval;
-    return;
-  }
+milliseconds Writer::Engine::patience() const {
+  const bool damaged = health_.health().state == HealthState::Damaged;
+  if (failing_ && !damaged) return kProbeInterval;
+  return pace_.patience(MaintenancePace::Clock::now());
+}
+
+void Writer::Engine::maintain() {
+  const auto begin = MaintenancePace::Clock::now();
+  bool more = false;
   try {
-    if (failing_) {
-      session().connection.execute("UPDATE storage_probe SET probed_at = probed_at + 1");
-      succeed();
+    if (health_.health().state != HealthState::Damaged) {
+      more = run_maintenance_step(session(), options_, clock_.now());
     }
-    const bool more = tidy(session(), options_, clock_.now());
-    patience_ = more ? kAtOnce : kTidyInterval;
+  } catch (const StorageFailure& failure) {
+    fail(failure.error());
+  } catch (const std::exception& bug) {
+    fail(internal_error(bug));
+  }
+  pace_.stepped(begin, MaintenancePace::Clock::now(), more);
+}
+
+/// Finds out whether commits work again.
+void Writer::Engine::probe() {
+  if (health_.health().state == HealthState::Damaged) return;
+  try {
+    session().connection.execute("UPDATE storage_probe SET probed_at = probed_at + 1");
+    succeed();
   } catch (const StorageFailure& failure) {
     fail(failure.error());
   } catch (const std::exception& bug) {
@@ -147,7 +169,6 @@ void Writer::Engine::fail(const Error& error) {
   if (session_) session_->connection.rollback();
   session_.reset();
   failing_ = true;
-  patience_ = kProbeInterval;
   if (error.code == ErrorCode::StorageCorrupt) {
     health_.damaged(error.message);
   } else {
@@ -158,7 +179,7 @@ void Writer::Engine::fail(const Error& error) {
 Session& Writer::Engine::session() {
   if (!session_) {
     session_.emplace(options_, clock_, sqlite::Mode::Write);
-    checkpointer_->take_over(session_->connection);
+    checkpointer_->install(session_->connection);
   }
   return *session_;
 }

@@ -12,6 +12,7 @@
 
 #include "sqlite/checkpointer.hpp"
 #include "sqlite/health_monitor.hpp"
+#include "sqlite/maintenance.hpp"
 #include "sqlite/session.hpp"
 #include "store/job_queue.hpp"
 #include "store/writer.hpp"
@@ -41,10 +42,12 @@ class Writer::Engine {
   using RequestKey = std::tuple<std::string, std::string, std::string, std::string>;
 
   void run();
-  void commit(Jobs jobs);
+  void commit(Jobs& jobs);
   std::optional<Error> try_commit(Jobs& jobs, std::vector<std::optional<Error>>& errors);
   std::optional<Error> run_in_savepoint(WriteJob& job);
-  void idle();
+  std::chrono::milliseconds patience() const;
+  void maintain();
+  void probe();
   void succeed();
   void fail(const Error& error);
   Session& session();
@@ -58,7 +61,7 @@ class Writer::Engine {
   std::optional<Session> session_;  // the thread's own from here on
   std::optional<Checkpointer> checkpointer_;
   bool failing_ = false;
-  std::chrono::milliseconds patience_{0};  ///< how long to wait for work before idle()
+  MaintenancePace pace_;
   std::thread thread_;
 };
 

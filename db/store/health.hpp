@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace fitgauge::store {
 
@@ -12,6 +13,17 @@ enum class HealthState {
                   ///< second
   Damaged,        ///< the check or a read found damage; writes are refused for good
 };
+
+/// `ok`, `checking`, `writes_failing`, `damaged`.
+constexpr std::string_view word(HealthState state) {
+  switch (state) {
+    case HealthState::Ok: return "ok";
+    case HealthState::Checking: return "checking";
+    case HealthState::WritesFailing: return "writes_failing";
+    case HealthState::Damaged: return "damaged";
+  }
+  return "";
+}
 
 struct Health {
   HealthState state = HealthState::Ok;

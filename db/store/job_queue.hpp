@@ -50,9 +50,10 @@ class JobQueue {
     wake_.notify_all();
   }
 
-  bool closed() const {
+  /// Whether nothing is left and nothing comes any more.
+  bool is_finished() const {
     const std::lock_guard lock(mutex_);
-    return closed_;
+    return closed_ && jobs_.empty();
   }
 
  private:

@@ -6,6 +6,9 @@
 #include <filesystem>
 #include <functional>
 
+#include "base/error.hpp"
+#include "store/health.hpp"
+
 namespace fitgauge::store {
 
 /// Whether a commit waits until the disk has it. Only Full survives a power cut.
@@ -39,6 +42,12 @@ struct OpenOptions {
   /// Called on the writer thread after each commit to call what it is given, which tells the jobs
   /// their outcomes. None: that is called by itself.
   std::function<void(const std::function<void()>&)> around_outcomes{};
+
+  /// Called once for each change of health, on the thread that found out. Neither blocks nor throws
+  /// nor asks for the health.
+  std::function<void(const Health&)> health_changed{};
+  /// Called for each job that threw, which is a bug and answered with Internal. As above.
+  std::function<void(const Error&)> job_threw{};
 
   /// Called on the writer thread after each commit, when its jobs have their outcomes; must not
   /// block. Lives as long as the database.

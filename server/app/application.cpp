@@ -23,6 +23,14 @@ store::OpenOptions options_of_store(const ApplicationOptions& options) {
       options.run_retention_days == 0 ? kForEverDays : options.run_retention_days);
   open.event_retention = options.event_retention;
   open.around_outcomes = options.around_outcomes;
+  if (options.health_changed) {
+    open.health_changed = [tell = options.health_changed](const store::Health& health) {
+      tell(word(health.state), health.reason);
+    };
+  }
+  if (options.job_threw) {
+    open.job_threw = [tell = options.job_threw](const Error& bug) { tell(bug.message); };
+  }
   return open;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/files/file_service.hpp"
@@ -34,6 +35,11 @@ struct ApplicationOptions {
   std::int64_t event_retention = 100'000;
   /// Calls what it is given, on the writer thread: the `done` of everything a commit has stored.
   std::function<void(const std::function<void()>&)> around_outcomes{};
+  /// The storage's health has changed: `ok`, `checking`, `writes_failing` or `damaged`, and why.
+  /// Called on a storage thread; must not block.
+  std::function<void(std::string_view state, const std::string& reason)> health_changed{};
+  /// A storage job threw, which is a bug. As above.
+  std::function<void(const std::string& what)> job_threw{};
 };
 
 /// The service without its network: the database and one object per use case. Thread-safe once

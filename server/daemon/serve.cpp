@@ -155,6 +155,13 @@ void wait_for_end(http::Server& server) {
   }
 }
 
+void log_health(std::string_view state, const std::string& reason) {
+  const bool well = state == "ok" || state == "checking";
+  const std::string detail =
+      reason.empty() ? std::string(state) : fmt::format("{}: {}", state, reason);
+  well ? log_info("storage_health", detail) : log_error("storage_health", detail);
+}
+
 /// A commit has answers for many requests.
 void answer_together(const std::function<void()>& answer) {
   const http::AnswerBatch batch;
@@ -173,6 +180,8 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                      [](const std::string& what) { log_warning("clock_set_back", what); });
   app::ApplicationOptions options = application_options(config);
   options.around_outcomes = answer_together;
+  options.health_changed = log_health;
+  options.job_threw = [](const std::string& what) { log_error("storage_job_threw", what); };
   auto opened = app::Application::open(options, clock);
   if (!opened) return opened.error();
   app::Application& app = **opened;

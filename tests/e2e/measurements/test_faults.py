@@ -87,6 +87,10 @@ class FullDisk(FaultTest):
         self.assertEqual(compare(writers.acknowledged, stored), ([], []))
         self.assertEqual(daemon.command("verify").returncode, 0)
         self.assertEqual(daemon.stop(), 0)
+        # The full disk and its end, once each, however many requests were refused.
+        health = [line for line in daemon.log.splitlines() if '"storage_health"' in line]
+        self.assertEqual([" ".join(word for word in ("error", "info", "full", "SQLite code", "ok") if word in line)
+                          for line in health], ["error full SQLite code", "info ok"], health)
 
     def test_a_start_on_a_full_disk_says_so(self):
         with open(self.folder / "ballast", "wb", buffering=0) as file:

@@ -20,7 +20,7 @@ PART = {"designation": "25 H7", "measured_mm": 25.013}
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
 SAMPLE = 10
 # Each call with how often it is made, or more.
-CALLS = {"pwrite64": 60, "fdatasync": 8, "fsync": 6, "rename": 2, "unlink": 4}
+CALLS = {"pwrite64": 60, "fdatasync": 8, "fsync": 6, "renameat2": 2, "unlink": 4}
 FAILURES = ("error=EIO", "error=ENOSPC", "signal=SIGKILL")
 
 
@@ -37,7 +37,7 @@ def faults():
         return every
     print(f"seed {SEED}")
     return random.Random(SEED).sample(every, SAMPLE) + [
-        "pwrite64:error=ENOSPC:when=1", "fdatasync:error=EIO:when=1", "rename:error=EIO:when=1"]
+        "pwrite64:error=ENOSPC:when=1", "fdatasync:error=EIO:when=1", "renameat2:error=EIO:when=1"]
 
 
 @unittest.skipUnless(can_trace(), "needs strace and the right to trace")

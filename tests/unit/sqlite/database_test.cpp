@@ -5,7 +5,10 @@
 #include <thread>
 #include <vector>
 
+#include <sys/stat.h>
+
 #include "fixture.hpp"
+#include "full_disk.hpp"
 #include "sqlite/connection.hpp"
 #include "sqlite/migrator.hpp"
 
@@ -222,4 +225,50 @@ TEST_CASE("a backup is a complete database of its own and overwrites nothing") {
   CHECK(*(*restored)->readers().wait([](const Stores& stores) -> Result<std::int64_t> {
     return stores.measurements.last_id();
   }) == 1);
+}
+
+TEST_CASE("a backup that ends early leaves no file under its name") {
+  Fixture fixture;
+  REQUIRE(fixture.append(sample_row()).has_value());
+  const TempDirectory other;
+  {
+    const FullDisk full(rlim_t{8} << 10);
+    CHECK(fixture.database->backup(other.file()).has_error());
+  }
+  CHECK(std::filesystem::is_empty(other.path()));
+  SUBCASE("what a killed one left aside is replaced") {
+    write_file(other.file().string() + ".partial", "half a page");
+    REQUIRE(fixture.database->backup(other.file()).has_value());
+    CHECK_FALSE(std::filesystem::exists(other.file().string() + ".partial"));
+  }
+  SUBCASE("nothing that has the name is replaced, even when nothing is in it") {
+    write_file(other.file(), "");
+    CHECK(fixture.database->backup(other.file()).error().code == ErrorCode::StorageUnavailable);
+    CHECK(content_of(other.file()).empty());
+  }
+}
+
+TEST_CASE("nobody but owner and group reads the files, whatever the umask") {
+  using std::filesystem::perms;
+  const mode_t before = ::umask(0);
+  Fixture fixture;
+  REQUIRE(fixture.append(sample_row()).has_value());
+  const TempDirectory other;
+  REQUIRE(fixture.database->backup(other.file()).has_value());
+  const auto rights = [](const std::filesystem::path& file) {
+    return std::filesystem::status(file).permissions();
+  };
+  const perms expected = perms::owner_read | perms::owner_write | perms::group_read;
+  const std::string file = fixture.directory.file().string();
+  for (const std::string& name : {file, file + "-wal", file + "-shm", other.file().string()}) {
+    CAPTURE(name);
+    CHECK(rights(name) == expected);
+  }
+  SUBCASE("files of an older version are closed at the start") {
+    fixture.database.reset();
+    std::filesystem::permissions(file, expected | perms::others_read);
+    fixture.open();
+    CHECK(rights(file) == expected);
+  }
+  ::umask(before);
 }

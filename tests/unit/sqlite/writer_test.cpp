@@ -1,14 +1,14 @@
 #include "store/writer.hpp"
 
-#include <sys/resource.h>
-
-#include <csignal>
 #include <latch>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include "fixture.hpp"
+#include "full_disk.hpp"
+#include "sqlite/connection.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -40,23 +40,6 @@ Result<StoredAnswer> post_once(Fixture& fixture, const IdempotentRequest& once) 
       once, store_one, [&](Result<StoredAnswer> answer) { promise.set_value(std::move(answer)); });
   return promise.get_future().get();
 }
-
-/// No file of this process grows beyond `bytes` while this lives: what a full disk does.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limited{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limited);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-  ~FullDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 }  // namespace
 
@@ -223,6 +206,14 @@ TEST_CASE("a hundred parallel requests with one key store one row") {
 
 TEST_CASE("a full disk refuses writes, answers reads, and is left behind when there is space") {
   Fixture fixture;
+  fixture.database.reset();
+  std::vector<std::string> reports;
+  std::mutex mutex;
+  fixture.options.health_changed = [&](const Health& health) {
+    const std::lock_guard lock(mutex);
+    reports.push_back(std::string(word(health.state)) + " " + health.reason);
+  };
+  fixture.open();
   REQUIRE(fixture.append(sample_row()).has_value());
   const std::vector<MeasurementRow> many(10'000, sample_row());
   {
@@ -230,6 +221,7 @@ TEST_CASE("a full disk refuses writes, answers reads, and is left behind when th
     const auto refused = fixture.append(many);
     REQUIRE(refused.has_error());
     CHECK_MESSAGE(refused.error().code == ErrorCode::StorageUnavailable, refused.error().message);
+    CHECK(fixture.append(many).has_error());
     CHECK(fixture.database->health().state == HealthState::WritesFailing);
     CHECK_FALSE(fixture.database->health().reason.empty());
     CHECK(fixture.last_id() == 1);
@@ -242,4 +234,54 @@ TEST_CASE("a full disk refuses writes, answers reads, and is left behind when th
     while (fixture.database->health().state != HealthState::Ok) std::this_thread::yield();
     CHECK(fixture.last_id() == 1);
   }
+  // Both failures and both ends of them are one report each.
+  fixture.database.reset();
+  REQUIRE(reports.size() == 2);
+  CHECK_MESSAGE(reports[0].starts_with("writes_failing storage: disk I/O error (SQLite code 778"),
+                reports[0]);
+  CHECK_MESSAGE(reports[0].ends_with("errno 27: File too large)"), reports[0]);
+  CHECK(reports[1] == "ok ");
+}
+
+TEST_CASE("a job that throws is reported once") {
+  Fixture fixture;
+  fixture.database.reset();
+  std::string reported;
+  fixture.options.job_threw = [&](const Error& bug) { reported += bug.message; };
+  fixture.open();
+  const auto outcome =
+      fixture.write([](Stores&) -> Result<int> { throw std::logic_error("the writer's bug"); });
+  CHECK(outcome.error().code == ErrorCode::Internal);
+  const auto read = fixture.read(
+      [](const Stores&) -> Result<int> { throw std::logic_error("the reader's bug"); });
+  CHECK(read.error().code == ErrorCode::Internal);
+  CHECK(reported == "a storage job failed: the writer's buga storage job failed: the reader's bug");
+}
+
+TEST_CASE("a writer that never rests indexes, and purges what has expired, all the same") {
+  Fixture fixture;
+  for (int i = 0; i < 300; ++i) REQUIRE(post_once(fixture, request(std::to_string(i))).has_value());
+  fixture.clock.advance(std::chrono::hours(31 * 24));
+  const auto count = [&](const char* sql) {
+    sqlite::Connection reader(fixture.directory.file(), sqlite::Mode::Read);
+    return reader.query_integer(sql);
+  };
+  // Two at a time, so that there is always a job waiting.
+  const std::vector<MeasurementRow> rows(50, sample_row());
+  std::vector<std::thread> gauges;
+  std::atomic<bool> stop = false;
+  for (int i = 0; i < 2; ++i) {
+    gauges.emplace_back([&] {
+      while (!stop) REQUIRE(fixture.append(rows).has_value());
+    });
+  }
+  constexpr int kMostLooks = 3'000;
+  int looks = 0;
+  while (looks++ < kMostLooks && (count("SELECT count(*) FROM measurement_blocks") < 3 ||
+                                  count("SELECT count(*) FROM idempotent_answers") > 0)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  stop = true;
+  for (std::thread& gauge : gauges) gauge.join();
+  CHECK(looks < kMostLooks);
 }
