@@ -121,7 +121,9 @@ void BlockWriter::words(Slice<Word> words, std::string_view mark, LetterSet befo
       write(mark);
       marked = true;
     }
-    out_ += ' ';
+    const bool begins =
+        out_.empty() || out_.back() == ' ' || out_.back() == '\n' || out_.back() == '/';
+    if (!begins) out_ += ' ';
     word(next);
   }
   if (!marked) write(mark);

@@ -32,7 +32,8 @@ class BlockWriter {
   void items(Slice<Expr> items);
 
   void word(const Word& word);
-  /// Words with a blank before each; `mark` is written before the first word of `before`, or last.
+  /// Words with a blank before each that does not begin the block; `mark` is written before the
+  /// first word of `before`, or last.
   void words(Slice<Word> words, std::string_view mark = {}, LetterSet before = LetterSet());
 
   const Program& program() const { return program_; }

@@ -122,6 +122,15 @@ bool Lexer::accept_word(std::string_view word) {
   return true;
 }
 
+bool Lexer::accept_joined(std::string_view word) {
+  skip_blanks();
+  if (!matches(word)) return false;
+  const char behind = peek(word.size());
+  if (continues_word(behind) && !is_digit(behind) && !is_parameter(at_ + word.size())) return false;
+  at_ += word.size();
+  return true;
+}
+
 bool Lexer::accept_prefix(std::string_view prefix) {
   skip_blanks();
   if (!matches(prefix)) return false;
@@ -135,6 +144,10 @@ void Lexer::expect(char c) {
 
 void Lexer::expect_word(std::string_view word) {
   if (!accept_word(word)) fail_expected(word);
+}
+
+void Lexer::expect_joined(std::string_view word) {
+  if (!accept_joined(word)) fail_expected(word);
 }
 
 void Lexer::expect_prefix(std::string_view prefix) {

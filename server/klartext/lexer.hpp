@@ -123,10 +123,13 @@ class Lexer {
   bool accept(char c);
   /// A whole word without regard to case: not followed by a letter, a digit or `_`.
   bool accept_word(std::string_view word);
+  /// As accept_word, but a number or parameter may be joined to it: `DEF` of `DEF9.0`.
+  bool accept_joined(std::string_view word);
   /// The first characters of a word: `REP` of `REP2`, `DAT` of `DAT+Q50`, `SRC_` of `SRC_QS1`.
   bool accept_prefix(std::string_view prefix);
   void expect(char c);
   void expect_word(std::string_view word);
+  void expect_joined(std::string_view word);
   void expect_prefix(std::string_view prefix);
 
   /// The letters from here on, at most up to a parameter (`FQ5` gives `F`). Stays in place.
@@ -163,7 +166,6 @@ class Lexer {
   }
   void skip_wraps();
   bool matches(std::string_view text) const;
-  double long_number(const char* begin, const char* end);
 
   const std::string& source_;
   const char* at_ = nullptr;

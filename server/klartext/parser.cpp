@@ -93,13 +93,16 @@ std::size_t Parser::extend_over_parameter_lines(std::size_t end) {
 /// `CYCL DEF 200` or `TCH PROBE 421`, not the dotted `CYCL DEF 7.1`. Stays in place.
 bool Parser::at_q_form_cycle() {
   const char* begin = in_.at();
-  const bool cycle = (in_.accept_word("CYCL") && in_.accept_word("DEF")) ||
-                     (in_.accept_word("TCH") && in_.accept_word("PROBE"));
+  const bool cycle = (in_.accept_word("CYCL") && in_.accept_joined("DEF")) ||
+                     (in_.accept_word("TCH") && in_.accept_joined("PROBE"));
   in_.skip_blanks();
   const char* number = in_.at();
   const char* behind = std::find_if_not(number, in_.end(), is_digit);
+  const bool has_number = behind != number;
+  in_.move_to(behind);
+  const bool dotted = at_cycle_part(in_);
   in_.move_to(begin);
-  return cycle && behind != number && (behind == in_.end() || *behind != '.');
+  return cycle && has_number && !dotted;
 }
 
 Text Parser::parse_comment() {

@@ -75,9 +75,6 @@ constexpr Feature kFeatures[] = {
     {"MONITORING", "MONITORING"},
     {"OPEN", "OPEN"},
     {"WMAT", "WMAT"},
-    {"X", "paraxial positioning"},
-    {"Y", "paraxial positioning"},
-    {"Z", "paraxial positioning"},
 };
 
 Statement parse_error_block(BlockReader& in) {
@@ -87,6 +84,20 @@ Statement parse_error_block(BlockReader& in) {
   in.move_to(in.end());
   const std::string_view raw(begin, static_cast<std::size_t>(in.end() - begin));
   return ErrorBlock{in.add_text(free_text(raw))};
+}
+
+/// `X+46 R+ F1000`, `Z0.0 B0.0`; the block begins with a word of an axis.
+bool at_paraxial_block(std::string_view name) {
+  const std::size_t letter = name.size() == 2 && ascii_upper(name.front()) == 'I' ? 1 : 0;
+  if (name.size() != letter + 1) return false;
+  const std::optional<Letter> found = find_letter(name.substr(letter));
+  return found && is_axis(*found);
+}
+
+/// `C+45`: the axis, not the arc `C X+5 Y+5`, whose words stand behind a blank.
+bool at_c_axis(BlockReader& in, std::string_view name) {
+  return ascii_iequals(name, "C") &&
+         (in.peek() == '+' || in.peek() == '-' || in.at_number() || in.at_parameter());
 }
 
 }  // namespace
@@ -107,6 +118,10 @@ Statement parse_statement(BlockReader& in) {
   const char* begin = in.at();
   const std::string_view name = in.letters();
   in.move_to(begin + name.size());
+  if (at_c_axis(in, name)) {
+    in.move_to(begin);
+    return parse_motion(in, Path::Paraxial);
+  }
   for (const Keyword& keyword : kBlockKeywords) {
     if (ascii_iequals(keyword.name, name)) return keyword.parse(in);
   }
@@ -118,6 +133,7 @@ Statement parse_statement(BlockReader& in) {
     }
   }
   in.move_to(begin);
+  if (at_paraxial_block(name)) return parse_motion(in, Path::Paraxial);
   if (in.accept('*')) return parse_structure(in);
   if (name.empty()) {
     in.fail_expected("a block");

@@ -112,7 +112,7 @@ void parse_part_words(BlockReader& in, CycleFamily family, unsigned number, unsi
     }
   }
   if (family == CycleFamily::CyclDef && number == 12) {
-    in.expect_word("PGM");
+    in.accept_word("PGM");  // some programs leave it out
     in.add_word({.letter = Letter::Program, .value = parse_path(in)});
     return;
   }
@@ -121,7 +121,16 @@ void parse_part_words(BlockReader& in, CycleFamily family, unsigned number, unsi
 
 }  // namespace
 
+bool at_cycle_part(BlockReader& in) {
+  const char* begin = in.at();
+  in.skip_blanks();
+  const bool part = in.peek() == '.' && is_digit(in.peek(1));
+  in.move_to(begin);
+  return part;
+}
+
 Statement parse_cycle_part(BlockReader& in, CycleFamily family, std::uint16_t number) {
+  in.skip_blanks();
   in.expect('.');
   CyclePart cycle{.family = family, .number = number};
   cycle.part = static_cast<std::uint8_t>(in.digits(kLargestPart, "the sub-line of the cycle"));

@@ -44,10 +44,17 @@ Expr parse_path_pieces(BlockReader& in, const char* at, const char* end) {
   return path;
 }
 
-/// `REP 2`, `REPQ106`, `REP 2/2`: the second number of the old form is the control's own count.
+/// `REP 2`, `REPQ106`, and the older listings' `REP 2/2`, `REP Q3/Q3`: what is behind the stroke is
+/// the control's own count of what remains.
 Expr parse_repeat(BlockReader& in) {
   const Expr repeat = parse_number(in);
-  if (in.accept('/')) in.digits(kLargestLabel, "the count behind '/'");
+  if (!in.accept('/')) return repeat;
+  in.skip_blanks();
+  if (in.at_parameter()) {
+    in.parameter();
+  } else {
+    in.digits(kLargestLabel, "the count behind '/'");
+  }
   return repeat;
 }
 

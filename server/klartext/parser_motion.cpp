@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include "base/text.hpp"
 #include "klartext/parser_rules.hpp"
 #include "klartext/parser_words.hpp"
@@ -37,20 +40,33 @@ constexpr LetterSet kWordsOf[] = {
     kFeeds | kM | LetterSet(Letter::Cca, Letter::R),            // DEP CT
     kEveryMotion | LetterSet(Letter::R),                        // DEP LCT
     kEveryMotion | kPolar | LetterSet(Letter::R),               // DEP PLCT
+    kEveryMotion,                                               // paraxial
 };
 static_assert(std::size(kWordsOf) == std::size(kPaths));
 
-/// `R0`, `RL`, `RR` without a letter or digit behind it; `R0.5` is a radius.
-bool parse_compensation(BlockReader& in, Motion& motion) {
+struct CompensationName {
+  char second;
+  RadiusCompensation compensation;
+};
+
+constexpr CompensationName kCompensations[] = {{'0', RadiusCompensation::R0},
+                                               {'L', RadiusCompensation::Rl},
+                                               {'R', RadiusCompensation::Rr},
+                                               {'+', RadiusCompensation::RPlus},
+                                               {'-', RadiusCompensation::RMinus}};
+
+/// `R0`, `RL`, `RR`, `R+`, `R-` without a letter or digit behind it; `R0.5` and `R+20` are radii.
+/// @param has_radius the block may hold a radius R, so `R+ 20` is one.
+bool parse_compensation(BlockReader& in, Motion& motion, bool has_radius) {
   const char c = ascii_upper(in.peek(1));
   const char behind = in.peek(2);
-  if ((c != '0' && c != 'L' && c != 'R') || is_ascii_letter(behind) || is_digit(behind) ||
-      behind == '.' || behind == ',') {
+  const auto* found = std::find_if(std::begin(kCompensations), std::end(kCompensations),
+                                   [c](const CompensationName& row) { return row.second == c; });
+  if (found == std::end(kCompensations) || is_ascii_letter(behind) || is_digit(behind) ||
+      behind == '.' || behind == ',' || (has_radius && (c == '+' || c == '-'))) {
     return false;
   }
-  const auto compensation = c == '0'   ? RadiusCompensation::R0
-                            : c == 'L' ? RadiusCompensation::Rl
-                                       : RadiusCompensation::Rr;
+  const RadiusCompensation compensation = found->compensation;
   if (motion.compensation != RadiusCompensation::Unchanged) {
     in.fail(DiagnosticCode::WordRepeated, in.place(in.at(), in.at() + 2),
             "the radius compensation stands twice in this block");
@@ -75,6 +91,22 @@ bool parse_rotation(BlockReader& in, Motion& motion) {
   return true;
 }
 
+/// The letter of a word that has no value: `R`, `F` and `M` of the TNC 151 to 415, which list each
+/// word of a block, also where nothing was entered for it (`L X+5 R F M`).
+bool parse_blank_word(BlockReader& in) {
+  const char* begin = in.at();
+  if (in.at_end()) return false;
+  const char behind = in.peek(1);
+  if (behind != '\0' && !is_blank(behind) && behind != ';' && behind != '~') return false;
+  in.move_to(begin + 1);
+  in.skip_blanks();
+  const char next = in.peek();
+  const bool has_value = next == '+' || next == '-' || in.at_number() || in.at_parameter() ||
+                         in.accept_word("MAX") || in.accept_word("AUTO");
+  if (has_value) in.move_to(begin);
+  return !has_value;
+}
+
 Statement parse_second_word(BlockReader& in, std::string_view first) {
   in.skip_blanks();
   const std::string_view second = in.letters();
@@ -94,7 +126,8 @@ Statement parse_second_word(BlockReader& in, std::string_view first) {
 
 Statement parse_motion(BlockReader& in, Path path) {
   Motion motion{.path = path};
-  WordReader words(in, kWordsOf[static_cast<std::size_t>(path)]);
+  const LetterSet allowed = kWordsOf[static_cast<std::size_t>(path)];
+  WordReader words(in, allowed);
   if (path == Path::Chf && !in.at_end()) {
     in.add_word({.letter = Letter::Chamfer, .value = parse_number(in)});
   }
@@ -103,7 +136,10 @@ Statement parse_motion(BlockReader& in, Path path) {
   const bool compensates = path != Path::Cc && path != Path::Rnd && path != Path::Chf;
   while (!in.at_end()) {
     const char c = ascii_upper(in.peek());
-    if (c == 'R' && compensates && parse_compensation(in, motion)) continue;
+    if ((c == 'R' || c == 'F' || c == 'M') && parse_blank_word(in)) continue;
+    if (c == 'R' && compensates && parse_compensation(in, motion, allowed.contains(Letter::R))) {
+      continue;
+    }
     if (c == 'D' && turns && parse_rotation(in, motion)) continue;
     words.read();
   }

@@ -53,6 +53,8 @@ Statement parse_tch_probe(BlockReader& in);
 /// `Q200 =`, `QS400 =`: a parameter of a cycle starts here.
 bool at_cycle_parameter(const char* at, const char* end);
 // parser_dotted_cycle.cpp
+/// `.0` behind the number of a cycle, perhaps after blanks (`DEF 9 .0`). Stays in place.
+bool at_cycle_part(BlockReader& in);
 Statement parse_cycle_part(BlockReader& in, CycleFamily family, std::uint16_t number);
 
 // parser_motion.cpp

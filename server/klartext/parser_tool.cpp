@@ -46,8 +46,8 @@ Statement parse_tool_definition(BlockReader& in) {
 }  // namespace
 
 Statement parse_tool(BlockReader& in) {
-  if (in.accept_word("CALL")) return parse_tool_call(in);
-  in.expect_word("DEF");
+  if (in.accept_joined("CALL")) return parse_tool_call(in);
+  in.expect_joined("DEF");
   return parse_tool_definition(in);
 }
 

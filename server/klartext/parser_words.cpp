@@ -145,6 +145,7 @@ void WordReader::parse_value_of(Word& word) {
 
 void WordReader::parse_m_number(Word& word) {
   const std::uint32_t number = in_.digits(kLargestM, "the number of the M function");
+  if (in_.peek() == '.' && !is_digit(in_.peek(1))) in_.move_to(in_.at() + 1);  // `M128.`
   word.value = static_cast<double>(number);
   arguments_ = LetterSet();
   // Behind an M function the general way tells its arguments from words of the block.

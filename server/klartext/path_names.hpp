@@ -12,7 +12,7 @@ struct PathName {
   std::string_view name;
 };
 
-/// In the order of Path. APPR and DEP take their second word.
+/// In the order of Path. APPR and DEP take their second word, a paraxial block has none.
 inline constexpr PathName kPaths[] = {
     {Path::L, "L"},
     {Path::Lp, "LP"},
@@ -38,6 +38,7 @@ inline constexpr PathName kPaths[] = {
     {Path::DepCt, "DEP CT"},
     {Path::DepLct, "DEP LCT"},
     {Path::DepPlct, "DEP PLCT"},
+    {Path::Paraxial, ""},
 };
 
 }  // namespace fitgauge::klartext

@@ -107,10 +107,12 @@ enum class Path : std::uint8_t {
   DepLn,
   DepCt,
   DepLct,
-  DepPlct
+  DepPlct,
+  Paraxial  ///< a block of axes alone: `X+46 R+ F1000`
 };
 
-enum class RadiusCompensation : std::uint8_t { Unchanged, R0, Rl, Rr };
+/// R+ and R- lengthen and shorten a paraxial path by the radius of the tool.
+enum class RadiusCompensation : std::uint8_t { Unchanged, R0, Rl, Rr, RPlus, RMinus };
 enum class Rotation : std::uint8_t { Unspecified, Positive, Negative };  ///< DR+ is anticlockwise
 
 /// A positioning block. Words: axes, Pr, Pa, vectors, R, Len, Cca, Chamfer, feeds, M with

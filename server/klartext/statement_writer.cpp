@@ -84,7 +84,7 @@ void write_block(BlockWriter& out, const ToolDefinition& definition) {
 }
 
 void write_block(BlockWriter& out, const Motion& motion) {
-  constexpr std::string_view kCompensations[] = {"", " R0", " RL", " RR"};
+  constexpr std::string_view kCompensations[] = {"", " R0", " RL", " RR", " R+", " R-"};
   constexpr std::string_view kRotations[] = {"", " DR+", " DR-"};
   out.write(kPaths[static_cast<std::size_t>(motion.path)].name);
   std::string marks(kRotations[static_cast<std::size_t>(motion.rotation)]);

@@ -195,14 +195,15 @@ class Linker {
       if (!target) {
         report(Severity::Error, DiagnosticCode::LabelUnknown, block,
                fmt::format("label {} is not defined in this program", shown(jump.label)));
-      } else if (instruction.op == Op::Repeat && *target > jump.instruction) {
-        report(Severity::Error, DiagnosticCode::RepeatBeforeLabel, block,
-               fmt::format("label {} stands after this CALL LBL REP; a part is repeated after it "
-                           "has run once, so its label stands before the call",
-                           shown(jump.label)));
-      } else {
-        instruction.c = *target;
+        continue;
       }
+      if (instruction.op == Op::Repeat && *target > jump.instruction) {  // decision 7
+        report(Severity::Warning, DiagnosticCode::RepeatBeforeLabel, block,
+               fmt::format("label {} stands after this CALL LBL REP: the program jumps forward to "
+                           "it; a part that is to be repeated stands before the call",
+                           shown(jump.label)));
+      }
+      instruction.c = *target;
     }
   }
 

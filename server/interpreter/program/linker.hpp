@@ -28,10 +28,10 @@ struct LinkedFile {
 };
 
 /// Resolves labels, jumps, repeats and cycles and lowers the formulas of a parsed program.
-/// Errors: unknown and duplicate labels, CALL LBL REP before its label, cycle parameters that the
-/// cycle does not have or whose value is out of range. Warnings: what fails only when its block is
-/// reached (cycles and M functions that are not available). A program that is named is not looked
-/// for; see check.
+/// Errors: unknown and duplicate labels, cycle parameters that the cycle does not have or whose
+/// value is out of range. Warnings: CALL LBL REP before its label, and what fails only when its
+/// block is reached (cycles and M functions that are not available). A program that is named is not
+/// looked for; see check.
 LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path);
 
 }  // namespace fitgauge::interpreter

@@ -8,6 +8,7 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Path;
+using machine::Vec3;
 
 /// Whether RND or CHF is the next block that is not a comment.
 bool corner_follows(const Channel& channel) {
@@ -25,20 +26,41 @@ bool corner_follows(const Channel& channel) {
   return false;
 }
 
-void set_plane_target(Element& element, const WorkingPlane& plane, Vec2 point) {
-  element.target.values[plane.first] = point.x;
-  element.target.values[plane.second] = point.y;
-}
-
 void set_sweep(Curve& curve) {
   if (!curve.is_arc()) return;
   curve.sweep_deg = sweep(curve.start, curve.end, *curve.centre, curve.is_left_turn());
 }
 
-Element along(const Curve& curve, const WorkingPlane& plane, const machine::Feed& feed) {
-  Element element{curve, {}, feed};
-  set_plane_target(element, plane, curve.end);
+Element along(const Curve& curve, const Element& before, const machine::Feed& feed) {
+  Element element{before.plane, curve, before.from, {}, feed, before.system, before.side};
+  set_plane_target(element, curve.end);
   return element;
+}
+
+/// The end of a block's linear axes.
+Vec3 end_of(const Element& element) {
+  Vec3 end = element.from;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (const auto& value = element.target.values[axis]) end[axis] = *value;
+  }
+  return end;
+}
+
+/// A line seen in the plane of the arc it meets in a corner.
+void turn_into_plane(Element& line, const WorkingPlane& plane) {
+  if (line.curve.is_arc() || line.plane == plane) return;
+  line.plane = plane;
+  line.curve = {plane.project(line.from), plane.project(end_of(line)), std::nullopt, 0};
+}
+
+/// The direction of travel at the end of an element, if it moves.
+std::optional<Vec3> end_direction(const Element& element) {
+  if (element.curve.is_arc()) {
+    return element.plane.with({}, *element.curve.end_direction());
+  }
+  const Vec3 travel = end_of(element) - element.from;
+  if (!element.moves_in_plane() && norm(travel) < kSamePoint) return std::nullopt;
+  return travel;
 }
 
 }  // namespace
@@ -47,8 +69,22 @@ WorkingPlane working_plane(const Channel& channel) {
   return WorkingPlane::across(channel.machine().state().tool_axis());
 }
 
+void Contour::compensate(klartext::RadiusCompensation compensation) {
+  using klartext::RadiusCompensation;
+  if (compensation == RadiusCompensation::Unchanged) return;
+  side_ = compensation == RadiusCompensation::Rl   ? 1
+          : compensation == RadiusCompensation::Rr ? -1
+                                                   : 0;
+  lengthening_ = compensation == RadiusCompensation::RPlus    ? 1
+                 : compensation == RadiusCompensation::RMinus ? -1
+                                                              : 0;
+}
+
 machine::Position Contour::position(const Channel& channel) const {
   machine::Position position = channel.machine().position();
+  if (beside_ && (cutter_.is_pending() || position == beside_->tool)) {
+    position = beside_->programmed;
+  }
   const Element* last = approach_ ? &approach_->to_start : kept_ ? &*kept_ : nullptr;
   if (last != nullptr) {
     for (const machine::Axis axis : machine::kAllAxes) {
@@ -58,38 +94,41 @@ machine::Position Contour::position(const Channel& channel) const {
   return position;
 }
 
-NcResult<void> Contour::move(Channel& channel, const Element& element) {
-  machine::Machine& machine = channel.machine();
-  if (!element.curve.is_arc()) {
-    return checked(machine.move({element.target, element.feed, element.system}));
+/// Gives an element to the cutter and keeps where the programmed path then is.
+NcResult<void> Contour::cut(Channel& channel, const Element& element) {
+  const bool is_beside = element.side != 0 || cutter_.side() != 0;
+  if (!is_beside) return CutterPath::move(channel, element);
+  machine::Position programmed = position(channel);
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (const auto& value = element.target[axis]) programmed[axis] = *value;
   }
-  const WorkingPlane plane = working_plane(channel);
-  machine::Vec3 end = plane.with(machine.position().linear, element.curve.end);
-  const auto normal = machine::index(plane.normal);
-  if (const auto& height = element.target.values[normal]) end[normal] = *height;
-  return checked(machine.move_arc({end, plane.with(end, *element.curve.centre),
-                                   element.curve.sweep_deg, plane.normal, element.feed}));
+  programmed.linear = element.plane.with(programmed.linear, element.curve.end);
+  if (auto done = cutter_.add(channel, element); !done) return done;
+  beside_ = Beside{programmed, channel.machine().position()};
+  return {};
 }
 
 NcResult<void> Contour::add(Channel& channel, Element element) {
   if (element.system != machine::CoordinateSystem::Input) {
     if (auto done = finish(channel); !done) return done;
-    return move(channel, element);
+    return CutterPath::move(channel, element);
+  }
+  if (element.side != 0 && !(element.plane == working_plane(channel))) {
+    return nc_error(
+        "RL and RR hold in the working plane alone: a circle in another plane takes R0");
   }
   if (approach_) {
-    const auto start = element.curve.start_direction();
-    if (!start) return nc_error(1024, "the contour after APPR does not begin in the working plane");
-    if (auto done = approach(channel, *start); !done) return done;
+    if (auto done = approach(channel, element); !done) return done;
   } else if (kept_) {
     if (auto done = turn_corner(channel, element); !done) return done;
   }
-  if (const auto end = element.curve.end_direction()) direction = end;
+  if (const auto end = end_direction(element)) direction = end;
   if (corner_follows(channel)) {
-    set_plane_target(element, working_plane(channel), element.curve.end);
+    set_plane_target(element, element.curve.end);
     kept_ = element;
     return {};
   }
-  return move(channel, element);
+  return cut(channel, element);
 }
 
 NcResult<void> Contour::set_corner(double size, bool is_chamfer,
@@ -104,70 +143,90 @@ NcResult<void> Contour::set_corner(double size, bool is_chamfer,
 NcResult<void> Contour::turn_corner(Channel& channel, Element& next) {
   Element before = *std::exchange(kept_, std::nullopt);
   const auto corner = std::exchange(corner_, std::nullopt);
-  if (!corner) return move(channel, before);
+  if (!corner) return cut(channel, before);
+  turn_into_plane(before, next.plane);
+  turn_into_plane(next, before.plane);
   const auto arriving = before.curve.end_direction();
   const auto leaving = next.curve.start_direction();
   if (arriving && leaving && std::abs(cross(*arriving, *leaving)) < 1e-12 &&
       dot(*arriving, *leaving) > 0) {
-    return move(channel, before);  // no corner
+    return cut(channel, before);  // no corner
   }
-  const auto between = corner->is_chamfer ? chamfer(before.curve, next.curve, corner->size)
-                                          : rounding(before.curve, next.curve, corner->size);
+  const auto between = !(before.plane == next.plane) ? std::nullopt
+                       : corner->is_chamfer ? chamfer(before.curve, next.curve, corner->size)
+                                            : rounding(before.curve, next.curve, corner->size);
   if (!between) {
     return nc_error(corner->is_chamfer ? 1022 : 1023, "it does not fit between the two blocks");
   }
-  const WorkingPlane plane = working_plane(channel);
   before.curve.end = between->start;
   set_sweep(before.curve);
-  set_plane_target(before, plane, between->start);
+  set_plane_target(before, between->start);
   next.curve.start = between->end;
   set_sweep(next.curve);
+  next.from = next.plane.with(next.from, between->end);
   const machine::Feed feed = corner->feed.value_or(before.feed);
-  if (auto done = move(channel, before); !done) return done;
-  return move(channel, along(*between, plane, feed));
+  if (auto done = cut(channel, before); !done) return done;
+  return cut(channel, along(*between, before, feed));
 }
 
 NcResult<void> Contour::add(Channel& channel, Approach approach) {
   if (auto done = finish(channel); !done) return done;
+  cutter_.leave();
   approach_ = approach;
   return {};
 }
 
-/// Moves to the first point of the contour, which goes on along `contour_direction`.
-NcResult<void> Contour::approach(Channel& channel, Vec2 contour_direction) {
+/// Moves the centre of the tool to the begin of the contour, which `next` goes on with.
+NcResult<void> Contour::approach(Channel& channel, const Element& next) {
+  const auto contour_direction = next.curve.start_direction();
+  if (!contour_direction) {
+    return nc_error(1024, "the contour after APPR does not begin in the working plane");
+  }
   const Approach approach = *std::exchange(approach_, std::nullopt);
-  const WorkingPlane plane = working_plane(channel);
-  const Vec2 first = approach.to_start.curve.end;
-  const Vec2 centre = first + left_of(contour_direction) * (approach.side * approach.radius);
-  const bool left_turn = approach.side > 0;
+  const int side = approach.to_start.side;
+  const double left = side < 0 ? -1 : 1;
+  const double distance = side * CutterPath::radius(channel);
+  const Vec2 first = approach.to_start.curve.end + left_of(*contour_direction) * distance;
+  const double turn = left * approach.radius;
+  const Vec2 centre = first + left_of(*contour_direction) * turn;
   Vec2 auxiliary = first;
   bool is_arc = false;
   switch (approach.path) {
-    case Path::ApprLt: auxiliary = first - contour_direction * approach.length; break;
+    case Path::ApprLt: auxiliary = first - *contour_direction * approach.length; break;
     case Path::ApprLn:
-      auxiliary = first + left_of(contour_direction) * (approach.side * approach.length);
+      auxiliary = first + left_of(*contour_direction) * (left * approach.length);
       break;
     case Path::ApprCt:
-      auxiliary = centre + turned(first - centre, -approach.side * approach.angle);
+      auxiliary = centre + turned(first - centre, turn > 0 ? -approach.angle : approach.angle);
       is_arc = true;
       break;
     default: {  // APPR LCT
-      const auto met =
-          tangent_point(approach.to_start.curve.start, centre, approach.radius, left_turn);
+      const Vec2 start = approach.to_start.curve.start;
+      const auto met = tangent_point(start, centre, std::abs(turn), turn > 0);
       if (!met) return nc_error(1023, "the approach begins inside the circle of APPR LCT");
       auxiliary = *met;
       is_arc = true;
     }
   }
   Element to_auxiliary = approach.to_start;
-  set_plane_target(to_auxiliary, plane, auxiliary);
-  if (auto done = move(channel, to_auxiliary); !done) return done;
+  set_plane_target(to_auxiliary, auxiliary);
+  if (auto done = CutterPath::move(channel, to_auxiliary); !done) return done;
   Curve to_first{auxiliary, first, std::nullopt, 0};
   if (is_arc) {
     to_first.centre = centre;
-    to_first.sweep_deg = sweep(auxiliary, first, centre, left_turn);
+    to_first.sweep_deg = sweep(auxiliary, first, centre, turn > 0);
   }
-  return move(channel, along(to_first, plane, approach.to_start.feed));
+  auto done = CutterPath::move(channel, along(to_first, approach.to_start, approach.to_start.feed));
+  if (!done) return done;
+  if (side != 0) cutter_.begin(first, side);
+  return {};
+}
+
+NcResult<Vec2> Contour::depart(Channel& channel, const WorkingPlane& plane) {
+  if (auto done = finish(channel); !done) return done.error();
+  cutter_.leave();
+  beside_.reset();
+  return plane.project(channel.machine().position().linear);
 }
 
 NcResult<void> Contour::finish(Channel& channel) {
@@ -175,12 +234,17 @@ NcResult<void> Contour::finish(Channel& channel) {
     approach_.reset();
     return nc_error(1024, "APPR must be followed by the first contour element");
   }
-  if (!kept_) return {};
-  const Element last = *std::exchange(kept_, std::nullopt);
-  if (std::exchange(corner_, std::nullopt)) {
-    return nc_error(1022, "RND or CHF must be followed by a contour element");
+  if (kept_) {
+    const Element last = *std::exchange(kept_, std::nullopt);
+    if (std::exchange(corner_, std::nullopt)) {
+      return nc_error(1022, "RND or CHF must be followed by a contour element");
+    }
+    if (auto done = cut(channel, last); !done) return done;
   }
-  return move(channel, last);
+  if (!cutter_.is_pending()) return {};
+  if (auto done = cutter_.finish(channel); !done) return done;
+  if (beside_) beside_->tool = channel.machine().position();
+  return {};
 }
 
 }  // namespace fitgauge::interpreter

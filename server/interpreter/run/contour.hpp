@@ -4,26 +4,22 @@
 #include <optional>
 
 #include "klartext/statement.hpp"
-#include "machine/machine.hpp"
-#include "run/nc_error.hpp"
-#include "run/plane_geometry.hpp"
+#include "run/cutter_path.hpp"
+#include "run/element.hpp"
 
 namespace fitgauge::interpreter {
 
-class Channel;
-
-/// One positioning block as geometry: its curve in the working plane and the axes it names,
-/// absolute, in mm and degrees.
-struct Element {
-  Curve curve;
-  machine::AxisWords target;
-  machine::Feed feed;
-  machine::CoordinateSystem system = machine::CoordinateSystem::Input;
+/// CC: the centre of arcs and the pole. Its two axes span the plane of the arcs that follow
+/// (decision 29).
+struct Pole {
+  WorkingPlane plane;
+  Vec2 point;
 };
 
 /// The programmed path as far as it takes more than one block to know it: the pole, the last
 /// direction (for CT and DEP), corners that RND and CHF change, approaches. A block that is
-/// followed by RND or CHF moves when the block after that is known.
+/// followed by RND or CHF moves when the block after that is known. What is known goes on to the
+/// path of the cutter.
 class Contour {
  public:
   /// APPR LT, LN, CT, LCT: moves when the first contour element is known.
@@ -32,27 +28,35 @@ class Contour {
     Element to_start;       ///< a line to the first point of the contour
     double length = 0;      ///< LEN
     double angle = 0;       ///< CCA
-    double radius = 0;      ///< R
-    double side = 1;        ///< of the contour the tool is on: 1 left, -1 right
+    double radius = 0;      ///< R; negative: to the other side (APPR CT)
   };
 
-  /// Where the last block ends, in input coordinates, also when the machine is not there yet.
+  /// Where the last block ends, in input coordinates, also when the machine is not there yet or
+  /// the tool stands beside the contour.
   machine::Position position(const Channel& channel) const;
 
   /// Moves along an element, or keeps it when a corner follows.
   NcResult<void> add(Channel& channel, Element element);
-  /// RND (`size` is the radius) or CHF (the length) after the last element.
+  /// RND (`size` is the radius) or CHF (the side, decision 30) after the last element.
   NcResult<void> set_corner(double size, bool is_chamfer, std::optional<machine::Feed> feed);
   NcResult<void> add(Channel& channel, Approach approach);
+  /// DEP: goes to the end of the contour. @returns where the centre of the tool is.
+  NcResult<Vec2> depart(Channel& channel, const WorkingPlane& plane);
   /// Before anything but a positioning block: moves what was kept.
   /// @errors 1022, 1024 when the element that RND, CHF or APPR refers to is missing.
   NcResult<void> finish(Channel& channel);
 
-  std::optional<Vec2> pole;          ///< CC, in the working plane
-  Vec2 last_polar;                   ///< PR, PA of the last polar block, for IPR and IPA
-  std::optional<Vec2> direction;     ///< of travel at the end of the last element
-  double tool_feed = 0;              ///< F AUTO: the feed of TOOL CALL
-  bool feed_per_revolution = false;  ///< M136
+  /// RL, RR, R0, R+, R- of a block; it holds for those after it.
+  void compensate(klartext::RadiusCompensation compensation);
+  int side() const { return side_; }
+  /// 1 for R+, -1 for R-.
+  int lengthening() const { return lengthening_; }
+
+  std::optional<Pole> pole;                ///< CC
+  Vec2 last_polar;                         ///< PR, PA of the last polar block, for IPR and IPA
+  std::optional<machine::Vec3> direction;  ///< of travel at the end of the last element
+  double tool_feed = 0;                    ///< F AUTO: the feed of TOOL CALL
+  bool feed_per_revolution = false;        ///< M136
 
  private:
   struct Corner {
@@ -60,14 +64,23 @@ class Contour {
     bool is_chamfer = false;
     std::optional<machine::Feed> feed;
   };
+  /// Where the programmed path is while the tool stands beside it.
+  struct Beside {
+    machine::Position programmed;
+    machine::Position tool;
+  };
 
-  NcResult<void> move(Channel& channel, const Element& element);
+  NcResult<void> cut(Channel& channel, const Element& element);
   NcResult<void> turn_corner(Channel& channel, Element& next);
-  NcResult<void> approach(Channel& channel, Vec2 contour_direction);
+  NcResult<void> approach(Channel& channel, const Element& first);
 
+  CutterPath cutter_;
   std::optional<Element> kept_;
   std::optional<Corner> corner_;
   std::optional<Approach> approach_;
+  std::optional<Beside> beside_;
+  int side_ = 0;
+  int lengthening_ = 0;
 };
 
 /// The working plane of the tool in the spindle.

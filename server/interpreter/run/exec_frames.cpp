@@ -121,7 +121,7 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Word
 }
 
 NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane, const Words& words) {
-  PlaneMoves moves{plane.positioning, machine::Feed::rapid(), 0};
+  PlaneMoves moves{plane.positioning, machine::Feed::rapid(), words.contains(Letter::TableRot), 0};
   if (words.contains(Letter::F)) {
     const double unit = channel.linked().is_inch() ? channel.length_unit() / 10 : 1;
     moves.feed = machine::Feed::at(get(words, Letter::F) * unit);

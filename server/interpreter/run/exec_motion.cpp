@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "run/channel.hpp"
 #include "run/m_functions.hpp"
 #include "run/motion_words.hpp"
@@ -21,8 +24,8 @@ class Positioning {
       : channel_(channel),
         motion_(motion),
         words_(words),
-        plane_(working_plane(channel)),
         position_(channel.contour.position(channel)),
+        plane_(plane()),
         start_(plane_.project(position_.linear)) {}
 
   NcResult<void> run() {
@@ -34,7 +37,8 @@ class Positioning {
       case Path::Ln:
         if (words_.has_m(91) || words_.has_m(92)) return machine_line();
         [[fallthrough]];
-      case Path::Lp: return line();
+      case Path::Lp:
+      case Path::Paraxial: return line();
       case Path::C:
       case Path::Cp:
       case Path::Cr:
@@ -67,6 +71,20 @@ class Positioning {
     return target;
   }
 
+  /// The plane of the block: that of the pole for polar coordinates and arcs around it, that of
+  /// the two axes a CR or CT names, else the working plane (decision 29).
+  WorkingPlane plane() const {
+    const auto& pole = channel_.contour.pole;
+    if (pole && (is_polar() || motion_.path == Path::C)) return pole->plane;
+    const WorkingPlane working = working_plane(channel_);
+    if (motion_.path != Path::Cr && motion_.path != Path::Ct) return working;
+    const std::size_t tool_axis = machine::index(working.normal);
+    const bool first = words_.axes[working.first].has_value();
+    const bool second = words_.axes[working.second].has_value();
+    if (!words_.axes[tool_axis] || first == second) return working;
+    return WorkingPlane::spanned_by(tool_axis, first ? working.first : working.second);
+  }
+
   bool is_polar() const {
     switch (motion_.path) {
       case Path::Lp:
@@ -90,23 +108,22 @@ class Positioning {
     }
     if (!contour().pole) return nc_error("polar coordinates need a pole: CC stands before them");
     Vec2& last = contour().last_polar;
-    const Vec2 from_pole = start_ - *contour().pole;
+    const Vec2 pole = contour().pole->point;
+    const Vec2 from_pole = start_ - pole;
     if (motion_.path == Path::Cp) {
       last = {norm(from_pole), machine::degrees(std::atan2(from_pole.y, from_pole.x))};
     }
     if (words_.pr) last.x = resolved(*words_.pr, last.x);
     if (words_.pa) last.y = resolved(*words_.pa, last.y);
-    return *contour().pole + polar(last.x, last.y);
+    return pole + polar(last.x, last.y);
   }
 
   NcResult<Element> element(const Curve& curve) {
     const auto feed = use_feed(channel_, words_.feed);
     if (!feed) return feed.error();
-    Element element{curve, target(position_), *feed};
-    if (is_polar()) {
-      element.target.values[plane_.first] = curve.end.x;
-      element.target.values[plane_.second] = curve.end.y;
-    }
+    Element element{plane_, curve, position_.linear, target(position_), *feed};
+    element.side = contour().side();
+    if (is_polar()) set_plane_target(element, curve.end);
     return element;
   }
 
@@ -122,9 +139,32 @@ class Positioning {
       if (!is_axis(word.letter) || is_absent(word.value)) continue;
       if (const auto value = number(channel_, word.value); !value) return value.error();
     }
-    const auto end = end_point();
-    if (!end) return end.error();
-    contour().pole = *end;
+    std::array<bool, 3> named{};
+    for (std::size_t axis = 0; axis < 3; ++axis) named[axis] = words_.axes[axis].has_value();
+    const auto count = std::count(named.begin(), named.end(), true);
+    if (count == 3) return nc_error("CC names the two axes of a plane, not three");
+    const WorkingPlane working = working_plane(channel_);
+    const auto& before = contour().pole;
+    Pole pole{working, {}};
+    if (count == 2) {
+      const std::size_t left_out = !named[0] ? 0 : !named[1] ? 1 : 2;
+      pole.plane = WorkingPlane::across(static_cast<machine::Axis>(left_out));
+    } else if (count == 1 && before) {
+      pole.plane = before->plane;
+    }
+    machine::Vec3 point = position_.linear;
+    if (count == 1 && before) point = pole.plane.with(point, before->point);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!named[axis]) continue;
+      if (!pole.plane.contains(axis)) {
+        return nc_error(1019, fmt::format("the {} axis does not lie in the plane of the circle; CC "
+                                          "names both of its axes",
+                                          "XYZ"[axis]));
+      }
+      point[axis] = resolved(*words_.axes[axis], position_.linear[axis]);
+    }
+    pole.point = pole.plane.project(point);
+    contour().pole = pole;
     contour().last_polar = {};
     return {};
   }
@@ -139,7 +179,8 @@ class Positioning {
     const auto feed = use_feed(channel_, words_.feed);
     if (!feed) return feed.error();
     const auto from = channel_.machine().position(CoordinateSystem::Reference);
-    return contour().add(channel_, {{}, target(from), *feed, CoordinateSystem::Reference});
+    return contour().add(
+        channel_, {plane_, {}, from.linear, target(from), *feed, CoordinateSystem::Reference});
   }
 
   NcResult<void> line() {
@@ -150,7 +191,22 @@ class Positioning {
     }
     const auto end = end_point();
     if (!end) return end.error();
+    if (contour().lengthening() != 0 && motion_.path != Path::Ln) return lengthened_line(*end);
     return add({start_, *end, std::nullopt, 0});
+  }
+
+  /// R+ and R-: each named axis of the plane goes on, or stops short, by the tool's radius.
+  NcResult<void> lengthened_line(Vec2 end) {
+    auto made = element({start_, end, std::nullopt, 0});
+    if (!made) return made.error();
+    const double by = contour().lengthening() * CutterPath::radius(channel_);
+    for (const std::size_t axis : {plane_.first, plane_.second}) {
+      auto& value = made->target.values[axis];
+      const double travel = value ? *value - position_.linear[axis] : 0;
+      if (travel != 0) *value += std::copysign(by, by * travel);
+    }
+    made->curve.end = plane_.project(plane_.with(position_.linear, end));
+    return contour().add(channel_, *std::move(made));
   }
 
   NcResult<void> arc() {
@@ -179,22 +235,33 @@ class Positioning {
   }
 
   NcResult<Curve> tangential(Vec2 end) {
-    if (!contour().direction) {
-      return nc_error("CT needs a contour element before it that it continues");
-    }
-    return tangential_arc(start_, *contour().direction, end);
+    const auto direction = arriving();
+    if (!direction) return nc_error("CT needs a contour element before it that it continues");
+    return tangential_arc(start_, *direction, end);
+  }
+
+  /// The direction of travel at the end of the block before, in the plane of this one.
+  std::optional<Vec2> arriving() {
+    if (!contour().direction) return std::nullopt;
+    const Vec2 in_plane = plane_.project(*contour().direction);
+    if (norm(in_plane) < kSamePoint) return std::nullopt;
+    return unit(in_plane);
   }
 
   NcResult<Curve> centre_arc(Vec2 end) {
     if (!contour().pole) return nc_error("an arc needs a centre: CC stands before it");
     // The control accepts an end point that lies this far beside the circle (mm).
     constexpr double kCircleTolerance = 0.016;
-    const Vec2 centre = *contour().pole;
+    const Vec2 centre = contour().pole->point;
     const double radius = norm(start_ - centre);
     if (radius < kSamePoint) return nc_error("the arc begins in its centre");
     const double error = norm(end - centre) - radius;
     if (std::abs(error) > kCircleTolerance) {
-      return nc_error(fmt::format("the end of the arc lies {:.4f} mm beside its circle", error));
+      return nc_error(fmt::format(
+          "the end of the arc lies {:.4f} mm {} its circle in the plane {}{}: CC names the centre "
+          "and by its two axes the plane",
+          std::abs(error), error > 0 ? "outside" : "inside", "XYZ"[plane_.first],
+          "XYZ"[plane_.second]));
     }
     double turn = sweep(start_, end, centre, left_turn());
     if (motion_.path == Path::Cp && words_.pa && words_.pa->incremental) {
@@ -204,18 +271,18 @@ class Positioning {
     return Curve{start_, end, centre, turn};
   }
 
-  double side() const { return motion_.compensation == RadiusCompensation::Rr ? -1 : 1; }
+  /// Where the tool is when no compensation says it: on the left.
+  double side() const { return channel_.contour.side() < 0 ? -1 : 1; }
 
   NcResult<void> approach() {
     const auto end = end_point();
     if (!end) return end.error();
     auto to_start = element({start_, *end, std::nullopt, 0});
     if (!to_start) return to_start.error();
-    to_start->target.values[plane_.first] = end->x;
-    to_start->target.values[plane_.second] = end->y;
+    set_plane_target(*to_start, *end);
     return contour().add(
         channel_, Contour::Approach{cartesian(), *std::move(to_start), words_.len.value_or(0),
-                                    words_.cca.value_or(0), words_.r.value_or(0), side()});
+                                    words_.cca.value_or(0), words_.r.value_or(0)});
   }
 
   Path cartesian() const {
@@ -229,19 +296,25 @@ class Positioning {
   }
 
   NcResult<void> depart() {
-    if (!contour().direction) return nc_error("DEP needs a contour element before it");
-    const Vec2 direction = *contour().direction;
+    const auto travel = arriving();
+    if (!travel) return nc_error("DEP needs a contour element before it");
+    const double left_side = side();
+    const auto tool = contour().depart(channel_, plane_);
+    if (!tool) return tool.error();
+    contour().compensate(RadiusCompensation::R0);
+    const Vec2 from = *tool;
+    const Vec2 direction = *travel;
     const double length = words_.len.value_or(0);
     const double radius = words_.r.value_or(0);
-    const Vec2 centre = start_ + left_of(direction) * (side() * radius);
-    const bool left = side() > 0;
+    const Vec2 centre = from + left_of(direction) * (left_side * radius);
+    const bool left = left_side > 0;
     switch (motion_.path) {
-      case Path::DepLt: return leave({start_, start_ + direction * length, std::nullopt, 0});
+      case Path::DepLt: return leave({from, from + direction * length, std::nullopt, 0});
       case Path::DepLn:
-        return leave({start_, start_ + left_of(direction) * (side() * length), std::nullopt, 0});
+        return leave({from, from + left_of(direction) * (left_side * length), std::nullopt, 0});
       case Path::DepCt: {
-        const double angle = side() * words_.cca.value_or(0);
-        return leave({start_, centre + turned(start_ - centre, angle), centre, angle});
+        const double angle = std::copysign(words_.cca.value_or(0), left_side * radius);
+        return leave({from, centre + turned(from - centre, angle), centre, angle});
       }
       default: break;
     }
@@ -250,7 +323,7 @@ class Positioning {
     // DEP LCT is APPR LCT run backwards: the circle turns the other way seen from the end.
     const auto met = tangent_point(*end, centre, radius, !left);
     if (!met) return nc_error(1023, "DEP LCT ends inside its circle");
-    if (auto done = leave({start_, *met, centre, sweep(start_, *met, centre, left)}); !done) {
+    if (auto done = leave({from, *met, centre, sweep(from, *met, centre, left)}); !done) {
       return done;
     }
     return add({*met, *end, std::nullopt, 0});
@@ -260,17 +333,16 @@ class Positioning {
   NcResult<void> leave(const Curve& curve) {
     const auto feed = use_feed(channel_, words_.feed);
     if (!feed) return feed.error();
-    Element element{curve, {}, *feed};
-    element.target.values[plane_.first] = curve.end.x;
-    element.target.values[plane_.second] = curve.end.y;
+    Element element{plane_, curve, channel_.machine().position().linear, {}, *feed};
+    set_plane_target(element, curve.end);
     return contour().add(channel_, element);
   }
 
   Channel& channel_;
   const Motion& motion_;
   const MotionWords& words_;
-  const WorkingPlane plane_;
   const machine::Position position_;
+  const WorkingPlane plane_;
   const Vec2 start_;
 };
 
@@ -279,12 +351,7 @@ class Positioning {
 NcResult<Next> execute(Channel& channel, const Motion& motion) {
   const auto words = read_words(channel, motion.words);
   if (!words) return words.error();
-  if (motion.compensation == RadiusCompensation::Rl ||
-      motion.compensation == RadiusCompensation::Rr) {
-    auto noted =
-        channel.note("radius compensation RL and RR: the simulated path is the programmed contour");
-    if (!noted) return noted.error();
-  }
+  channel.contour.compensate(motion.compensation);
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
   if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
   return end_m_functions(channel, *words);

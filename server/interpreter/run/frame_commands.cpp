@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "run/channel.hpp"
+#include "run/plane_geometry.hpp"
 #include "run/preassigned.hpp"
 
 namespace fitgauge::interpreter {
@@ -20,6 +22,30 @@ NcResult<void> change_frames(Channel& channel, const Change& change) {
   Frames frames = channel.machine().state().frames;
   change(frames);
   return checked(channel.machine().set_frames(frames));
+}
+
+/// TABLE ROT (decision 31): the table axis next to the workpiece is free where it is parallel to
+/// the tool in the plane. It turns until the plane's main axis lies along the machine's.
+void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec3& rotary) {
+  constexpr double kParallel = 1e-9;
+  const auto& axes = state.kinematics.axes();
+  const auto next_to_workpiece = std::find_if(axes.rbegin(), axes.rend(), [](const auto& axis) {
+    return axis.mount == machine::AxisMount::Table;
+  });
+  if (next_to_workpiece == axes.rend()) return;
+  const auto working = WorkingPlane::across(state.tool_axis());
+  const Vec3 normal =
+      machine::unit(plane.direction_to_machine(machine::unit_vector(state.tool_axis())));
+  const double along = dot(normal, next_to_workpiece->direction);
+  if (std::abs(along) < 1 - kParallel) return;
+  double& angle = rotary[machine::index(next_to_workpiece->axis) - 3];
+  angle = 0;
+  const Vec3 main_axis = state.kinematics.table(rotary).direction(
+      plane.direction_to_machine(machine::unit_vector(static_cast<Axis>(working.first))));
+  const Vec2 seen = working.project(main_axis);
+  const double turn = machine::degrees(std::atan2(seen.y, seen.x));
+  angle = along > 0 ? turn : -turn;
+  if (angle < -180 + kParallel) angle = 180;
 }
 
 /// The rotary positions for a plane, the one that SEQ asks for first.
@@ -43,7 +69,11 @@ NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& f
     return moves.sequence > 0 ? angle >= 0 : angle <= 0;
   };
   std::erase_if(solutions, [&](const Vec3& rotary) { return !fits(rotary); });
-  if (!solutions.empty()) return std::optional(solutions.front());
+  if (!solutions.empty()) {
+    Vec3 rotary = solutions.front();
+    if (moves.turns_table) turn_free_axis(state, plane, rotary);
+    return std::optional(rotary);
+  }
   const bool turns =
       moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;
   if (turns || !state.kinematics.axes().empty()) {

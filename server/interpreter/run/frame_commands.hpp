@@ -30,7 +30,8 @@ NcResult<void> scale(Channel& channel, const machine::Scaling& scaling);
 struct PlaneMoves {
   klartext::PlanePositioning positioning = klartext::PlanePositioning::Stay;
   machine::Feed feed;
-  int sequence = 0;  ///< SEQ+ 1, SEQ- -1: the sign of the master axis; 0: the shortest way
+  bool turns_table = false;  ///< TABLE ROT: a free rotary axis turns, else the coordinates do
+  int sequence = 0;          ///< SEQ+ 1, SEQ- -1: the sign of the master axis; 0: the shortest way
 };
 
 /// Tilts the working plane by a rotation relative to the workpiece system and puts the rotary

@@ -85,6 +85,12 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
   bool stops = false;
   bool ends = false;
   bool calls_cycle = channel.active_cycle.after_every_block && words.names_axes();
+  const bool stands = std::any_of(words.m.begin(), words.m.end(), [](const MCall& call) {
+    return call.number <= 2 || call.number == 30 || call.number == 140;
+  });
+  if (stands) {
+    if (auto done = channel.contour.finish(channel); !done) return done.error();
+  }
   for (const MCall& call : words.m) {
     switch (call.number) {
       case 0:

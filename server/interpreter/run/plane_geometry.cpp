@@ -173,19 +173,43 @@ std::optional<Curve> rounding(const Curve& before, const Curve& after, double ra
   return std::nullopt;
 }
 
-std::optional<Curve> chamfer(const Curve& before, const Curve& after, double length) {
+double whole_turns(double sweep_deg) {
+  const double turns = std::max(0.0, std::ceil(std::abs(sweep_deg) / 360 - 1e-12) - 1);
+  return std::copysign(turns * 360, sweep_deg);
+}
+
+std::optional<Curve> offset_curve(const Curve& curve, double distance) {
+  const auto first = curve.start_direction();
+  const auto last = curve.end_direction();
+  if (!first || !last) return std::nullopt;
+  if (!offset(curve, curve.start, distance)) return std::nullopt;
+  return Curve{curve.start + left_of(*first) * distance, curve.end + left_of(*last) * distance,
+               curve.centre, curve.sweep_deg};
+}
+
+std::optional<Vec2> inner_corner(const Curve& before, const Curve& after, double distance) {
+  const Vec2 corner = before.end;
+  const auto a = offset(before, corner, distance);
+  const auto b = offset(after, corner, distance);
+  if (!a || !b) return std::nullopt;
+  std::optional<Vec2> nearest;
+  for (const Vec2 point : intersect(*a, *b)) {
+    if (!is_on(before, touch(before, point)) || !is_on(after, touch(after, point))) continue;
+    if (!nearest || norm(point - corner) < norm(*nearest - corner)) nearest = point;
+  }
+  return nearest;
+}
+
+std::optional<Curve> chamfer(const Curve& before, const Curve& after, double side) {
   if (before.is_arc() || after.is_arc()) return std::nullopt;
   const auto arriving = before.end_direction();
   const auto leaving = after.start_direction();
   if (!arriving || !leaving) return std::nullopt;
-  // The chamfer is the third side of a triangle with two equal sides along the lines.
-  const double third = norm(*arriving + *leaving);
-  if (third < 1e-12) return std::nullopt;
-  const double cut = length / third;
-  if (cut > norm(before.end - before.start) || cut > norm(after.end - after.start)) {
+  if (norm(*arriving + *leaving) < 1e-12) return std::nullopt;  // back along the same line
+  if (side > norm(before.end - before.start) || side > norm(after.end - after.start)) {
     return std::nullopt;
   }
-  return Curve{before.end - *arriving * cut, before.end + *leaving * cut, std::nullopt, 0};
+  return Curve{before.end - *arriving * side, before.end + *leaving * side, std::nullopt, 0};
 }
 
 std::optional<Vec2> tangent_point(Vec2 from, Vec2 centre, double radius, bool left_turn) {

@@ -37,6 +37,12 @@ struct WorkingPlane {
   machine::Axis normal = machine::Axis::Z;
 
   static WorkingPlane across(machine::Axis tool_axis);
+  /// The plane of two linear axes, in either order.
+  static WorkingPlane spanned_by(std::size_t a, std::size_t b) {
+    return across(static_cast<machine::Axis>(3 - a - b));
+  }
+  bool contains(std::size_t axis) const { return axis == first || axis == second; }
+  friend bool operator==(const WorkingPlane&, const WorkingPlane&) = default;
   Vec2 project(const machine::Vec3& point) const { return {point[first], point[second]}; }
   machine::Vec3 with(machine::Vec3 point, Vec2 in_plane) const {
     point[first] = in_plane.x;
@@ -63,6 +69,16 @@ struct Curve {
 /// circle.
 double sweep(Vec2 start, Vec2 end, Vec2 centre, bool left_turn);
 
+/// The full turns of a sweep beyond its first: 720 of 730, 0 of 360.
+double whole_turns(double sweep_deg);
+
+/// The curve at a distance to its left; negative: to its right. Nothing where an arc shrinks to
+/// nothing.
+std::optional<Curve> offset_curve(const Curve& curve, double distance);
+/// Where the two curves at that distance to the left meet, near the point in which the curves
+/// themselves join.
+std::optional<Vec2> inner_corner(const Curve& before, const Curve& after, double distance);
+
 /// CR: of radius |r|, at most 180 degrees for r > 0 and more for r < 0. Nothing when the points are
 /// further apart than the diameter, or equal.
 std::optional<Curve> arc_of_radius(Vec2 start, Vec2 end, double r, bool left_turn);
@@ -72,8 +88,9 @@ Curve tangential_arc(Vec2 start, Vec2 direction, Vec2 end);
 
 /// RND: an arc tangential to both curves, nothing where it does not fit.
 std::optional<Curve> rounding(const Curve& before, const Curve& after, double radius);
-/// CHF: a line of that length across the corner of two lines, nothing where it does not fit.
-std::optional<Curve> chamfer(const Curve& before, const Curve& after, double length);
+/// CHF: a line across the corner of two lines that takes `side` from each of them (decision 30);
+/// nothing where it does not fit.
+std::optional<Curve> chamfer(const Curve& before, const Curve& after, double side);
 
 /// APPR LCT and, reversed, DEP LCT: a line from `from`, tangential to the circle that is turned
 /// around `centre`. @returns where it meets the circle; nothing when `from` lies inside.

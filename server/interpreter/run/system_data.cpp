@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "run/channel.hpp"
 #include "run/tool_values.hpp"
@@ -104,9 +105,20 @@ Answer machine_data(const Channel& channel, const Address& address) {
   }
 }
 
-Answer tool_data(const MachineState& state, const Address& address) {
-  const auto number = address.index.value_or(state.tool.number);
+/// A row of tool.t; row 0, which every table has, is the empty spindle.
+const machine::Tool* find_tool(const MachineState& state, std::int64_t number) {
+  static const machine::Tool kNoTool;
+  if (number < 0 || number > std::numeric_limits<int>::max()) return nullptr;
   const machine::Tool* tool = state.tools.find(static_cast<int>(number));
+  return tool == nullptr && number == 0 ? &kNoTool : tool;
+}
+
+NcError no_tool(std::int64_t number) {
+  return nc_error(1092, fmt::format("tool {} is not in the tool table", number));
+}
+
+Answer tool_data(const MachineState& state, const Address& address) {
+  const machine::Tool* tool = find_tool(state, address.index.value_or(state.tool.number));
   if (tool == nullptr) return std::nullopt;
   if (address.nr < 24 || address.nr > 26) return tool_value(*tool, address.nr);
   // CAL_OF1, CAL_OF2, CAL_ANG: of a probe, in its row of tchprobe.tp.
@@ -313,8 +325,8 @@ Answer find(Channel& channel, const Address& address) {
 NcResult<void> write_tool(Channel& channel, const Address& address, double value) {
   const MachineState& state = channel.machine().state();
   const auto number = address.index.value_or(state.tool.number);
-  const machine::Tool* found = state.tools.find(static_cast<int>(number));
-  if (found == nullptr) return nc_error(1092, fmt::format("tool {}", number));
+  const machine::Tool* found = number == 0 ? nullptr : find_tool(state, number);
+  if (found == nullptr) return no_tool(number);
   machine::Tool tool = *found;
   if (!set_tool_value(tool, address.nr, value)) return unknown(address);
   return checked(channel.machine().write_tool(tool));
@@ -344,6 +356,11 @@ NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex node) {
   if (address->id == 500) return datum_data(channel, *address);
   if (address->id == 502 || address->id == 503) {
     return preset_data(channel.machine().state(), *address);
+  }
+  if (address->id == 50) {
+    const machine::MachineState& state = channel.machine().state();
+    const auto number = address->index.value_or(state.tool.number);
+    if (find_tool(state, number) == nullptr) return no_tool(number);
   }
   const Answer answer = find(channel, *address);
   if (!answer || !std::isfinite(*answer)) return unknown(*address);

@@ -132,6 +132,8 @@ TEST_CASE("Labels, calls and repeats") {
          {"CALL LBL 5 REP2", "CALL LBL 5 REP2"},
          {"CALL LBL 5 REP 2", "CALL LBL 5 REP2"},
          {"CALL LBL 5 REP 2/2", "CALL LBL 5 REP2"},
+         {"CALL LBL 5 REP Q3/Q3", "CALL LBL 5 REPQ3"},
+         {"CALL LBL5 REP2", "CALL LBL 5 REP2"},
          {"CALL LBL \"A\" REPQ106", "CALL LBL \"A\" REPQ106"}});
 }
 
@@ -193,8 +195,32 @@ TEST_CASE("Positioning blocks") {
          {"DEP LT LEN12.5 F100", "DEP LT LEN12.5 F100"},
          {"DEP CT CCA180 R+8", "DEP CT CCA180 R+8"},
          {"DEP LCT X+10 Y+12 R+8", "DEP LCT X+10 Y+12 R+8"},
+         {"L X+5 R F5000 M13", "L X+5 F5000 M13"},
+         {"L X+5 R F M", "L X+5"},
+         {"L X+5 R F M ; end", "L X+5 ; end"},
+         {"L X+5 R- F500", "L X+5 R- F500"},
+         {"L M128. F10000.", "L M128 F10000"},
+         {"CR X+1 Y+2 R+ 20 DR+", "CR X+1 Y+2 R+20 DR+"},
+         {"X+46 R+ F1000", "X+46 R+ F1000"},
+         {"7 Z0.0 B0.0", "7 Z+0 B+0"},
+         {"IY-5 R0 FMAX", "IY-5 R0 FMAX"},
+         {"C+45 F100", "C+45 F100"},
+         {"/X+1", "/X+1"},
          {"STOP", "STOP"},
          {"STOP M6", "STOP M6"}});
+}
+
+TEST_CASE("A number may be joined to the word before it") {
+  check({{"CYCL DEF9.0 VARAKOZASI IDO", "CYCL DEF 9.0 VARAKOZASI IDO"},
+         {"CYCL DEF9.1 V.IDO2", "CYCL DEF 9.1 V.IDO2"},
+         {"CYCL DEF9 .0", "CYCL DEF 9.0"},
+         {"CYCL DEF 9 .0 DWELL", "CYCL DEF 9.0 DWELL"},
+         {"CYCL DEF 12.1 LOT31", "CYCL DEF 12.1 LOT31"},
+         {"CYCL DEF200 DRILLING", "CYCL DEF 200 DRILLING"},
+         {"TCH PROBE417 TS AXIS", "TCH PROBE 417 TS AXIS"},
+         {"TOOL CALL1 Z S1000", "TOOL CALL 1 Z S1000"},
+         {"TOOL CALLQ5 Z", "TOOL CALL Q5 Z"},
+         {"TOOL DEF1 L+0 R+5", "TOOL DEF 1 L+0 R+5"}});
 }
 
 TEST_CASE("Tools and workpiece blanks") {

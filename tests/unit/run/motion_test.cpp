@@ -125,6 +125,76 @@ TEST_CASE("arcs") {
         "ARC X+0.0000 Y+10.0000 Z+0.0000 CC X+0.0000 Y+0.0000 Z+0.0000 -270.0000 F100");
 }
 
+TEST_CASE("the two axes of CC span the plane of the arcs that follow") {
+  Mill mill;
+  // From Z towards X, the angle counts from Z (decision 29).
+  const Lines zx =
+      mill.moves("L X+75 Y+0 Z+0 R0 FMAX\nCC Z+0 X+75\nLP PR+20 PA-90 F500\nCP IPA+90 DR+");
+  CHECK(zx[1] == "L X+55.0000 Y+0.0000 Z+0.0000 F500");
+  CHECK(zx[2] == "ARC X+75.0000 Y+0.0000 Z+20.0000 CC X+75.0000 Y+0.0000 Z+0.0000 +90.0000 F500");
+  CHECK(mill.moves("L X+10 Y+0 Z+0 FMAX\nCC X+0 Z+0\nC X+0 Z+10 DR- F500").back() ==
+        "ARC X+0.0000 Y+0.0000 Z+10.0000 CC X+0.0000 Y+0.0000 Z+0.0000 -90.0000 F500");
+  CHECK(mill.moves("L X+0 Y+10 Z+0 FMAX\nCC Y+0 Z+0\nC Y+0 Z+10 DR+ F500").back() ==
+        "ARC X+0.0000 Y+0.0000 Z+10.0000 CC X+0.0000 Y+0.0000 Z+0.0000 +90.0000 F500");
+  CHECK(mill.moves("L X+0 Y+10 Z+0 FMAX\nCR Y+0 Z+10 R+10 DR+ F500").back() ==
+        "ARC X+0.0000 Y+0.0000 Z+10.0000 CC X+0.0000 Y+0.0000 Z+0.0000 +90.0000 F500");
+  CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nL X+10 F500\nCT X+15 Z-5").back() ==
+        "ARC X+15.0000 Y+0.0000 Z-5.0000 CC X+10.0000 Y+0.0000 Z-5.0000 +90.0000 F500");
+  CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nL X+20 F500\nRND R2\nCC Z+0 X+30\nC Z+0 X+40 DR+").size() ==
+        4);
+}
+
+TEST_CASE("a CC with one axis keeps the other of the CC before") {
+  Mill mill;
+  CHECK(mill.moves("L X+17 Y+0 Z+0 FMAX\nCC X+10 Y+0\nC X+3 Y+0 DR+ F100\nL X+30 Y+7\nCC X+30\n"
+                   "C X+37 Y+0 DR+")
+            .back() ==
+        "ARC X+37.0000 Y+0.0000 Z+0.0000 CC X+30.0000 Y+0.0000 Z+0.0000 +270.0000 F100");
+  mill.moves("CC X+0 Y+0 Z+0");
+  CHECK(outcome(mill.last) == "failed line 3: CC names the two axes of a plane, not three");
+}
+
+TEST_CASE("CHF takes its length from both sides") {
+  Mill mill;
+  CHECK(mill.moves("L X+50 Y+95 Z+0 FMAX\nL X+95 F100\nCHF 10\nL Y+0") ==
+        Lines{"L X+50.0000 Y+95.0000 Z+0.0000 FMAX", "L X+85.0000 Y+95.0000 Z+0.0000 F100",
+              "L X+95.0000 Y+85.0000 Z+0.0000 F100", "L X+95.0000 Y+0.0000 Z+0.0000 F100"});
+}
+
+TEST_CASE("paraxial blocks, lengthened and shortened by the radius of the tool") {
+  Mill mill;
+  CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nX+46 R+ F100\nY+20 R0\nX+0 R-") ==
+        Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+50.0000 Y+0.0000 Z+0.0000 F100",
+              "L X+50.0000 Y+20.0000 Z+0.0000 F100", "L X+4.0000 Y+20.0000 Z+0.0000 F100"});
+}
+
+TEST_CASE("CALL LBL REP before its label jumps forward") {
+  Control control;
+  control.program("Q1 = 0\nCALL LBL 1 REP3\nQ1 = 5\nLBL 1\nQ1 = Q1 + 1");
+  REQUIRE(control.diagnostics().size() == 1);
+  CHECK(control.diagnostics()[0].severity == klartext::Severity::Warning);
+  CHECK(value(control.run(), "Q1") == "1");
+}
+
+TEST_CASE("TABLE ROT turns a free axis of the table") {
+  Mill mill;
+  const auto q122 = [&](const std::string& words) {
+    mill.moves("PLANE SPATIAL " + words + "\nQ1 = Q122\nQ2 = Q120");
+    return value(mill.last, "Q1") + " " + value(mill.last, "Q2");
+  };
+  CHECK(q122("SPA+0 SPB+0 SPC+20 STAY TABLE ROT") == "20 0");
+  CHECK(q122("SPA+0 SPB+0 SPC+180 STAY TABLE ROT") == "180 0");
+  CHECK(q122("SPA+0 SPB+0 SPC-20 STAY TABLE ROT") == "-20 0");
+  CHECK(q122("SPA+0 SPB+0 SPC+20 STAY COORD ROT") == "0 0");
+  CHECK(q122("SPA+0 SPB+0 SPC+20 STAY") == "0 0");
+  // Turned so, the plane's main axis lies along the machine's: 10 mm in X move X alone.
+  CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nPLANE SPATIAL SPA+0 SPB+0 SPC+20 TURN FMAX TABLE ROT\n"
+                   "L X+0 Y+0 FMAX\nFN 18: SYSREAD Q1 = ID240 NR1 IDX2\nL X+10 FMAX\n"
+                   "FN 18: SYSREAD Q2 = ID240 NR1 IDX2\nQ3 = Q2 - Q1")
+            .size() > 2);
+  CHECK(std::abs(number_of(mill.last, "Q3")) < 1e-9);
+}
+
 TEST_CASE("arcs that are none are errors") {
   Mill mill;
   const auto outcome_of = [&](std::string_view body) {
@@ -133,7 +203,8 @@ TEST_CASE("arcs that are none are errors") {
   };
   CHECK(outcome_of("C X+1 Y+1 DR+") == "failed line 3: an arc needs a centre: CC stands before it");
   CHECK(outcome_of("L X+10 FMAX\nCC X+0 Y+0\nC X+0 Y+11 DR+") ==
-        "failed line 5: the end of the arc lies 1.0000 mm beside its circle");
+        "failed line 5: the end of the arc lies 1.0000 mm outside its circle in the plane XY: CC "
+        "names the centre and by its two axes the plane");
   CHECK(outcome_of("CR X+30 Y+0 R+10 DR+") ==
         "failed line 3: CR: no arc of radius 10 mm joins two points 30.0000 mm apart");
   CHECK(outcome_of("LP PR+5 PA+3") ==
@@ -165,6 +236,7 @@ TEST_CASE("elements that follow each other tangentially have no corner to round"
 
 TEST_CASE("APPR and DEP by lines and arcs") {
   Mill mill;
+  mill.setup.machine.tools.back().row.r = 0;  // the path is the contour
   CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nAPPR LN X+10 Y+10 LEN5 RL F100\nL X+30\nDEP LN LEN6") ==
         Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+10.0000 Y+15.0000 Z+0.0000 F100",
               "L X+10.0000 Y+10.0000 Z+0.0000 F100", "L X+30.0000 Y+10.0000 Z+0.0000 F100",
@@ -221,7 +293,7 @@ TEST_CASE("machine faults are errors of the run with their place") {
 
 TEST_CASE("a note is given once for what the simulation leaves out") {
   Mill mill;
-  mill.moves("L X+1 RL F100\nL X+2 RL\nL X+3 R0");
+  mill.moves("FN 19: PLC=+1/+0\nFN 19: PLC=+2/+0\nL X+3 R0 F100");
   CHECK(mill.last.messages.size() == 1);
   CHECK(mill.last.messages[0].kind == MessageKind::Note);
 }

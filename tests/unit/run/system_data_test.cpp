@@ -59,7 +59,8 @@ TEST_CASE("FN 18 reads the prepared tool, three M functions and the calibration 
   CHECK(system_data("ID50 NR24 IDX30") == "0.25");
   CHECK(system_data("ID50 NR25 IDX30") == "-0.5");
   CHECK(system_data("ID50 NR26 IDX30") == "90");
-  CHECK(system_data("ID50 NR26 IDX7") == "failed line 3: ID50 NR26 IDX7 is not available");
+  CHECK(system_data("ID50 NR26 IDX7") ==
+        "failed line 3: Tool not defined: tool 7 is not in the tool table");
 }
 
 TEST_CASE("FN 18 tells which parameters the block of the active cycle gives") {
@@ -79,7 +80,8 @@ TEST_CASE("FN 18 reads transformations") {
 TEST_CASE("an unknown system datum is an error, never 0") {
   CHECK(system_data("ID20 NR99") == "failed line 3: ID20 NR99 is not available");
   CHECK(system_data("ID999 NR1 IDX2") == "failed line 3: ID999 NR1 IDX2 is not available");
-  CHECK(system_data("ID50 NR1 IDX7") == "failed line 3: ID50 NR1 IDX7 is not available");
+  CHECK(system_data("ID50 NR1 IDX7") ==
+        "failed line 3: Tool not defined: tool 7 is not in the tool table");
   CHECK(system_data("ID240 NR1 IDX9") == "failed line 3: ID240 NR1 IDX9 is not available");
   CHECK(system_data("ID360 NR1 IDX1") == "failed line 3: ID360 NR1 IDX1 is not available");
   CHECK(system_data("ID20 NR1.5").starts_with("failed line 3: Input value incorrect"));

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "run/element.hpp"
+#include "run/nc_error.hpp"
+
+namespace fitgauge::interpreter {
+
+class Channel;
+
+/// Leads the centre of the cutter along a contour: on it, or with RL and RR at the tool's radius
+/// (R + DR) beside it. The path begins and ends square to the first and last point of the contour,
+/// goes around outer corners on an arc, and meets inner corners where the two offset curves cross.
+/// An element moves when the one after it in the plane is known.
+class CutterPath {
+ public:
+  /// @errors 1003 the tool does not fit into a corner or arc; 1021 RL or RR begins with an arc.
+  NcResult<void> add(Channel& channel, const Element& next);
+  /// Moves along what was kept, up to the point square to its end.
+  NcResult<void> finish(Channel& channel);
+  /// The tool stands at the offset start of the contour that the next element begins (APPR).
+  void begin(Vec2 centre, int side);
+  /// The tool has left the contour (DEP).
+  void leave() { *this = {}; }
+
+  bool is_pending() const { return last_.has_value(); }
+  int side() const { return side_; }
+
+  /// Moves along an element as it is.
+  static NcResult<void> move(Channel& channel, const Element& element);
+  static double radius(const Channel& channel);
+
+ private:
+  NcResult<void> enter(Channel& channel, const Element& next);
+  NcResult<void> join(Channel& channel, const Element& next);
+  /// Moves along the kept element, which ends at `end` for the centre of the tool, and along what
+  /// stood between it and the next one.
+  NcResult<void> move_to(Channel& channel, Vec2 end);
+
+  int side_ = 0;
+  std::optional<Element> last_;
+  bool is_entry_ = false;       ///< `last_` brings the tool to the contour
+  Vec2 at_;                     ///< where the centre of the tool begins `last_`
+  std::optional<Vec2> begun_;   ///< there it begins the next element
+  std::vector<Element> aside_;  ///< moves outside of the plane, between `last_` and the next one
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "machine/machine.hpp"
+#include "run/plane_geometry.hpp"
+
+namespace fitgauge::interpreter {
+
+/// One positioning block as geometry: its curve in a plane and the axes it names, absolute, in mm
+/// and degrees.
+struct Element {
+  WorkingPlane plane;
+  Curve curve;
+  machine::Vec3 from;  ///< where the block before ends
+  machine::AxisWords target;
+  machine::Feed feed;
+  machine::CoordinateSystem system = machine::CoordinateSystem::Input;
+  int side = 0;  ///< of the contour that the tool is on: 1 left (RL), -1 right (RR), 0 on it
+
+  bool moves_in_plane() const {
+    return curve.is_arc() || norm(curve.end - curve.start) > kSamePoint;
+  }
+};
+
+inline void set_plane_target(Element& element, Vec2 point) {
+  element.target.values[element.plane.first] = point.x;
+  element.target.values[element.plane.second] = point.y;
+}
+
+}  // namespace fitgauge::interpreter
