@@ -30,7 +30,7 @@ let askForKey = async () => null;
 /** @param ask shows why a key is needed and resolves to one, or to null. */
 export const onKeyNeeded = (ask) => { askForKey = ask; };
 
-export const hasKey = () => readStored(KEY, sessionStorage) !== null;
+export const hasKey = () => readStored(KEY, 'session') !== null;
 
 async function problemOf(response) {
   const document = await response.json().catch(() => ({}));
@@ -47,7 +47,7 @@ export async function request(method, path, { body, headers = {}, signal, timeou
   const sent = isJson ? toJson(body) : body;
   const type = isJson ? { 'Content-Type': 'application/json' } : {};
   for (;;) {
-    const key = readStored(KEY, sessionStorage);
+    const key = readStored(KEY, 'session');
     const authorization = key ? { Authorization: `Bearer ${key}` } : {};
     const response = await fetch(path, {
       method, body: sent, cache: 'no-cache', headers: { ...type, ...headers, ...authorization },
@@ -56,10 +56,10 @@ export async function request(method, path, { body, headers = {}, signal, timeou
     if (response.ok) return response;
     const problem = await problemOf(response);
     if (response.status !== 401) throw problem;
-    if (key) forget(KEY, sessionStorage);
+    if (key) forget(KEY, 'session');
     const entered = await askForKey(problem);
     if (!entered) throw problem;
-    store(KEY, entered, sessionStorage);
+    store(KEY, entered, 'session');
   }
 }
 

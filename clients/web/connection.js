@@ -8,16 +8,22 @@ const TIMEOUT_MS = 4000;
 class Connection extends EventTarget {
   up = true;
   #offset = 0;
+  #timeKnown = false;
   #timer = 0;
 
   watch() {
-    fetch('/livez', { cache: 'no-store', signal: AbortSignal.timeout(TIMEOUT_MS) })
-      .then((response) => {
-        this.#setClock(response.headers.get('Date'));
-        this.report(response.ok);
-      })
-      .catch(() => this.report(false))
-      .finally(() => this.#schedule());
+    this.#ask().catch(() => this.report(false)).finally(() => this.#schedule());
+  }
+
+  /** Resolves once the service has told its time; rejects while it cannot be reached. */
+  async knowsTime() {
+    if (!this.#timeKnown) await this.#ask();
+  }
+
+  async #ask() {
+    const response = await fetch('/livez', { cache: 'no-store', signal: AbortSignal.timeout(TIMEOUT_MS) });
+    this.#setClock(response.headers.get('Date'));
+    this.report(response.ok);
   }
 
   #schedule() {
@@ -35,13 +41,19 @@ class Connection extends EventTarget {
 
   /** The time by the service's clock: a station's own may be hours off. */
   now() {
-    return new Date(Date.now() + this.#offset);
+    return this.at(Date.now());
+  }
+
+  /** A time of this station's clock by the service's. */
+  at(milliseconds) {
+    return new Date(milliseconds + this.#offset);
   }
 
   #setClock(date) {
     const offset = Date.parse(date ?? '') - Date.now();
     // The field counts in seconds, so less than two says nothing.
-    if (Number.isFinite(offset)) this.#offset = Math.abs(offset) < 2000 ? 0 : offset;
+    this.#timeKnown = Number.isFinite(offset);
+    if (this.#timeKnown) this.#offset = Math.abs(offset) < 2000 ? 0 : offset;
   }
 }
 

@@ -62,6 +62,20 @@ function unscaled(nm, scale, places) {
 export const mmText = (nm, places = 3) => unscaled(nm, 6, places);
 export const umText = (nm) => unscaled(nm, 3, 0);
 
+/**
+ * The verdict of whole nanometres, as the service gives it (limits inclusive); null where this page
+ * cannot tell. @param guard k times u in nm: beside a limit by less, the value is indeterminate
+ */
+export function judge(measured, { feature, lower_limit_mm: lower, upper_limit_mm: upper }, guard = 0) {
+  const below = nmFromMm(lower) - measured;
+  const above = measured - nmFromMm(upper);
+  if (![below, above, guard].every(Number.isSafeInteger)) return null;
+  if (below <= -guard && above <= -guard) return 'good';
+  if (below > guard) return feature === 'hole' ? 'rework' : 'reject';
+  if (above > guard) return feature === 'hole' ? 'reject' : 'rework';
+  return 'indeterminate';
+}
+
 /** JSON of a value; a Decimal is written digit by digit. */
 export function toJson(value) {
   if (value instanceof Decimal) return value.text;

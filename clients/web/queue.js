@@ -6,7 +6,7 @@
 
 import { request } from './api.js';
 import { connection } from './connection.js';
-import { forget, readStored, store, storedKeys } from './stored.js';
+import { forget, readJson, store, storedKeys } from './stored.js';
 
 const PREFIX = 'queue.';
 const SHORTEST_WAIT_MS = 200;
@@ -29,8 +29,10 @@ class Queue extends EventTarget {
 
   constructor() {
     super();
-    const kept = storedKeys(PREFIX).map((name) => ({ name, ...JSON.parse(readStored(name)) }));
-    this.#entries = kept.filter((entry) => entry.path); // another window may have sent one meanwhile
+    const kept = storedKeys(PREFIX).map((name) => ({ name, ...readJson(name, {}) }));
+    // Another window may have sent one meanwhile. What an earlier page left was not seen by anybody.
+    this.#entries = kept.filter((entry) => entry.path && entry.body && entry.shown);
+    for (const entry of this.#entries) entry.shown.late = true;
     connection.addEventListener('change', () => this.#wake());
   }
 
@@ -42,18 +44,43 @@ class Queue extends EventTarget {
     return this.#entries;
   }
 
-  /** Takes a value over. @returns its entry */
-  add(path, body, shown) {
+  /**
+   * Takes a value over.
+   * @param timed whether the body lacks the time of typing: it is added when it is first sent, since
+   *   only an answer tells how far this station's clock is off
+   * @returns its entry
+   */
+  add(path, body, shown, timed = false) {
     // Names sort in the order of typing, also those of one millisecond.
     this.#lastTime = Math.max(this.#lastTime + 1, Date.now());
     const key = randomText();
     const name = `${PREFIX}${String(this.#lastTime).padStart(15, '0')}.${key}`;
-    const entry = { name, key, path, body, shown };
-    store(name, JSON.stringify({ key, path, body, shown }));
+    const entry = { name, key, path, body, shown, ...(timed && { typedAt: Date.now() }) };
+    this.#keep(entry);
     this.#entries.push(entry);
     this.#changed();
     this.send();
     return entry;
+  }
+
+  /** Notes something on what the page shows of an entry. */
+  mark(entry, note) {
+    Object.assign(entry.shown, note);
+    this.#keep(entry);
+  }
+
+  #keep({ name, ...entry }) {
+    store(name, JSON.stringify(entry));
+  }
+
+  /** From here on every repeat has the same body. */
+  async #complete(entry) {
+    if (!entry.typedAt) return;
+    await connection.knowsTime();
+    const measured = JSON.stringify(connection.at(entry.typedAt).toISOString());
+    entry.body = `${entry.body.slice(0, -1)},"measured_at":${measured}}`;
+    delete entry.typedAt;
+    this.#keep(entry);
   }
 
   /** Sends what there is until nothing is left, or a key is missing: the next value asks for it again. */
@@ -77,6 +104,7 @@ class Queue extends EventTarget {
   /** @returns `answered` for good, `later` to try again, or `locked` without a key */
   async #sendOne(entry) {
     try {
+      await this.#complete(entry);
       const response = await request('POST', entry.path, {
         body: entry.body,
         headers: { 'Content-Type': 'application/json', 'Idempotency-Key': `"${entry.key}"` },

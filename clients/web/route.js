@@ -5,8 +5,17 @@ import { readStored, store } from './stored.js';
 /** What the fragment says: {view, path: [...], options: {...}}. */
 export function currentRoute() {
   const [path, query = ''] = location.hash.replace(/^#\/?/, '').split('?');
-  const [view, ...rest] = path.split('/').filter(Boolean).map(decodeURIComponent);
+  const [view, ...rest] = path.split('/').filter(Boolean).map(decoded);
   return { view, path: rest, options: Object.fromEntries(new URLSearchParams(query)) };
+}
+
+/** An address may be cut or mistyped: what cannot be decoded stands as it is. */
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
 }
 
 export function fragment({ view, path = [], options = {} }) {
@@ -15,15 +24,20 @@ export function fragment({ view, path = [], options = {} }) {
   return `#/${[view, ...path].map(encodeURIComponent).join('/')}${query && `?${query}`}`;
 }
 
-/** Goes to a state; a new entry of the history unless it only refines the one shown. */
+/**
+ * Goes to a state; a new entry of the history unless it only refines the one shown. A view that was
+ * left refines nothing any more.
+ */
 export function go(route, { refine = false } = {}) {
   const next = fragment(route);
   if (next === location.hash) return;
+  const shown = currentRoute().view;
+  if (refine && shown && shown !== route.view) return;
   history[refine ? 'replaceState' : 'pushState'](null, '', next);
   remember(route.view);
   dispatchEvent(new Event('routechange'));
 }
 
 /** A view comes back as it was left. */
-export const remember = (view) => store(`view.${view}`, location.hash, sessionStorage);
-export const lastOf = (view) => readStored(`view.${view}`, sessionStorage) ?? `#/${view}`;
+export const remember = (view) => store(`view.${view}`, location.hash, 'session');
+export const lastOf = (view) => readStored(`view.${view}`, 'session') ?? `#/${view}`;

@@ -1,36 +1,49 @@
-/** What the browser keeps for the page. A browser that keeps nothing only forgets. */
+/** What the browser keeps for the page. A browser that keeps nothing, or keeps it damaged, only forgets. */
 
 const name = (key) => `fitgauge.${key}`;
 
-export function store(key, value, place = localStorage) {
+// To name them can throw already, where the browser denies storage.
+const PLACES = { local: () => localStorage, session: () => sessionStorage };
+
+/** @param place `local`, or `session` for what ends with the window */
+export function store(key, value, place = 'local') {
   try {
-    place.setItem(name(key), value);
+    PLACES[place]().setItem(name(key), value);
     return true;
   } catch {
     return false;
   }
 }
 
-export function readStored(key, place = localStorage) {
+export function readStored(key, place = 'local') {
   try {
-    return place.getItem(name(key));
+    return PLACES[place]().getItem(name(key));
   } catch {
     return null;
   }
 }
 
-export function forget(key, place = localStorage) {
+/** What was kept as JSON; `otherwise` where there is none that can be read. */
+export function readJson(key, otherwise, place = 'local') {
   try {
-    place.removeItem(name(key));
+    return JSON.parse(readStored(key, place)) ?? otherwise;
+  } catch {
+    return otherwise;
+  }
+}
+
+export function forget(key, place = 'local') {
+  try {
+    PLACES[place]().removeItem(name(key));
   } catch {
     // there was nothing
   }
 }
 
 /** The keys that begin with a prefix, in order. */
-export function storedKeys(prefix, place = localStorage) {
+export function storedKeys(prefix, place = 'local') {
   try {
-    return Object.keys(place)
+    return Object.keys(PLACES[place]())
       .filter((key) => key.startsWith(name(prefix)))
       .map((key) => key.slice(name('').length))
       .sort();

@@ -1,59 +1,85 @@
 /**
- * The one input of a gauging station: keyboards and gauges that type like one. Enter posts and clears
- * it; an Enter with nothing new typed is the second of a pair (CR LF, a bouncing key) for 300 ms.
+ * The one door for keys: whatever is typed or scanned outside another field comes here whole, and is
+ * read at Enter, Tab or CR LF. An Enter with nothing new typed is the second of a pair (CR LF, a
+ * bouncing key) for 300 ms.
  */
 
 import { h } from '../dom.js';
-import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
+import { LARGEST_NM, mmText, nmFromMm } from '../exact.js';
 import { number, t } from '../i18n.js';
+import { BurstWatch, readLine } from './reading.js';
 
 const SECOND_ENTER_MS = 300;
+/** A value farther than this many tolerances outside the limits is asked about. */
+const FAR = 5;
+const FIELDS = 'input, select, textarea, dialog, [contenteditable]';
 
 export class Entry {
   /**
-   * @param job gives {nominal_nm} or a reason why nothing can be gauged: {reason}
+   * @param job gives {nominal_nm, limits} or a reason why nothing can be gauged: {reason}
+   * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}
    * @param onValue takes {text, correcting}: the exact decimal, and the record it corrects
+   * @param onJob takes a designation, and resolves to whether there is such a one; @param onField takes (name, text, correcting)
    * @param onOpen takes what was typed and is not taken as it is
    * @param onDropped takes the decimal of a value that was asked about and not kept
    */
-  constructor({ job, onValue, onOpen, onDropped }) {
-    this.job = job;
-    this.onValue = onValue;
-    this.onOpen = onOpen;
-    this.onDropped = onDropped;
+  constructor({ job, prefixes, onValue, onJob, onField, onOpen, onDropped }) {
+    Object.assign(this, { job, prefixes, onValue, onJob, onField, onOpen, onDropped });
     this.lastEnter = -Infinity;
     this.asked = null;
     this.correcting = null;
+    this.burst = new BurstWatch();
     this.input = h('input.value', {
-      id: 'value', name: 'value', type: 'text', inputmode: 'decimal', autocomplete: 'off',
+      id: 'value', name: 'value', type: 'text', inputmode: 'decimal', autocomplete: 'off', maxlength: 300,
       autocapitalize: 'off', spellcheck: 'false', 'aria-describedby': 'entry-note', enterkeyhint: 'send',
       oninput: () => this.#typed(), onkeydown: (event) => this.#key(event),
     });
     this.label = h('label.label', { for: 'value' }, t('entry.label'));
     this.note = h('p.note', { id: 'entry-note', role: 'alert' });
+    this.choices = h('p.actions', { hidden: true });
     this.element = h('form.entry', { novalidate: true, onsubmit: (event) => this.#enter(event) },
       this.label,
       h('div.line', this.input, h('span.unit', { 'aria-hidden': 'true' }, 'mm'),
         h('button.primary', { type: 'submit' }, t('entry.judge'))),
-      this.note);
+      this.note, this.choices);
   }
 
   focus() {
     this.input.focus();
   }
 
-  /** The next value corrects a record. */
-  correct(record) {
+  /** Sends the keys of the page here that no other field takes. */
+  takeKeys(signal) {
+    document.addEventListener('keydown', (event) => {
+      const writes = event.key.length === 1 && event.key !== ' ' && !event.ctrlKey && !event.altKey && !event.metaKey;
+      if (!writes || event.target.closest?.(FIELDS)) return;
+      // The character itself follows the focus, so nothing before it is lost.
+      this.focus();
+      this.burst.key(event.timeStamp);
+    }, { signal, capture: true });
+  }
+
+  /** A line that came another way: a gauge that typed into the dialog for keys. */
+  take(text) {
+    this.input.value = text;
+    this.#typed();
+    this.#enter();
+  }
+
+  /** The next value, or the next name, corrects a record. @param what `measured_mm` or `part_id` */
+  correct(record, what = 'measured_mm') {
     this.#reset();
-    this.correcting = record;
-    this.label.textContent = t('entry.correcting', { mm: number(mmText(nmFromMm(record.measured_mm))) });
+    this.correcting = { record, what };
+    this.label.textContent = what === 'measured_mm'
+      ? t('entry.correcting', { mm: number(mmText(nmFromMm(record.measured_mm))) })
+      : t('entry.correcting_part', { part: record.part_id ?? t('part.none') });
     this.element.classList.add('correcting');
-    this.#say(t('entry.correct_how'));
+    this.#say(t(`entry.correct_how.${what}`));
     this.focus();
   }
 
   #enter(event) {
-    event.preventDefault();
+    event?.preventDefault();
     const now = performance.now();
     const second = now - this.lastEnter < SECOND_ENTER_MS;
     this.lastEnter = now;
@@ -62,36 +88,78 @@ export class Entry {
       if (this.asked) return this.#accept(this.asked);
     }
     this.unchanged = true;
-    this.#judge();
+    this.#read();
   }
 
-  #judge() {
+  #read() {
     const typed = this.input.value.trim();
-    const { reason, nominal_nm: nominal } = this.job();
-    if (reason) return this.#refuse(reason);
     if (typed === '') return this.#refuse(t('entry.empty'));
-    const text = parseMeasured(typed);
-    if (text === null) return this.#refuse(t('entry.malformed', { typed }));
+    if (this.correcting?.what === 'part_id') return this.#finish(() => this.onField('part_id', this.#withoutPrefix(typed), this.correcting.record));
+    const read = readLine(typed, { burst: this.burst.isBurst(typed), prefixes: this.prefixes() });
+    if (read.kind === 'value') return this.#judge(read.text);
+    if (this.correcting) return this.#refuse(t('entry.malformed', { typed }));
+    if (read.kind === 'job') return this.#adopt(read.text);
+    if (read.kind === 'field') return this.#finish(() => this.onField(read.name, read.text));
+    return this.#refuse(t('entry.malformed', { typed }));
+  }
+
+  /** `25.013in` is written like a size and a class: the service knows whether there is one. */
+  async #adopt(text) {
+    this.input.readOnly = true;
+    const known = await this.onJob(text);
+    this.input.readOnly = false;
+    if (known) this.#finish(() => {});
+    else this.#refuse(t('entry.malformed', { typed: text }));
+  }
+
+  #withoutPrefix(typed) {
+    const read = readLine(typed, { prefixes: this.prefixes() });
+    return read.kind === 'field' && read.name === 'part_id' ? read.text : typed;
+  }
+
+  #judge(text) {
+    const job = this.correcting ? { limits: this.correcting.record } : this.job();
+    if (job.reason) return this.#refuse(job.reason);
     const nm = nmFromMm(text);
-    if (nm <= 0 || nm > LARGEST_NM) return this.#refuse(t('entry.out_of_range', { typed }));
-    if (2 * nm < nominal || nm > 2 * nominal) return this.#ask(text, nominal);
-    this.#accept(text);
+    if (nm <= 0 || nm > LARGEST_NM) return this.#refuse(t('entry.out_of_range', { typed: this.input.value.trim() }));
+    if (isFar(nm, job)) return this.#ask(text, job);
+    return this.#accept(text);
   }
 
   #accept(text) {
     const { correcting } = this;
-    this.#reset();
-    this.unchanged = true;
-    this.onValue({ text, correcting });
+    this.#finish(() => this.onValue({ text, correcting: correcting?.record }));
   }
 
-  /** Half to twice the nominal size is left by a wrong class, a lost point or a gauge in inches. */
-  #ask(text, nominal) {
+  #finish(act) {
+    act();
+    this.#reset();
+    this.unchanged = true;
+  }
+
+  /** Far outside lie a wrong class, a lost point, a gauge in inches, and the number of a part. */
+  #ask(text, { limits, nominal_nm: nominal }) {
     this.asked = text;
     this.element.classList.add('asking');
     this.onOpen(this.input.value.trim());
-    this.#say(t('entry.ask', { mm: number(text), nominal: number(mmText(nominal, 0)) }));
+    const typed = this.input.value.trim();
+    this.#say(t('entry.ask', { mm: number(text), nominal: number(limits?.designation ?? mmText(nominal, 0)) }));
+    const choice = (label, act) => h('button', { type: 'button', onclick: act }, label);
+    this.#offer([
+      choice(t('entry.ask_keep'), () => this.#accept(text)),
+      !this.correcting && choice(t('entry.ask_part', { part: typed }), () => {
+        this.onDropped(text);
+        this.#finish(() => this.onField('part_id', typed));
+      }),
+      choice(t('entry.ask_drop'), () => this.#drop()),
+    ]);
     this.input.select();
+  }
+
+  #drop() {
+    if (this.asked) this.onDropped(this.asked);
+    this.#reset();
+    this.focus();
   }
 
   #refuse(reason) {
@@ -99,22 +167,29 @@ export class Entry {
     if (this.input.value.trim()) this.onOpen(this.input.value.trim());
     this.#say(reason);
     this.input.select();
+    this.burst.reset();
   }
 
   #typed() {
     this.unchanged = false;
+    if (this.input.value === '') this.burst.reset();
     if (this.asked) this.onDropped(this.asked);
     this.asked = null;
+    this.#offer([]);
     this.element.classList.remove('asking', 'refusing');
-    this.#say(this.correcting ? t('entry.correct_how') : '');
+    this.#say(this.correcting ? t(`entry.correct_how.${this.correcting.what}`) : '');
   }
 
   #key(event) {
-    if (event.key === 'Enter' && event.repeat) event.preventDefault();
-    if (event.key === 'Escape') {
-      if (this.asked) this.onDropped(this.asked);
-      this.#reset();
+    const { selectionStart, selectionEnd, value } = this.input;
+    if (event.key.length === 1) {
+      // A character over a selection of all begins a new line.
+      if (selectionStart === 0 && selectionEnd === value.length) this.burst.reset();
+      this.burst.key(event.timeStamp);
     }
+    if (event.key === 'Enter' && event.repeat) event.preventDefault();
+    if (event.key === 'Tab' && !event.shiftKey && value.trim() && !this.asked) this.#enter(event);
+    if (event.key === 'Escape') this.#drop();
   }
 
   #reset() {
@@ -122,12 +197,27 @@ export class Entry {
     this.correcting = null;
     this.unchanged = false;
     this.input.value = '';
+    this.burst.reset();
+    this.#offer([]);
     this.label.textContent = t('entry.label');
     this.element.classList.remove('asking', 'refusing', 'correcting');
     this.#say('');
   }
 
+  #offer(choices) {
+    this.choices.replaceChildren(...choices.filter(Boolean));
+    this.choices.hidden = choices.length === 0;
+  }
+
   #say(text) {
     if (this.note.textContent !== text) this.note.textContent = text;
   }
+}
+
+/** Without limits (the service is away and never gave them) half to twice the nominal size has to do. */
+function isFar(nm, { limits, nominal_nm: nominal }) {
+  if (!limits) return 2 * nm < nominal || nm > 2 * nominal;
+  const [lower, upper] = [limits.lower_limit_mm, limits.upper_limit_mm].map(nmFromMm);
+  const far = FAR * Math.max(upper - lower, 1);
+  return nm < lower - far || nm > upper + far;
 }

@@ -1,29 +1,37 @@
-/** What is gauged: size and class typed freely, and the fields that go into every record. */
+/** What is gauged: the part first, then size and class, and the fields that go into every record. */
 
 import { explain, number, t } from '../i18n.js';
 import { field, h } from '../dom.js';
 import { getJson, url } from '../api.js';
 import { parseDesignation } from '../designation.js';
-import { parseMeasured } from '../exact.js';
+import { nmFromUm, parseMeasured } from '../exact.js';
+import { readJson, store } from '../stored.js';
 import { limitsText, toleranceText } from '../verdict.js';
+import { PREFIXES } from './reading.js';
 
 const ECHO_MS = 150;
-export const FIELDS = ['part_id', 'characteristic', 'order', 'operation', 'machine', 'operator', 'gauge'];
+/** Limits that are older are asked for again: somebody may have stored a column of the shop's own. */
+const RENEW_MS = 60_000;
+const COVERAGE = 2;
+const KEPT_LIMITS = 'limits';
+const KEPT_PREFIXES = 'prefixes';
+const SIDE_FIELDS = ['characteristic', 'order', 'operation', 'machine', 'operator', 'gauge'];
+export const FIELDS = ['part_id', ...SIDE_FIELDS];
 
 export class Job {
-  /** @param onChange is told of every change; @param onDone when Enter ends the typing */
+  /** @param onChange is told of every change, with whether another thing is gauged now; @param onDone when Enter ends the typing */
   constructor({ designation, options, onChange, onDone }) {
     this.onChange = onChange;
     this.limits = null;
     this.reason = '';
     this.input = h('input.designation', {
       id: 'designation', type: 'text', autocomplete: 'off', autocapitalize: 'off', spellcheck: 'false',
-      value: designation, 'aria-describedby': 'echo', oninput: () => this.#typed(), onfocus: () => this.input.select(),
+      'aria-describedby': 'echo', oninput: () => this.#typed(), onfocus: () => this.input.select(),
     });
     this.input.value = designation;
     this.echo = h('p.echo', { id: 'echo', role: 'status' });
-    this.inputs = Object.fromEntries(FIELDS.map((name) => [name,
-      h('input', { type: 'text', name, autocomplete: 'off', maxlength: 200, onchange: () => this.#changed() })]));
+    this.inputs = Object.fromEntries(FIELDS.map((name) => [name, textField(name, () => this.#changed())]));
+    this.inputs.part_id.classList.add('part');
     this.rule = h('select', { name: 'rule', onchange: () => this.#ruleChanged() },
       ['simple', 'guard_band'].map((rule) => h('option', { value: rule }, t(`rule.${rule}`))));
     this.uncertainty = h('input', {
@@ -32,10 +40,17 @@ export class Job {
     for (const name of FIELDS) this.inputs[name].value = options[name] ?? '';
     this.rule.value = options.rule === 'guard_band' ? 'guard_band' : 'simple';
     this.uncertainty.value = options.uncertainty_um ?? '';
+    this.prefixInputs = Object.fromEntries(Object.keys(PREFIXES).map((name) => [name,
+      textField(`prefix_${name}`, () => this.#keepPrefixes(), { maxlength: 10 })]));
+    for (const [name, prefix] of Object.entries({ ...PREFIXES, ...readJson(KEPT_PREFIXES, {}) })) {
+      if (this.prefixInputs[name]) this.prefixInputs[name].value = prefix;
+    }
     this.given = h('p.aside');
     this.more = h('details.more', h('summary', t('job.more')),
-      h('div.fields', FIELDS.map((name) => field(t(`field.${name}`), this.inputs[name])),
-        field(t('field.rule'), this.rule), field(t('field.uncertainty_um'), this.uncertainty)));
+      h('div.fields', SIDE_FIELDS.map((name) => field(t(`field.${name}`), this.inputs[name])),
+        field(t('field.rule'), this.rule), field(t('field.uncertainty_um'), this.uncertainty)),
+      h('fieldset.fields', h('legend.label', t('job.prefixes')),
+        Object.entries(this.prefixInputs).map(([name, input]) => field(t(`field.${name}`), input))));
     this.element = h('form.job', {
       novalidate: true,
       onsubmit: (event) => {
@@ -43,10 +58,11 @@ export class Job {
         this.#look();
         onDone();
       },
-    }, h('div.line', field(t('job.designation'), this.input), this.echo),
+    }, h('div.line', field(t('field.part_id'), this.inputs.part_id), field(t('job.designation'), this.input), this.echo),
     h('div.more-line', this.more, this.given),
     h('button.unseen', { type: 'submit', tabindex: -1 }, t('entry.judge')));
     this.uncertainty.disabled = this.rule.value === 'simple';
+    this.gauged = this.#gauged();
   }
 
   /** Begins to say how the designation is understood. */
@@ -59,15 +75,45 @@ export class Job {
     this.more.open = false;
   }
 
-  #changed() {
-    const given = Object.entries(this.options).filter(([, value]) => value);
-    this.given.textContent = given.map(([name, value]) =>
-      (name === 'rule' ? t(`rule.${value}`) : `${t(`field.${name}`)} ${value}`)).join(' · ');
-    this.onChange();
+  /** Fills in a field, as if it had been typed. */
+  set(name, text) {
+    this.inputs[name].value = text;
+    this.#changed();
+  }
+
+  /** Gauges another size from now on, if there is such a one. @returns whether there is */
+  async adopt(text) {
+    const limits = await this.#limitsOf(parseDesignation(text).text).catch(() => null);
+    if (!limits) return false;
+    this.input.value = text;
+    this.#show(limits, '');
+    return true;
+  }
+
+  /** The limits the service gives, or gave last where it is away. */
+  async #limitsOf(text) {
+    const kept = `${KEPT_LIMITS}.${text}`;
+    try {
+      const limits = await getJson(url(['limits', text]));
+      store(kept, JSON.stringify(limits));
+      return limits;
+    } catch (problem) {
+      if (problem.status !== undefined) throw problem;
+      return readJson(kept, null);
+    }
   }
 
   get designation() {
     return this.input.value.trim();
+  }
+
+  get part() {
+    return this.inputs.part_id.value.trim();
+  }
+
+  /** {field: prefix} of scans. */
+  get prefixes() {
+    return Object.fromEntries(Object.entries(this.prefixInputs).map(([name, input]) => [name, input.value.trim()]));
   }
 
   /** Everything but the designation, as the URL has it. */
@@ -77,19 +123,51 @@ export class Job {
     return { ...options, rule: 'guard_band', uncertainty_um: this.uncertainty.value.trim() };
   }
 
-  /** What the next value is judged by: {text, nominal_nm, uncertainty}, or {reason} why it can't be. */
+  /** What the next value is judged by: {text, nominal_nm, limits, uncertainty}, or {reason} why it can't be. */
   current() {
     const parsed = parseDesignation(this.designation);
     if (!parsed) return { reason: this.designation ? t('error.designation.malformed') : t('job.missing') };
     if (this.reason) return { reason: this.reason };
-    if (this.rule.value === 'simple') return parsed;
+    const job = { ...parsed, limits: this.limits };
+    if (this.rule.value === 'simple') return job;
     const uncertainty = parseMeasured(this.uncertainty.value);
-    return uncertainty === null ? { reason: t('job.uncertainty_missing') } : { ...parsed, uncertainty };
+    return uncertainty === null ? { reason: t('job.uncertainty_missing') } : { ...job, uncertainty };
+  }
+
+  /** The guard band in nm, NaN where it is no whole number of them. */
+  get guard() {
+    if (this.rule.value === 'simple') return 0;
+    const typed = parseMeasured(this.uncertainty.value);
+    return typed === null || (typed.split('.')[1] ?? '').length > 3 ? NaN : COVERAGE * nmFromUm(typed);
+  }
+
+  /** Asks again for limits that are held for long. */
+  renew() {
+    if (this.limits && Date.now() - this.heldSince > RENEW_MS) this.#look();
+  }
+
+  #gauged() {
+    return JSON.stringify([this.designation, this.part, this.inputs.characteristic.value.trim()]);
+  }
+
+  #changed() {
+    const given = Object.entries(this.options).filter(([name, value]) => value && name !== 'part_id');
+    this.given.textContent = given.map(([name, value]) =>
+      (name === 'rule' ? t(`rule.${value}`) : `${t(`field.${name}`)} ${value}`)).join(' · ');
+    const gauged = this.#gauged();
+    const another = gauged !== this.gauged;
+    this.gauged = gauged;
+    this.onChange(another);
+  }
+
+  #keepPrefixes() {
+    store(KEPT_PREFIXES, JSON.stringify(this.prefixes));
   }
 
   #typed() {
     clearTimeout(this.timer);
     this.reason = '';
+    this.limits = null;
     this.timer = setTimeout(() => this.#look(), ECHO_MS);
   }
 
@@ -104,24 +182,23 @@ export class Job {
     const typed = this.designation;
     const parsed = parseDesignation(typed);
     if (!parsed) {
-      this.#show(null, typed ? t('error.designation.malformed') : t('job.missing'));
+      this.#show(null, typed ? t('error.designation.malformed') : '');
       return;
     }
     try {
-      const limits = await getJson(url(['limits', parsed.text]));
+      const limits = await this.#limitsOf(parsed.text);
       if (typed === this.designation) this.#show(limits, '');
     } catch (problem) {
-      if (typed !== this.designation) return;
-      // A service that is away says nothing about the designation: values may queue.
-      this.#show(null, problem.status === undefined ? '' : explain(problem));
+      if (typed === this.designation) this.#show(null, explain(problem));
     }
   }
 
   #show(limits, reason) {
     this.limits = limits;
+    this.heldSince = Date.now();
     this.reason = reason;
     this.echo.classList.toggle('wrong', reason !== '');
-    this.echo.replaceChildren(...(limits ? this.#understood(limits) : [reason]));
+    this.echo.replaceChildren(...(limits ? this.#understood(limits) : [reason || (this.designation ? '' : t('job.missing'))]));
     this.#changed();
   }
 
@@ -131,7 +208,16 @@ export class Job {
       h('span', t(`feature.${limits.feature}`)),
       h('span.figures', limitsText(limits)),
       h('span', t('limits.tolerance', { um: toleranceText(limits) })),
-      limits.basis === 'custom' && h('span', t('limits.custom')),
+      limits.basis === 'custom' && h('span.own-basis', t('limits.custom')),
     ].filter(Boolean);
   }
+}
+
+/** A field that a scan replaces instead of lengthening it. */
+function textField(name, onchange, attributes = {}) {
+  const input = h('input', {
+    type: 'text', name, autocomplete: 'off', autocapitalize: 'off', spellcheck: 'false', maxlength: 200, onchange, ...attributes,
+    onfocus: () => input.select(),
+  });
+  return input;
 }

@@ -1,4 +1,4 @@
-/** The verdict across the shop: shape, word, value, and where it lies between the limits. */
+/** The verdict across the shop: shape, word, value, of which part it is, and where it lies between the limits. */
 
 import { h } from '../dom.js';
 import { number, t } from '../i18n.js';
@@ -8,35 +8,45 @@ import { distanceText, measuredText, verdictShape } from '../verdict.js';
 /** Long words get a smaller size, so that none is broken. */
 const word = (text) => h(`p.word${text.length > 11 ? '.longer' : text.length > 7 ? '.long' : ''}`, text);
 
+/** "SN-1 · bore-A · Ø 25 H7": what a verdict is about. */
+const about = ({ part_id: part, characteristic, designation }) =>
+  h('p.about', [part, characteristic, designation && `Ø ${number(designation)}`].filter(Boolean).join(' · '));
+
 export class Panel {
   constructor() {
     this.element = h('section.verdict', { role: 'status', 'aria-live': 'polite', 'aria-atomic': 'true', 'aria-label': t('panel.label') });
-    this.idle(null);
   }
 
-  /** Nothing was judged yet. */
-  idle(limits) {
-    if (this.state && this.state !== 'idle') return;
-    this.#show('idle', [
-      word(t('panel.idle')),
-      limits && limitStrip(limits),
-    ]);
+  /** Nothing was judged yet of what is gauged now: {limits, part}. */
+  next({ limits, part }) {
+    const text = !limits ? t('panel.no_job') : part ? t('panel.measure_part', { part }) : t('panel.measure');
+    this.#show('idle', [word(text), limits && limitStrip(limits)]);
   }
 
-  /** A value is kept but has no answer yet. */
+  /** A value is kept but has no answer yet. @param verdict by the limits this page holds, or null */
   waiting(shown, away) {
-    this.#show('waiting', [
+    if (away && shown.verdict) return this.#provisional(shown);
+    return this.#show('waiting', [
       verdictShape('waiting'),
-      h('div.said', word(t(away ? 'panel.kept' : 'panel.waiting')),
+      h('div.said', word(t(away ? 'panel.kept' : 'panel.waiting')), about(shown),
         h('p.measured', `${number(shown.measured)} mm`),
         h('p.distance', t(away ? 'panel.kept_how' : 'panel.waiting_how'))),
     ]);
   }
 
+  #provisional(shown) {
+    this.#show(shown.verdict, [
+      verdictShape(shown.verdict),
+      h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown),
+        h('p.measured', `${number(shown.measured)} mm`), h('p.distance', t('panel.provisional'))),
+      limitStrip({ ...shown.limits, measured_mm: shown.measured }),
+    ], true);
+  }
+
   judged(record) {
     this.#show(record.verdict, [
       verdictShape(record.verdict),
-      h('div.said', word(t(`verdict.${record.verdict}`)),
+      h('div.said', word(t(`verdict.${record.verdict}`)), about(record),
         h('p.measured', `${measuredText(record)} mm`),
         h('p.distance', distanceText(record))),
       limitStrip(record),
@@ -46,7 +56,7 @@ export class Panel {
   refused(shown, reason) {
     this.#show('refused', [
       verdictShape('open'),
-      h('div.said', word(t('panel.refused')),
+      h('div.said', word(t('panel.refused')), about(shown),
         h('p.measured', `${number(shown.measured)} mm`), h('p.distance', reason)),
     ]);
   }
@@ -59,9 +69,10 @@ export class Panel {
     ]);
   }
 
-  #show(state, children) {
+  #show(state, children, provisional = false) {
     this.state = state;
     this.element.dataset.verdict = state;
+    this.element.toggleAttribute('data-provisional', provisional);
     this.element.replaceChildren(...children.filter(Boolean));
   }
 }

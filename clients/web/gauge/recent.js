@@ -2,17 +2,17 @@
 
 import { h } from '../dom.js';
 import { number, t, time } from '../i18n.js';
-import { readStored, store } from '../stored.js';
+import { readJson, store } from '../stored.js';
 import { distanceText, measuredText, verdictMark, verdictShape } from '../verdict.js';
 
-const MOST = 12;
+const MOST = 100;
 const KEPT = 'recent';
 
 export class Recent {
-  /** @param onCorrect takes the record to correct */
+  /** @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id` */
   constructor({ onCorrect }) {
     this.onCorrect = onCorrect;
-    this.rows = JSON.parse(readStored(KEPT, sessionStorage) ?? '[]');
+    this.rows = readJson(KEPT, [], 'session');
     this.list = h('ol');
     this.element = h('section.recent', { 'aria-labelledby': 'recent-title' },
       h('h2', { id: 'recent-title' }, t('recent.title')), this.list);
@@ -32,7 +32,7 @@ export class Recent {
     const corrected = this.rows.find((other) => row.record && other.record?.id === row.record.correction_of);
     if (corrected) corrected.corrected = true;
     this.rows.length = Math.min(this.rows.length, MOST);
-    store(KEPT, JSON.stringify(this.rows), sessionStorage);
+    store(KEPT, JSON.stringify(this.rows), 'session');
     this.#draw();
   }
 
@@ -46,12 +46,17 @@ export class Recent {
     return h('li', { class: row.corrected ? 'corrected' : state },
       record ? verdictMark(record.verdict) : h('span.mark-of', verdictShape('waiting'), t(`recent.${state}`)),
       h('span.figure', record ? measuredText(record) : number(shown.measured)),
-      h('span.aside', [record?.designation ?? shown.designation, time(new Date(shown.at)),
+      h('span.aside', [(record ?? shown).part_id, record?.designation ?? shown.designation, time(new Date(shown.at)),
         row.corrected && t('recent.corrected')].filter(Boolean).join(' · ')),
       h('span.aside', record ? distanceText(record) : row.reason ?? ''),
-      state === 'stored' && !row.corrected && h('button.quiet', {
-        type: 'button', onclick: () => this.onCorrect(record),
-        'aria-label': t('recent.correct_this', { mm: measuredText(record) }),
-      }, t('recent.correct')));
+      state === 'stored' && !row.corrected && h('span.fix',
+        this.#fix(record, 'measured_mm', 'recent.correct'), this.#fix(record, 'part_id', 'recent.correct_part')));
+  }
+
+  #fix(record, what, name) {
+    return h('button.quiet', {
+      type: 'button', onclick: () => this.onCorrect(record, what),
+      'aria-label': t(`${name}_this`, { mm: measuredText(record), part: record.part_id ?? t('part.none') }),
+    }, t(name));
   }
 }

@@ -3,7 +3,8 @@
 import { url } from '../api.js';
 import { connection } from '../connection.js';
 import { h } from '../dom.js';
-import { Decimal, toJson } from '../exact.js';
+import { Decimal, judge, nmFromMm, toJson } from '../exact.js';
+import { Arrivals } from '../gauge/arrivals.js';
 import { Entry } from '../gauge/entry.js';
 import { FIELDS, Job } from '../gauge/job.js';
 import { Panel } from '../gauge/panel.js';
@@ -20,41 +21,62 @@ export function mount(main, route) {
   const panel = new Panel();
   const job = new Job({
     designation: route.path[0] ?? '', options: route.options,
-    onChange: () => jobChanged(), onDone: () => entry.focus(),
+    onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
   });
   const entry = new Entry({
     job: () => job.current(),
+    prefixes: () => job.prefixes,
     onValue: (value) => post(value),
+    onJob: (designation) => job.adopt(designation),
+    onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text }) : job.set(name, text)),
     onOpen: (typed) => panel.open(typed),
     onDropped: (text) => recent.set({
       key: `dropped-${performance.now()}`, state: 'dropped', shown: shownOf(text), reason: t('recent.dropped_why'),
     }),
   });
-  const recent = new Recent({ onCorrect: (record) => entry.correct(record) });
+  const recent = new Recent({ onCorrect: (record, what) => entry.correct(record, what) });
+  const arrivals = new Arrivals();
 
-  function jobChanged() {
+  const next = () => panel.next({ limits: job.limits, part: job.part });
+
+  /** A verdict stands for one part and one size: another one begins without. */
+  function jobChanged(another) {
     const path = job.designation ? [job.designation] : [];
     go({ view: 'gauge', path, options: job.options }, { refine: true });
-    panel.idle(job.limits);
+    if (another || panel.state === undefined || panel.state === 'idle') next();
   }
 
-  const shownOf = (measured) => ({ measured, designation: job.limits?.designation ?? job.designation, at: connection.now() });
+  function shownOf(measured) {
+    const { part_id, characteristic } = job.options;
+    const { limits } = job;
+    return {
+      measured, part_id, characteristic, designation: limits?.designation ?? job.designation, at: connection.now(), limits,
+      verdict: limits && judge(nmFromMm(measured), limits, job.guard),
+    };
+  }
 
   function bodyOf(text) {
     const { text: designation, uncertainty } = job.current();
     const given = FIELDS.map((name) => [name, job.inputs[name].value.trim()]).filter(([, value]) => value);
     const rule = uncertainty ? { rule: 'guard_band', uncertainty_um: new Decimal(uncertainty) } : {};
-    return {
-      designation, measured_mm: new Decimal(text), measured_at: connection.now().toISOString(),
-      ...Object.fromEntries(given), ...rule,
-    };
+    return { designation, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...rule };
   }
 
   function post({ text, correcting }) {
-    const path = correcting ? url(['measurements', correcting.id, 'corrections']) : url(['measurements']);
-    const body = correcting ? { measured_mm: new Decimal(text), reason: t('correction.reason') } : bodyOf(text);
-    const shown = shownOf(text);
-    const { key } = queue.add(path, toJson(body), shown);
+    if (correcting) return correct(correcting, text);
+    job.renew();
+    return send(url(['measurements']), bodyOf(text), shownOf(text), true);
+  }
+
+  function correct(record, measured, fields = {}) {
+    const { part_id, characteristic, designation } = { ...record, ...fields };
+    const shown = { measured, part_id, characteristic, designation, at: connection.now() };
+    const body = { measured_mm: new Decimal(measured), ...fields, reason: t('correction.reason') };
+    send(url(['measurements', record.id, 'corrections']), body, shown, false);
+  }
+
+  function send(path, body, shown, timed) {
+    const { key } = queue.add(path, toJson(body), { ...shown, late: !connection.up }, timed);
     recent.set({ key, state: 'waiting', shown });
     setTimeout(() => {
       if (queue.entries.some((waiting) => waiting.key === key)) panel.waiting(shown, !connection.up);
@@ -63,22 +85,28 @@ export function mount(main, route) {
 
   const { signal } = leaving;
   entry.input.addEventListener('focus', () => job.fold());
+  entry.takeKeys(signal);
+  addEventListener('strayline', ({ detail }) => entry.take(detail), { signal });
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
-    panel.judged(record);
     recent.set({ key, state: 'stored', shown, record });
+    if (shown.late) arrivals.stored(record);
+    // A verdict that comes late is no verdict of the part that lies there now.
+    if (!shown.late) panel.judged(record);
+    else if (!queue.size) next();
   }, { signal });
   queue.addEventListener('refused', ({ detail: { entry: { key, shown }, problem } }) => {
-    panel.refused(shown, explain(problem));
     recent.set({ key, state: 'refused', shown, reason: explain(problem) });
+    if (shown.late) arrivals.refused(shown, explain(problem));
+    else panel.refused(shown, explain(problem));
   }, { signal });
   connection.addEventListener('change', () => {
-    if (!connection.up && queue.size) panel.waiting(queue.entries.at(-1).shown, true);
+    if (connection.up || !queue.size) return;
+    for (const waiting of queue.entries) queue.mark(waiting, { late: true });
+    panel.waiting(queue.entries.at(-1).shown, true);
   }, { signal });
 
-  // Figures typed anywhere but in a field belong to the value; Ctrl+Z in an empty one undoes.
   document.addEventListener('keydown', (event) => {
     const typing = event.target.closest?.('input, select, textarea, dialog');
-    if (!typing && /^[\d.,]$/.test(event.key) && !event.ctrlKey && !event.altKey && !event.metaKey) entry.focus();
     const undo = (event.ctrlKey || event.metaKey) && event.key === 'z';
     if (undo && recent.last && (!typing || (typing === entry.input && !entry.input.value))) {
       event.preventDefault();
@@ -88,7 +116,7 @@ export function mount(main, route) {
   addEventListener('focus', () => document.activeElement === document.body && entry.focus(), { signal });
 
   main.replaceChildren(h('div.gauge', h('h1.unseen', t('view.gauge')),
-    h('div.station', job.element, entry.element, panel.element), recent.element));
+    h('div.station', job.element, entry.element, arrivals.element, panel.element), recent.element));
   remember('gauge');
   job.start();
   if (job.designation) entry.focus();
