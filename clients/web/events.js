@@ -33,14 +33,39 @@ export async function* readEvents(path, signal) {
   yield* eventsOf(await get(path, { signal, headers: { Accept: 'text/event-stream' } }));
 }
 
-/** Follows a stream until `signal`, coming back with the id of the last event after every break. */
+/** Resolves once the page is seen. */
+const seen = () => new Promise((resolve) => {
+  const look = () => {
+    if (document.hidden) return;
+    document.removeEventListener('visibilitychange', look);
+    resolve();
+  };
+  document.addEventListener('visibilitychange', look);
+  look();
+});
+
+/** A signal that also ends when the page is hidden: a browser has six connections to a service for all its tabs. */
+function whileSeen(signal) {
+  const hidden = new AbortController();
+  const look = () => document.hidden && hidden.abort();
+  document.addEventListener('visibilitychange', look, { signal: hidden.signal });
+  signal.addEventListener('abort', () => hidden.abort(), { signal: hidden.signal });
+  if (signal.aborted) hidden.abort();
+  return hidden.signal;
+}
+
+/**
+ * Follows a stream until `signal` while the page is seen, coming back with the id of the last event
+ * after every break.
+ */
 export async function follow(path, signal, onEvent) {
   let last;
   let wait = 250;
   while (!signal.aborted) {
+    await seen();
     try {
       const headers = { Accept: 'text/event-stream', ...(last && { 'Last-Event-ID': last }) };
-      for await (const event of eventsOf(await get(path, { signal, headers }))) {
+      for await (const event of eventsOf(await get(path, { signal: whileSeen(signal), headers }))) {
         wait = 250;
         last = event.id ?? last;
         if (event.data !== undefined) onEvent(event);

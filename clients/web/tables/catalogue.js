@@ -11,10 +11,11 @@ export function isoClass(name) {
   return match && { letters: match[1], grade: match[2] };
 }
 
-/** {revision, hole: [names], shaft: [names]} */
+/** {revision, hole: [names], shaft: [names], own: {hole: [names], shaft: [names]}} */
 export async function classNames() {
   const { revision, tables } = await getJson(url(['tables']));
-  return { revision, ...Object.fromEntries(tables.map((table) => [table.feature, table.classes])) };
+  const of = (member) => Object.fromEntries(tables.map((table) => [table.feature, table[member]]));
+  return { revision, ...of('classes'), own: of('own') };
 }
 
 export const tableRows = (feature, classes) => getJson(url(['tables', feature], { classes: classes.join(',') }));

@@ -1,9 +1,11 @@
 /** Columns of the shop's own: what there is, a new one from pasted rows, and back to the standard. */
 
 import { request, url } from '../api.js';
+import { confirm } from '../confirm.js';
 import { field, h } from '../dom.js';
 import { Decimal, parseMeasured, parseSigned } from '../exact.js';
 import { explain, t } from '../i18n.js';
+import { isoClass } from './catalogue.js';
 
 /** One row a line: over; up to; upper; lower. With `;` or tabs a decimal comma is read. */
 function readRows(text) {
@@ -41,10 +43,13 @@ export class OwnColumns {
     if (!names.length) this.list.replaceChildren(h('li.aside', t('own.none')));
   }
 
-  #store() {
-    return this.#change(() => {
+  async #store() {
+    const name = this.name.value.trim();
+    // Every answer and verdict of that class changes with it.
+    if (isoClass(name) && !await confirm(t('own.overwrite_sure', { name }), t('own.overwrite'))) return;
+    await this.#change(() => {
       const rows = readRows(this.rows.value);
-      return ['PUT', this.name.value.trim(), { rows }];
+      return ['PUT', name, { rows }];
     }, 'own.stored');
   }
 
@@ -56,9 +61,11 @@ export class OwnColumns {
     try {
       const [method, name, body] = order();
       await request(method, url(['tables', this.feature, 'classes', name]), { body });
+      this.note.setAttribute('role', 'status');
       this.note.textContent = t(done, { name });
       this.onChange();
     } catch (problem) {
+      this.note.setAttribute('role', 'alert');
       this.note.textContent = explain(problem);
     }
   }

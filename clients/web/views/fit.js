@@ -9,6 +9,7 @@ import { clearanceBar } from '../fit/clearance_bar.js';
 import { preferredFits } from '../fit/preferred.js';
 import { zoneFigure } from '../fit/zone_figure.js';
 import { explain, number, signed, t } from '../i18n.js';
+import { Latest } from '../latest.js';
 import { go } from '../route.js';
 import { classNames } from '../tables/catalogue.js';
 import { limitsText, verdictMark } from '../verdict.js';
@@ -17,6 +18,8 @@ const FIRST = '25H7/g6';
 const FEATURES = ['hole', 'shaft'];
 
 export function mount(main, route) {
+  const leaving = new AbortController();
+  const latest = new Latest(leaving.signal);
   const state = parseFit(route.path.join('/') || FIRST) ?? { text: route.path.join('/') };
   const typed = h('input.designation', { id: 'fit', type: 'text', autocomplete: 'off', autocapitalize: 'off', spellcheck: 'false' });
   const measured = Object.fromEntries(FEATURES.map((feature) => [feature, h('input', {
@@ -43,7 +46,14 @@ export function mount(main, route) {
   function readTyped() {
     const parsed = parseFit(typed.value);
     if (parsed) pick(parsed);
-    else note.textContent = t('error.fit.malformed');
+    else nothing(t('error.fit.malformed'));
+  }
+
+  /** No result stands below a note that is about something else. */
+  function nothing(reason) {
+    note.textContent = reason;
+    figure.replaceChildren();
+    result.replaceChildren();
   }
 
   function pick(change) {
@@ -56,29 +66,25 @@ export function mount(main, route) {
     go({ view: 'fit', path: [`${state.size}${state.hole}`, state.shaft], options });
   }
 
-  async function refresh() {
+  function refresh() {
     if (!state.size) {
       typed.value = state.text;
-      note.textContent = t('error.fit.malformed');
+      nothing(t('error.fit.malformed'));
       return;
     }
     const designation = `${number(state.size)} ${state.hole}/${state.shaft}`;
     typed.value = designation;
     remembered();
-    try {
-      const fit = await getJson(url(['fits', `${state.size}${state.hole}`, state.shaft]));
+    latest.run(async (signal) => {
+      const fit = await getJson(url(['fits', `${state.size}${state.hole}`, state.shaft]), { signal });
       note.textContent = '';
-      await draw(fit);
-    } catch (problem) {
-      note.textContent = explain(problem);
-      figure.replaceChildren();
-      result.replaceChildren();
-    }
+      await draw(fit, signal);
+    }).catch((problem) => nothing(explain(problem)));
     preferred.replaceChildren(preferredFits(state, pick));
     for (const feature of FEATURES) classMaps[feature]?.show(nmFromMm(state.size), state[feature]);
   }
 
-  async function draw(fit) {
+  async function draw(fit, signal) {
     const sizes = {};
     for (const feature of FEATURES) {
       const text = parseMeasured(measured[feature].value);
@@ -86,15 +92,16 @@ export function mount(main, route) {
       sizes[feature] = text === null ? NaN : nmFromMm(text);
     }
     const actual = sizes.hole - sizes.shaft;
+    const judged = await verdicts(fit, sizes, signal);
     figure.replaceChildren(zoneFigure(fit, sizes), clearanceBar(fit, actual));
-    result.replaceChildren(...summary(fit, actual), limitsTable(fit, await verdicts(fit, sizes)));
+    result.replaceChildren(...summary(fit, actual), limitsTable(fit, judged));
   }
 
-  const verdicts = async (fit, sizes) => Object.fromEntries(await Promise.all(FEATURES
+  const verdicts = async (fit, sizes, signal) => Object.fromEntries(await Promise.all(FEATURES
     .filter((feature) => sizes[feature] > 0)
     .map(async (feature) => {
-      const name = `${state.size}${fit[feature].tolerance_class}`;
-      return [feature, await getJson(url(['verdicts', name], { measured_mm: mmText(sizes[feature], 0) }))];
+      const name = `${fit[feature].nominal_mm}${fit[feature].tolerance_class}`;
+      return [feature, await getJson(url(['verdicts', name], { measured_mm: mmText(sizes[feature], 0) }), { signal })];
     })));
 
   async function drawMaps() {
@@ -106,6 +113,7 @@ export function mount(main, route) {
 
   refresh();
   drawMaps().catch((problem) => { note.textContent = explain(problem); });
+  return () => leaving.abort();
 }
 
 function summary(fit, actual) {

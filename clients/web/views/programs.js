@@ -1,5 +1,6 @@
 /** NC programs: put them on the control's disk, check them, run them, see what they did. */
 
+import { confirm } from '../confirm.js';
 import { h } from '../dom.js';
 import { explain, t } from '../i18n.js';
 import { check, isProgram, listFiles, readText, removeFile, writeFile } from '../programs/disk.js';
@@ -19,10 +20,10 @@ export function mount(main, route) {
   const actions = h('p.actions',
     h('button', { type: 'button', onclick: () => attempt(checkCurrent) }, t('programs.check')),
     h('button', { type: 'button', onclick: () => attempt(remove) }, t('programs.delete')));
-  const program = h('div.program', h('div.line', title, actions), note, source, form.element);
+  const program = h('div.program', h('div.line', title, actions), source, form.element);
   const nothing = h('p.empty', t('programs.pick'));
 
-  main.replaceChildren(h('div.desk.programs', h('h1.unseen', t('view.programs')), files.element, nothing, program));
+  main.replaceChildren(h('div.desk.programs', h('h1.unseen', t('view.programs')), files.element, h('div.program', note, nothing, program)));
 
   function remember(options = {}) {
     go({ view: 'programs', path: current.split('/').filter(Boolean), options }, { refine: true });
@@ -76,6 +77,7 @@ export function mount(main, route) {
   };
 
   const remove = async () => {
+    if (!await confirm(t('programs.delete_sure', { name: current }), t('programs.delete'))) return;
     await removeFile(current);
     current = '';
     remember();
@@ -85,6 +87,9 @@ export function mount(main, route) {
 
   function upload(folder, chosen) {
     return attempt(async () => {
+      const there = new Set((await listFiles()).map(({ path }) => path.toLowerCase()));
+      const replaced = chosen.map((file) => file.name).filter((name) => there.has([folder, name].filter(Boolean).join('/').toLowerCase()));
+      if (replaced.length && !await confirm(t('programs.replace_sure', { names: replaced.join(', ') }), t('programs.replace'))) return;
       for (const file of chosen) await writeFile([folder, file.name].filter(Boolean).join('/'), await file.arrayBuffer());
       const first = chosen.find((file) => isProgram(file.name)) ?? chosen[0];
       await pick([folder, first.name].filter(Boolean).join('/'));

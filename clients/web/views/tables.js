@@ -2,6 +2,7 @@
 
 import { get, url } from '../api.js';
 import { copyText, field, h } from '../dom.js';
+import { parseDesignation } from '../designation.js';
 import { nmFromMm, parseMeasured } from '../exact.js';
 import { explain, number, signed, t } from '../i18n.js';
 import { go } from '../route.js';
@@ -34,15 +35,18 @@ export function mount(main, route) {
 
   /** Numbers in the search are sizes, the rest are classes or letters that classes begin with. */
   function understand() {
-    const words = find.value.split(/[\s;]+/).filter(Boolean);
+    const words = find.value.split(/[\s;]+/).filter(Boolean).flatMap(parted);
     const sizes = words.map(parseMeasured).filter((text) => text !== null).map(nmFromMm);
     const wanted = words.filter((word) => parseMeasured(word) === null);
     const classes = wanted.flatMap((word) => {
-      const exact = names[feature].filter((name) => name.toLowerCase() === word.toLowerCase());
-      return exact.length ? exact : names[feature].filter((name) => isoClass(name)?.letters.toLowerCase() === word.toLowerCase());
+      // Upper case is a hole, lower case a shaft: g6 and G7 have nothing in common.
+      const exact = names[feature].filter((name) => name === word);
+      return exact.length ? exact : names[feature].filter((name) => isoClass(name)?.letters === word);
     });
     const usual = USUAL[feature].filter((name) => names[feature].includes(name));
-    return { sizes, classes: wanted.length ? [...new Set(classes)].slice(0, MOST_CLASSES) : usual };
+    const other = FEATURES.find((each) => each !== feature);
+    const elsewhere = wanted.find((word) => names[other].some((name) => name === word || isoClass(name)?.letters === word));
+    return { sizes, elsewhere, classes: wanted.length ? [...new Set(classes)].slice(0, MOST_CLASSES) : usual };
   }
 
   async function refresh() {
@@ -50,7 +54,7 @@ export function mount(main, route) {
     shown = wanted;
     go({ view: 'tables', path: [feature], options: { find: find.value.trim() } }, { refine: true });
     if (!wanted.classes.length) {
-      note.textContent = t('tables.none');
+      note.textContent = wanted.elsewhere ? t(`tables.elsewhere.${feature}`, { name: wanted.elsewhere }) : t('tables.none');
       return table.replaceChildren();
     }
     try {
@@ -59,7 +63,7 @@ export function mount(main, route) {
       note.textContent = '';
       const matching = rows.filter((row) => holds(row, wanted.sizes));
       if (!matching.length) note.textContent = t('error.size.out_of_range');
-      return table.replaceChildren(grid(matching, wanted.classes));
+      return table.replaceChildren(grid(matching, wanted.classes, names.own[feature]));
     } catch (problem) {
       note.textContent = explain(problem);
       return null;
@@ -96,7 +100,7 @@ export function mount(main, route) {
     drawFeatures();
     try {
       names = await classNames();
-      own.show(feature, names[feature].filter((name) => !isoClass(name)));
+      own.show(feature, names.own[feature]);
       await refresh();
     } catch (problem) {
       note.textContent = explain(problem);
@@ -106,12 +110,19 @@ export function mount(main, route) {
   reload();
 }
 
-function grid(rows, classes) {
+function grid(rows, classes, own) {
   const cell = (limits) => limits && [h('span', signed(limits.upper_um)), h('span', signed(limits.lower_um))];
   return h('table.grid',
     h('caption', t('tables.caption')),
     h('thead', h('tr', h('th', { scope: 'col' }, t('tables.over')), h('th', { scope: 'col' }, t('tables.up_to')),
-      classes.map((name) => h('th', { scope: 'col' }, name)))),
+      classes.map((name) => h('th', { scope: 'col', class: own.includes(name) && 'own-column' }, name,
+        own.includes(name) && h('span.aside', t('limits.custom')))))),
     h('tbody', rows.map((row) => h('tr', h('th', { scope: 'row' }, number(row.over_mm)), h('td.up-to', number(row.up_to_mm)),
-      classes.map((name) => h('td', cell(row.limits[name])))))));
+      classes.map((name) => h('td', { class: own.includes(name) && 'own-column' }, cell(row.limits[name])))))));
+}
+
+/** 25H7 as a size and a class. */
+function parted(word) {
+  const parsed = parseDesignation(word);
+  return parsed ? [word.slice(0, -parsed.tolerance_class.length).replace(/^[Øø⌀∅]|\/$/g, ''), parsed.tolerance_class] : [word];
 }

@@ -5,6 +5,7 @@ import { field, h } from '../dom.js';
 import { follow } from '../events.js';
 import { umText } from '../exact.js';
 import { dateTime, explain, number, signed, t } from '../i18n.js';
+import { Latest } from '../latest.js';
 import { go } from '../route.js';
 import { newestValues } from '../trend/recent_values.js';
 import { runChart } from '../trend/run_chart.js';
@@ -18,6 +19,7 @@ const DRAW_MS = 50;
 
 export function mount(main, route) {
   const leaving = new AbortController();
+  const latest = new Latest(leaving.signal);
   const select = (name, onchange) => h('select', { id: `trend-${name}`, onchange });
   const characteristic = select('characteristic', () => { wanted = ''; load(); });
   const designation = select('designation', () => { wanted = designation.value; draw(); });
@@ -29,6 +31,7 @@ export function mount(main, route) {
   let wanted = route.options.designation ?? '';
   let records = [];
   let timer = 0;
+  const offered = new Set();
 
   count.append(...COUNTS.map((each) => option(each, String(each), each === (Number(route.options.count) || 100))));
   main.replaceChildren(h('div.desk.trend', h('h1.unseen', t('view.trend')),
@@ -38,10 +41,16 @@ export function mount(main, route) {
 
   /** The choices; what the URL names is offered even when nothing has it yet. */
   async function offer() {
-    const { groups } = await getJson(url(['measurements', 'summary'], { group_by: 'characteristic' }));
-    const names = new Set([route.options.characteristic, ...groups.map((group) => group.characteristic)].filter(Boolean));
-    characteristic.replaceChildren(option('', t('trend.all'), true),
-      ...[...names].map((name) => option(name, name, name === route.options.characteristic)));
+    const { groups } = await getJson(url(['measurements', 'summary'], { group_by: 'characteristic' }), { signal: leaving.signal });
+    characteristic.append(option('', t('trend.all'), true));
+    for (const name of [route.options.characteristic, ...groups.map((group) => group.characteristic)]) offerOne(name);
+    characteristic.value = route.options.characteristic ?? '';
+  }
+
+  function offerOne(name) {
+    if (!name || offered.has(name)) return;
+    offered.add(name);
+    characteristic.append(option(name, name, false));
   }
 
   const filter = () => ({ characteristic: characteristic.value });
@@ -49,7 +58,9 @@ export function mount(main, route) {
 
   async function load() {
     try {
-      records = await newestValues(filter(), Number(count.value));
+      const newest = await latest.run((signal) => newestValues(filter(), Number(count.value), signal));
+      if (!newest) return;
+      records = newest;
       note.textContent = '';
       draw();
     } catch (problem) {
@@ -59,7 +70,9 @@ export function mount(main, route) {
 
   function offerDesignations() {
     const names = [...new Set([...records.map((record) => record.designation ?? ''), wanted].filter(Boolean))].sort();
-    const chosen = wanted || (records.at(-1)?.designation ?? '');
+    // Chosen once: a chart that follows whatever is measured last hops from size to size.
+    wanted ||= records.at(-1)?.designation ?? '';
+    const chosen = wanted;
     designation.replaceChildren(...names.map((name) => option(name, number(name), name === chosen)));
   }
 
@@ -89,6 +102,8 @@ export function mount(main, route) {
     if (event.type === 'resync') return load();
     if (event.type !== 'measurement.recorded') return null;
     const record = JSON.parse(event.data);
+    note.textContent = '';
+    offerOne(record.characteristic);
     if (!matches(record) || records.some(({ id }) => id === record.id)) return null;
     records = [...records.filter(({ id }) => id !== record.correction_of), record].slice(-Number(count.value));
     return drawSoon();
@@ -96,7 +111,7 @@ export function mount(main, route) {
 
   const resized = new ResizeObserver(() => records.length && drawSoon());
   resized.observe(chart);
-  offer().then(load, (problem) => { note.textContent = explain(problem); })
+  offer().then(load, (problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); })
     .then(() => follow('/v1/events', leaving.signal, arrived));
   return () => {
     leaving.abort();

@@ -107,6 +107,10 @@ std::string table_index_json(const ToleranceTables& tables) {
   for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
     json.begin_object().member("feature", word(feature)).key("classes").begin_array();
     for (const ClassId id : tables.classes(feature)) json.value(tables.class_name(id));
+    json.end_array().key("own").begin_array();
+    for (const ClassId id : tables.classes(feature)) {
+      if (tables.basis(id) == iso286::Basis::Custom) json.value(tables.class_name(id));
+    }
     json.end_array().member("size_ranges", std::uint64_t{tables.ranges().size()}).end_object();
   }
   json.end_array().end_object();

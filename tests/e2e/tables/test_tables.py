@@ -68,6 +68,7 @@ class CustomColumns(DaemonTest):
         self.assertEqual(self.daemon.get("/v1/limits/50.5PRESS").json["upper_deviation_um"], 17.25)
         self.assert_problem(self.daemon.get("/v1/limits/50.6PRESS"), 422, "class.undefined_for_size")
         self.assertEqual(self.daemon.get("/v1/verdicts/25PRESS?measured_mm=25.015").json["verdict"], "good")
+        self.assertEqual(self.daemon.get("/v1/tables").json["tables"][0]["own"], ["PRESS"])
         self.assertIn("PRESS", self.daemon.get("/v1/tables").json["tables"][0]["classes"])
         self.assertIn("PRESS", self.daemon.get("/v1/tables/hole.tab").text)
         self.assertEqual(self.daemon.get(f"/v1/tables/hole?classes=H7&revision={before}").json["revision"], before)

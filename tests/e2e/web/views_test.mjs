@@ -84,7 +84,54 @@ describe('the fit', () => {
   });
 });
 
+describe('answers that come late', () => {
+  it('never overwrite a newer one, nor the next view', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.fit .headline');
+    await page.route('**/v1/fits/25H7/s6', async (route) => {
+      await new Promise((resolve) => setTimeout(resolve, 1200));
+      await route.continue().catch(() => {});
+    });
+    await page.click('.preferred button:has-text("H7/s6")');
+    await page.click('.preferred button:has-text("H7/h6")');
+    await page.waitForFunction(() => decodeURIComponent(location.hash).startsWith('#/fit/25H7/h6'));
+    await page.waitForTimeout(1500);
+    assert.equal(await page.textContent('.fit .headline'), 'Clearance fit');
+    await page.fill('#fit', 'nonsense');
+    await page.press('#fit', 'Enter');
+    assert.equal(await page.$('.fit .headline'), null);
+
+    await page.route('**/v1/measurements?**', async (route) => {
+      await new Promise((resolve) => setTimeout(resolve, 800));
+      await route.continue().catch(() => {});
+    });
+    await page.goto(`${daemon.url}/#/trend`);
+    await page.goto(`${daemon.url}/#/gauge/25H7`);
+    await page.waitForSelector('.entry');
+    await page.waitForTimeout(1200);
+    assert.ok(hash().startsWith('#/gauge/25H7'), hash());
+  });
+});
+
 describe('the trend', () => {
+  it('holds no stream while nobody sees it', async () => {
+    page = await open(browser, daemon, '#/trend');
+    await page.waitForSelector('.trend form');
+    const hide = (hidden) => page.evaluate((value) => {
+      Object.defineProperty(document, 'hidden', { value, configurable: true });
+      document.dispatchEvent(new Event('visibilitychange'));
+    }, hidden);
+    const asked = page.waitForRequest('**/v1/events');
+    await page.reload();
+    await asked;
+    const ended = page.waitForEvent('requestfailed', (request) => request.url().endsWith('/v1/events'));
+    await hide(true);
+    await ended;
+    const again = page.waitForRequest('**/v1/events');
+    await hide(false);
+    await again;
+  });
+
   it('shows the last values and those that come', async () => {
     const values = Array.from({ length: 30 }, (_, i) => (25.001 + i / 1000).toFixed(3));
     await daemon.send('POST', '/v1/measurements', values.map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'bore-A' })));
@@ -134,6 +181,26 @@ describe('the programs', () => {
     await again.close();
   });
 
+  it('are not deleted or replaced without a question, and say why an upload is refused', async () => {
+    const text = 'BEGIN PGM KEEP MM\nEND PGM KEEP MM\n';
+    await daemon.send('PUT', '/v1/files/nc_prog/keep.h', text, 'text/plain');
+    page = await open(browser, daemon, '#/programs/nc_prog/keep.h');
+    await page.waitForFunction(() => document.querySelectorAll('.source li').length === 2);
+    const there = async () => (await fetch(`${daemon.url}/v1/files/nc_prog/keep.h`)).text();
+    await page.click('button:has-text("Delete")');
+    await page.click('dialog button:has-text("Cancel")');
+    assert.equal(await there(), text);
+    await page.setInputFiles('.upload input[type="file"]', { name: 'KEEP.H', mimeType: 'text/plain', buffer: Buffer.from('new') });
+    await page.click('dialog button:has-text("Cancel")');
+    assert.equal(await there(), text);
+    await page.click('button:has-text("Delete")');
+    await page.click('dialog button:has-text("Delete")');
+    await page.waitForSelector('.empty:not([hidden])');
+    await page.setInputFiles('.upload input[type="file"]', { name: 'big.h', mimeType: 'text/plain', buffer: Buffer.alloc(8 * 1024 * 1024 + 1, 32) });
+    await page.waitForFunction(() => document.querySelector('.program .note').textContent !== '');
+    assert.ok(await page.isVisible('.program .note'));
+  });
+
   it('carry what a check finds in their text', async () => {
     await daemon.send('PUT', '/v1/files/nc_prog/bad.h', 'BEGIN PGM BAD MM\n1 CALL LBL 7\n2 FOO\nEND PGM BAD MM\n', 'text/plain');
     page = await open(browser, daemon, '#/programs/nc_prog/bad.h');
@@ -171,11 +238,39 @@ describe('the tables', () => {
     await page.click('text=Copy as CSV');
     await page.waitForFunction(() => document.querySelector('.tables .note').textContent !== '');
     assert.equal(await page.evaluate(() => navigator.clipboard.readText()), 'over_mm,up_to_mm,H7_upper_um,H7_lower_um\n24,30,21,0\n');
-    await page.fill('#find', 'js');
+    await page.fill('#find', 'JS');
     await page.waitForFunction(() => document.querySelectorAll('.grid thead th').length === 22);
     assert.equal((await page.$$('.grid tbody tr')).length, 41);
     await page.fill('#find', 'Q9');
     await page.waitForFunction(() => !document.querySelector('.grid'));
+  });
+
+  it('keep the case of a class: g6 is no hole', async () => {
+    page = await open(browser, daemon, '#/tables/hole?find=25g6');
+    await page.waitForFunction(() => /g6 is a shaft class/.test(document.querySelector('.tables .note').textContent));
+    assert.equal(await page.$('.grid'), null);
+    await page.click('text=Shafts');
+    await page.waitForSelector('.grid td');
+    assert.deepEqual(await page.$$eval('.grid tbody tr', (rows) => rows.map((row) => row.textContent)), ['2430−7−20']);
+  });
+
+  it('ask before a class of the standard is replaced, and mark it afterwards', async () => {
+    page = await open(browser, daemon, '#/tables/hole?find=25+H8');
+    await page.waitForSelector('.own-list');
+    await page.click('.own summary');
+    await page.fill('.own input', 'H8');
+    await page.fill('.own textarea', '18; 30; +100; -100');
+    await page.click('.own button[type="submit"]');
+    await page.click('dialog button:has-text("Cancel")');
+    assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'iso286');
+    await page.click('.own button[type="submit"]');
+    await page.click('dialog button:has-text("Replace the ISO class")');
+    await page.waitForSelector('.own-list >> text=H8');
+    await page.waitForSelector('.grid .own-column');
+    assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'custom');
+    await page.click('.own-list [aria-label]');
+    await page.waitForFunction(() => !/H8/.test(document.querySelector('.own-list').textContent));
+    assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'iso286');
   });
 
   it('take columns of the shop’s own and give them back', async () => {

@@ -1,0 +1,26 @@
+/** Answers that cannot be the wrong ones: a newer question, and leaving the view, end the one before. */
+
+export class Latest {
+  #question = new AbortController();
+
+  /** @param leaving the signal of the view that is left */
+  constructor(leaving) {
+    leaving?.addEventListener('abort', () => this.#question.abort());
+    this.leaving = leaving;
+  }
+
+  /** Runs `work` with a signal for its requests. What was overtaken ends in silence. */
+  async run(work) {
+    this.#question.abort();
+    const question = new AbortController();
+    this.#question = question;
+    if (this.leaving?.aborted) question.abort();
+    try {
+      const result = await work(question.signal);
+      return question.signal.aborted ? undefined : result;
+    } catch (problem) {
+      if (question.signal.aborted) return undefined;
+      throw problem;
+    }
+  }
+}
