@@ -13,8 +13,6 @@ namespace {
 
 using sqlite::Rows;
 
-constexpr std::size_t kShortestToken = 16;
-
 std::string select_keys(std::string_view rest) {
   return fmt::format("SELECT id, name, role, token_hash, created_at, revoked_at FROM api_keys {}",
                      rest);
@@ -57,7 +55,7 @@ struct KeysStore::Statements {
       : all(c, select_keys("ORDER BY id")),
         valid(c, select_keys("WHERE revoked_at IS NULL ORDER BY id")),
         clash(c,
-              "SELECT name = ?1 FROM api_keys "
+              "SELECT name = ?1 AND revoked_at IS NULL FROM api_keys "
               "WHERE (name = ?1 AND revoked_at IS NULL) OR token_hash = ?2 ORDER BY 1 DESC"),
         insert(c,
                "INSERT INTO api_keys (name, role, token_hash, created_at) VALUES (?, ?, ?, ?) "

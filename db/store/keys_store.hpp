@@ -29,6 +29,8 @@ struct ApiKey {
   std::optional<std::int64_t> revoked_at_ns{};
 };
 
+inline constexpr std::size_t kShortestToken = 16;  ///< characters of one that was not made here
+
 /// `fg_` and 256 random bits in hexadecimal. Shown once, never stored.
 std::string new_token();
 

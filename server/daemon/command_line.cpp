@@ -12,6 +12,7 @@
 #include "daemon/config.hpp"
 #include "daemon/healthcheck.hpp"
 #include "daemon/log.hpp"
+#include "daemon/preflight.hpp"
 #include "daemon/serve.hpp"
 
 namespace fitgauge::daemon {
@@ -121,7 +122,10 @@ int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& co
     std::cout << to_toml(*config);
     return 0;
   }
-  if (arguments.check_config) return 0;
+  if (arguments.check_config) {
+    const auto checked = preflight(*config, arguments.port_file);
+    return checked ? 0 : complain(checked.error());
+  }
   if (arguments.healthcheck) {
     const auto healthy = healthcheck(*config);
     return healthy ? 0 : complain(healthy.error());
@@ -132,7 +136,7 @@ int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& co
   }
   open_log(config->log_level);
   const auto served = serve(*config, arguments.port_file);
-  flush_log();
+  close_log();
   return served ? 0 : complain(served.error());
 }
 

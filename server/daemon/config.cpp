@@ -158,6 +158,17 @@ const std::vector<Setting>& settings() {
   return kSettings;
 }
 
+namespace {
+
+/// ` (1 to 64)`, or ` (group, each, off)`; empty where everything goes.
+std::string range_text(const Setting& setting) {
+  if (setting.integer != nullptr) return fmt::format(" ({} to {})", setting.least, setting.most);
+  if (setting.words.empty()) return {};
+  return fmt::format(" ({})", fmt::join(setting.words, ", "));
+}
+
+}  // namespace
+
 std::string toml_key(const Setting& setting) {
   std::string key(setting.name);
   std::replace(key.begin(), key.end(), '-', '_');
@@ -230,17 +241,6 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
 Result<void> check(const Config& config) {
   if (config.listen.empty())
     return invalid("listen needs at least one address such as 127.0.0.1:8286");
-  for (const std::string& address : config.listen) {
-    const std::size_t colon = address.rfind(':');
-    std::uint16_t port = 0;
-    const char* const end = address.data() + address.size();
-    const char* const digits = address.data() + std::min(colon, address.size() - 1) + 1;
-    if (colon == std::string::npos || digits == end ||
-        std::from_chars(digits, end, port).ptr != end ||
-        std::from_chars(digits, end, port).ec != std::errc()) {
-      return invalid(fmt::format("listen address '{}' is not host:port", address));
-    }
-  }
   if (config.data.empty()) return invalid("data needs the folder of the database");
   if (config.tls_cert.empty() != config.tls_key.empty()) {
     return invalid("tls-cert and tls-key go together: give both or neither");
@@ -254,7 +254,7 @@ Result<void> check(const Config& config) {
 std::string to_toml(const Config& config) {
   std::string out;
   for (const Setting& setting : settings()) {
-    out += fmt::format("# {}\n{} = ", setting.help, toml_key(setting));
+    out += fmt::format("# {}{}\n{} = ", setting.help, range_text(setting), toml_key(setting));
     if (setting.integer != nullptr) {
       out += std::to_string(config.*setting.integer);
     } else if (setting.texts != nullptr) {

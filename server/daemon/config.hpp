@@ -62,7 +62,7 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
 /// Sets one setting from text; a list takes comma-separated items.
 Result<void> assign(const Setting& setting, std::string_view text, Config& config);
 
-/// What one setting alone cannot tell: a certificate without a key, an address without a port.
+/// What one setting alone cannot tell: a certificate without a key.
 Result<void> check(const Config& config);
 
 /// The whole configuration as TOML, which reads back to the same.

@@ -1,58 +1,69 @@
 #include "daemon/log.hpp"
 
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
+#include <fcntl.h>
+#include <unistd.h>
 
-#include "api/wire/json_writer.hpp"
+#include <memory>
+
+#include "daemon/log_line.hpp"
+#include "daemon/log_queue.hpp"
 
 namespace fitgauge::daemon {
 namespace {
 
-void log_event(spdlog::level::level_enum level, std::string_view event, std::string_view detail) {
-  std::string members;
-  api::append_json_string(members, event);
-  members += ",\"detail\":";
-  api::append_json_string(members, detail);
-  spdlog::log(level, "\"event\":{}", members);
+std::unique_ptr<LogQueue> queue;
+LogLevel least = LogLevel::Off;
+
+/// Where a standard descriptor is closed, the next file opened would become the log's.
+void occupy_standard_descriptors() {
+  int descriptor = 0;
+  while ((descriptor = open("/dev/null", O_RDWR | O_CLOEXEC)) >= 0 && descriptor <= STDERR_FILENO) {
+  }
+  if (descriptor >= 0) close(descriptor);
+}
+
+template <class Append>
+void write(LogLevel level, LogQueue::Kind kind, Append append) {
+  if (queue == nullptr || level < least) return;
+  thread_local std::string line;
+  line.clear();
+  append(line);
+  queue->push(line, kind);
+}
+
+void log_event(LogLevel level, std::string_view event, std::string_view detail) {
+  write(level, LogQueue::Kind::Other,
+        [&](std::string& line) { append_event_line(line, level, event, detail); });
 }
 
 }  // namespace
 
 void open_log(const std::string& level) {
-  auto logger = std::make_shared<spdlog::logger>("fitgauged",
-                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern(R"({"time":"%Y-%m-%dT%H:%M:%S.%fZ","level":"%l",%v})",
-                      spdlog::pattern_time_type::utc);
-  logger->set_level(spdlog::level::from_str(level));
-  logger->flush_on(spdlog::level::info);
-  spdlog::set_default_logger(std::move(logger));
+  occupy_standard_descriptors();
+  least = log_level_named(level);
+  queue = std::make_unique<LogQueue>(STDERR_FILENO);
 }
 
-bool logs_requests() { return spdlog::should_log(spdlog::level::info); }
-
-void log_request(const http::FinishedRequest& request) {
-  std::string route;
-  api::append_json_string(route, request.route);
-  std::string method;
-  api::append_json_string(method, request.method);
-  spdlog::info(
-      R"("event":"request","id":"{:016x}","method":{},"route":{},"status":{},"us":{},"received":{},"sent":{},"peer":"{}")",
-      request.id, method, route, request.status, request.microseconds, request.bytes_received,
-      request.bytes_sent, request.peer_address);
+void log_request(const http::FinishedRequest& finished) {
+  const LogLevel level = finished.status >= 500 ? LogLevel::Error : LogLevel::Info;
+  write(level, LogQueue::Kind::Request,
+        [&](std::string& line) { append_request_line(line, level, finished); });
 }
 
 void log_info(std::string_view event, std::string_view detail) {
-  log_event(spdlog::level::info, event, detail);
+  log_event(LogLevel::Info, event, detail);
 }
 
 void log_warning(std::string_view event, std::string_view detail) {
-  log_event(spdlog::level::warn, event, detail);
+  log_event(LogLevel::Warning, event, detail);
 }
 
 void log_error(std::string_view event, std::string_view detail) {
-  log_event(spdlog::level::err, event, detail);
+  log_event(LogLevel::Error, event, detail);
 }
 
-void flush_log() { spdlog::default_logger()->flush(); }
+std::uint64_t log_lines_lost() { return queue == nullptr ? 0 : queue->lost(); }
+
+void close_log() { queue.reset(); }
 
 }  // namespace fitgauge::daemon

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -7,17 +8,23 @@
 
 namespace fitgauge::daemon {
 
-/// JSON lines on stderr, one an event. Thread-safe.
+// JSON lines on stderr, one an event; docs/reference/log.md lists them. Thread-safe, and nobody
+// waits: the lines go through a bounded queue, and what its reader is too slow for is counted and
+// said. Without an open log nothing is written.
+
 void open_log(const std::string& level);
 
-bool logs_requests();
-
-void log_request(const http::FinishedRequest& request);
+/// An answer of 5xx is an error; the others are information.
+void log_request(const http::FinishedRequest& finished);
 void log_info(std::string_view event, std::string_view detail);
 void log_warning(std::string_view event, std::string_view detail);
 void log_error(std::string_view event, std::string_view detail);
 
-/// Writes what is buffered; before the process ends.
-void flush_log();
+/// Lines lost since the start.
+std::uint64_t log_lines_lost();
+
+/// Writes what is queued, for a second at most; before the process ends. No thread may log any
+/// more.
+void close_log();
 
 }  // namespace fitgauge::daemon

@@ -8,7 +8,6 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
 #include "api/routes.hpp"
 #include "api/runs/run_codec.hpp"
@@ -16,10 +15,11 @@
 #include "api/service/metrics.hpp"
 #include "api/wire/problem.hpp"
 #include "base/forward_clock.hpp"
-#include "base/text.hpp"
+#include "daemon/admin_key.hpp"
 #include "daemon/application_options.hpp"
 #include "daemon/file_limit.hpp"
 #include "daemon/log.hpp"
+#include "daemon/preflight.hpp"
 #include "http/answer_batch.hpp"
 
 namespace fitgauge::daemon {
@@ -42,16 +42,6 @@ void prepare_signals() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-Result<std::vector<http::ListenAddress>> listen_addresses(const Config& config) {
-  std::vector<http::ListenAddress> addresses;
-  for (const std::string& text : config.listen) {
-    auto address = http::parse_listen_address(text);
-    if (!address) return address.error();
-    addresses.push_back(*std::move(address));
-  }
-  return addresses;
-}
-
 api::AuthMode auth_mode(const Config& config, const std::vector<http::ListenAddress>& addresses) {
   if (config.auth == "open") return api::AuthMode::Open;
   if (config.auth == "read-open") return api::AuthMode::ReadOpen;
@@ -61,62 +51,35 @@ api::AuthMode auth_mode(const Config& config, const std::vector<http::ListenAddr
   return loopback ? api::AuthMode::Open : api::AuthMode::ReadOpen;
 }
 
-constexpr const char* kFirstKey = "admin";
-
-/// The administrator's key of the first start that needs one: from the file, or made and shown
-/// once.
-Result<void> provide_first_key(const Config& config, app::KeyService& keys) {
-  const auto known = keys.list();
-  if (!known) return known.error();
-  const bool has_one = std::any_of(known->begin(), known->end(), [](const app::KeyEntry& key) {
-    return !key.revoked_at && (key.role == app::Role::Admin || key.name == kFirstKey);
-  });
-  if (has_one) return {};
-  std::string token;
-  if (!config.admin_key_file.empty()) {
-    std::ifstream file(config.admin_key_file);
-    std::getline(file, token);
-    token = trim(token);
-    if (token.empty()) {
-      return Error{ErrorCode::ConfigInvalid,
-                   "admin-key-file " + config.admin_key_file + " holds no key in its first line"};
-    }
-  }
-  const auto created = keys.create(kFirstKey, app::Role::Admin, token);
-  if (!created) return created.error();
-  if (token.empty()) {
-    std::cout << "fitgauged: the administrator's key, shown this once: " << *created << std::endl;
-  }
-  return {};
-}
-
 http::ServerOptions server_options(const Config& config, std::vector<http::ListenAddress> addresses,
                                    std::int64_t connections) {
   http::ServerOptions options;
   options.listen = std::move(addresses);
   options.io_threads = static_cast<unsigned>(config.io_threads);
   options.max_connections = static_cast<std::size_t>(connections);
-  if (!config.tls_cert.empty()) {
-    options.tls = http::TlsOptions{.certificate_file = config.tls_cert,
-                                   .key_file = config.tls_key,
-                                   .client_ca_file = config.tls_client_ca,
-                                   .require_client_certificate = !config.tls_client_ca.empty()};
-  }
+  options.tls = tls_options(config);
   return options;
+}
+
+/// The cause of an internal error stands in the log, once; the client gets the request's id. An
+/// error with a status is the engine's own, which has told handler_threw.
+http::Response answer_error(const Error& error, std::optional<int> status,
+                            const http::Request& request) {
+  if (error.code != ErrorCode::Internal || status) return api::problem(error, status, request);
+  log_error("internal_error", fmt::format("request {}: {}", request.id_text(), error.message));
+  return api::problem(
+      {ErrorCode::Internal, "The request failed; the log has the cause under its id."}, status,
+      request);
 }
 
 http::ServerHooks hooks(const api::Guard& guard, api::Metrics& metrics) {
   http::ServerHooks hooks;
-  hooks.format_error = api::problem;
+  hooks.format_error = answer_error;
   hooks.guard = guard;
-  if (logs_requests()) {
-    hooks.finished = [&metrics](const http::FinishedRequest& request) {
-      metrics.count(request);
-      log_request(request);
-    };
-  } else {
-    hooks.finished = [&metrics](const http::FinishedRequest& request) { metrics.count(request); };
-  }
+  hooks.finished = [&metrics](const http::FinishedRequest& finished) {
+    metrics.count(finished);
+    log_request(finished);
+  };
   hooks.handler_threw = [](const http::Request& request, std::string_view what) {
     log_error("handler_threw", fmt::format("request {}: {}", request.id_text(), what));
   };
@@ -140,14 +103,16 @@ Result<void> write_port_file(const std::string& path, std::uint16_t port) {
 }
 
 /// Returns when the service is to end.
-void wait_for_end(http::Server& server) {
+void wait_for_end(http::Server& server, bool tls) {
   const sigset_t signals = waited_signals();
   for (;;) {
     int signal = 0;
     if (sigwait(&signals, &signal) != 0) continue;
     if (signal != SIGHUP) return;
     const auto reloaded = server.reload_tls();
-    if (reloaded) {
+    if (!tls) {
+      log_info("nothing_to_reload", "SIGHUP reads the certificates again, and there are none");
+    } else if (reloaded) {
       log_info("certificates_reloaded", "");
     } else {
       log_error("certificates_kept", reloaded.error().message);
@@ -192,11 +157,8 @@ Result<void> serve(const Config& config, const std::string& port_file) {
     log_error("tables_inconsistent", finding.message);
   }
   const api::AuthMode mode = auth_mode(config, *addresses);
-  if (mode != api::AuthMode::Open) {
-    if (const auto provided = provide_first_key(config, app.keys()); !provided) {
-      return provided.error();
-    }
-  }
+  const auto provided = provide_admin_key(config, mode != api::AuthMode::Open, app.keys());
+  if (!provided) return provided.error();
 
   if (const auto opened_runs = app.runs().open(api::run_format()); !opened_runs) {
     return opened_runs.error();
@@ -233,7 +195,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   for (const std::uint16_t port : server.ports())
     log_info("listening", fmt::format("port {}", port));
 
-  wait_for_end(server);
+  wait_for_end(server, !config.tls_cert.empty());
   log_info("stopping", "");
   // Runs are cancelled first, so that those who wait for one get their answer.
   app.runs().stop();

@@ -177,6 +177,12 @@ void Server::Impl::stop() {
   wait_for_connections(shared_.options.drain_timeout);
 }
 
+Result<void> check_tls(const TlsOptions& options) {
+  const auto context = load_tls(options);
+  if (!context) return context.error();
+  return {};
+}
+
 Result<std::unique_ptr<Server>> Server::start(ServerOptions options, RouteTable routes,
                                               ServerHooks hooks) {
   auto impl = std::make_unique<Impl>(std::move(options), std::move(routes), std::move(hooks));

@@ -28,12 +28,20 @@ struct ListenAddress {
 /// @errors ConfigInvalid
 Result<ListenAddress> parse_listen_address(std::string_view text);
 
+/// Whether this machine lets the process listen there. A port in use passes: it may be our own.
+/// @errors ListenFailed
+Result<void> check_listen(const ListenAddress& address);
+
 struct TlsOptions {
   std::string certificate_file;  ///< PEM, the chain
   std::string key_file;          ///< PEM
   std::string client_ca_file{};  ///< PEM; empty: clients are not asked for a certificate
   bool require_client_certificate = false;
 };
+
+/// Whether a server can start with these files: they can be read, and key and certificate match.
+/// @errors ConfigInvalid naming the file.
+Result<void> check_tls(const TlsOptions& options);
 
 struct ServerOptions {
   std::vector<ListenAddress> listen;
@@ -54,14 +62,13 @@ struct ServerOptions {
 
 /// One answered request, for logs and metrics.
 struct FinishedRequest {
-  std::uint64_t id = 0;
+  const Request& request;  ///< its head and its caller; it has no body any more
   std::string_view route;  ///< the pattern, or empty when none was found
   std::string_view method;
   int status = 0;
   std::int64_t microseconds = 0;  ///< from its first byte until its answer is handed to the socket
   std::uint64_t bytes_received = 0;
   std::uint64_t bytes_sent = 0;
-  std::string_view peer_address;
 };
 
 struct ServerHooks {

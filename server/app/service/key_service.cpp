@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::chrono::seconds kReloadInterval{2};
 
+static_assert(kShortestToken == store::kShortestToken);
 static_assert(static_cast<int>(Role::Admin) == static_cast<int>(store::Role::Admin));
 
 }  // namespace
@@ -71,6 +72,18 @@ Result<std::string> KeyService::create(const std::string& name, Role role, std::
                               clock_.now().nanoseconds);
   });
   if (!created) return created.error();
+  if (const auto loaded = reload(); !loaded) return loaded.error();
+  return token;
+}
+
+Result<std::string> KeyService::replace(const std::string& name, const std::string& token) {
+  const std::int64_t now = clock_.now().nanoseconds;
+  const auto replaced =
+      database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
+        if (const auto revoked = stores.keys.revoke(name, now); !revoked) return revoked.error();
+        return stores.keys.create(name, store::Role::Admin, token, now);
+      });
+  if (!replaced) return replaced.error();
   if (const auto loaded = reload(); !loaded) return loaded.error();
   return token;
 }

@@ -21,6 +21,9 @@ class KeyRing;
 
 namespace fitgauge::app {
 
+/// Characters of a token that an administrator chooses.
+inline constexpr std::size_t kShortestToken = 16;
+
 /// What a caller may do; each role may do what the ones before it may.
 enum class Role : std::uint8_t { Viewer = 1, Operator = 2, Admin = 3 };
 
@@ -56,6 +59,10 @@ class KeyService {
   /// @param token the secret of the key; a new one is made when empty.
   /// @returns the token, which is not stored. @errors FieldConflict, FieldInvalid.
   Result<std::string> create(const std::string& name, Role role, std::string token = {});
+  /// Revokes the key `name` and makes an administrator's of that name and this token, both or
+  /// neither.
+  /// @errors NotFound, FieldConflict, FieldInvalid.
+  Result<std::string> replace(const std::string& name, const std::string& token);
   /// @errors NotFound.
   Result<void> revoke(const std::string& name);
   Result<std::vector<KeyEntry>> list() const;

@@ -291,14 +291,13 @@ void Connection::finish_request() {
     using std::chrono::microseconds;
     const Request& request = exchange_.request();
     const auto spent = std::chrono::steady_clock::now() - started_;
-    finished({.id = request.id(),
+    finished({.request = request,
               .route = request.route() == nullptr ? std::string_view{} : request.route()->pattern,
               .method = head_.method,
               .status = sent_.status,
               .microseconds = std::chrono::duration_cast<microseconds>(spent).count(),
               .bytes_received = received_,
-              .bytes_sent = sent_bytes_,
-              .peer_address = peer_.address});
+              .bytes_sent = sent_bytes_});
   }
   exchange_.clear();
   head_.clear();

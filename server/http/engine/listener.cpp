@@ -18,10 +18,15 @@ Listener::Listener(std::vector<IoThread*> threads, Deliver deliver)
       acceptor_(threads_.front()->context()),
       retry_(threads_.front()->context()) {}
 
-Result<std::unique_ptr<Listener>> Listener::open(const ListenAddress& address,
-                                                 std::vector<IoThread*> threads, Deliver deliver) {
-  std::unique_ptr<Listener> listener(new Listener(std::move(threads), std::move(deliver)));
-  Acceptor& acceptor = listener->acceptor_;
+namespace {
+
+Error cannot_listen(const ListenAddress& address, const error_code& error) {
+  return {ErrorCode::ListenFailed, fmt::format("Cannot listen on {} port {}: {}.", address.host,
+                                               address.port, error.message())};
+}
+
+/// Opens and binds; the error tells what failed.
+error_code bind(Acceptor& acceptor, const ListenAddress& address) {
   error_code error;
   const auto ip = asio::ip::make_address(address.host, error);
   const asio::ip::tcp::endpoint endpoint(ip, address.port);
@@ -29,11 +34,28 @@ Result<std::unique_ptr<Listener>> Listener::open(const ListenAddress& address,
   if (!error) acceptor.set_option(Acceptor::reuse_address(true), error);
   if (!error && ip.is_v6()) acceptor.set_option(asio::ip::v6_only(true), error);
   if (!error) acceptor.bind(endpoint, error);
+  return error;
+}
+
+}  // namespace
+
+Result<void> check_listen(const ListenAddress& address) {
+  asio::io_context context;
+  Acceptor acceptor(context);
+  const error_code error = bind(acceptor, address);
+  if (error && error != asio::error::address_in_use) return cannot_listen(address, error);
+  return {};
+}
+
+Result<std::unique_ptr<Listener>> Listener::open(const ListenAddress& address,
+                                                 std::vector<IoThread*> threads, Deliver deliver) {
+  std::unique_ptr<Listener> listener(new Listener(std::move(threads), std::move(deliver)));
+  Acceptor& acceptor = listener->acceptor_;
+  error_code error = bind(acceptor, address);
   if (!error) acceptor.listen(Acceptor::max_listen_connections, error);
   if (!error) listener->port_ = acceptor.local_endpoint(error).port();
   if (error) {
-    return Error{ErrorCode::ListenFailed, fmt::format("Cannot listen on {} port {}: {}.",
-                                                      address.host, address.port, error.message())};
+    return cannot_listen(address, error);
   }
   return listener;
 }

@@ -58,6 +58,7 @@ class Daemon:
         self.environment = {**os.environ, **(environment or {})}
         self.listen = listen
         self.wrapper = list(wrapper)
+        self.stderr = None  # a descriptor; else the file of `log`
         self.process = None
         self.port = None
         self.tls = None  # an ssl.SSLContext where it serves TLS
@@ -82,7 +83,7 @@ class Daemon:
             self.process = subprocess.Popen(
                 [*self.wrapper, FITGAUGED, "--listen", self.listen, "--data", str(self.data),
                  "--port-file", str(self.port_file), *self.flags],
-                stdout=output, stderr=log, env=self.environment)
+                stdout=output, stderr=self.stderr or log, env=self.environment)
         return self
 
     def start(self, timeout=30):

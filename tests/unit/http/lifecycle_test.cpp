@@ -26,7 +26,7 @@ struct Finished {
     hooks.finished = [this](const FinishedRequest& done) {
       const std::lock_guard lock(mutex);
       lines.push_back(fmt::format("{} {} {} {} {} {}", done.method, done.route, done.status,
-                                  done.bytes_received, done.bytes_sent > 0, done.peer_address));
+                                  done.bytes_received, done.bytes_sent > 0, done.request.peer_address()));
       CHECK(done.microseconds >= 0);
     };
     return hooks;

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "app/service/key_service.hpp"
+#include "base/result.hpp"
+#include "daemon/config.hpp"
+
+namespace fitgauge::daemon {
+
+/// The first line of the file, without blanks around it.
+/// @errors ConfigInvalid naming the file: it cannot be read, or holds no key.
+Result<std::string> read_admin_key(const std::string& file);
+
+/// What a start does about the administrator's key. With a file, its key is valid afterwards: a key
+/// that an earlier file gave and this one does not is revoked, and the log says so. Without a file
+/// the first start that `needs_one` makes a key and prints it once. A key that was revoked stays
+/// revoked.
+/// @errors ConfigInvalid, and those of the storage.
+Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeyService& keys);
+
+}  // namespace fitgauge::daemon

@@ -1,0 +1,87 @@
+#include "daemon/preflight.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "daemon/admin_key.hpp"
+
+namespace fitgauge::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that is there, or the nearest one above it that is: where the missing ones will be
+/// made.
+fs::path nearest_existing(fs::path folder) {
+  std::error_code ignored;
+  folder = fs::absolute(folder, ignored);
+  while (!fs::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
+/// Whether files can be made in `folder`. `what` names the setting.
+Result<void> check_folder(const std::string& what, const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    return Error{ErrorCode::ConfigInvalid,
+                 fmt::format("{}: {} is not a folder", what, folder.string())};
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    return Error{ErrorCode::ConfigInvalid, fmt::format("{}: cannot write to {}: {}", what,
+                                                       folder.string(), std::strerror(errno))};
+  }
+  return {};
+}
+
+Result<void> check_port_file(const fs::path& file) {
+  std::error_code ignored;
+  if (file.empty()) return {};
+  if (fs::is_directory(file, ignored)) {
+    return Error{ErrorCode::ConfigInvalid, fmt::format("port-file: {} is a folder", file.string())};
+  }
+  return check_folder("port-file", file.has_parent_path() ? file.parent_path() : fs::path("."));
+}
+
+}  // namespace
+
+Result<std::vector<http::ListenAddress>> listen_addresses(const Config& config) {
+  std::vector<http::ListenAddress> addresses;
+  for (const std::string& text : config.listen) {
+    auto address = http::parse_listen_address(text);
+    if (!address) return address.error();
+    addresses.push_back(*std::move(address));
+  }
+  return addresses;
+}
+
+std::optional<http::TlsOptions> tls_options(const Config& config) {
+  if (config.tls_cert.empty()) return std::nullopt;
+  return http::TlsOptions{.certificate_file = config.tls_cert,
+                          .key_file = config.tls_key,
+                          .client_ca_file = config.tls_client_ca,
+                          .require_client_certificate = !config.tls_client_ca.empty()};
+}
+
+Result<void> preflight(const Config& config, const std::string& port_file) {
+  const auto addresses = listen_addresses(config);
+  if (!addresses) return addresses.error();
+  for (const http::ListenAddress& address : *addresses) {
+    if (const auto free = http::check_listen(address); !free) return free.error();
+  }
+  if (const auto tls = tls_options(config)) {
+    if (const auto usable = http::check_tls(*tls); !usable) return usable.error();
+  }
+  if (!config.admin_key_file.empty()) {
+    if (const auto key = read_admin_key(config.admin_key_file); !key) return key.error();
+  }
+  if (const auto data = check_folder("data", nearest_existing(config.data)); !data)
+    return data.error();
+  return check_port_file(port_file);
+}
+
+}  // namespace fitgauge::daemon

@@ -1,0 +1,101 @@
+"""The log: one JSON line an event, and a reader that stalls or goes away never stops the service."""
+
+import json
+import os
+import re
+import time
+import unittest
+
+from support.daemon import ROOT, Daemon, DaemonTest
+
+NAMES = re.compile(r'log_(?:info|warning|error)\(\s*"(\w+)"')
+
+
+class Lines(DaemonTest):
+    def wait_for_line(self, **members):
+        """The first line that has these members."""
+        deadline = time.monotonic() + 10
+        while time.monotonic() < deadline:
+            for line in self.daemon.log.splitlines():
+                event = json.loads(line)
+                if all(event.get(name) == value for name, value in members.items()):
+                    return event
+            time.sleep(0.02)
+        self.fail(f"no line with {members} in {self.daemon.log}")
+
+    def test_a_request_says_who_asked_and_for_whom(self):
+        made = self.daemon.command("key", "create", "--name", "press-3", "--role", "viewer")
+        key = made.stdout.strip()
+        headers = {"Authorization": f"Bearer {key}", "X-Forwarded-For": '10.0.0.9, "10.0.0.8"'}
+        deadline = time.monotonic() + 10
+        while self.daemon.request("GET", "/v1/measurements", headers=headers).status != 200:
+            self.assertLess(time.monotonic(), deadline, "a new key is valid within two seconds")
+            time.sleep(0.1)
+        line = self.wait_for_line(event="request", caller="press-3", status=200)
+        self.assertEqual(line["forwarded_for"], '10.0.0.9, "10.0.0.8"')
+        self.assertEqual(line["peer"], "127.0.0.1")
+        self.assertEqual(line["route"], "/v1/measurements")
+        self.assertEqual(line["level"], "info")
+        self.assertRegex(line["id"], "^[0-9a-f]{16}$")
+        self.assertRegex(line["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{6}Z$")
+
+    def test_what_is_no_text_does_not_spoil_the_line(self):
+        self.daemon.request("GET", "/v1/limits/30H7", headers={"Forwarded": b'for="\xff\t\\"' + b"x" * 900})
+        line = self.wait_for_line(event="request", forwarded_for='for="??\\"' + "x" * 191)
+        self.assertNotIn("caller", line)
+
+    def test_every_event_is_documented(self):
+        page = (ROOT / "docs/reference/log.md").read_text()
+        events = {name for source in (ROOT / "server/daemon").rglob("*.cpp")
+                  for name in NAMES.findall(source.read_text())}
+        self.assertGreater(len(events), 5)
+        self.assertEqual({name for name in events if f"| `{name}` |" not in page}, set())
+
+
+class Stalled(unittest.TestCase):
+    def daemon_with(self, stderr):
+        daemon = Daemon()
+        self.addCleanup(daemon.cleanup)
+        daemon.stderr = stderr
+        return daemon.start()
+
+    def test_a_pipe_that_nobody_drains_stops_nothing(self):
+        reader, writer = os.pipe()
+        daemon = self.daemon_with(writer)
+        os.close(writer)
+        connection = daemon.connect()
+        for _ in range(6000):  # more than a pipe and the queue hold together
+            self.assertEqual(daemon.request("GET", "/v1/limits/25H7", connection=connection).status, 200)
+        connection.close()
+        self.assertEqual(daemon.get("/livez").status, 200)
+        self.assertEqual(daemon.stop(), 0)
+        os.close(reader)
+
+    def test_a_reader_that_comes_back_is_told_what_it_missed(self):
+        reader, writer = os.pipe()
+        daemon = self.daemon_with(writer)
+        os.close(writer)
+        connection = daemon.connect()
+        for _ in range(6000):
+            daemon.request("GET", "/v1/limits/25H7", connection=connection)
+        connection.close()
+        with open(reader, "rb", buffering=0) as log:
+            lines = b""
+            while b"log_lines_lost" not in lines:
+                piece = log.read(1 << 16)
+                self.assertTrue(piece, "the log ended without a word of what was lost")
+                lines += piece
+        self.assertEqual(daemon.stop(), 0)
+
+    def test_a_reader_that_went_away_stops_nothing(self):
+        reader, writer = os.pipe()
+        daemon = self.daemon_with(writer)
+        os.close(writer)
+        os.close(reader)
+        for _ in range(3):
+            self.assertEqual(daemon.get("/livez").status, 200)
+        self.assertEqual(daemon.stop(), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
