@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <condition_variable>
+#include <csignal>
 #include <mutex>
 #include <string>
 
@@ -119,8 +120,15 @@ struct LogQueue::State {
 };
 
 LogQueue::LogQueue(int descriptor, std::size_t room)
-    : state_(std::make_shared<State>(descriptor, room)),
-      thread_([state = state_] { state->run(); }) {}
+    : state_(std::make_shared<State>(descriptor, room)) {
+  // Signals are for the main thread, which may not wait for them yet.
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([state = state_] { state->run(); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
 
 LogQueue::~LogQueue() {
   {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <sstream>
@@ -150,4 +151,19 @@ TEST_CASE("what cannot be written is lost, not tried for ever") {
   while (queue.lost() == 0) std::this_thread::yield();
   CHECK(queue.lost() >= 1);
   close(full);
+}
+
+TEST_CASE("the queue's thread takes no signal of the process") {
+  const Pipe pipe;
+  const LogQueue queue(pipe.write_end());
+  sigset_t one;
+  sigset_t before;
+  sigemptyset(&one);
+  sigaddset(&one, SIGTERM);
+  REQUIRE(pthread_sigmask(SIG_BLOCK, &one, &before) == 0);
+  kill(getpid(), SIGTERM);  // were the thread to take it, the process would end
+  int taken = 0;
+  CHECK(sigwait(&one, &taken) == 0);
+  CHECK(taken == SIGTERM);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
