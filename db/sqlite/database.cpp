@@ -67,6 +67,8 @@ Result<std::unique_ptr<Database>> Database::open(const OpenOptions& options, con
 Writer& Database::writer() { return parts_->writer; }
 ReadPool& Database::readers() { return parts_->readers; }
 Health Database::health() const { return parts_->monitor.health(); }
+const WriterCounters& Database::writer_counters() const { return parts_->writer_engine.counters(); }
+std::size_t Database::writer_queue() const { return parts_->writer_engine.queued(); }
 
 Result<void> Database::backup(const std::filesystem::path& file) const {
   return copy_database(parts_->file, file);

@@ -49,7 +49,10 @@ void Writer::Engine::run() {
     if (jobs.empty() && queue_.is_finished()) break;
     const bool had_jobs = !jobs.empty();
     if (had_jobs) commit(jobs);
-    if (session_) checkpointer_->after_commit(session_->connection);
+    if (session_) {
+      counters_.log_pages = static_cast<std::uint64_t>(checkpointer_->log_pages());
+      checkpointer_->after_commit(session_->connection);
+    }
     if (failing_ && !had_jobs) probe();
     if (!failing_ && (!had_jobs || pace_.is_due(MaintenancePace::Clock::now()))) maintain();
   }
@@ -89,14 +92,18 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
   if (health.state == HealthState::Damaged) return Error{ErrorCode::StorageCorrupt, health.reason};
   std::optional<Error> error;
   try {
+    const auto begin = MaintenancePace::Clock::now();
+    const auto end = begin + kLongestBatch;
     session().begin_writing.run();
-    const auto end = MaintenancePace::Clock::now() + kLongestBatch;
     do {
       errors.push_back(run_in_savepoint(*jobs[errors.size()]));
     } while (errors.size() < jobs.size() && MaintenancePace::Clock::now() < end);
     session().commit.run();
     succeed();
-    pace_.committed(MaintenancePace::Clock::now());
+    const auto now = MaintenancePace::Clock::now();
+    pace_.committed(now);
+    counters_.commit_seconds.observe(std::chrono::duration<double>(now - begin).count());
+    counters_.batch_jobs.observe(static_cast<double>(errors.size()));
   } catch (const StorageFailure& failure) {
     error = failure.error();
   } catch (const std::exception& bug) {
@@ -166,6 +173,7 @@ void Writer::Engine::succeed() {
 
 /// After a failure the connection starts afresh: what it holds in memory is not to be trusted.
 void Writer::Engine::fail(const Error& error) {
+  ++counters_.failed_commits;
   if (session_) session_->connection.rollback();
   session_.reset();
   failing_ = true;

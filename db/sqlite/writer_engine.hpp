@@ -16,6 +16,7 @@
 #include "sqlite/session.hpp"
 #include "store/job_queue.hpp"
 #include "store/writer.hpp"
+#include "store/writer_counters.hpp"
 
 namespace fitgauge::store {
 
@@ -32,6 +33,9 @@ class Writer::Engine {
   ~Engine();
 
   void enqueue(std::unique_ptr<WriteJob> job) { queue_.push(std::move(job)); }
+
+  const WriterCounters& counters() const { return counters_; }
+  std::size_t queued() const { return queue_.size(); }
 
   /// @returns whether no request of the same scope and key is under way.
   bool begin(const IdempotentRequest& request);
@@ -56,6 +60,7 @@ class Writer::Engine {
   const Clock& clock_;
   HealthMonitor& health_;
   JobQueue<WriteJob> queue_;
+  WriterCounters counters_;
   std::mutex under_way_mutex_;
   std::set<RequestKey> under_way_;
   std::optional<Session> session_;  // the thread's own from here on

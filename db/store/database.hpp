@@ -12,6 +12,7 @@
 #include "store/read_pool.hpp"
 #include "store/verify.hpp"
 #include "store/writer.hpp"
+#include "store/writer_counters.hpp"
 
 namespace fitgauge::store {
 
@@ -38,6 +39,10 @@ class Database {
   ReadPool& readers();
 
   Health health() const;
+
+  const WriterCounters& writer_counters() const;
+  /// Jobs that wait for the writer.
+  std::size_t writer_queue() const;
 
   /// Writes a consistent copy of the live database to a new file, on disk when it returns.
   /// Blocks; for commands and background threads.

@@ -43,6 +43,11 @@ class JobQueue {
     return job;
   }
 
+  std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return jobs_.size();
+  }
+
   /// What is queued still runs, what comes from now on is refused.
   void close() {
     const std::lock_guard lock(mutex_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "app/service/readiness.hpp"
 #include "base/clock.hpp"
@@ -17,6 +18,7 @@ class EventService;
 namespace fitgauge::api {
 
 class Metrics;
+class VerdictCounts;
 
 /// What the resources answer from; owned by the daemon, alive as long as the server.
 struct Services {
@@ -27,6 +29,7 @@ struct Services {
   app::RunService& runs;
   app::EventService& events;
   const Metrics& metrics;
+  std::shared_ptr<VerdictCounts> verdicts;
   const Clock& clock;
   std::function<app::Readiness()> readiness;
 };

@@ -78,6 +78,15 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   return app;
 }
 
+WriterFigures Application::writer() const {
+  const store::WriterCounters& counters = database_->writer_counters();
+  return {.queued = database_->writer_queue(),
+          .commit_seconds = counters.commit_seconds,
+          .batch_jobs = counters.batch_jobs,
+          .failures = counters.failed_commits,
+          .log_pages = counters.log_pages};
+}
+
 Readiness Application::readiness() const { return app::readiness(*database_, *tables_); }
 
 Result<std::optional<Timestamp>> Application::newest_measurement() const {

@@ -18,6 +18,7 @@
 #include "app/service/event_service.hpp"
 #include "app/service/key_service.hpp"
 #include "app/service/readiness.hpp"
+#include "app/service/writer_figures.hpp"
 #include "app/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
@@ -62,6 +63,7 @@ class Application {
   RunService& runs() { return *runs_; }
 
   Readiness readiness() const;
+  WriterFigures writer() const;
 
   // These block: for the start and for commands.
 

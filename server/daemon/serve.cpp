@@ -13,6 +13,7 @@
 #include "api/runs/run_codec.hpp"
 #include "api/service/guard.hpp"
 #include "api/service/metrics.hpp"
+#include "api/service/verdict_counts.hpp"
 #include "api/wire/problem.hpp"
 #include "base/forward_clock.hpp"
 #include "daemon/admin_key.hpp"
@@ -20,6 +21,7 @@
 #include "daemon/file_limit.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
+#include "daemon/service_metrics.hpp"
 #include "http/answer_batch.hpp"
 
 namespace fitgauge::daemon {
@@ -61,10 +63,11 @@ http::ServerOptions server_options(const Config& config, std::vector<http::Liste
   return options;
 }
 
-/// The cause of an internal error stands in the log, once; the client gets the request's id. An
-/// error with a status is the engine's own, which has told handler_threw.
-http::Response answer_error(const Error& error, std::optional<int> status,
+/// Counts the problem; the cause of an internal error stands in the log, once; the client gets the
+/// request's id. An error with a status is the engine's own, which has told handler_threw.
+http::Response answer_error(api::Metrics& metrics, const Error& error, std::optional<int> status,
                             const http::Request& request) {
+  metrics.count(error.code);
   if (error.code != ErrorCode::Internal || status) return api::problem(error, status, request);
   log_error("internal_error", fmt::format("request {}: {}", request.id_text(), error.message));
   return api::problem(
@@ -74,7 +77,10 @@ http::Response answer_error(const Error& error, std::optional<int> status,
 
 http::ServerHooks hooks(const api::Guard& guard, api::Metrics& metrics) {
   http::ServerHooks hooks;
-  hooks.format_error = answer_error;
+  hooks.format_error = [&metrics](const Error& error, std::optional<int> status,
+                                  const http::Request& request) {
+    return answer_error(metrics, error, status, request);
+  };
   hooks.guard = guard;
   hooks.finished = [&metrics](const http::FinishedRequest& finished) {
     metrics.count(finished);
@@ -165,6 +171,15 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   }
 
   api::Metrics metrics;
+  const auto verdicts = std::make_shared<api::VerdictCounts>(app.measurements());
+  verdicts->refresh([] {});
+  metrics.add([verdicts, &app, &clock, &machine_clock, &config](api::Exposition& out) {
+    verdicts->write(out);
+    write_application_metrics(app, out);
+    write_clock_metrics(clock, machine_clock, out);
+    write_storage_metrics(config.data, out);
+    write_process_metrics(out);
+  });
   const api::Services services{.tables = app.tables(),
                                .measurements = app.measurements(),
                                .files = app.files(),
@@ -172,6 +187,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .runs = app.runs(),
                                .events = app.events(),
                                .metrics = metrics,
+                               .verdicts = verdicts,
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); }};
   // Beyond these a client gets 503 rather than no answer.
@@ -181,7 +197,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                           api::make_routes(services), hooks(api::Guard(app.keys(), mode), metrics));
   if (!started) return started.error();
   http::Server& server = **started;
-  metrics.watch([&server] { return server.counters(); });
+  metrics.add([&server](api::Exposition& out) { write_server_metrics(server, out); });
   if (!port_file.empty()) {
     if (const auto written = write_port_file(port_file, server.ports().front()); !written) {
       return written.error();

@@ -1,11 +1,6 @@
 #include "api/service/metrics.hpp"
 
-#include <prometheus/counter.h>
-#include <prometheus/gauge.h>
-#include <prometheus/histogram.h>
-#include <prometheus/registry.h>
-#include <prometheus/text_serializer.h>
-
+#include <functional>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -15,88 +10,83 @@
 namespace fitgauge::api {
 namespace {
 
-const prometheus::Histogram::BucketBoundaries kSeconds = {
-    0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 10};
+using Seconds = Histogram<15>;
+constexpr Seconds::Bounds kSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025,
+                                      0.05,   0.1,     0.25,   0.5,   1,      2.5,   10};
 
 }  // namespace
 
 struct Metrics::Parts {
-  prometheus::Registry registry;
-  prometheus::Family<prometheus::Counter>& requests =
-      prometheus::BuildCounter()
-          .Name("fitgauge_http_requests_total")
-          .Help("Answered requests by route, method and status")
-          .Register(registry);
-  prometheus::Family<prometheus::Histogram>& durations =
-      prometheus::BuildHistogram()
-          .Name("fitgauge_http_request_duration_seconds")
-          .Help("From a request's first byte to its answer's last byte")
-          .Register(registry);
-  prometheus::Family<prometheus::Gauge>& connections = prometheus::BuildGauge()
-                                                           .Name("fitgauge_http_connections")
-                                                           .Help("Open connections")
-                                                           .Register(registry);
-  prometheus::Family<prometheus::Gauge>& body_bytes = prometheus::BuildGauge()
-                                                          .Name("fitgauge_http_body_bytes")
-                                                          .Help("Bytes of request bodies in memory")
-                                                          .Register(registry);
-  prometheus::Family<prometheus::Gauge>& build = prometheus::BuildGauge()
-                                                     .Name("fitgauge_build_info")
-                                                     .Help("1, with the version as a label")
-                                                     .Register(registry);
-
-  struct Series {
-    prometheus::Counter* requests;
-    prometheus::Histogram* duration;
-  };
   /// By the route's text (whose address is its identity), the method and the status.
   using Key = std::tuple<const char*, http::Method, int>;
-  std::map<Key, Series> series;
+  struct Requests {
+    std::uint64_t count = 0;
+    std::string_view route{};  ///< the key in `seconds`
+    Seconds* seconds = nullptr;
+  };
+
+  std::vector<Source> sources;
   std::mutex mutex;
-  std::function<http::ServerCounters()> counters;
+  std::map<Key, Requests> requests;
+  std::map<std::string, Seconds, std::less<>> seconds;  ///< by route, all its methods together
+  std::map<ErrorCode, std::uint64_t> problems;
 };
 
-Metrics::Metrics() : parts_(std::make_unique<Parts>()) {
-  parts_->build.Add({{"version", std::string(kVersion)}}).Set(1);
-}
-
+Metrics::Metrics() : parts_(std::make_unique<Parts>()) {}
 Metrics::~Metrics() = default;
 
 void Metrics::count(const http::FinishedRequest& request) {
-  const http::Method method = http::method_named(request.method);
-  const Parts::Key key{request.route.data(), method, request.status};
+  const Parts::Key key{request.route.data(), http::method_named(request.method), request.status};
   const std::lock_guard lock(parts_->mutex);
-  auto found = parts_->series.find(key);
-  if (found == parts_->series.end()) {
-    const prometheus::Labels route{{"route", std::string(request.route)}};
-    prometheus::Labels labels = route;
-    // A method the service does not know is the client's text: it must not become a label.
-    labels.emplace("method", method == http::Method::Other ? "other" : http::name(method));
-    labels.emplace("status", std::to_string(request.status));
-    found = parts_->series
-                .emplace(key, Parts::Series{&parts_->requests.Add(labels),
-                                            &parts_->durations.Add(route, kSeconds)})
-                .first;
+  auto [found, is_new] = parts_->requests.try_emplace(key);
+  Parts::Requests& requests = found->second;
+  if (is_new) {
+    auto& [route, seconds] =
+        *parts_->seconds.try_emplace(std::string(request.route), kSeconds).first;
+    requests.route = route;
+    requests.seconds = &seconds;
   }
-  found->second.requests->Increment();
-  found->second.duration->Observe(static_cast<double>(request.microseconds) / 1e6);
+  ++requests.count;
+  requests.seconds->observe(static_cast<double>(request.microseconds) / 1e6);
 }
 
-void Metrics::watch(std::function<http::ServerCounters()> counters) {
+void Metrics::count(ErrorCode code) {
   const std::lock_guard lock(parts_->mutex);
-  parts_->counters = std::move(counters);
+  ++parts_->problems[code];
+}
+
+void Metrics::add(Source source) {
+  const std::lock_guard lock(parts_->mutex);
+  parts_->sources.push_back(std::move(source));
 }
 
 std::string Metrics::text() const {
+  Exposition out;
+  std::vector<Source> sources;
+  out.gauge("fitgauge_build_info", "1, with the version as a label")
+      .sample(1, {{"version", kVersion}});
   {
     const std::lock_guard lock(parts_->mutex);
-    if (parts_->counters) {
-      const http::ServerCounters counters = parts_->counters();
-      parts_->connections.Add({}).Set(static_cast<double>(counters.connections_open));
-      parts_->body_bytes.Add({}).Set(static_cast<double>(counters.body_bytes_in_flight));
+    out.counter("fitgauge_http_requests_total", "Answered requests by route, method and status");
+    for (const auto& [key, requests] : parts_->requests) {
+      // A method the service does not know is the client's text: it must not become a label.
+      const http::Method method = std::get<http::Method>(key);
+      out.sample(static_cast<double>(requests.count),
+                 {{"route", requests.route},
+                  {"method", method == http::Method::Other ? "other" : http::name(method)},
+                  {"status", std::to_string(std::get<int>(key))}});
     }
+    out.histogram("fitgauge_http_request_duration_seconds",
+                  "From a request's first byte to its answer's last byte");
+    for (const auto& [route, seconds] : parts_->seconds) out.sample(seconds, {{"route", route}});
+    out.counter("fitgauge_problems_total", "Problem documents answered, by their code");
+    for (const auto& [code, count] : parts_->problems) {
+      out.sample(static_cast<double>(count), {{"code", id(code)}});
+    }
+    sources = parts_->sources;
   }
-  return prometheus::TextSerializer().Serialize(parts_->registry.Collect());
+  for (const Source& source : sources) source(out);
+  return out.take();
 }
 
 }  // namespace fitgauge::api

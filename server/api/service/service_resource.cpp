@@ -1,6 +1,8 @@
 #include "api/service/service_resource.hpp"
 
+#include "api/handlers.hpp"
 #include "api/service/metrics.hpp"
+#include "api/service/verdict_counts.hpp"
 #include "api/service/version.hpp"
 #include "api/wire/json_writer.hpp"
 #include "app/service/readiness.hpp"
@@ -29,6 +31,16 @@ Result<http::Response> ready(const Services& services) {
   return http::Response(200, "application/json", std::move(body)).with("Cache-Control", "no-store");
 }
 
+/// The verdicts are counted when somebody asks; where the storage cannot tell, the others are
+/// shown.
+void metrics(const Services& services, const http::Request&, http::Responder responder) {
+  const SharedResponder shared = share(std::move(responder));
+  services.verdicts->refresh([&services, shared] {
+    shared->answer(
+        http::Response(200, "text/plain; version=0.0.4; charset=utf-8", services.metrics.text()));
+  });
+}
+
 }  // namespace
 
 void add_service_routes(std::vector<http::Route>& routes, const Services& services) {
@@ -46,10 +58,7 @@ void add_service_routes(std::vector<http::Route>& routes, const Services& servic
   });
   routes.push_back({
       .pattern = "/metrics",
-      .handler = [&services](const http::Request&) -> Result<http::Response> {
-        return http::Response(200, "text/plain; version=0.0.4; charset=utf-8",
-                              services.metrics.text());
-      },
+      .handler = with(services, metrics),
       .summary = "Counters for Prometheus",
       .response_types = {},
       .access = "open",

@@ -5,6 +5,11 @@
 
 namespace fitgauge::app {
 
+RunState ActiveRun::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
 ActiveRun::News ActiveRun::news(std::size_t seen_lines) const {
   const std::lock_guard lock(mutex_);
   const auto seen = static_cast<std::ptrdiff_t>(std::min(seen_lines, lines_.size()));

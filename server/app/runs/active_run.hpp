@@ -35,6 +35,7 @@ class ActiveRun {
   const RunOrder& order() const { return *order_; }
   const std::string& program() const { return order_->program.text(); }
   Timestamp created_at() const { return created_at_; }
+  RunState state() const;
 
   /// Seen within a few thousand blocks; a run that is over does not mind.
   void cancel() { stop_.request_stop(); }

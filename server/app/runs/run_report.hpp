@@ -33,6 +33,8 @@ enum class RunState : std::uint8_t {
   Cancelled
 };
 
+inline constexpr std::size_t kRunStates = 7;
+
 /// `queued`, `running`, `completed`, ...
 std::string_view word(RunState state);
 std::optional<RunState> run_state_from_word(std::string_view text);

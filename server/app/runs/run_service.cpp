@@ -229,6 +229,7 @@ void RunService::end(ActiveRun& active, interpreter::RunResult result, const Run
                          .finished_at = clock_.now()};
   active.finished(keep(report, trace, active.order().caller));
   const std::lock_guard lock(mutex_);
+  ++ended_[static_cast<std::size_t>(state_of(report.result.status))];
   active_.erase(report.id);
 }
 
@@ -295,6 +296,16 @@ Result<FinishedRun> RunService::keep(const RunReport& report, const RunTrace& tr
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
+}
+
+RunService::Counts RunService::counts() const {
+  const std::lock_guard lock(mutex_);
+  Counts counts = ended_;
+  for (const auto& [id, run] : active_) {
+    const RunState state = run->state();
+    if (state <= RunState::Running) ++counts[static_cast<std::size_t>(state)];
+  }
+  return counts;
 }
 
 std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {

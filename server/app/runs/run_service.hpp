@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <map>
@@ -96,6 +97,10 @@ class RunService {
   /// The run while it is queued or under way, else null.
   std::shared_ptr<ActiveRun> active(std::int64_t id) const;
 
+  /// Runs by state, for metrics: those queued and running now, the others ended since the start.
+  using Counts = std::array<std::uint64_t, kRunStates>;
+  Counts counts() const;
+
   /// Ends a run that is queued or under way soon; a queued one without waiting for a worker.
   void cancel(const std::shared_ptr<ActiveRun>& active);
 
@@ -138,6 +143,7 @@ class RunService {
   std::atomic<bool> stopping_{false};
   mutable std::mutex mutex_;
   std::map<std::int64_t, std::shared_ptr<ActiveRun>> active_;
+  Counts ended_{};
   // The workers end before what they use.
   WorkerPool preparing_;
   WorkerPool running_;

@@ -32,6 +32,11 @@ void CommitSignal::remove(const std::shared_ptr<CommitListener>& listener) {
   listeners_.erase(listener);
 }
 
+std::size_t CommitSignal::listeners() const {
+  const std::lock_guard lock(mutex_);
+  return listeners_.size();
+}
+
 void CommitSignal::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [this] { return raised_; })) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -32,11 +33,12 @@ class CommitSignal {
   void add(std::shared_ptr<CommitListener> listener);
   /// A call that is under way may still come to its end afterwards.
   void remove(const std::shared_ptr<CommitListener>& listener);
+  std::size_t listeners() const;
 
  private:
   void run(const std::stop_token& stop);
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable_any wake_;
   std::set<std::shared_ptr<CommitListener>> listeners_;
   bool raised_ = false;

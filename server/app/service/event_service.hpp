@@ -66,6 +66,7 @@ class EventService {
   /// A listener is told when there may be new events.
   void add(std::shared_ptr<CommitListener> listener) { signal_.add(std::move(listener)); }
   void remove(const std::shared_ptr<CommitListener>& listener) { signal_.remove(listener); }
+  std::size_t readers() const { return signal_.listeners(); }
 
  private:
   store::Database& database_;

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "base/histogram.hpp"
+
+namespace fitgauge::store {
+
+/// What the writer has done since the start, for metrics. Written by the writer's thread, read by
+/// any.
+struct WriterCounters {
+  /// From the transaction's begin until it is on disk.
+  Histogram<12> commit_seconds{
+      {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5}};
+  Histogram<9> batch_jobs{{1, 2, 4, 8, 16, 32, 64, 256, 1024}};
+  std::atomic<std::uint64_t> failed_commits{0};
+  std::atomic<std::uint64_t> log_pages{0};  ///< in the write-ahead log after the last commit
+};
+
+}  // namespace fitgauge::store

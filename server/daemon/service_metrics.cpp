@@ -1,0 +1,144 @@
+#include "daemon/service_metrics.hpp"
+
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+
+#include "daemon/log.hpp"
+
+namespace fitgauge::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 0 for a file that is not there: the write-ahead log of a closed database.
+double size_of(const fs::path& file) {
+  std::error_code failure;
+  const std::uintmax_t size = fs::file_size(file, failure);
+  return failure ? 0 : static_cast<double>(size);
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
+}
+
+/// The second since 1970 at which this process was made: the kernel counts from its own start.
+double start_time() {
+  // The name, in brackets, may hold blanks; the start is the 20th word after it (proc(5)).
+  std::ifstream file("/proc/self/stat");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  text.erase(0, text.rfind(')') + 1);
+  std::size_t at = 0;
+  for (int word = 1; word < 20 && at != std::string::npos; ++word) at = text.find(' ', at + 1);
+  if (at == std::string::npos || at + 1 >= text.size()) return 0;
+  const double ticks = std::stod(text.substr(at + 1));
+  timespec now{};
+  timespec since_boot{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  clock_gettime(CLOCK_BOOTTIME, &since_boot);
+  return static_cast<double>(now.tv_sec - since_boot.tv_sec) +
+         ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+double open_files() {
+  std::error_code failure;
+  fs::directory_iterator files("/proc/self/fd", failure);
+  return failure ? 0 : static_cast<double>(std::distance(begin(files), end(files)));
+}
+
+/// Pages of the address space and of memory (proc(5), statm).
+std::pair<double, double> memory() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0;
+  double resident = 0;
+  file >> all >> resident;
+  const auto page = static_cast<double>(sysconf(_SC_PAGESIZE));
+  return {all * page, resident * page};
+}
+
+}  // namespace
+
+void write_server_metrics(const http::Server& server, api::Exposition& out) {
+  const http::ServerCounters counters = server.counters();
+  out.gauge("fitgauge_http_connections", "Open connections")
+      .sample(static_cast<double>(counters.connections_open));
+  out.counter("fitgauge_http_connections_refused_total", "Connections beyond max_connections")
+      .sample(static_cast<double>(counters.connections_refused));
+  out.gauge("fitgauge_http_body_bytes", "Bytes of request bodies in memory")
+      .sample(static_cast<double>(counters.body_bytes_in_flight));
+}
+
+void write_application_metrics(app::Application& app, api::Exposition& out) {
+  out.gauge("fitgauge_ready", "1 when the service may be used, as /readyz says")
+      .sample(app.readiness().findings.empty() ? 1 : 0);
+  const app::WriterFigures writer = app.writer();
+  out.gauge("fitgauge_writer_queue_jobs", "Jobs that wait for the writer")
+      .sample(static_cast<double>(writer.queued));
+  out.histogram("fitgauge_writer_batch_jobs", "Jobs that one commit stored")
+      .sample(writer.batch_jobs);
+  out.histogram("fitgauge_writer_commit_duration_seconds",
+                "From a transaction's begin until it is on disk")
+      .sample(writer.commit_seconds);
+  out.counter("fitgauge_writer_failures_total", "Commits and maintenance steps that failed")
+      .sample(static_cast<double>(writer.failures));
+  out.gauge("fitgauge_wal_pages", "Pages in the write-ahead log after the last commit")
+      .sample(static_cast<double>(writer.log_pages));
+  out.gauge("fitgauge_event_readers", "Open streams of /v1/events")
+      .sample(static_cast<double>(app.events().readers()));
+  const app::RunService::Counts runs = app.runs().counts();
+  const auto sample = [&](app::RunState state) {
+    out.sample(static_cast<double>(runs[static_cast<std::size_t>(state)]),
+               {{"status", word(state)}});
+  };
+  out.gauge("fitgauge_runs_active", "NC programs that wait or run");
+  for (const auto state : {app::RunState::Queued, app::RunState::Running}) sample(state);
+  out.counter("fitgauge_runs_total", "NC programs that ended, by how");
+  for (auto i = static_cast<std::size_t>(app::RunState::Completed); i < app::kRunStates; ++i) {
+    sample(static_cast<app::RunState>(i));
+  }
+}
+
+void write_clock_metrics(const Clock& clock, const Clock& machine, api::Exposition& out) {
+  const std::int64_t ahead = clock.now().nanoseconds - machine.now().nanoseconds;
+  out.gauge("fitgauge_clock_ahead_seconds",
+            "How far received times are ahead of the machine's clock, which was set back")
+      .sample(static_cast<double>(std::max<std::int64_t>(ahead, 0)) / 1e9);
+}
+
+void write_storage_metrics(const fs::path& folder, api::Exposition& out) {
+  out.gauge("fitgauge_database_bytes", "Size of the database's files")
+      .sample(size_of(folder / "fitgauge.db"), {{"file", "database"}});
+  out.sample(size_of(folder / "fitgauge.db-wal"), {{"file", "wal"}});
+  struct statvfs space {};
+  if (statvfs(folder.c_str(), &space) != 0) return;
+  out.gauge("fitgauge_storage_free_bytes", "Free space where the database lies")
+      .sample(static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize));
+}
+
+void write_process_metrics(api::Exposition& out) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  const auto [address_space, resident] = memory();
+  static const double started = start_time();
+  out.counter("process_cpu_seconds_total", "User and system time")
+      .sample(seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime));
+  out.gauge("process_resident_memory_bytes", "Memory in use").sample(resident);
+  out.gauge("process_virtual_memory_bytes", "Size of the address space").sample(address_space);
+  out.gauge("process_open_fds", "Open files").sample(open_files());
+  out.gauge("process_max_fds", "Open files there may be")
+      .sample(static_cast<double>(files.rlim_cur));
+  out.gauge("process_start_time_seconds", "When the process began, since 1970").sample(started);
+  out.counter("fitgauge_log_lines_lost_total", "Lines of the log that found no room")
+      .sample(static_cast<double>(log_lines_lost()));
+}
+
+}  // namespace fitgauge::daemon

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "api/service/exposition.hpp"
+#include "app/application.hpp"
+#include "base/clock.hpp"
+#include "http/server.hpp"
+
+namespace fitgauge::daemon {
+
+// Families of /metrics, read when somebody asks. None blocks for more than a look at the kernel.
+
+void write_server_metrics(const http::Server& server, api::Exposition& out);
+void write_application_metrics(app::Application& app, api::Exposition& out);
+/// @param clock how far it is ahead of `machine`, which was set back.
+void write_clock_metrics(const Clock& clock, const Clock& machine, api::Exposition& out);
+/// The database's files and the free space beside them.
+void write_storage_metrics(const std::filesystem::path& folder, api::Exposition& out);
+/// `process_*` as Prometheus' own clients name them, and the log's lost lines.
+void write_process_metrics(api::Exposition& out);
+
+}  // namespace fitgauge::daemon
