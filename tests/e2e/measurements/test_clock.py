@@ -4,7 +4,7 @@ import json
 import pathlib
 import unittest
 
-from support.daemon import Daemon
+from support.daemon import Daemon, preload
 
 LIBRARY = next(iter(sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))), None)
 PART = {"designation": "25 H7", "measured_mm": 25.013}
@@ -17,8 +17,8 @@ class SetBack(unittest.TestCase):
         self.daemon = Daemon()
         self.addCleanup(self.daemon.cleanup)
         self.offset = self.daemon.folder / "offset"
-        self.daemon.environment |= {
-            "LD_PRELOAD": str(LIBRARY), "FAKETIME_TIMESTAMP_FILE": str(self.offset),
+        self.daemon.environment |= preload(LIBRARY) | {
+            "FAKETIME_TIMESTAMP_FILE": str(self.offset),
             "FAKETIME_NO_CACHE": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"}
         self.set_clock("+0")
 

@@ -9,7 +9,7 @@ import tempfile
 import time
 import unittest
 
-from support.daemon import Daemon
+from support.daemon import TRACEABLE, Daemon
 from support.writers import Writers, compare
 
 PART = {"designation": "25 H7", "measured_mm": 25.013, "part_id": "SN-1"}
@@ -152,6 +152,7 @@ class FailingCalls(FaultTest):
     def traced(self, inject):
         """A daemon of which strace lets the calls fail that `inject` says, once it has started."""
         daemon = self.make_daemon()
+        daemon.environment |= TRACEABLE
         daemon.start()
         self.assertEqual(daemon.measure({**PART, "part_id": "first"}).status, 201)
         tracer = subprocess.Popen(

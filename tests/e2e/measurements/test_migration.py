@@ -14,7 +14,7 @@ import subprocess
 import time
 import unittest
 
-from support.daemon import Daemon
+from support.daemon import TRACEABLE, Daemon
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
@@ -45,7 +45,7 @@ class Migration(unittest.TestCase):
     def start_with(self, fault, data=None):
         """Starts the service on a copy of `data` while a call fails. @returns it, ended, and whether
         it had refused to start."""
-        daemon = Daemon()
+        daemon = Daemon(environment=TRACEABLE)
         self.addCleanup(daemon.cleanup)
         if data:
             shutil.copytree(data, daemon.data)

@@ -8,6 +8,7 @@ import time
 import unittest
 
 from support.control import ControlTest
+from support.daemon import TRACEABLE
 
 
 class BadInput(ControlTest):
@@ -149,6 +150,7 @@ def can_trace():
 class HostFiles(ControlTest):
     PATHS = ("..\\..\\..\\etc\\passwd", "TNC:\\..\\..\\etc\\passwd", "/etc/passwd", "C:\\x.h",
              "..\\secret.a", "TNC:\\etc\\passwd")
+    environment = TRACEABLE
 
     def test_no_path_of_a_program_opens_a_file_of_the_host(self):
         self.daemon.get("/v1/limits/25H7")

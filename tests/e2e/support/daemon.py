@@ -4,6 +4,7 @@ import http.client
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import ssl
@@ -20,6 +21,18 @@ import fitgauge  # noqa: E402 - the client of this tree, not an installed one
 
 FITGAUGED = os.environ.get("FITGAUGED", "build/release/bin/fitgauged")
 JSON = {"Content-Type": "application/json"}
+
+# The runtimes of sanitizers the binary is linked with: memory and time say nothing there.
+RUNTIMES = re.findall(r"=> (\S*/lib[at]san\S*)", subprocess.run(
+    ["ldd", FITGAUGED], capture_output=True, text=True, check=False).stdout)
+SANITIZED = bool(RUNTIMES)
+# For a daemon that strace is to follow: the search for leaks wants to trace it itself.
+TRACEABLE = {"ASAN_OPTIONS": "detect_leaks=0"}
+
+
+def preload(library):
+    """The environment that loads `library` first, but for a sanitizer's runtime."""
+    return {"LD_PRELOAD": " ".join([*RUNTIMES, str(library)])}
 
 
 def command(*arguments, environment=None, timeout=60):
