@@ -11,7 +11,7 @@ namespace fitgauge::klartext {
 
 /// Beyond these the text is refused with ProgramTooLarge; they bound the memory of a parse.
 inline constexpr std::size_t kLargestSource = std::size_t{64} << 20;
-inline constexpr std::size_t kMostBlocks = 2'000'000;
+inline constexpr std::size_t kMostBlocks = 500'000;
 
 struct ParsedProgram {
   Program program;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace fitgauge::machine {
 
@@ -63,6 +64,28 @@ Field BoreVoid::wall(const Vec3& at) const {
 
 Field BoreVoid::floor(const Vec3& at) const {
   return {depth_ - local(at).depth, from_local_ * Vec3{0, 0, 1}};
+}
+
+double BoreVoid::way_inside(const Vec3& centre, const Vec3& direction, double radius,
+                            bool with_floor) const {
+  if (amplitude_ != 0 || slope_ != 0) return 0;
+  const Vec3 p = to_local_ * (centre - opening_);
+  const Vec3 d = to_local_ * direction;
+  const double free = radius_ - radius;  // of the ball's centre, from the axis
+  const double outside = p.x * p.x + p.y * p.y - free * free;
+  const double height = p.z + depth_ - radius;  // above the bottom
+  if (free < 0 || outside > 0 || (with_floor && height < 0)) return 0;
+  // The zero ahead of a t^2 + 2 b t + outside, in the form that does not cancel.
+  const double a = d.x * d.x + d.y * d.y;
+  const double b = p.x * d.x + p.y * d.y;
+  const double root = std::sqrt(b * b - a * outside);
+  double way = std::numeric_limits<double>::infinity();
+  if (b > 0) {
+    way = -outside / (b + root);
+  } else if (a > 0) {
+    way = (root - b) / a;
+  }
+  return with_floor && d.z < 0 ? std::min(way, height / -d.z) : way;
 }
 
 double BoreVoid::floor_top() const {

@@ -29,6 +29,7 @@ FaultText text_of(FaultKind kind) {
     case FaultKind::PresetUnknown: return {0, "Preset not found"};
     case FaultKind::PresetLocked: return {1085, "Line is write-protected"};
     case FaultKind::ValueInvalid: return {1011, "Input value incorrect"};
+    case FaultKind::Interrupted: return {0, "Program run interrupted"};
     case FaultKind::ScriptExhausted: return {0, "No recorded contact is left"};
     case FaultKind::ScriptedDifferent: return {0, "Command differs from the recorded one"};
   }

@@ -23,6 +23,7 @@ enum class FaultKind : std::uint8_t {
   PresetUnknown,      ///< the preset table has no such row
   PresetLocked,       ///< 1085: the row of the preset table is write-protected
   ValueInvalid,       ///< 1011: a coordinate, direction or time is not a finite number in range
+  Interrupted,        ///< the allowance of the run is spent, or the run was called off
   ScriptExhausted,    ///< a scripted machine has no contact left
   ScriptedDifferent,  ///< a scripted machine met a command its log does not have
 };

@@ -21,7 +21,8 @@ Position start_of(const MachineSetup& setup) {
 
 }  // namespace
 
-ModelledMachine::ModelledMachine(const MachineSetup& setup) {
+ModelledMachine::ModelledMachine(const MachineSetup& setup, Allowance* allowance)
+    : allowance_(allowance != nullptr ? *allowance : unlimited_) {
   std::vector<RotaryAxis> rotary;
   for (const Axis axis : kAllAxes) {
     const auto& known = setup.axes[index(axis)];
@@ -85,6 +86,11 @@ MachineResult<void> ModelledMachine::write_preset(const Preset& preset) {
   const auto& [origin, rotation, offsets] = preset.frame;
   if (!is_finite(origin) || !is_finite(rotation) || !is_finite(offsets) || preset.number < 0) {
     return make_fault(FaultKind::ValueInvalid, fmt::format("values of preset {}", preset.number));
+  }
+  if (preset.number > kLastPreset) {
+    return make_fault(
+        FaultKind::ValueInvalid,
+        fmt::format("preset {}: the last row of the table is {}", preset.number, kLastPreset));
   }
   const Preset* old = state_.presets.find(preset.number);
   if (old != nullptr && old->locked) {
@@ -156,7 +162,7 @@ MachineResult<void> ModelledMachine::dwell(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) {
     return make_fault(FaultKind::ValueInvalid, fmt::format("a dwell of {} s", seconds));
   }
-  state_.elapsed_s += seconds;
+  spend(seconds);
   return {};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/allowance.hpp"
 #include "machine/machine.hpp"
 #include "machine/machine_setup.hpp"
 #include "machine/path.hpp"
@@ -30,8 +31,10 @@ class ModelledMachine : public Machine {
   void message(std::string_view text) override;
 
  protected:
-  /// @pre validate() accepts the setup that `setup` is part of.
-  explicit ModelledMachine(const MachineSetup& setup);
+  /// @param allowance what its moves look at while they last; null: nothing interrupts them
+  /// @pre validate() accepts the setup that `setup` is part of; `allowance` outlives the machine
+  ModelledMachine(const MachineSetup& setup, Allowance* allowance);
+  Allowance& allowance() { return allowance_; }
 
   /// The rotary axes are about to turn to `rotary`.
   virtual void on_turn(const Vec3& rotary) = 0;
@@ -45,12 +48,13 @@ class ModelledMachine : public Machine {
  private:
   static MachineResult<void> check_feed(const Feed& feed);
   double seconds_of(double way, const Feed& feed) const;
+  void spend(double seconds);
   MachineResult<void> travel(const Path& path, const Feed& feed);
   MachineResult<Position> target_nose(const LinearMove& move, const Frames& frames,
                                       const Vec3& rotary) const;
   MachineResult<Vec3> target_rotary(const LinearMove& move) const;
   Path following_path(const Position& end) const;
-  MachineResult<void> check_arc(const Path& path, double sweep_deg) const;
+  MachineResult<void> check_way(const Path& path, double turn_deg);
   MachineResult<void> check_range(const Position& nose) const;
   MachineResult<void> go_back(const Vec3& direction, double way, const ProbeMove& move);
   double reach(const Vec3& direction, double distance) const;
@@ -62,6 +66,8 @@ class ModelledMachine : public Machine {
   ContactPoint contact_point(const Vec3& direction) const;
 
   MachineState state_;
+  Allowance unlimited_;
+  Allowance& allowance_;
 };
 
 }  // namespace fitgauge::machine

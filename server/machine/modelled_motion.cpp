@@ -8,6 +8,9 @@
 namespace fitgauge::machine {
 namespace {
 
+/// Where the machining time stops counting: with a feed near 0 it would leave the finite numbers.
+constexpr double kLongestSeconds = 1e12;
+
 MachineResult<void> check_finite(const AxisWords& words) {
   for (const Axis axis : kAllAxes) {
     if (words[axis] && !std::isfinite(*words[axis])) {
@@ -33,9 +36,10 @@ MachineResult<void> ModelledMachine::move(const LinearMove& move) {
   const auto nose = target_nose(move, turned ? *turned : state_.frames, *rotary);
   if (!nose) return nose.error();
   if (auto checked = check_range(*nose); !checked) return checked;
-  return travel(
-      turns && state_.modes.tcpm ? following_path(*nose) : straight_path(state_.nose, *nose),
-      move.feed);
+  if (!turns || !state_.modes.tcpm) return travel(straight_path(state_.nose, *nose), move.feed);
+  const Path path = following_path(*nose);
+  if (auto checked = check_way(path, path.turn); !checked) return checked;
+  return travel(path, move.feed);
 }
 
 MachineResult<Vec3> ModelledMachine::target_rotary(const LinearMove& move) const {
@@ -155,12 +159,13 @@ MachineResult<void> ModelledMachine::move_arc(const ArcMove& arc) {
   path.length = stretch * std::hypot(radians(sweep) * (norm(from) + norm(to)) / 2, rise);
   path.nose_speed =
       stretch * (radians(sweep) * (radius + norm(difference)) + norm(difference) + std::abs(rise));
-  if (auto checked = check_arc(path, sweep); !checked) return checked;
+  if (auto checked = check_way(path, sweep); !checked) return checked;
   return travel(path, arc.feed);
 }
 
-/// The ends first; then, unless everything that near to the start is in range, every 0.1 degrees.
-MachineResult<void> ModelledMachine::check_arc(const Path& path, double sweep_deg) const {
+/// Of a way that is not straight: the end first; then, unless everything that near to the start is
+/// in range, every 0.1 degrees.
+MachineResult<void> ModelledMachine::check_way(const Path& path, double turn_deg) {
   if (auto checked = check_range(path.end); !checked) return checked;
   bool is_clear = true;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
@@ -171,8 +176,12 @@ MachineResult<void> ModelledMachine::check_arc(const Path& path, double sweep_de
   }
   if (is_clear) return {};
   constexpr double kStepDeg = 0.1;
-  const auto steps = static_cast<int>(sweep_deg / kStepDeg) + 1;
+  const auto steps = static_cast<int>(turn_deg / kStepDeg) + 1;
   for (int step = 1; step < steps; ++step) {
+    constexpr int kBetweenLooks = 256;
+    if (step % kBetweenLooks == 0 && allowance_.is_spent()) {
+      return make_fault(FaultKind::Interrupted);
+    }
     if (auto checked = check_range(path.nose(static_cast<double>(step) / steps)); !checked) {
       return checked;
     }
@@ -211,13 +220,18 @@ MachineResult<void> ModelledMachine::check_feed(const Feed& feed) {
 
 double ModelledMachine::seconds_of(double way, const Feed& feed) const {
   constexpr double kSecondsPerMinute = 60;
-  return way / feed.rate_on(state_.rapid_mm_min) * kSecondsPerMinute;
+  return std::min(way / feed.rate_on(state_.rapid_mm_min) * kSecondsPerMinute, kLongestSeconds);
+}
+
+void ModelledMachine::spend(double seconds) {
+  state_.elapsed_s = std::min(state_.elapsed_s + seconds, kLongestSeconds);
 }
 
 MachineResult<void> ModelledMachine::travel(const Path& path, const Feed& feed) {
   if (path.end.rotary != path.start.rotary) on_turn(path.end.rotary);
   const double part = free_part(path);
-  state_.elapsed_s += seconds_of(part * std::max(path.length, path.turn), feed);
+  if (allowance_.found() != Allowance::Spent::Nothing) return make_fault(FaultKind::Interrupted);
+  spend(seconds_of(part * std::max(path.length, path.turn), feed));
   stand_at(part < 1 ? path.nose(part) : path.end);
   if (part == 1) return {};
   const Vec3 centre = state_.ball_centre();

@@ -19,13 +19,14 @@ MachineResult<ContactPoint> ModelledMachine::probe(const ProbeMove& move) {
   const Vec3 direction = unit(along);
   const double reachable = reach(direction, move.distance);
   const auto travelled = contact(direction, reachable);
+  if (allowance_.found() != Allowance::Spent::Nothing) return make_fault(FaultKind::Interrupted);
   const bool is_missed = !travelled && travelled.error().kind == FaultKind::NoContact;
   if (!travelled && !is_missed) return travelled.error();
 
   const double way = is_missed ? reachable : *travelled;
   const double seconds = seconds_of(way, Feed::at(move.feed));
   advance(direction * way);
-  state_.elapsed_s += seconds;
+  spend(seconds);
   if (is_missed && reachable < move.distance) {
     return check_range(
                {state_.nose.linear + direction * (move.distance - reachable), state_.nose.rotary})
@@ -45,7 +46,7 @@ MachineResult<void> ModelledMachine::go_back(const Vec3& direction, double way,
   const double back = move.retract.value_or(way);
   const double free = std::min(back, way);
   advance(direction * -free);
-  state_.elapsed_s += seconds_of(free, move.retract_feed);
+  spend(seconds_of(free, move.retract_feed));
   if (back == free) return {};
   const Position end{state_.nose.linear - direction * (back - free), state_.nose.rotary};
   if (auto checked = check_range(end); !checked) return checked;

@@ -7,6 +7,9 @@
 
 namespace fitgauge::machine {
 
+/// The last row that preset.pr can have.
+inline constexpr int kLastPreset = 9999;
+
 /// A row of preset.pr.
 struct Preset {
   int number = 0;       ///< NO; row 0 is the preset set by hand or by a cycle with Q305 = 0

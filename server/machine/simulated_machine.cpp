@@ -65,8 +65,8 @@ std::vector<Feature> around_plate(const ToolTouchProbeSetup& tt, double tool_rad
 
 }  // namespace
 
-SimulatedMachine::SimulatedMachine(const Setup& setup)
-    : ModelledMachine(setup.machine),
+SimulatedMachine::SimulatedMachine(const Setup& setup, Allowance* allowance)
+    : ModelledMachine(setup.machine, allowance),
       setup_(setup.machine),
       workpiece_(on_table(setup)),
       kinematics_(as_built(setup.machine)),
@@ -127,7 +127,7 @@ double SimulatedMachine::free_part(const Path& path) {
     const Vec3 way = ball_on_table(path.end, tool) - start;
     const double length = norm(way);
     if (length == 0) return 1;
-    const auto touched = workpiece_.contact(start, way * (1 / length), radius, length);
+    const auto touched = workpiece_.contact(start, way * (1 / length), radius, length, allowance());
     return touched ? std::min(*touched / length, 1 - 1e-15) : 1;
   }
   double lever = norm(path.start.linear) + path.nose_speed + tool.length + norm(tool.offset);
@@ -140,7 +140,7 @@ double SimulatedMachine::free_part(const Path& path) {
       [&](double way) {
         return workpiece_.clearance(ball_on_table(path.nose(way / speed), tool), radius);
       },
-      speed, least_step(radius));
+      speed, least_step(radius), allowance());
   return touched ? std::min(*touched / speed, 1 - 1e-15) : 1;
 }
 
@@ -157,7 +157,7 @@ MachineResult<double> SimulatedMachine::probe_contact(const Vec3& direction, dou
     return make_fault(FaultKind::StylusDeflected);
   }
   const Vec3 on_table = real_table(state().nose.rotary).inverse().direction(direction);
-  const auto touched = workpiece_.contact(start, on_table, tool.radius, distance);
+  const auto touched = workpiece_.contact(start, on_table, tool.radius, distance, allowance());
   if (!touched) return make_fault(FaultKind::NoContact);
   double way = *touched;
   if (tool.probe != nullptr) {
@@ -175,7 +175,7 @@ MachineResult<double> SimulatedMachine::plate_contact(const Vec3& direction, dou
   const Workpiece plate(around_plate(setup_.tt, tool.radius));
   const Vec3 tip = real_tool_point(state().nose, tool.length);
   if (plate.clearance(tip, 0) < -kTouching) return make_fault(FaultKind::StylusDeflected);
-  const auto touched = plate.contact(tip, direction, 0, distance);
+  const auto touched = plate.contact(tip, direction, 0, distance, allowance());
   if (!touched) return make_fault(FaultKind::NoContact);
   double way = *touched;
   if (setup_.tt.repeatability_um != 0) {

@@ -14,8 +14,9 @@ namespace fitgauge::machine {
 /// The same setup and the same commands give the same run. Not thread-safe.
 class SimulatedMachine final : public ModelledMachine {
  public:
+  /// @param allowance as of ModelledMachine
   /// @pre validate(setup) succeeds.
-  explicit SimulatedMachine(const Setup& setup);
+  explicit SimulatedMachine(const Setup& setup, Allowance* allowance = nullptr);
 
  private:
   /// The tool in the spindle as it really is.

@@ -24,6 +24,8 @@ class Solid {
   virtual ~Solid() = default;
 
   virtual Field field(const Vec3& at) const = 0;
+  /// Whether the distance is a convex function of the place, as it is of a convex body.
+  virtual bool is_convex() const { return true; }
   /// The lowest z of the material, -infinity where it has no lower end.
   virtual double bottom() const = 0;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/allowance.hpp"
+
 namespace fitgauge::machine {
 
 /// The step for a ball of `radius` in mm: what it rounds off has at least its own radius, so a dip
@@ -18,15 +20,19 @@ inline double least_step(double radius) {
 /// `value` must not change faster than its argument (a distance along a path): then a step of the
 /// value's own length never passes a zero. Where such steps get nowhere, beside a wall or at a
 /// slant, they are lengthened to `step_at_least`; a dip below zero narrower than that may be
-/// passed.
+/// passed. Beside a wall that is many steps: once `allowance` is spent the search leaves off, and
+/// what it gives means nothing.
 template <class Value>
-std::optional<double> first_zero(const Value& value, double longest, double step_at_least) {
+std::optional<double> first_zero(const Value& value, double longest, double step_at_least,
+                                 Allowance& allowance) {
   constexpr double kZero = 1e-11;
   double low = 0;
   double at_low = value(low);
   if (at_low <= kZero) return low;
   bool is_slow = false;
-  while (low < longest) {
+  for (unsigned steps = 1; low < longest; ++steps) {
+    constexpr unsigned kBetweenLooks = 16;
+    if (steps % kBetweenLooks == 0 && allowance.is_spent()) return std::nullopt;
     const double step = is_slow ? std::max(at_low, step_at_least) : at_low;
     double high = std::min(low + step, longest);
     double at_high = value(high);

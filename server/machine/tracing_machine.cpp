@@ -86,11 +86,13 @@ void TracingMachine::write(const MachineResult<T>& result, const Text& text) {
   lines_.push_back(result ? text() : fmt::format("{} ! {}", text(), result.error().text));
 }
 
-void TracingMachine::add(const TracedMove& move) {
+/// The block is asked for only when its move is kept.
+void TracingMachine::add(TracedMove move) {
   if (moves_.size() >= options_.longest) {
     ++dropped_;
     return;
   }
+  if (options_.block) move.block = options_.block();
   moves_.push_back(move);
 }
 
@@ -98,7 +100,7 @@ void TracingMachine::keep(MoveKind kind, const Begun& begun, const Feed& feed) {
   const Position end = state().position();
   const double seconds = state().elapsed_s - begun.elapsed_s;
   if (seconds == 0 && end == begun.start) return;
-  add({kind, block(), begun.start, end, feed.rate_on(state().rapid_mm_min), seconds, std::nullopt});
+  add({kind, 0, begun.start, end, feed.rate_on(state().rapid_mm_min), seconds, std::nullopt});
 }
 
 MachineResult<void> TracingMachine::move(const LinearMove& move) {
@@ -145,8 +147,7 @@ void TracingMachine::keep_probing(const Begun& begun, const ProbeMove& move,
   const Frames& frames = state().frames;
   const Vec3 along = unit(frames.direction_to_machine(move.direction, move.system));
   touching.linear = frames.from_machine(frames.to_machine(begun.start.linear) + along * travelled);
-  add({MoveKind::Probe, block(), begun.start, touching, move.feed, result->seconds,
-       result->surface});
+  add({MoveKind::Probe, 0, begun.start, touching, move.feed, result->seconds, result->surface});
   keep(move.retract_feed.is_rapid ? MoveKind::Rapid : MoveKind::Feed,
        {touching, begun.elapsed_s + result->seconds}, move.retract_feed);
 }

@@ -74,8 +74,7 @@ class TracingMachine final : public Machine {
   void keep(MoveKind kind, const Begun& begun, const Feed& feed);
   void keep_probing(const Begun& begun, const ProbeMove& move,
                     const MachineResult<ContactPoint>& result);
-  void add(const TracedMove& move);
-  std::int64_t block() const { return options_.block ? options_.block() : 0; }
+  void add(TracedMove move);
   /// Writes the line that `text()` makes, with the fault when there is one.
   template <class T, class Text>
   void write(const MachineResult<T>& result, const Text& text);

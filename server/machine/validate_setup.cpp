@@ -29,6 +29,11 @@ class Findings {
     if (value > 0 && value <= most) return;
     add(where, fmt::format("Must be more than 0 and at most {}.", most));
   }
+  /// What a machine can drive, so that every move takes a finite time.
+  void feed(const std::string& where, double mm_min) {
+    constexpr double kSlowest = 0.001;
+    within(where, mm_min, kSlowest, kLongestMm);
+  }
   void point(const std::string& where, const Vec3& p, double most = kLongestMm) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       within(fmt::format("{}/{}", where, axis), p[axis], -most, most);
@@ -135,8 +140,8 @@ void check_probes(Findings& findings, const MachineSetup& setup) {
     const std::string at = fmt::format("/machine/probes/{}", k);
     findings.within(at + "/set_up_mm", row.set_up, 0, 1000);
     findings.positive(at + "/dist_mm", row.distance, 10000);
-    findings.positive(at + "/feed_mm_min", row.feed);
-    findings.positive(at + "/fmax_mm_min", row.rapid);
+    findings.feed(at + "/feed_mm_min", row.feed);
+    findings.feed(at + "/fmax_mm_min", row.rapid);
     findings.within(at + "/cal_of1_mm", row.cal_of1, -10, 10);
     findings.within(at + "/cal_of2_mm", row.cal_of2, -10, 10);
     findings.within(at + "/repeatability_um", repeatability, 0, 1e4);
@@ -286,7 +291,7 @@ Result<void> validate(const Setup& setup) {
       findings.add(at, "A machine has X, Y and Z.", ErrorCode::FieldMissing);
   }
   check_start(findings, machine);
-  findings.positive("/machine/rapid_mm_min", machine.rapid_mm_min);
+  findings.feed("/machine/rapid_mm_min", machine.rapid_mm_min);
   check_tools(findings, machine);
   check_probes(findings, machine);
   check_tool_touch_probe(findings, machine.tt);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/allowance.hpp"
 #include "machine/geometry.hpp"
 #include "machine/machine_setup.hpp"
 
@@ -33,9 +34,17 @@ class Workpiece {
 
   /// The way along the unit vector `direction`, at most `longest` mm, after which a ball that
   /// starts at `start` touches: to 1e-10 mm at normal incidence. Nothing when it does not touch; 0
-  /// when it touches or overlaps at the start.
+  /// when it touches or overlaps at the start. Means nothing once `allowance` is spent.
   std::optional<double> contact(const Vec3& start, const Vec3& direction, double radius,
-                                double longest) const;
+                                double longest, Allowance& allowance) const;
+  std::optional<double> contact(const Vec3& start, const Vec3& direction, double radius,
+                                double longest) const {
+    Allowance unlimited;
+    return contact(start, direction, radius, longest, unlimited);
+  }
+  /// The same found by tracing alone, step by step: what `contact` is held to. Slow.
+  std::optional<double> traced_contact(const Vec3& start, const Vec3& direction, double radius,
+                                       double longest) const;
 
  private:
   struct Part;

@@ -53,6 +53,7 @@ ColumnDescriptions read_struct_block(const std::vector<std::string_view>& lines)
     const std::string_view key = trim(line.substr(0, equals));
     const std::string_view value = trim(line.substr(equals + 1));
     if (key == "NAME") {
+      if (columns.size() == kMostColumns) return columns;
       column = &columns[std::string(value)];
       column->name = value;
     } else if (column == nullptr) {
@@ -82,6 +83,7 @@ ColumnDescriptions read_table_description(std::string_view text) {
     if (key == "columns") continue;  // the list, not a value
     text.remove_prefix(end);
     if (key == "key") {
+      if (columns.size() == kMostColumns) return columns;
       column = &columns[std::string(value)];
       column->name = value;
       column->type = "FLOAT";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,6 +12,9 @@ namespace fitgauge::tabfile {
 
 /// What a file says of its columns, by name, before the line of their names.
 using ColumnDescriptions = std::map<std::string, TabColumn, std::less<>>;
+
+/// A table has no more; a description that names more is read no further.
+inline constexpr std::size_t kMostColumns = 4096;
 
 /// Reads the lines between #STRUCTBEGIN and #STRUCTEND; texts for dialogs are passed over.
 ColumnDescriptions read_struct_block(const std::vector<std::string_view>& lines);

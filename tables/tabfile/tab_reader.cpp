@@ -13,8 +13,8 @@
 namespace fitgauge::tabfile {
 namespace {
 
-constexpr std::size_t kMostColumns = 4096;
 constexpr std::size_t kMostCells = 1'000'000;
+constexpr std::size_t kMostLines = 1'000'000;
 constexpr std::string_view kBegin = "BEGIN";
 /// Of the last column where nothing tells how wide it is: a text as long as the control's are.
 constexpr std::size_t kWidestCell = 255;
@@ -23,7 +23,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<std::string_view> lines;
-  while (!text.empty()) {
+  while (!text.empty() && lines.size() <= kMostLines) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
     if (line.ends_with('\r')) line.remove_suffix(1);
@@ -73,9 +73,13 @@ struct ColumnPlace {
 /// Reads one file, line by line.
 class Reader {
  public:
-  explicit Reader(std::string_view text) : lines_(lines_of(text)) {}
+  Reader(std::string_view text, Allowance& allowance)
+      : lines_(lines_of(text)), allowance_(allowance) {}
 
   Result<TabTable> read() {
+    if (lines_.size() > kMostLines) {
+      return malformed(kMostLines, "a table has at most a million lines");
+    }
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (std::any_of(lines_[i].begin(), lines_[i].end(), is_control_character)) {
         return malformed(i, "a control character");
@@ -154,8 +158,13 @@ class Reader {
     }
     const std::string_view line = lines_[next_];
     std::vector<TabColumn> columns;
+    std::size_t counted = 0;  // bytes of the line, whose characters are
+    std::size_t characters = 0;
     std::size_t at = line.find_first_not_of(' ');
     while (at != std::string_view::npos) {
+      if (columns.size() == kMostColumns) {
+        return malformed(next_, "a table has at most 4096 columns");
+      }
       const std::size_t end = std::min(line.find(' ', at), line.size());
       const std::string name(line.substr(at, end - at));
       const auto described = descriptions.find(name);
@@ -168,10 +177,11 @@ class Reader {
       if (std::any_of(written.begin(), written.end(), ends_a_word)) {
         return malformed(next_, "name or type of column " + name + " is not a word");
       }
-      places_.push_back({count_characters(line.substr(0, at)), std::string_view::npos});
+      characters += count_characters(line.substr(counted, at - counted));
+      counted = at;
+      places_.push_back({characters, std::string_view::npos});
       at = line.find_first_not_of(' ', end);
     }
-    if (columns.size() > kMostColumns) return malformed(next_, "a table has at most 4096 columns");
     for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
       places_[i].width = places_[i + 1].begin - places_[i].begin;
       columns[i].width = places_[i].width - 1;
@@ -190,6 +200,10 @@ class Reader {
       if (trim(line).empty()) continue;
       auto row = cut(line);
       if (!row) return row.error();
+      constexpr std::size_t kBetweenLooks = 256;
+      if (next_ % kBetweenLooks == 0 && allowance_.is_spent()) {
+        return malformed(next_, "the table is too large to be read here");
+      }
       cells += row->size();
       if (cells > kMostCells) return malformed(next_, "a table has at most a million cells");
       if (auto appended = table.append_row(std::move(*row)); !appended) {
@@ -230,6 +244,7 @@ class Reader {
   static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
 
   std::vector<std::string_view> lines_;
+  Allowance& allowance_;
   std::size_t next_ = 0;
   std::vector<ColumnPlace> places_;
   std::set<std::string> names_;
@@ -237,10 +252,18 @@ class Reader {
 
 }  // namespace
 
-Result<TabTable> read_tab(std::string_view text) { return Reader(text).read(); }
+Result<TabTable> read_tab(std::string_view text, Allowance& allowance) {
+  return Reader(text, allowance).read();
+}
 
-Result<TabTable> read_tab_file(std::string_view bytes) {
-  return is_utf8(bytes) ? read_tab(bytes) : read_tab(utf8_from_windows1252(bytes));
+Result<TabTable> read_tab(std::string_view text) {
+  Allowance unlimited;
+  return read_tab(text, unlimited);
+}
+
+Result<TabTable> read_tab_file(std::string_view bytes, Allowance& allowance) {
+  return is_utf8(bytes) ? read_tab(bytes, allowance)
+                        : read_tab(utf8_from_windows1252(bytes), allowance);
 }
 
 }  // namespace fitgauge::tabfile

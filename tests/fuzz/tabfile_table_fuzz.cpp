@@ -13,7 +13,8 @@ using namespace fitgauge;
 using namespace fitgauge::tabfile;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto table = read_tab_file({reinterpret_cast<const char*>(data), size});
+  fitgauge::Allowance unlimited;
+  const auto table = read_tab_file({reinterpret_cast<const char*>(data), size}, unlimited);
   if (!table) {
     const Error& error = table.error();
     if (error.code != ErrorCode::TableFileMalformed || error.where.empty()) std::abort();

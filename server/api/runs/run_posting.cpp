@@ -94,7 +94,7 @@ Result<app::RunOrder> read_order(const SharedPosting& posting) {
   auto order = decode_run_order(
       *std::move(body),
       [&posting](const std::string& name) { return posting->services.setups.wait_for(name); },
-      *tables);
+      **tables);
   if (!order) return order;
   if (const auto caller = caller_name(posting->request)) order->caller = std::string(*caller);
   return order;

@@ -37,7 +37,7 @@ void put_setup(const Services& services, const http::Request& request, http::Res
         const auto tables = services.runs.control_tables();
         if (!tables) return shared->fail(tables.error());
         FieldErrors errors;
-        decode_setup(*body, "", *tables, errors);
+        decode_setup(*body, "", **tables, errors);
         if (auto error = errors.take()) return shared->fail(std::move(*error));
         const auto caller = caller_name(request);
         services.setups.write(name, std::string(request.body()),

@@ -15,8 +15,9 @@ namespace {
 constexpr std::array<std::string_view, 5> kTableExtensions = {".tab", ".t", ".tp", ".pr", ".d"};
 
 /// What refuses a table stands in one of its lines: `line 12`.
-std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& file) {
-  const auto table = tabfile::read_tab_file(*file.bytes);
+std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& file,
+                                              Allowance& allowance) {
+  const auto table = tabfile::read_tab_file(*file.bytes, allowance);
   if (table) return {};
   const Error error = table.error();
   klartext::Diagnostic diagnostic{.message = error.message, .program = file.path.text()};
@@ -32,17 +33,18 @@ std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& fi
 
 Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlPath& path,
                                                      const interpreter::ControlDisk& disk,
-                                                     interpreter::ProgramCache& programs) {
+                                                     interpreter::ProgramCache& programs,
+                                                     Allowance& allowance) {
   const std::string_view name = path.file_name();
   const std::string extension = ascii_lower(name.substr(std::min(name.rfind('.'), name.size())));
   const bool is_mask = extension == ".a";
   const bool is_table = std::find(kTableExtensions.begin(), kTableExtensions.end(), extension) !=
                         kTableExtensions.end();
-  if (!is_mask && !is_table) return interpreter::check(path, disk, programs);
+  if (!is_mask && !is_table) return interpreter::check(path, disk, programs, allowance);
   const auto file = disk.find(path);
   if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
   if (is_mask) return klartext::parse_mask(*file->bytes, file->path.text()).diagnostics;
-  return check_table(*file);
+  return check_table(*file, allowance);
 }
 
 }  // namespace fitgauge::app

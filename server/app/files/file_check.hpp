@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/allowance.hpp"
 #include "klartext/diagnostic.hpp"
 #include "program/control_disk.hpp"
 #include "program/program_cache.hpp"
@@ -13,6 +14,7 @@ namespace fitgauge::app {
 /// @errors ProgramUnknown when there is no such file.
 Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlPath& path,
                                                      const interpreter::ControlDisk& disk,
-                                                     interpreter::ProgramCache& programs);
+                                                     interpreter::ProgramCache& programs,
+                                                     Allowance& allowance);
 
 }  // namespace fitgauge::app

@@ -20,6 +20,16 @@ std::optional<interpreter::ControlFile> StoredDisk::find(
                                   .source = interpreter::FileSource::Stored};
 }
 
+std::optional<std::string> StoredDisk::revision(const interpreter::ControlPath& path) const {
+  const auto found = database_.readers().wait(
+      [&path](const store::Stores& stores) -> Result<std::optional<store::FileEntry>> {
+        return stores.files.stat(path.text());
+      });
+  if (!found) throw store::StorageFailure(found.error());
+  if (!*found) return std::nullopt;
+  return std::to_string((*found)->revision);
+}
+
 bool StoredDisk::has_directory(std::string_view directory) const {
   const auto found = database_.readers().wait([directory](const store::Stores& stores) {
     return Result<bool>(!stores.files.list(directory).empty());

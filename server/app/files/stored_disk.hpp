@@ -16,6 +16,7 @@ class StoredDisk final : public interpreter::ControlDisk {
   explicit StoredDisk(store::Database& database) : database_(database) {}
 
   std::optional<interpreter::ControlFile> find(const interpreter::ControlPath& path) const override;
+  std::optional<std::string> revision(const interpreter::ControlPath& path) const override;
   bool has_directory(std::string_view directory) const override;
 
  private:

@@ -16,6 +16,11 @@ using machine::Tool;
 using machine::ToolSetup;
 using Row = MachineTableRow;
 
+constexpr const char* kProbeTable = "tchprobe.tp";
+constexpr const char* kToolTable = "tool.t";
+constexpr const char* kPresetTable = "preset.pr";
+constexpr std::array kTables = {kProbeTable, kToolTable, kPresetTable};
+
 template <class Owner>
 using Column = std::pair<std::string_view, double Owner::*>;
 
@@ -101,8 +106,8 @@ void read(Row& row, Preset& preset) {
 /// Calls `read_row` for each row of a table of that name, if there is one.
 template <class ReadRow>
 Result<void> for_each_row(const interpreter::ControlDisk& disk, std::string_view name,
-                          const ReadRow& read_row) {
-  const auto table = MachineTable::find(disk, name);
+                          Allowance& allowance, const ReadRow& read_row) {
+  const auto table = MachineTable::find(disk, name, allowance);
   if (!table) return table.error();
   if (!*table) return {};
   for (std::size_t i = 0; i < (*table)->table.row_count(); ++i) {
@@ -116,8 +121,9 @@ Result<void> for_each_row(const interpreter::ControlDisk& disk, std::string_view
   return {};
 }
 
-Result<void> read_probes(const interpreter::ControlDisk& disk, ControlTables& tables) {
-  return for_each_row(disk, "tchprobe.tp", [&tables](Row& row) {
+Result<void> read_probes(const interpreter::ControlDisk& disk, Allowance& allowance,
+                         ControlTables& tables) {
+  return for_each_row(disk, kProbeTable, allowance, [&tables](Row& row) {
     ProbeSetup& probe = tables.probes.emplace_back();
     read(row, probe.row);
     machine::Setup setup;
@@ -128,10 +134,11 @@ Result<void> read_probes(const interpreter::ControlDisk& disk, ControlTables& ta
 }
 
 /// @pre the probes are read: a tool may refer to one.
-Result<void> read_tools(const interpreter::ControlDisk& disk, ControlTables& tables) {
+Result<void> read_tools(const interpreter::ControlDisk& disk, Allowance& allowance,
+                        ControlTables& tables) {
   machine::Setup setup;
   add_rows(tables, {}, setup.machine);
-  return for_each_row(disk, "tool.t", [&](Row& row) {
+  return for_each_row(disk, kToolTable, allowance, [&](Row& row) {
     if (row.number() == 0) return;  // no tool
     ToolSetup& tool = tables.tools.emplace_back();
     read(row, tool.row);
@@ -140,8 +147,9 @@ Result<void> read_tools(const interpreter::ControlDisk& disk, ControlTables& tab
   });
 }
 
-Result<void> read_presets(const interpreter::ControlDisk& disk, ControlTables& tables) {
-  return for_each_row(disk, "preset.pr", [&tables](Row& row) {
+Result<void> read_presets(const interpreter::ControlDisk& disk, Allowance& allowance,
+                          ControlTables& tables) {
+  return for_each_row(disk, kPresetTable, allowance, [&tables](Row& row) {
     Preset& preset = tables.presets.emplace_back();
     read(row, preset);
     machine::Setup setup;
@@ -171,12 +179,24 @@ void add(const std::vector<SetupRow>& added, bool given, std::vector<SetupRow>& 
 
 }  // namespace
 
-Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk) {
+Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk,
+                                          Allowance& allowance) {
   ControlTables tables;
   for (const auto& read_table : {read_probes, read_tools, read_presets}) {
-    if (const auto done = read_table(disk, tables); !done) return done.error();
+    if (const auto done = read_table(disk, allowance, tables); !done) return done.error();
   }
   return tables;
+}
+
+Result<std::shared_ptr<const ControlTables>> ControlTablesCache::read(Allowance& allowance) {
+  std::string revisions;
+  for (const auto name : kTables) revisions += MachineTable::revision(disk_, name);
+  if (tables_ != nullptr && revisions == revisions_) return tables_;
+  auto tables = read_control_tables(disk_, allowance);
+  if (!tables) return tables.error();
+  tables_ = std::make_shared<const ControlTables>(*std::move(tables));
+  revisions_ = std::move(revisions);
+  return tables_;
 }
 
 void add_rows(const ControlTables& tables, const GivenTables& given, machine::MachineSetup& setup) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "base/allowance.hpp"
 #include "machine/machine_setup.hpp"
 #include "program/control_disk.hpp"
 
@@ -19,7 +22,23 @@ struct ControlTables {
 /// new row; lengths of a table in inches become millimetres. Indexed tools (5.1) are left out, as
 /// no tool call reaches them.
 /// @errors TableFileMalformed, which names the file and its line or row.
-Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk);
+Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk,
+                                          Allowance& allowance);
+
+/// The tables of one disk as they were read last: read again only where a file has changed. For one
+/// thread.
+class ControlTablesCache {
+ public:
+  /// @param disk outlives the cache
+  explicit ControlTablesCache(const interpreter::ControlDisk& disk) : disk_(disk) {}
+  /// @errors as read_control_tables.
+  Result<std::shared_ptr<const ControlTables>> read(Allowance& allowance);
+
+ private:
+  const interpreter::ControlDisk& disk_;
+  std::string revisions_;
+  std::shared_ptr<const ControlTables> tables_;
+};
 
 /// Which tables a setup gives itself; of the others it has the default rows.
 struct GivenTables {

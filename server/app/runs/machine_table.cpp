@@ -15,6 +15,10 @@ constexpr double kMillimetresPerInch = 25.4;
 constexpr int kHighestNumber = 65535;
 constexpr std::array<std::string_view, 2> kFolders = {"TNC:\\table\\", "TNC:\\"};
 
+interpreter::ControlPath path_in(std::string_view folder, std::string_view name) {
+  return interpreter::ControlPath::parse(std::string(folder) += name).value();
+}
+
 }  // namespace
 
 Error MachineTable::malformed(std::string_view what) const {
@@ -22,18 +26,26 @@ Error MachineTable::malformed(std::string_view what) const {
 }
 
 Result<std::optional<MachineTable>> MachineTable::find(const interpreter::ControlDisk& disk,
-                                                       std::string_view name) {
+                                                       std::string_view name,
+                                                       Allowance& allowance) {
   for (const std::string_view folder : kFolders) {
-    const auto path = interpreter::ControlPath::parse(std::string(folder) += name).value();
-    const auto file = disk.find(path);
+    const auto file = disk.find(path_in(folder, name));
     if (!file) continue;
-    auto table = tabfile::read_tab_file(*file->bytes);
+    auto table = tabfile::read_tab_file(*file->bytes, allowance);
     if (table) return std::optional(MachineTable{file->path.text(), *std::move(table)});
     return Error{ErrorCode::TableFileMalformed,
                  fmt::format("{}: {}", file->path.text(), table.error().message),
                  file->path.text()};
   }
   return std::optional<MachineTable>();
+}
+
+std::string MachineTable::revision(const interpreter::ControlDisk& disk, std::string_view name) {
+  std::string revisions;
+  for (const std::string_view folder : kFolders) {
+    revisions += disk.revision(path_in(folder, name)).value_or("none") + ' ';
+  }
+  return revisions;
 }
 
 Result<std::optional<std::int64_t>> MachineTable::number_of(std::size_t row) const {

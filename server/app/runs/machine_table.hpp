@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/allowance.hpp"
 #include "machine/machine_setup.hpp"
 #include "program/control_disk.hpp"
 #include "tabfile/tab_table.hpp"
@@ -19,7 +20,9 @@ struct MachineTable {
   /// The table of that name in `TNC:\table\`, where TNC 640 and TNC7 keep it, else in `TNC:\`.
   /// @errors TableFileMalformed.
   static Result<std::optional<MachineTable>> find(const interpreter::ControlDisk& disk,
-                                                  std::string_view name);
+                                                  std::string_view name, Allowance& allowance);
+  /// Changes whenever `find` would give something else. Reads no file.
+  static std::string revision(const interpreter::ControlDisk& disk, std::string_view name);
 
   /// The number in the first column of a row; none for an indexed tool (5.1).
   /// @errors TableFileMalformed.

@@ -40,6 +40,12 @@ class Follower final : public interpreter::RunObserver {
   std::vector<RunTrace::Place> places_;
 };
 
+std::shared_ptr<const interpreter::LinkedFile> load(const RunSurroundings& surroundings,
+                                                    const interpreter::ControlPath& path) {
+  const auto file = surroundings.disk.find(path);
+  return file ? surroundings.programs.get(*file) : nullptr;
+}
+
 std::vector<machine::Axis> axes_of(const machine::Setup& setup) {
   std::vector<machine::Axis> axes;
   for (const machine::Axis axis : machine::kAllAxes) {
@@ -70,22 +76,25 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
                       "the run was cancelled before its first block", program),
             {}};
   }
-  const auto file = surroundings.disk.find(order.program);
-  const auto linked = file ? surroundings.programs.get(*file)->program : nullptr;
-  if (linked == nullptr) {
+  const auto main = load(surroundings, order.program);
+  if (main == nullptr || main->program == nullptr) {
     return {unstarted(RunStatus::Failed, MessageKind::Error,
                       "the program was deleted or replaced by one with errors before the run began",
                       program),
             {}};
   }
   Follower follower(active);
-  machine::SimulatedMachine simulated(order.setup);
+  const interpreter::RunLimits& limits = order.options.limits;
+  Allowance allowance(limits.time, limits.memory_bytes, active.stop_token());
+  allowance.share(main->memory_bytes);
+  machine::SimulatedMachine simulated(order.setup, &allowance);
   machine::TracingMachine machine(
       simulated, {.block = [&follower] { return follower.place(); }, .longest = kLongestTrace});
   ExecutedRun executed;
   executed.result = interpreter::run(
-      linked, {machine, surroundings.disk, surroundings.programs, surroundings.clock, follower},
-      order.options, active.stop_token());
+      main->program,
+      {machine, surroundings.disk, surroundings.programs, surroundings.clock, follower, &allowance},
+      order.options);
   executed.trace = {.moves = machine.moves(),
                     .places = follower.take_places(),
                     .axes = axes_of(order.setup),

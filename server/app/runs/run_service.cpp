@@ -19,6 +19,9 @@ using interpreter::RunStatus;
 constexpr std::string_view kFinishedEvent = "run.finished";
 /// Requests that wait to be checked.
 constexpr std::size_t kPreparing = 256;
+/// What one of them may take.
+constexpr std::chrono::seconds kPreparingTime{5};
+constexpr std::size_t kPreparingMemory = std::size_t{48} << 20;
 /// Runs an answer or a start looks at together.
 constexpr std::size_t kPage = 100;
 
@@ -77,6 +80,7 @@ RunService::RunService(store::Database& database, const TableCatalog& tables, co
       options_(options),
       live_tables_(tables),
       stored_(database),
+      control_tables_(stored_),
       preparing_(1, kPreparing),
       // What may be queued is limited where runs are started.
       running_(options.workers, options.workers + options.queue) {}
@@ -116,7 +120,7 @@ Result<void> RunService::close_interrupted(RunState state) {
 }
 
 void RunService::stop() {
-  stopping_ = true;
+  stopping_.request_stop();
   preparing_.stop();
   {
     const std::lock_guard lock(mutex_);
@@ -126,7 +130,8 @@ void RunService::stop() {
 }
 
 void RunService::prepare(std::function<void()> work, const std::function<void(Error)>& refused) {
-  auto guarded = [work = std::move(work)] {
+  auto guarded = [this, work = std::move(work), refused] {
+    if (stopping_.stop_requested()) return refused(stopping());
     try {
       work();
     } catch (const std::exception&) {
@@ -134,7 +139,7 @@ void RunService::prepare(std::function<void()> work, const std::function<void(Er
     }
   };
   if (preparing_.submit(std::move(guarded))) return;
-  if (stopping_) return refused(stopping());
+  if (stopping_.stop_requested()) return refused(stopping());
   refused({ErrorCode::Overloaded, "too many runs and checks wait already; try again soon"});
 }
 
@@ -149,13 +154,15 @@ Result<RunService::Diagnostics> RunService::check_program(const interpreter::Con
 Result<RunService::Diagnostics> RunService::check_with(Check find_all,
                                                        const interpreter::ControlPath& path) try {
   const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
-  return find_all(path, disk, programs_);
+  Allowance allowance(kPreparingTime, kPreparingMemory, stopping_.get_token());
+  return find_all(path, disk, programs_, allowance);
 } catch (const store::StorageFailure& failure) {
   return failure.error();
 }
 
-Result<ControlTables> RunService::control_tables() try {
-  return read_control_tables(stored_);
+Result<std::shared_ptr<const ControlTables>> RunService::control_tables() try {
+  Allowance allowance(kPreparingTime, kPreparingMemory, stopping_.get_token());
+  return control_tables_.read(allowance);
 } catch (const store::StorageFailure& failure) {
   return failure.error();
 }
@@ -173,7 +180,7 @@ Result<std::optional<Answer>> RunService::kept_answer(const IdempotencyScope& sc
 Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
                                                      const std::optional<IdempotencyScope>& scope,
                                                      const Accepted& accepted) {
-  if (stopping_) return stopping();
+  if (stopping_.stop_requested()) return stopping();
   {
     // Only the preparing thread adds runs, so that there is still room when the row is stored.
     const std::lock_guard lock(mutex_);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -60,7 +60,8 @@ class RunService {
   /// @errors StorageUnavailable.
   Result<void> open(RunFormat format);
 
-  /// Takes no more orders, cancels every run and stores what they left. Blocks.
+  /// Takes no more orders, refuses those that wait, cancels every run and stores what they left.
+  /// Blocks.
   void stop();
 
   /// Runs `work` on the one thread that prepares runs, on which the functions below may be called,
@@ -78,7 +79,7 @@ class RunService {
 
   /// The tool, probe and preset tables of the control's disk.
   /// @errors TableFileMalformed, StorageUnavailable.
-  Result<ControlTables> control_tables();
+  Result<std::shared_ptr<const ControlTables>> control_tables();
 
   /// The answer that was kept for a request, if any. @errors IdempotencyKeyReused,
   /// StorageUnavailable.
@@ -123,8 +124,8 @@ class RunService {
 
  private:
   using Check = Result<Diagnostics> (*)(const interpreter::ControlPath&,
-                                        const interpreter::ControlDisk&,
-                                        interpreter::ProgramCache&);
+                                        const interpreter::ControlDisk&, interpreter::ProgramCache&,
+                                        Allowance&);
   Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path);
   void run(ActiveRun& active);
   void end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace);
@@ -138,9 +139,10 @@ class RunService {
   const RunServiceOptions options_;
   LiveTables live_tables_;
   StoredDisk stored_;
+  ControlTablesCache control_tables_;  ///< of the preparing thread
   interpreter::ProgramCache programs_;
   RunFormat format_;
-  std::atomic<bool> stopping_{false};
+  std::stop_source stopping_;
   mutable std::mutex mutex_;
   std::map<std::int64_t, std::shared_ptr<ActiveRun>> active_;
   Counts ended_{};

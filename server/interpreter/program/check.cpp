@@ -15,9 +15,6 @@ namespace {
 using klartext::Diagnostic;
 using klartext::Severity;
 
-/// Programs beyond this many bytes are not looked into.
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;
-
 std::string_view word(FileReference::Kind kind) {
   switch (kind) {
     case FileReference::Kind::Program: return "program";
@@ -30,28 +27,41 @@ std::string_view word(FileReference::Kind kind) {
 /// Walks a program and what it calls, each file once.
 class Walk {
  public:
-  Walk(const ControlDisk& disk, ProgramCache& programs) : disk_(disk), programs_(programs) {}
+  Walk(const ControlDisk& disk, ProgramCache& programs, Allowance& allowance)
+      : disk_(disk), programs_(programs), allowance_(allowance) {}
 
   void visit(const ControlFile& file) {
-    if (!seen_.insert(file.path.key()).second) return;
-    bytes_ += file.bytes->size();
     const auto linked = programs_.get(file);
     add(linked->diagnostics);
     for (const FileReference& reference : linked->references) follow(file.path, reference);
   }
 
   void visit_all(const ControlFile& main) {
-    pending_.push_back(main);
+    seen_.insert(main.path.key());
+    visit(main);
     while (!pending_.empty()) {
-      const ControlFile file = std::move(pending_.front());
+      const Named named = std::move(pending_.front());
       pending_.pop_front();
-      visit(file);
+      if (allowance_.is_spent()) {
+        warn(named.reference,
+             "the programs named are too many to check at once; this one is checked when it is "
+             "called",
+             klartext::DiagnosticCode::ProgramTooLarge);
+      } else if (const auto file = disk_.find(named.path)) {
+        visit(*file);
+      }
     }
   }
 
   std::vector<Diagnostic> take() { return std::move(diagnostics_); }
 
  private:
+  /// A program that is still to be looked into, and where it is named.
+  struct Named {
+    ControlPath path;
+    FileReference reference;
+  };
+
   void add(const std::vector<Diagnostic>& found) {
     const std::size_t room = kMostFindings - diagnostics_.size();
     diagnostics_.insert(diagnostics_.end(), found.begin(),
@@ -62,21 +72,14 @@ class Walk {
     const bool is_program = reference.kind == FileReference::Kind::Program;
     const auto path = ControlPath::resolve(reference.written, program);
     if (path.has_error()) return warn(reference, path.error().message);
-    const auto file =
-        disk_.find(is_program ? path->with_default_extension(kProgramExtension) : *path);
-    if (!file) {
+    ControlPath named = is_program ? path->with_default_extension(kProgramExtension) : *path;
+    if (!disk_.exists(named)) {
       return warn(reference,
                   fmt::format("{} '{}' does not exist: the run fails when it reaches this block",
                               word(reference.kind), reference.written));
     }
-    if (!is_program) return;
-    if (bytes_ <= kMostBytes) {
-      pending_.push_back(*file);
-      return;
-    }
-    warn(reference,
-         "the programs named are too many to check at once; this one is checked when it is called",
-         klartext::DiagnosticCode::ProgramTooLarge);
+    if (!is_program || !seen_.insert(named.key()).second) return;
+    pending_.push_back({std::move(named), reference});
   }
 
   void warn(const FileReference& reference, std::string message,
@@ -89,21 +92,21 @@ class Walk {
 
   const ControlDisk& disk_;
   ProgramCache& programs_;
+  Allowance& allowance_;
   std::set<std::string> seen_;
-  std::deque<ControlFile> pending_;
+  std::deque<Named> pending_;
   std::vector<Diagnostic> diagnostics_;
-  std::size_t bytes_ = 0;
 };
 
 }  // namespace
 
 Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
-                                      ProgramCache& programs) {
+                                      ProgramCache& programs, Allowance& allowance) {
   const auto file = disk.find(program);
   if (!file) {
     return Error{ErrorCode::ProgramUnknown, "there is no program " + program.text()};
   }
-  Walk walk(disk, programs);
+  Walk walk(disk, programs, allowance);
   walk.visit_all(*file);
   return walk.take();
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/allowance.hpp"
 #include "base/result.hpp"
 #include "klartext/diagnostic.hpp"
 #include "program/control_disk.hpp"
@@ -12,9 +13,10 @@ namespace fitgauge::interpreter {
 /// Everything to say about a program and every program it names literally, without running
 /// anything. Errors keep a run from starting; warnings name what would fail when its block is
 /// reached: a missing program, table or mask, an unavailable cycle or M function, an ERROR block.
+/// Programs that are reached once `allowance` is spent are left unchecked, with a warning.
 /// @errors ProgramUnknown when there is no such file.
 Result<std::vector<klartext::Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
-                                                ProgramCache& programs);
+                                                ProgramCache& programs, Allowance& allowance);
 
 bool has_errors(const std::vector<klartext::Diagnostic>& diagnostics);
 

@@ -1,5 +1,6 @@
 #include "program/control_disk.hpp"
 
+#include <algorithm>
 #include <functional>
 
 #include "base/text.hpp"
@@ -31,6 +32,11 @@ std::optional<ControlFile> MemoryDisk::find(const ControlPath& path) const {
   return it == files_.end() ? std::nullopt : std::optional(it->second);
 }
 
+std::optional<std::string> MemoryDisk::revision(const ControlPath& path) const {
+  const auto file = find(path);
+  return file ? std::optional(file->revision) : std::nullopt;
+}
+
 bool MemoryDisk::has_directory(std::string_view directory) const {
   const std::string prefix = ascii_lower(directory);
   const auto it = files_.lower_bound(prefix);
@@ -40,15 +46,24 @@ bool MemoryDisk::has_directory(std::string_view directory) const {
 ProjectingDisk::ProjectingDisk(const ControlDisk& inner, std::vector<Projection> projections)
     : inner_(inner), projections_(std::move(projections)) {}
 
+const ProjectingDisk::Projection* ProjectingDisk::projection(const ControlPath& path) const {
+  const auto found = std::find_if(projections_.begin(), projections_.end(), [&](const auto& p) {
+    return ascii_iequals(path.file_name(), p.file_name);
+  });
+  return found == projections_.end() ? nullptr : &*found;
+}
+
 std::optional<ControlFile> ProjectingDisk::find(const ControlPath& path) const {
   if (auto file = inner_.find(path)) return file;
-  for (const Projection& projection : projections_) {
-    if (ascii_iequals(path.file_name(), projection.file_name)) {
-      return ControlFile{path, projection.bytes, projection.revision, FileSource::Live,
-                         projection.table};
-    }
-  }
-  return std::nullopt;
+  const Projection* live = projection(path);
+  if (live == nullptr) return std::nullopt;
+  return ControlFile{path, live->bytes, live->revision, FileSource::Live, live->table};
+}
+
+std::optional<std::string> ProjectingDisk::revision(const ControlPath& path) const {
+  if (auto stored = inner_.revision(path)) return stored;
+  const Projection* live = projection(path);
+  return live == nullptr ? std::nullopt : std::optional(live->revision);
 }
 
 bool ProjectingDisk::has_directory(std::string_view directory) const {

@@ -47,6 +47,9 @@ class ControlDisk {
 
   /// The file, or nothing when there is none.
   virtual std::optional<ControlFile> find(const ControlPath& path) const = 0;
+  /// That of the file `find` gives, without reading its bytes.
+  virtual std::optional<std::string> revision(const ControlPath& path) const = 0;
+  bool exists(const ControlPath& path) const { return revision(path).has_value(); }
 
   /// Whether a file lies in that directory or below it.
   /// @param directory ends with `\`.
@@ -62,6 +65,7 @@ class MemoryDisk final : public ControlDisk {
   void write(std::string_view path, std::string bytes);
 
   std::optional<ControlFile> find(const ControlPath& path) const override;
+  std::optional<std::string> revision(const ControlPath& path) const override;
   bool has_directory(std::string_view directory) const override;
 
  private:
@@ -83,9 +87,12 @@ class ProjectingDisk final : public ControlDisk {
   ProjectingDisk(const ControlDisk& inner, std::vector<Projection> projections);
 
   std::optional<ControlFile> find(const ControlPath& path) const override;
+  std::optional<std::string> revision(const ControlPath& path) const override;
   bool has_directory(std::string_view directory) const override;
 
  private:
+  const Projection* projection(const ControlPath& path) const;
+
   const ControlDisk& inner_;
   std::vector<Projection> projections_;
 };

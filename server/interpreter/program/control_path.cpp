@@ -20,6 +20,13 @@ Error path_error(std::string_view text, std::string_view what) {
 
 bool is_separator(char c) { return c == '\\' || c == '/'; }
 
+/// Whether a path ends in `\`, `.` or `..`, which are directories.
+bool names_directory(std::string_view text) {
+  const auto last = std::find_if(text.rbegin(), text.rend(), is_separator);
+  const std::string_view name = trim(text.substr(static_cast<std::size_t>(text.rend() - last)));
+  return name.empty() || name == "." || name == "..";
+}
+
 /// Adds the components of `text`. @returns false when `..` would leave the drive.
 bool append_components(std::string_view text, std::vector<std::string_view>& components) {
   while (!text.empty()) {
@@ -56,14 +63,11 @@ Result<std::string> normalise(std::string_view text, std::string_view start) {
   if (text.find(':') != std::string_view::npos) {
     return path_error(written, "is not on the drive TNC:");
   }
-  if (text.empty() || is_separator(text.back())) {
-    return path_error(written, "names no file");
-  }
+  if (names_directory(text)) return path_error(written, "names no file");
   std::vector<std::string_view> components;
   if (!append_components(start, components) || !append_components(text, components)) {
     return path_error(written, "leaves TNC:\\; only files below it can be used");
   }
-  if (components.empty()) return path_error(written, "names no file");
   std::string path(kDrive);
   for (const std::string_view component : components) {
     path += '\\';

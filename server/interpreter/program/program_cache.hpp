@@ -16,7 +16,7 @@ namespace fitgauge::interpreter {
 /// beyond a size. Thread-safe; two threads that miss at once both link, and one result is kept.
 class ProgramCache {
  public:
-  explicit ProgramCache(std::size_t bytes = std::size_t{128} << 20) : capacity_(bytes) {}
+  explicit ProgramCache(std::size_t bytes = std::size_t{32} << 20) : capacity_(bytes) {}
 
   /// The linked file, also when it has errors. Never null.
   std::shared_ptr<const LinkedFile> get(const ControlFile& file);

@@ -9,10 +9,10 @@
 namespace fitgauge::interpreter {
 
 Channel::Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& run_environment,
-                 const RunOptions& run_options, std::stop_token stop)
+                 const RunOptions& run_options, Allowance& allowance)
     : environment(run_environment),
       options(run_options),
-      budget(run_options.limits, std::move(stop)),
+      budget(run_options.limits, allowance),
       output(run_options.limits.output_bytes),
       log(output, run_environment.observer),
       files(run_environment.disk, output, run_options.limits.files),
@@ -41,8 +41,10 @@ NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const Contr
   if (!file) return nc_error(fmt::format("program {} does not exist", path.text()));
   std::shared_ptr<const LinkedProgram>& known = loaded_[path.key() + '|' + file->revision];
   if (known != nullptr) return known;
-  const auto linked = environment.programs.get(*file);
-  if (auto used = budget.use_memory(linked->memory_bytes); !used) return used.error();
+  Allowance& allowance = budget.allowance();
+  const auto linked = allowance.uncounted([&] { return environment.programs.get(*file); });
+  allowance.share(linked->memory_bytes);
+  if (auto checked = budget.check(); !checked) return checked.error();
   if (linked->program == nullptr) {
     const auto first =
         std::find_if(linked->diagnostics.begin(), linked->diagnostics.end(),

@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 
 #include "machine/machine.hpp"
@@ -29,7 +28,7 @@ namespace fitgauge::interpreter {
 class Channel {
  public:
   Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& run_environment,
-          const RunOptions& run_options, std::stop_token stop);
+          const RunOptions& run_options, Allowance& allowance);
 
   // --- the program that runs
   const LinkedProgram& linked() const { return calls.program(); }

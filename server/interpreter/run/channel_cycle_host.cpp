@@ -67,7 +67,7 @@ probing::CycleResult<void> ChannelCycleHost::write_datum(int row,
 }
 
 probing::CycleResult<probing::KinematicsRecords> ChannelCycleHost::kinematics_records() {
-  auto records = read_kinematics_records(channel_.files);
+  auto records = read_kinematics_records(channel_.files, channel_.budget.allowance());
   if (records) return *std::move(records);
   return probing::CycleFault{probing::CycleFaultKind::Error, records.error().number,
                              records.error().text};

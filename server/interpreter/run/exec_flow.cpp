@@ -26,7 +26,7 @@ NcResult<std::uint32_t> find_label(Channel& channel, const Label& label) {
     const auto numbered = whole(channel, parameter);
     if (!numbered) return numbered.error();
     shown = std::to_string(*numbered);
-    if (*numbered > 0 && *numbered <= UINT32_MAX) {
+    if (*numbered > 0) {
       found = channel.linked().label(static_cast<std::uint32_t>(*numbered));
     }
   }

@@ -26,13 +26,12 @@ NcResult<std::string> printed(Channel& channel, const klartext::Expr& item) {
 }  // namespace
 
 NcResult<void> execute(Channel& channel, const klartext::ErrorStop& stop) {
-  const auto error = whole(channel, stop.number);
-  if (!error) return error.error();
-  const auto code = static_cast<int>(*error);
-  if (*error >= 1000 && *error < 1200 && !probing::error_text(code).empty()) {
-    return nc_error(code);
+  const auto code = whole(channel, stop.number);
+  if (!code) return code.error();
+  if (*code >= 1000 && *code < 1200 && !probing::error_text(*code).empty()) {
+    return nc_error(*code);
   }
-  return NcError{NcErrorKind::Error, code, fmt::format("FN 14: Error code {}", *error)};
+  return NcError{NcErrorKind::Error, *code, fmt::format("FN 14: Error code {}", *code)};
 }
 
 NcResult<void> execute(Channel& channel, const klartext::Print& print) {

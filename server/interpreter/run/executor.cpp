@@ -132,6 +132,10 @@ bool Executor<kFollowed>::call_program(std::shared_ptr<const LinkedProgram> prog
 template <bool kFollowed>
 bool Executor<kFollowed>::evaluate_node(const Instruction* pc) {
   enter(pc);
+  if (auto checked = channel_.budget.check(); !checked) {
+    error_ = checked.error();
+    return false;
+  }
   const auto value = evaluate(channel_, klartext::NodeIndex{pc->a});
   if (!value) {
     error_ = value.error();
@@ -144,6 +148,7 @@ bool Executor<kFollowed>::evaluate_node(const Instruction* pc) {
 template <bool kFollowed>
 const Instruction* Executor<kFollowed>::jump_when(const Instruction* pc) {
   enter(pc);
+  if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
   const auto holds = condition(channel_, klartext::NodeIndex{pc->a});
   if (!holds) return fail(holds.error());
   return *holds ? code_ + pc->c : pc + 1;

@@ -55,6 +55,7 @@ NcResult<Printed> run_mask(Channel& channel, const klartext::MaskFile& mask) {
   bool is_spoken = true;
   std::size_t bytes = 0;
   for (const klartext::MaskLine& line : mask.lines) {
+    if (auto checked = channel.budget.check(); !checked) return checked.error();
     if (const auto* control = std::get_if<MaskControl>(&line.content)) {
       apply(*control, printed, empty);
     } else if (const auto* language = std::get_if<MaskLanguage>(&line.content)) {
@@ -67,7 +68,7 @@ NcResult<Printed> run_mask(Channel& channel, const klartext::MaskFile& mask) {
         return error;
       }
       if (!*text) continue;
-      bytes += (*text)->size();
+      bytes += (*text)->size() + 1;
       // A short mask can make long lines: what exceeds the budget is not even kept.
       if (bytes > channel.output.left()) return channel.output.charge(bytes).error();
       add_lines(**text, printed.lines);
@@ -94,11 +95,11 @@ bool is_device(std::string_view target) {
 
 NcResult<std::shared_ptr<const klartext::MaskFile>> FormattedPrinter::load(
     Channel& channel, const ControlPath& path) {
-  const auto file = channel.files.find(path);
-  if (!file) return nc_error(fmt::format("mask {} does not exist", path.text()));
+  const auto revision = channel.files.revision(path);
   Known& known = masks_[path.key()];
-  if (known.mask == nullptr || known.revision != file->revision) {
-    if (auto used = channel.budget.use_memory(file->bytes->size()); !used) return used.error();
+  if (known.mask == nullptr || known.revision != revision) {
+    const auto file = channel.files.find(path);
+    if (!file) return nc_error(fmt::format("mask {} does not exist", path.text()));
     auto parsed = klartext::parse_mask(*file->bytes, file->path.text());
     const auto error =
         std::find_if(parsed.diagnostics.begin(), parsed.diagnostics.end(),
@@ -130,6 +131,7 @@ NcResult<void> FormattedPrinter::print(Channel& channel, const ControlPath& mask
   }
   const auto path = channel.resolve(target);
   if (!path) return path.error();
+  if (auto reserved = channel.files.reserve(*path); !reserved) return reserved;
   Output& output = outputs_.try_emplace(path->key(), Output{*path, {}, false, {}}).first->second;
   if (printed->truncate) output = {*path, {}, false, {}};
   output.append = output.append || printed->append;

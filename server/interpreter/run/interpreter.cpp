@@ -40,7 +40,9 @@ NcResult<void> close_files(Channel& channel) {
 
 RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& environment,
               const RunOptions& options, std::stop_token stop) {
-  Channel channel(std::move(main), environment, options, std::move(stop));
+  Allowance own(options.limits.time, options.limits.memory_bytes, std::move(stop));
+  Allowance& allowance = environment.allowance != nullptr ? *environment.allowance : own;
+  Channel channel(std::move(main), environment, options, allowance);
   channel.parameters.enter(channel.linked());
   Ending ending;
   if (auto done = preset(channel.parameters, options.parameters); !done) {
@@ -51,6 +53,8 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   const Place last = channel.place();
   auto closed = close_files(channel);
   if (!ending.error && !closed) ending.error = closed.error();
+  // A move or a loop that was interrupted has failed for that reason, whatever it says.
+  if (auto refusal = channel.budget.refusal()) ending.error = std::move(refusal);
 
   RunResult result;
   result.blocks_executed = ending.blocks_executed;

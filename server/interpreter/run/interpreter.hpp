@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "base/allowance.hpp"
 #include "base/clock.hpp"
 #include "klartext/mask_file.hpp"
 #include "machine/machine.hpp"
@@ -36,6 +37,9 @@ struct RunEnvironment {
   ProgramCache& programs;
   const Clock& clock;
   RunObserver& observer;
+  /// Made of the limits and the stop token before the machine, which looks at it too; without one
+  /// the run makes its own, and what the machine does is not interrupted.
+  Allowance* allowance = nullptr;
 };
 
 /// Runs a program to its end, on the calling thread.
@@ -50,8 +54,9 @@ struct RunEnvironment {
 /// Never throws for what a program does: NC errors, machine faults, budgets and cancellation are
 /// in the result, whose last message then names the block. Broken storage (ControlDisk) passes
 /// through as an exception. Cancel with the stop token from any thread: it is seen within a few
-/// thousand blocks of formulas or a few blocks of motion. Files the run writes are in the result
-/// only.
+/// thousand blocks of formulas, and inside of every block that can last. Files the run writes are
+/// in the result only.
+/// @param stop unused where the environment brings an allowance
 RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& environment,
               const RunOptions& options, std::stop_token stop = {});
 

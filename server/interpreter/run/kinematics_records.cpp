@@ -128,10 +128,11 @@ void append(TabTable& table, const std::string& name, std::string_view part, std
 
 }  // namespace
 
-NcResult<probing::KinematicsRecords> read_kinematics_records(const RunFiles& files) {
+NcResult<probing::KinematicsRecords> read_kinematics_records(const RunFiles& files,
+                                                             Allowance& allowance) {
   const auto file = files.find(records_path());
   if (!file) return probing::KinematicsRecords{};
-  const auto table = tabfile::read_tab_file(*file->bytes);
+  const auto table = tabfile::read_tab_file(*file->bytes, allowance);
   if (!table) return broken(table.error().message);
   return RecordReader(*table).read();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/allowance.hpp"
 #include "probing/cycle_host.hpp"
 #include "run/run_files.hpp"
 
@@ -9,7 +10,8 @@ namespace fitgauge::interpreter {
 /// each axis of a record and one for the tool, with a point and a direction. None where there is no
 /// such file.
 /// @errors 1096 the file is not such a table.
-NcResult<probing::KinematicsRecords> read_kinematics_records(const RunFiles& files);
+NcResult<probing::KinematicsRecords> read_kinematics_records(const RunFiles& files,
+                                                             Allowance& allowance);
 
 /// Replaces that file. @errors as RunFiles::write.
 NcResult<void> write_kinematics_records(RunFiles& files, const probing::KinematicsRecords& records);

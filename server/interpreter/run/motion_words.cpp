@@ -64,9 +64,8 @@ NcResult<void> read_number(Channel& channel, const Word& word, double unit,
 NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& calls) {
   const auto value = whole(channel, word.value);
   if (!value) return value.error();
-  const auto called = static_cast<int>(*value);
-  if (!is_m_function(called)) return nc_error(fmt::format("M{} is not available", called));
-  calls.push_back({.number = called});
+  if (!is_m_function(*value)) return nc_error(fmt::format("M{} is not available", *value));
+  calls.push_back({.number = *value});
   return {};
 }
 

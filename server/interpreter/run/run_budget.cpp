@@ -3,15 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace fitgauge::interpreter {
-
-RunBudget::RunBudget(const RunLimits& limits, std::stop_token stop)
-    : limits_(limits),
-      stop_(std::move(stop)),
-      deadline_(std::chrono::steady_clock::now() +
-                std::chrono::duration_cast<std::chrono::steady_clock::duration>(limits.time)) {}
 
 NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed) {
   granted_ -= static_cast<std::uint64_t>(left);
@@ -25,24 +18,18 @@ NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed)
   return portion;
 }
 
-NcResult<void> RunBudget::check() {
-  if (stop_.stop_requested()) {
-    return NcError{NcErrorKind::Cancelled, 0, "the run was cancelled"};
+std::optional<NcError> RunBudget::refusal() const {
+  switch (allowance_.found()) {
+    case Allowance::Spent::Nothing: break;
+    case Allowance::Spent::Stop: return NcError{NcErrorKind::Cancelled, 0, "the run was cancelled"};
+    case Allowance::Spent::Time:
+      return limit_error(
+          fmt::format("the run has taken its limit of {} seconds", limits_.time.count()));
+    case Allowance::Spent::Memory:
+      return limit_error(
+          fmt::format("the run has taken more than its {} bytes of memory", limits_.memory_bytes));
   }
-  if (std::chrono::steady_clock::now() > deadline_) {
-    return limit_error(
-        fmt::format("the run has taken its limit of {} seconds", limits_.time.count()));
-  }
-  return {};
-}
-
-NcResult<void> RunBudget::use_memory(std::size_t bytes) {
-  memory_ += bytes;
-  if (memory_ > limits_.memory_bytes) {
-    return limit_error(
-        fmt::format("the run has loaded more than {} bytes of files", limits_.memory_bytes));
-  }
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace fitgauge::interpreter

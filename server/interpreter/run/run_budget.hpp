@@ -1,28 +1,38 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <stop_token>
+#include <optional>
 
+#include "base/allowance.hpp"
 #include "run/nc_error.hpp"
 #include "run/run_limits.hpp"
 
 namespace fitgauge::interpreter {
 
-/// Blocks, wall-clock time, memory and cancellation of a run. The executor takes blocks in portions
-/// and counts them down itself; time and cancellation are looked at with each portion, and with
-/// each block that is more than arithmetic.
+/// The blocks of a run, and its allowance of time and memory. The executor takes blocks in portions
+/// and counts them down itself; the allowance is looked at with each portion, with each block that
+/// is more than arithmetic, and in every loop inside of such a block.
 class RunBudget {
  public:
-  RunBudget(const RunLimits& limits, std::stop_token stop);
+  /// @param allowance is that of the run's machine, too, and outlives the budget
+  RunBudget(const RunLimits& limits, Allowance& allowance)
+      : limits_(limits), allowance_(allowance) {}
 
   /// Takes back what is left of a portion and grants a new one of at least `needed` blocks.
   /// @errors limit (blocks, time), cancelled.
   NcResult<std::int64_t> refuel(std::int64_t left, std::int64_t needed);
-  /// To be called for each block that is more than arithmetic. @errors limit (time), cancelled.
-  NcResult<void> check();
-  /// @errors limit.
-  NcResult<void> use_memory(std::size_t bytes);
+  /// To be called for each block that is more than arithmetic, and in loops.
+  /// @errors limit (time, memory), cancelled.
+  NcResult<void> check() {
+    if (!allowance_.is_spent()) [[likely]]
+      return {};
+    return *refusal();
+  }
+  /// Why the allowance is spent, if an earlier look has found it so: then whatever failed since
+  /// failed for that.
+  std::optional<NcError> refusal() const;
+
+  Allowance& allowance() { return allowance_; }
 
   /// @param left of the last portion.
   std::uint64_t executed(std::int64_t left) const {
@@ -33,10 +43,8 @@ class RunBudget {
   static constexpr std::int64_t kPortion = 8192;
 
   const RunLimits limits_;
-  const std::stop_token stop_;
-  const std::chrono::steady_clock::time_point deadline_;
+  Allowance& allowance_;
   std::uint64_t granted_ = 0;
-  std::size_t memory_ = 0;
 };
 
 }  // namespace fitgauge::interpreter

@@ -10,8 +10,12 @@ std::optional<ControlFile> RunFiles::find(const ControlPath& path) const {
   const auto it = written_.find(path.key());
   if (it == written_.end()) return disk_.find(path);
   const Written& file = it->second;
-  return ControlFile{file.path, std::make_shared<const std::string>(file.bytes),
-                     fmt::format("run-{}", file.revision), FileSource::Run};
+  return ControlFile{file.path, file.bytes, file.revision_text(), FileSource::Run};
+}
+
+std::optional<std::string> RunFiles::revision(const ControlPath& path) const {
+  const auto it = written_.find(path.key());
+  return it == written_.end() ? disk_.revision(path) : it->second.revision_text();
 }
 
 bool RunFiles::has_directory(std::string_view directory) const {
@@ -20,41 +24,43 @@ bool RunFiles::has_directory(std::string_view directory) const {
   return (it != written_.end() && it->first.starts_with(prefix)) || disk_.has_directory(directory);
 }
 
-NcResult<RunFiles::Written*> RunFiles::entry(const ControlPath& path) {
-  auto it = written_.find(path.key());
-  if (it == written_.end()) {
-    if (written_.size() >= most_files_) {
-      return limit_error(fmt::format("the run has written more than {} files", most_files_));
-    }
-    it = written_.emplace(path.key(), Written{path, {}}).first;
+NcResult<void> RunFiles::reserve(const ControlPath& path) {
+  const std::string key = path.key();
+  if (reserved_.contains(key)) return {};
+  if (reserved_.size() >= most_files_) {
+    return limit_error(fmt::format("the run has written more than {} files", most_files_));
   }
-  ++it->second.revision;
-  return &it->second;
+  reserved_.insert(key);
+  return {};
 }
 
 NcResult<void> RunFiles::write(const ControlPath& path, std::string bytes) {
   if (auto charged = budget_.charge(bytes.size()); !charged) return charged;
-  auto file = entry(path);
-  if (!file) return file.error();
-  (*file)->bytes = std::move(bytes);
+  if (auto reserved = reserve(path); !reserved) return reserved;
+  Written& file = written_.try_emplace(path.key(), Written{path, {}}).first->second;
+  file.bytes = std::make_shared<std::string>(std::move(bytes));
+  ++file.revision;
   return {};
 }
 
 NcResult<void> RunFiles::append(const ControlPath& path, std::string_view bytes) {
-  if (!written_.contains(path.key())) {
+  const auto known = written_.find(path.key());
+  if (known == written_.end()) {
     const auto stored = disk_.find(path);
-    return write(path, (stored ? *stored->bytes : std::string()) + std::string(bytes));
+    std::string all = stored ? *stored->bytes : std::string();
+    return write(path, std::move(all += bytes));
   }
   if (auto charged = budget_.charge(bytes.size()); !charged) return charged;
-  auto file = entry(path);
-  if (!file) return file.error();
-  (*file)->bytes += bytes;
+  Written& file = known->second;
+  if (file.bytes.use_count() > 1) file.bytes = std::make_shared<std::string>(*file.bytes);
+  *file.bytes += bytes;
+  ++file.revision;
   return {};
 }
 
 std::vector<WrittenFile> RunFiles::take() {
   std::vector<WrittenFile> files;
-  for (auto& [key, file] : written_) files.push_back({file.path, std::move(file.bytes)});
+  for (auto& [key, file] : written_) files.push_back({file.path, std::move(*file.bytes)});
   written_.clear();
   return files;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +23,12 @@ class RunFiles {
       : disk_(disk), budget_(budget), most_files_(most_files) {}
 
   std::optional<ControlFile> find(const ControlPath& path) const;
+  /// That of the file `find` gives, without reading its bytes.
+  std::optional<std::string> revision(const ControlPath& path) const;
   bool has_directory(std::string_view directory) const;
 
+  /// Counts a file that will be written later. @errors limit: number of files.
+  NcResult<void> reserve(const ControlPath& path);
   /// @errors limit: output or number of files.
   NcResult<void> write(const ControlPath& path, std::string bytes);
   /// Adds to a file of the run, or to what is stored of it. @errors as write.
@@ -33,14 +39,16 @@ class RunFiles {
  private:
   struct Written {
     ControlPath path;
-    std::string bytes;
+    std::shared_ptr<std::string> bytes;  ///< not to be changed while others have found the file
     unsigned revision = 0;
+
+    std::string revision_text() const { return "run-" + std::to_string(revision); }
   };
-  NcResult<Written*> entry(const ControlPath& path);
 
   const ControlDisk& disk_;
   OutputBudget& budget_;
   std::size_t most_files_;
+  std::set<std::string> reserved_;          // keys of all that is or will be written
   std::map<std::string, Written> written_;  // by key
 };
 

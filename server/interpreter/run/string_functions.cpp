@@ -50,12 +50,9 @@ NcResult<std::string> number_text(Channel& channel, Operands operands) {
   const auto value = number(channel, operands[0]);
   if (!value) return value.error();
   if (is_absent(operands[1])) return to_char(*value, -1);
-  const auto decimals = whole(channel, operands[1]);
+  const auto decimals = whole_in(channel, operands[1], 0, kMostDecimals);
   if (!decimals) return decimals.error();
-  if (*decimals < 0 || *decimals > kMostDecimals) {
-    return nc_error(1011, fmt::format("DECIMALS{} is not in 0 to {}", *decimals, kMostDecimals));
-  }
-  return to_char(*value, static_cast<int>(*decimals));
+  return to_char(*value, *decimals);
 }
 
 /// BEG counts from 0; without LEN up to the end.

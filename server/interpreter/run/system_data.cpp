@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "run/channel.hpp"
 #include "run/tool_values.hpp"
@@ -17,9 +16,9 @@ using machine::CoordinateSystem;
 using machine::MachineState;
 
 struct Address {
-  std::int64_t id = 0;
-  std::int64_t nr = 0;
-  std::optional<std::int64_t> index;
+  int id = 0;
+  int nr = 0;
+  std::optional<int> index;
 };
 
 NcResult<Address> read_address(Channel& channel, klartext::NodeIndex node) {
@@ -44,8 +43,8 @@ NcError unknown(const Address& address) {
 
 /// IDX 1 to 9: X Y Z A B C U V W. Nothing for those a machine does not have.
 std::optional<Axis> axis_of(const Address& address) {
-  const std::int64_t index = address.index.value_or(1);
-  if (index < 1 || index > static_cast<std::int64_t>(machine::kAxes)) return std::nullopt;
+  const int index = address.index.value_or(1);
+  if (index < 1 || index > static_cast<int>(machine::kAxes)) return std::nullopt;
   return static_cast<Axis>(index - 1);
 }
 
@@ -64,7 +63,7 @@ Answer program_data(const Channel& channel, const Address& address) {
     case 103: {  // whether the active cycle's block gives the parameter Q IDX
       const auto* drilling = std::get_if<DrillingDefinition>(&channel.active_cycle.definition);
       if (drilling == nullptr || !address.index) return std::nullopt;
-      return drilling->values.contains(static_cast<int>(*address.index)) ? 1 : 0;
+      return drilling->values.contains(*address.index) ? 1 : 0;
     }
     case 8: {
       const LinkedProgram* caller = channel.calls.caller();
@@ -81,7 +80,7 @@ Answer program_data(const Channel& channel, const Address& address) {
       const auto path = channel.resolve(is_directory ? *name + "\\x" : *name);
       if (!path) return 0;
       return (is_directory ? channel.files.has_directory(path->directory())
-                           : channel.files.find(*path).has_value())
+                           : channel.files.revision(*path).has_value())
                  ? 1
                  : 0;
     }
@@ -106,14 +105,13 @@ Answer machine_data(const Channel& channel, const Address& address) {
 }
 
 /// A row of tool.t; row 0, which every table has, is the empty spindle.
-const machine::Tool* find_tool(const MachineState& state, std::int64_t number) {
+const machine::Tool* find_tool(const MachineState& state, int number) {
   static const machine::Tool kNoTool;
-  if (number < 0 || number > std::numeric_limits<int>::max()) return nullptr;
-  const machine::Tool* tool = state.tools.find(static_cast<int>(number));
+  const machine::Tool* tool = state.tools.find(number);
   return tool == nullptr && number == 0 ? &kNoTool : tool;
 }
 
-NcError no_tool(std::int64_t number) {
+NcError no_tool(int number) {
   return nc_error(1092, fmt::format("tool {} is not in the tool table", number));
 }
 
@@ -280,7 +278,7 @@ NcResult<double> datum_data(const Channel& channel, const Address& address) {
 
 /// ID502 and ID503: the preset table, NR is the row. The kinematics add nothing to a preset here.
 NcResult<double> preset_data(const MachineState& state, const Address& address) {
-  const machine::Preset* preset = state.presets.find(static_cast<int>(address.nr));
+  const machine::Preset* preset = state.presets.find(address.nr);
   const auto axis = axis_of(address);
   if (preset == nullptr || !axis) return unknown(address);
   const std::size_t i = machine::index(*axis);
@@ -334,11 +332,10 @@ NcResult<void> write_tool(Channel& channel, const Address& address, double value
 
 NcResult<void> write_preset(Channel& channel, const Address& address, double value) {
   const auto axis = axis_of(address);
-  if (!axis || address.nr < 0) return unknown(address);
-  const auto number = static_cast<int>(address.nr);
-  const machine::Preset* found = channel.machine().state().presets.find(number);
+  if (!axis || address.nr < 0 || address.nr > machine::kLastPreset) return unknown(address);
+  const machine::Preset* found = channel.machine().state().presets.find(address.nr);
   machine::Preset preset = found != nullptr ? *found : machine::Preset{};
-  preset.number = number;
+  preset.number = address.nr;
   const std::size_t i = machine::index(*axis);
   if (machine::is_rotary(*axis)) {
     preset.frame.rotary_offsets_deg[i - 3] = value;

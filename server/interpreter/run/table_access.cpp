@@ -69,10 +69,9 @@ NcResult<TableAccess::Table> TableAccess::load(Channel& channel, const ControlPa
   }
   Known& known = known_[path.key()];
   if (known.content == nullptr || known.revision != file->revision) {
-    if (auto used = channel.budget.use_memory(file->bytes->size()); !used) return used.error();
     known = {file->revision, file->table};
     if (known.content == nullptr) {
-      auto read = tabfile::read_tab_file(*file->bytes);
+      auto read = tabfile::read_tab_file(*file->bytes, channel.budget.allowance());
       if (read.has_error()) {
         return nc_error(
             fmt::format("{} {} cannot be read: {}", what, path.text(), read.error().message));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "program/arithmetic.hpp"
 #include "run/channel.hpp"
@@ -78,13 +79,20 @@ NcResult<std::optional<double>> coordinate(Channel& channel, const Expr& expr) {
   return std::optional(*value);
 }
 
-NcResult<std::int64_t> whole(Channel& channel, const Expr& expr) {
+NcResult<int> whole_in(Channel& channel, const Expr& expr, int least, int most) {
   const auto value = number(channel, expr);
   if (!value) return value.error();
-  if (std::abs(*value) > 1e12 || *value != std::nearbyint(*value)) {
+  if (*value != std::nearbyint(*value)) {
     return nc_error(1011, fmt::format("{} is not a whole number", *value));
   }
-  return static_cast<std::int64_t>(*value);
+  if (*value < least || *value > most) {
+    return nc_error(1011, fmt::format("{} is outside of {} to {}", *value, least, most));
+  }
+  return static_cast<int>(*value);
+}
+
+NcResult<int> whole(Channel& channel, const Expr& expr) {
+  return whole_in(channel, expr, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
 }
 
 NcResult<std::string> text(Channel& channel, const Expr& expr) {

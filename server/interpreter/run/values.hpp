@@ -16,8 +16,10 @@ class Channel;
 NcResult<double> number(Channel& channel, const klartext::Expr& expr);
 /// Of a positioning block: an undefined parameter leaves its axis out (decision 18).
 NcResult<std::optional<double>> coordinate(Channel& channel, const klartext::Expr& expr);
-/// A number that must be whole. @errors 1011.
-NcResult<std::int64_t> whole(Channel& channel, const klartext::Expr& expr);
+/// A number that must be whole and between two bounds, both included. @errors 1011.
+NcResult<int> whole_in(Channel& channel, const klartext::Expr& expr, int least, int most);
+/// A number that must be whole: any that an int holds. @errors 1011.
+NcResult<int> whole(Channel& channel, const klartext::Expr& expr);
 
 NcResult<std::string> text(Channel& channel, const klartext::Expr& expr);
 

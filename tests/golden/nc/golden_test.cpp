@@ -93,7 +93,8 @@ class Case {
   Case(const std::string& name, std::string program) { add(name, std::move(program)); }
 
   std::vector<klartext::Diagnostic> diagnostics(const std::string& name) {
-    return check(path(name), disk_, programs_).value();
+    Allowance unlimited;
+    return check(path(name), disk_, programs_, unlimited).value();
   }
 
   std::string run(const std::string& name) {

@@ -36,9 +36,13 @@ class Disk {
     disk_.write(path, std::move(bytes));
     return *this;
   }
-  ControlTables read() const { return read_control_tables(disk_).value(); }
+  ControlTables read() const {
+    Allowance unlimited;
+    return read_control_tables(disk_, unlimited).value();
+  }
   std::string error() const {
-    const auto tables = read_control_tables(disk_);
+    Allowance unlimited;
+    const auto tables = read_control_tables(disk_, unlimited);
     if (tables) return "read";
     CHECK(tables.error().code == ErrorCode::TableFileMalformed);
     return tables.error().message;
@@ -192,6 +196,39 @@ TEST_CASE("a table that cannot be used names itself and the place") {
             .with("TNC:\\preset.pr", "BEGIN PRESET .PR MM\nNO      X_OFFS\n1       2\n[END]\n")
             .error() ==
         "TNC:\\preset.pr: row 1, X_OFFS: offsets of the linear axes are not available");
+}
+
+/// A disk that counts how often a file is read.
+class CountingDisk final : public interpreter::ControlDisk {
+ public:
+  std::optional<interpreter::ControlFile> find(
+      const interpreter::ControlPath& path) const override {
+    ++reads;
+    return files.find(path);
+  }
+  std::optional<std::string> revision(const interpreter::ControlPath& path) const override {
+    return files.revision(path);
+  }
+  bool has_directory(std::string_view directory) const override {
+    return files.has_directory(directory);
+  }
+
+  interpreter::MemoryDisk files;
+  mutable int reads = 0;
+};
+
+TEST_CASE("the control's tables are read again only when one of them has changed") {
+  CountingDisk disk;
+  disk.files.write("TNC:\\table\\tool.t", kToolTable);
+  ControlTablesCache cache(disk);
+  Allowance unlimited;
+  CHECK(cache.read(unlimited).value()->tools.size() == 2);
+  const int reads = disk.reads;
+  CHECK(cache.read(unlimited).value()->tools.size() == 2);
+  CHECK(disk.reads == reads);
+  disk.files.write("TNC:\\table\\preset.pr", kPresetTable);
+  CHECK(cache.read(unlimited).value()->presets.size() == 2);
+  CHECK(disk.reads > reads);
 }
 
 }  // namespace

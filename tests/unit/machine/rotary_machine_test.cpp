@@ -98,6 +98,27 @@ TEST_CASE("with TCPM the tip keeps its place on the workpiece") {
   check_near(machine.position().linear, expected);
 }
 
+TEST_CASE("with TCPM the nose keeps to the ranges of the axes on its way, not only at its end") {
+  Setup setup = sphere_setup();
+  setup.machine.axes[index(Axis::X)]->min = -100;
+  setup.machine.axes[index(Axis::X)]->max = 100;
+  SimulatedMachine machine(setup);
+  call_probe(machine);
+  LinearMove aside;
+  aside.target = AxisWords::linear({0, 300, 200});
+  REQUIRE(ok(machine.move(aside)));
+  Modes modes;
+  modes.tcpm = true;
+  REQUIRE(ok(machine.set_modes(modes)));
+  const Position before = machine.state().nose;
+  LinearMove half_turn;
+  half_turn.target[Axis::C] = 180;  // from Y+300 to Y-300, by X+300 or X-300
+  CHECK(machine.move(half_turn).error().kind == FaultKind::AxisLimit);
+  CHECK(machine.state().nose == before);
+  half_turn.target[Axis::C] = 15;  // X = 300 sin 15 = 78
+  CHECK(ok(machine.move(half_turn)));
+}
+
 TEST_CASE("a head tilts the tool around the nose, and with TCPM around the tip") {
   Setup setup;
   setup.machine.axes[index(Axis::B)] = AxisSetup::of(Axis::B);

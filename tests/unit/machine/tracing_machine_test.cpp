@@ -103,10 +103,12 @@ TEST_CASE("each command writes a line") {
   for (std::size_t k = 0; k < expected.size(); ++k) CHECK(machine.lines()[k] == expected[k]);
 }
 
-TEST_CASE("a full trace counts what it drops") {
+TEST_CASE("a full trace counts what it drops, and asks for no block then") {
   SimulatedMachine simulated(face_setup());
-  TracingMachine machine(simulated, {{}, 2, true});
+  int asked = 0;
+  TracingMachine machine(simulated, {[&asked] { return ++asked; }, 2, true});
   run(machine);
+  CHECK(asked == 2);
   CHECK(machine.moves().size() == 2);
   CHECK(machine.lines().size() == 2);
   CHECK(machine.dropped() == 4);

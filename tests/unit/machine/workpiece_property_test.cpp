@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -162,4 +164,136 @@ TEST_CASE("a ball on its way to the contact never passes through material") {
   INFO("contacts ", contacts, " early ", early);
   CHECK(contacts > 250);
   CHECK(early <= contacts / 50);  // corners inside the edges of crossing bores
+}
+
+/// Cylinders of the edges and spheres of the corners of a block, and its faces: the first of their
+/// intersections with the line that lies on the rounded block. No distance is computed.
+double first_on_rounded_block(const Block& block, const Vec3& start, const Vec3& d, double radius) {
+  double first = HUGE_VAL;
+  const Vec3 low = block.min;
+  const Vec3 high = block.max;
+  // `along`: the axes along which the touched face, edge or corner extends.
+  const auto take = [&](double way, const std::array<bool, 3>& along) {
+    if (!(way >= 0) || way >= first) return;
+    const Vec3 at = start + d * way;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (along[k] && (at[k] < low[k] - 1e-12 || at[k] > high[k] + 1e-12)) return;
+    }
+    first = way;
+  };
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p{(corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                 (corner & 4) != 0 ? high.z : low.z};
+    // The squared distance to the corner without the axes of `along`, as a t^2 + 2 b t + c.
+    for (int free = 0; free < 7; ++free) {
+      double a = 0;
+      double b = 0;
+      double c = -radius * radius;
+      std::array<bool, 3> along{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        along[k] = (free >> k & 1) != 0;
+        if (along[k]) continue;
+        a += d[k] * d[k];
+        b += d[k] * (start[k] - p[k]);
+        c += (start[k] - p[k]) * (start[k] - p[k]);
+      }
+      const double root = std::sqrt(b * b - a * c);  // not a number where the line passes by
+      if (a > 0) take((-b - root) / a, along);
+    }
+  }
+  return first;
+}
+
+TEST_CASE("a contact with a block is that of the line with the rounded block") {
+  Generator generator(424);
+  int contacts = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    const Block block{{0, 0, -40}, {generator.between(1, 100), generator.between(1, 80), 0}};
+    const Workpiece workpiece({block});
+    const double radius = generator.between(0, 6);
+    const Vec3 start{generator.between(-60, 160), generator.between(-60, 140),
+                     generator.between(-100, 60)};
+    if (workpiece.clearance(start, radius) <= 0) continue;
+    const Vec3 target{generator.between(0, 100), generator.between(0, 80),
+                      generator.between(-40, 0)};
+    const Vec3 direction = unit(target - start);
+    const auto way = workpiece.contact(start, direction, radius, 300);
+    const double expected = first_on_rounded_block(block, start, direction, radius);
+    if (expected > 300) {
+      CHECK_FALSE(way);
+      continue;
+    }
+    REQUIRE(way);
+    ++contacts;
+    CHECK(std::abs(*way - expected) < 1e-9);
+  }
+  CHECK(contacts > 5'000);
+}
+
+TEST_CASE("a contact in a bore is where the circle of the ball's centre is left") {
+  Generator generator(425);
+  for (int k = 0; k < 20'000; ++k) {
+    Bore bore;
+    bore.diameter = generator.between(5, 60);
+    bore.depth = 50;
+    const Workpiece workpiece({Block{{-50, -50, -40}, {50, 50, 0}}, bore});
+    const double radius = generator.between(0.1, 2);
+    const double free = bore.diameter / 2 - radius;
+    const double off = free * generator.between(0, 0.999);
+    const double from = generator.between(-kPi, kPi);
+    const double heading = generator.between(-kPi, kPi);
+    const double rise = generator.between(-0.1, 0.1);  // of the direction, per mm across
+    const Vec3 start{off * std::cos(from), off * std::sin(from), -20};
+    const Vec3 direction = unit({std::cos(heading), std::sin(heading), rise});
+    // The chord from a point inside a circle, in polar form.
+    const double turn = heading - from;
+    const double across =
+        std::sqrt(free * free - off * off * std::sin(turn) * std::sin(turn)) - off * std::cos(turn);
+    const double expected = across * std::hypot(1.0, rise);
+    const auto way = workpiece.contact(start, direction, radius, 200);
+    REQUIRE(way);
+    CHECK(std::abs(*way - expected) < 1e-9);
+  }
+}
+
+TEST_CASE("what is found at once is what tracing finds step by step") {
+  const std::uint64_t seed = 426;
+  INFO("seed ", seed);
+  Generator generator(seed);
+  int contacts = 0;
+  int grazes = 0;
+  for (int part = 0; part < 150; ++part) {
+    const Workpiece workpiece(generator.features());
+    for (int k = 0; k < 40; ++k) {
+      const Vec3 start = generator.place();
+      const Vec3 direction = generator.direction();
+      const double radius = generator.between(0.2, 4);
+      if (workpiece.clearance(start, radius) <= 0) continue;
+      const auto way = workpiece.contact(start, direction, radius, 100);
+      const auto traced = workpiece.traced_contact(start, direction, radius, 100);
+      if (!way && !traced) continue;
+      ++contacts;
+      if (way && traced && std::abs(*way - *traced) < 1e-9) continue;
+      // One of them has passed what the ball only grazes: it is in no material there.
+      ++grazes;
+      const double nearer = std::min(way.value_or(HUGE_VAL), traced.value_or(HUGE_VAL));
+      INFO("part ", part, " k ", k, " way ", way.value_or(-1), " traced ", traced.value_or(-1));
+      CHECK(std::abs(workpiece.clearance(start + direction * nearer, radius)) < 1e-9);
+      CHECK(workpiece.clearance(start + direction * (nearer + 1e-4), radius) > -1e-7);
+    }
+  }
+  INFO("contacts ", contacts, " grazes ", grazes);
+  CHECK(contacts > 1000);
+  CHECK(grazes <= contacts / 100);
+}
+
+TEST_CASE("a move close along a face is decided at once, not traced") {
+  const Workpiece workpiece({Plane{}});
+  std::stop_source source;
+  source.request_stop();
+  fitgauge::Allowance stopped(std::chrono::hours(1), 1 << 20, source.get_token());
+  for (const double gap : {1e-3, 1e-5, 1e-8}) {
+    CHECK_FALSE(workpiece.contact({0, 0, 2 + gap}, {1, 0, 0}, 2, 1e6, stopped));
+    CHECK(stopped.found() == fitgauge::Allowance::Spent::Nothing);  // nothing has looked at it
+  }
 }

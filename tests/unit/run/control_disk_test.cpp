@@ -25,7 +25,11 @@ TEST_CASE("a path that leaves the control's disk is refused") {
   CHECK(resolved("TNC:\\..\\etc\\passwd") == "file.path_invalid");
   CHECK(resolved("PLC:\\a.h") == "file.path_invalid");
   CHECK(resolved("C:\\a.h") == "file.path_invalid");
-  CHECK(resolved("sub\\") == "file.path_invalid");
+  for (const char* directory :
+       {"sub\\", ".", "..", "sub\\.", "sub\\..", "TNC:\\sub\\ .. ", "TNC:", "\\"}) {
+    CAPTURE(directory);
+    CHECK(resolved(directory) == "file.path_invalid");
+  }
   CHECK(resolved("") == "file.path_invalid");
   CHECK(resolved("..\\..") == "file.path_invalid");
   CHECK(resolved("a\nb.h") == "file.path_invalid");
@@ -42,6 +46,8 @@ TEST_CASE("files are found without regard to case") {
   CHECK(file->path.text() == "TNC:\\nc_prog\\8255.h");
   CHECK(file->source == FileSource::Stored);
   CHECK_FALSE(disk.find(ControlPath::parse("TNC:\\8255.h").value()).has_value());
+  CHECK(disk.revision(file->path) == file->revision);
+  CHECK_FALSE(disk.revision(ControlPath::parse("TNC:\\8255.h").value()).has_value());
   CHECK(disk.has_directory("TNC:\\NC_prog\\"));
   CHECK_FALSE(disk.has_directory("TNC:\\nc\\"));
 }
@@ -53,6 +59,7 @@ TEST_CASE("a projected file is found in every directory, an uploaded one of its 
   const auto path = ControlPath::parse("TNC:\\a\\82553_HOLE.TAB").value();
   REQUIRE(projecting.find(path).has_value());
   CHECK(projecting.find(path)->source == FileSource::Live);
+  CHECK(projecting.revision(path) == "r1");
   CHECK(*projecting.find(path)->bytes == "live");
   disk.write("TNC:\\a\\82553_hole.tab", "own");
   CHECK(*projecting.find(path)->bytes == "own");

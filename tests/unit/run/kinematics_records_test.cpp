@@ -10,6 +10,7 @@ using machine::AxisMount;
 using machine::Kinematics;
 using machine::Vec3;
 
+Allowance unlimited;
 const ControlPath kRecords = ControlPath::parse("TNC:\\TABLE\\data450.kd").value();
 const std::string kHeader =
     "BEGIN DATA450 .KD MM\n"
@@ -19,7 +20,7 @@ NcResult<probing::KinematicsRecords> read(const std::string& rows) {
   MemoryDisk disk;
   disk.write(kRecords, kHeader + rows + "[END]\n");
   OutputBudget budget(1'000'000);
-  return read_kinematics_records(RunFiles(disk, budget, 10));
+  return read_kinematics_records(RunFiles(disk, budget, 10), unlimited);
 }
 
 }  // namespace
@@ -33,9 +34,9 @@ TEST_CASE("records of kinematics come back as they were written") {
   const MemoryDisk disk;
   OutputBudget budget(1'000'000);
   RunFiles files(disk, budget, 10);
-  CHECK(read_kinematics_records(files).value().empty());
+  CHECK(read_kinematics_records(files, unlimited).value().empty());
   REQUIRE(write_kinematics_records(files, records).has_value());
-  const auto again = read_kinematics_records(files);
+  const auto again = read_kinematics_records(files, unlimited);
   REQUIRE(again.has_value());
   REQUIRE(again->size() == 3);
   for (const auto& record : records) {

@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <thread>
+
 #include "run_fixture.hpp"
 
 namespace fitgauge::interpreter {
@@ -66,12 +71,142 @@ TEST_CASE("the number of files is bounded") {
   CHECK(result.files.size() == 3);
 }
 
-TEST_CASE("memory of loaded files is bounded") {
+constexpr const char* kEndless = "\nFN 9: IF +1 EQU +1 GOTO LBL 1";
+
+/// A machine and a probe for moves along a plane at Z0.
+void put_on_a_plane(Control& control) {
+  for (const auto axis : {machine::Axis::X, machine::Axis::Y, machine::Axis::Z}) {
+    control.setup.machine.axes[machine::index(axis)]->min = -1e6;
+    control.setup.machine.axes[machine::index(axis)]->max = 1e6;
+  }
+  control.setup.machine.start[machine::Axis::Z] = 500;
+  control.setup.features = {machine::Plane{}};
+}
+
+TEST_CASE("whatever a run holds counts as its memory") {
+  struct Row {
+    const char* what;
+    std::string body;
+  };
+  const Row rows[] = {
+      {"a program it calls", "CALL PGM big.h"},
+      {"a table", "FN 26: TABOPEN big.tab"},
+      {"a mask", "FN 16: F-PRINT big.a / SCREEN:"},
+      {"presets", std::string("Q1 = 0\nLBL 1\nQ1 = Q1 + 1\n"
+                              "FN 17: SYSWRITE ID503 NRQ1 IDX1 = Q1") +
+                      kEndless},
+      {"files that are still to be written",
+       std::string("Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nQS1 = \"f\" || TOCHAR( DAT+Q1 )\n"
+                   "FN 16: F-PRINT empty.a / :'QS1'") +
+           kEndless},
+  };
   Control control;
-  control.options.limits.memory_bytes = 1000;
-  control.program(std::string(5000, ';'), "big.h");
-  CHECK(outcome(control.run("CALL PGM big.h")) ==
-        "limit_exceeded line 2: the run has loaded more than 1000 bytes of files");
+  std::string table = "BEGIN T .TAB MM\nNR   X\n";
+  std::string mask;
+  for (int i = 0; i < 30'000; ++i) {
+    table += fmt::format("{:<5}{}\n", i, i);
+    mask += "L_ALL\n";
+  }
+  control.file("big.tab", table + "[END]\n");
+  control.file("big.a", mask);
+  control.file("empty.a", "\"\";\n");
+  std::string program;
+  for (int i = 0; i < 40'000; ++i) program += "Q1 = Q1 * 2\n";
+  control.program(program, "big.h");
+  control.options.limits.memory_bytes = 600'000;
+  control.options.limits.files = 1'000'000;
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    CHECK(outcome(control.run(row.body)).find("has taken more than its 600000 bytes of memory") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("a file that is not written yet counts") {
+  Control control;
+  control.file("empty.a", "");
+  control.options.limits.files = 3;
+  CHECK(outcome(control.run("Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nQS1 = \"f\" || TOCHAR( DAT+Q1 )\n"
+                            "FN 16: F-PRINT empty.a / :'QS1'\nFN 9: IF +1 EQU +1 GOTO LBL 1")) ==
+        "limit_exceeded line 6: the run has written more than 3 files");
+}
+
+TEST_CASE("empty lines on their way to a file count as output") {
+  Control control;
+  control.options.limits.output_bytes = 7000;
+  std::string mask;
+  for (int i = 0; i < 3000; ++i) mask += "\"\";\n";
+  control.file("m.a", mask);
+  CHECK(control.run("FN 16: F-PRINT m.a / TNC:\\out.txt").status == RunStatus::Completed);
+  CHECK(control.run("FN 16: F-PRINT m.a / TNC:\\out.txt\nFN 16: F-PRINT m.a / TNC:\\out.txt")
+            .status == RunStatus::LimitExceeded);
+}
+
+TEST_CASE("a block that lasts ends at the limit of time, wherever it stands") {
+  struct Row {
+    const char* what;
+    std::string body;
+  };
+  const Row rows[] = {
+      // As slow as a trace can be: an arc of thousands of turns around a bore of many lobes.
+      {"a helix inside of lobes",
+       "CC X+0 Y+0\nL X+4 FMAX\nL Z-1 FMAX\nCP IPA+999999 IZ-5 DR+ FMAX"},
+      {"existence of a file, again and again",
+       std::string("QS1 = \"big.bin\"\nLBL 1\nFN 18: SYSREAD Q1 = ID10 NR110 IDX1") + kEndless},
+      {"a comparison of texts",
+       std::string("QS1 = \"a\"\nLBL 1\nFN 9: IF QS1 EQU QS1 GOTO LBL 1") + kEndless},
+  };
+  Control control;
+  put_on_a_plane(control);
+  machine::Bore bore;
+  bore.diameter = 20;
+  bore.depth = 50;
+  bore.lobes = 1000;
+  bore.lobe_amplitude_um = 100;
+  control.setup.features.emplace_back(bore);
+  control.file("big.bin", std::string(1 << 20, 'x'));
+  control.options.limits.blocks = UINT32_MAX;
+  control.options.limits.time = std::chrono::milliseconds(50);
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    const RunResult result = control.run("TOOL CALL 30 Z\n" + row.body);
+    CHECK(outcome(result).find("the run has taken its limit of 0.05 seconds") != std::string::npos);
+  }
+}
+
+TEST_CASE("a move that has begun is called off from outside") {
+  Control control;
+  put_on_a_plane(control);
+  control.options.limits.time = std::chrono::seconds(60);
+  machine::Bore bore;
+  bore.diameter = 20;
+  bore.depth = 50;
+  bore.lobes = 1000;
+  bore.lobe_amplitude_um = 100;
+  control.setup.features.emplace_back(bore);
+  control.program(
+      "TOOL CALL 30 Z\nCC X+0 Y+0\nL X+4 FMAX\nL Z-1 FMAX\nCP IPA+999999 IZ-5 DR+ FMAX");
+  std::stop_source source;
+  const std::jthread cancelling([&source] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    source.request_stop();
+  });
+  const RunResult result = control.run(source.get_token());
+  CHECK(result.status == RunStatus::Cancelled);
+  CHECK(result.messages.back().line == 6);
+}
+
+TEST_CASE("the machining time stays a finite number") {
+  Control control;
+  control.options.parameters = {{{klartext::QSpace::Q, 1}, 1e-320}};
+  for (const char* body :
+       {"TOOL CALL 30 Z\nL X+100 FQ1", "TOOL CALL 30 Z\nL X+1 F1\nL X+100 FQ1"}) {
+    const RunResult result = control.run(body);
+    CHECK(std::isfinite(result.machining_time_s));
+    for (const machine::TracedMove& move : control.tracing->moves()) {
+      CHECK(std::isfinite(move.seconds));
+    }
+  }
 }
 
 TEST_CASE("a repeat of very many times is counted, not stored") {

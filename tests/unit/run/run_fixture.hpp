@@ -38,7 +38,8 @@ class Control {
   }
 
   std::vector<klartext::Diagnostic> diagnostics() {
-    return check(main_path(), disk, programs).value();
+    Allowance unlimited;
+    return check(main_path(), disk, programs, unlimited).value();
   }
 
   RunResult run(std::stop_token stop = {}) {
@@ -48,11 +49,12 @@ class Control {
       for (const auto& found : file->diagnostics) all += klartext::render(found) + "\n";
       FAIL(all);
     }
-    machine = std::make_unique<machine::SimulatedMachine>(setup);
+    allowance.emplace(options.limits.time, options.limits.memory_bytes, std::move(stop));
+    machine = std::make_unique<machine::SimulatedMachine>(setup, &*allowance);
     tracing = std::make_unique<machine::TracingMachine>(
         *machine, machine::TraceOptions{.block = {}, .longest = 1000, .lines = true});
-    return interpreter::run(file->program, {*tracing, disk, programs, clock, observer}, options,
-                            std::move(stop));
+    return interpreter::run(file->program, {*tracing, disk, programs, clock, observer, &*allowance},
+                            options);
   }
   /// Runs one body and returns the result.
   RunResult run(std::string_view body) {
@@ -68,6 +70,7 @@ class Control {
   RunObserver observer;
   RunOptions options;
   machine::Setup setup;
+  std::optional<Allowance> allowance;
   std::unique_ptr<machine::SimulatedMachine> machine;
   std::unique_ptr<machine::TracingMachine> tracing;
 };

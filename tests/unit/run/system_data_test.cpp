@@ -119,5 +119,28 @@ TEST_CASE("tables: missing rows, columns and values are errors that name them") 
   CHECK(read("0/\"X\"").starts_with("failed line 2: table TNC:\\nc_prog\\t.tab cannot be read"));
 }
 
+TEST_CASE("a number beyond the rows of a table reaches none of them") {
+  Control control;
+  const auto preset_x = [](const RunResult& result, int number) {
+    for (const machine::Preset& preset : result.presets) {
+      if (preset.number == number) return preset.frame.origin.x;
+    }
+    return -1.0;
+  };
+  const RunResult wrapped =
+      control.run("Q5 = 4294967\nQ5 = Q5 * 1000 + 296\nFN 17: SYSWRITE ID503 NRQ5 IDX1 = 5");
+  CHECK(outcome(wrapped) ==
+        "failed line 4: Input value incorrect: 4294967296 is outside of -2147483648 to 2147483647");
+  CHECK(preset_x(wrapped, 0) == 0);
+  CHECK(control.run("FN 17: SYSWRITE ID503 NR9999 IDX1 = 5").status == RunStatus::Completed);
+  CHECK(outcome(control.run("FN 17: SYSWRITE ID503 NR10000 IDX1 = 5")) ==
+        "failed line 2: ID503 NR10000 IDX1 is not available");
+  const std::string tool = "Q5 = 4294967\nQ5 = Q5 * 1000 + 326\n";
+  CHECK(control.run(tool + "FN 18: SYSREAD Q1 = ID50 NR1 IDXQ5").status == RunStatus::Failed);
+  CHECK(control.run(tool + "FN 17: SYSWRITE ID50 NR1 IDXQ5 = 5").status == RunStatus::Failed);
+  const RunResult fn14 = control.run("Q5 = 4294968\nQ5 = Q5 * 1000 + 296\nFN 14: ERROR = Q5");
+  CHECK(fn14.messages.back().number != 1000);
+}
+
 }  // namespace
 }  // namespace fitgauge::interpreter

@@ -1,6 +1,7 @@
 #include "tabfile/tab_reader.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tabfile/tab_writer.hpp"
 
@@ -165,6 +166,16 @@ TEST_CASE("a hostile file is bounded") {
   CHECK(refusal("BEGIN A\n" + columns + "\n[END]\n") == "line 2: a table has at most 4096 columns");
   CHECK(refusal("BEGIN A\nTableDescription (" + std::string(100'000, '(') + "\n[END]\n") ==
         "line 2: TableDescription is not closed");
+}
+
+TEST_CASE("a table that takes all it may is refused where that shows") {
+  std::string rows = "BEGIN A\nNR  X\n";
+  for (int i = 0; i < 10'000; ++i) rows += fmt::format("{:<4}{}\n", "", i);
+  rows += "[END]\n";
+  Allowance small(std::chrono::seconds(10), 100'000, {});
+  CHECK(read_tab_file(rows, small).error().message.find("too large") != std::string::npos);
+  Allowance enough(std::chrono::seconds(10), 10'000'000, {});
+  CHECK(read_tab_file(rows, enough)->row_count() == 10'000);
 }
 
 TEST_CASE("what is written reads back") {
