@@ -1,0 +1,137 @@
+"""No program costs more than its limits: the run ends, what it leaves can be read, others are served,
+and the daemon ends when it is told to."""
+
+import json
+import os
+import signal
+import threading
+import time
+import unittest
+
+from support.control import ControlTest
+from support.daemon import Daemon
+from support.hostile import ENDLESS, LOBES, PLANE, part, programs
+
+SECONDS = 0.3
+ENDS = {"completed", "stopped", "failed", "limit_exceeded"}
+DEEP = os.environ.get("FITGAUGE_DEEP")
+
+
+def peak_kib(daemon):
+    for line in open(f"/proc/{daemon.process.pid}/status"):
+        if line.startswith("VmHWM"):
+            return int(line.split()[1])
+    raise AssertionError("no VmHWM")
+
+
+class Hostile(ControlTest):
+    def run_hostile(self, daemon, name, blocks, machine, files):
+        """Gives how long the answer took."""
+        lines = [f"BEGIN PGM {name} MM", *blocks, f"END PGM {name} MM\n"]
+        for path, content in {f"{name}.h": "\n".join(lines), **files}.items():
+            answer = daemon.request("PUT", f"/v1/files/{path}", content)
+            self.assertIn(answer.status, (200, 201), (name, answer))
+        begun = time.monotonic()
+        answer = daemon.post("/v1/runs", {
+            "program": f"TNC:\\{name}.h", "setup": machine,
+            "limits": {"blocks": 100_000_000, "seconds": SECONDS}})
+        took = time.monotonic() - begun
+        if answer.status == 422:
+            self.assertTrue(answer.json["diagnostics"], (name, answer))
+            return took
+        self.assertEqual(answer.status, 201, (name, answer))
+        run = json.loads(answer.body, parse_constant=self.fail)  # no NaN, no Infinity
+        self.assertIn(run["status"], ENDS, (name, answer))
+        if run["status"] != "completed":
+            self.assertTrue(run["messages"], name)
+        for view in ("", "/parameters", "/trace", "/events"):
+            read = daemon.get(f"/v1/runs/{run['id']}{view}")
+            self.assertEqual(read.status, 200, (name, view, read))
+            if view != "/events":
+                json.loads(read.body, parse_constant=self.fail)
+        for path in files:
+            daemon.request("DELETE", f"/v1/files/{path}")
+        return took
+
+    def test_every_program_ends_and_what_it_leaves_can_be_read(self):
+        names = set()
+        for name, blocks, machine, files in programs():
+            with self.subTest(name):
+                self.run_hostile(self.daemon, name, blocks, machine, files)
+            names.add(name)
+        self.assertGreaterEqual(len(names), 100)
+        stored = self.daemon.get("/v1/files").json["files"]
+        self.assertEqual([f["path"] for f in stored if "sub" in f["path"] or ".." in f["path"]], [])
+
+    @unittest.skipUnless(DEEP, "FITGAUGE_DEEP=1: a new daemon for each program")
+    def test_time_and_memory_of_each(self):
+        for name, blocks, machine, files in programs():
+            with self.subTest(name):
+                daemon = Daemon()
+                self.addCleanup(daemon.cleanup)
+                daemon.start()
+                daemon.get("/v1/limits/25H7")
+                idle = peak_kib(daemon)
+                took = self.run_hostile(daemon, name, blocks, machine, files)
+                more = (peak_kib(daemon) - idle) / 1024
+                print(f"{name}: {took:.2f} s, {more:.0f} MiB more", flush=True)
+                self.assertLess(took, SECONDS + 2)
+                self.assertLess(more, 64)
+                self.assertEqual(daemon.stop(), 0)
+                daemon.cleanup()
+
+
+class Ending(ControlTest):
+    """Moves that would last for minutes do not keep the service from anything."""
+
+    def lasting_runs(self):
+        program = self.upload_program(
+            "lasting", "TOOL CALL 30 Z", "CC X+0 Y+0", "L X+4 FMAX", "L Z-1 FMAX",
+            "CP IPA+999999 IZ-5 DR+ FMAX")
+        runs = []
+        for _ in range(2):
+            answer = self.post_run(program, part(PLANE, LOBES), {"Prefer": "respond-async"},
+                                   limits={"seconds": 60})
+            self.assertEqual(answer.status, 202, answer)
+            runs.append(answer.headers["location"])
+        deadline = time.monotonic() + 20
+        while any(self.daemon.get(run).json["status"] == "queued" for run in runs):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
+        return runs
+
+    def test_a_move_is_cancelled(self):
+        runs = self.lasting_runs()
+        for run in runs:
+            self.assertIn(self.daemon.request("DELETE", run).status, (200, 202, 204))
+        deadline = time.monotonic() + 30
+        while any(self.daemon.get(run).json["status"] == "running" for run in runs):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
+        for run in runs:
+            self.assertEqual(self.daemon.get(run).json["status"], "cancelled")
+
+    def test_sigterm_ends_moves_and_checks_that_wait(self):
+        daemon = Daemon()
+        self.addCleanup(daemon.cleanup)
+        daemon.start()
+        shared, self.__class__.daemon = self.daemon, daemon
+        try:
+            self.lasting_runs()
+            self.upload_program("loop", "LBL 1", ENDLESS)
+            waiting = [threading.Thread(target=daemon.post, args=("/v1/runs", {"program": "TNC:\\loop.h"}),
+                                        daemon=True) for _ in range(10)]
+            threading.excepthook, old = lambda _: None, threading.excepthook
+            for thread in waiting:
+                thread.start()
+            daemon.process.send_signal(signal.SIGTERM)
+            self.assertEqual(daemon.process.wait(30), 0)
+            for thread in waiting:
+                thread.join(10)
+            threading.excepthook = old
+        finally:
+            self.__class__.daemon = shared
+
+
+if __name__ == "__main__":
+    unittest.main()
