@@ -13,7 +13,7 @@ endforeach()
 set(package_files "${CMAKE_BINARY_DIR}/package")
 set(FITGAUGE_UNIT_DIR "lib/systemd/system" CACHE STRING "Where the systemd unit is installed")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-  docs/deploy/fitgauged.service docs/man/fitgauge.1 docs/man/fitgauged.8 CHANGELOG.md)
+  docs/deploy/fitgauged.service docs/man/fitgauge.1 docs/man/fitgauged.8 CHANGELOG.md docs/deploy/debian/changelog)
 file(READ docs/deploy/fitgauged.service unit)
 string(REPLACE "/usr/local/bin" "${CMAKE_INSTALL_FULL_BINDIR}" unit "${unit}")
 string(REGEX REPLACE "^# Install:[^[]*" "" unit "${unit}")
@@ -33,9 +33,10 @@ install_compressed(docs/man/fitgauged.8 "${CMAKE_INSTALL_MANDIR}/man8" fitgauged
 install(FILES docs/deploy/alerts.yml docs/deploy/grafana-dashboard.json
   DESTINATION "${CMAKE_INSTALL_DATADIR}/fitgauge")
 install_compressed(CHANGELOG.md "${CMAKE_INSTALL_DOCDIR}" changelog)
+install_compressed(docs/deploy/debian/changelog "${CMAKE_INSTALL_DOCDIR}" changelog.Debian)
 install(FILES docs/deploy/debian/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
-set(FITGAUGE_MAINTAINER "fitgauge maintainers <fitgauge@packages.debian.org>"
+set(FITGAUGE_MAINTAINER "fitgauge maintainers <maintainers@fitgauge.example>"
   CACHE STRING "The maintainer of the Debian package")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME fitgauge)

@@ -1,6 +1,7 @@
 """SIGTERM in the middle of a mixed load: the service ends in order, and what it acknowledged is there. Under a
 sanitizer nothing is reported either: scripts/test runs this with AddressSanitizer, --deep with ThreadSanitizer."""
 
+import contextlib
 import http.client
 import re
 import threading
@@ -45,14 +46,14 @@ class Load:
     def repeat(self, name, method, path, body):
         try:
             while True:
-                connection = self.daemon.connect()
-                if name == "events":
-                    connection.request(method, path)
-                    while connection.getresponse().read1(4096):
-                        self.answered[name] = True
-                    return
-                self.daemon.request(method, path, body, connection=connection)
-                connection.close()
+                with contextlib.closing(self.daemon.connect()) as connection:
+                    if name == "events":
+                        connection.request(method, path)
+                        response = connection.getresponse()
+                        while response.read1(4096):
+                            self.answered[name] = True
+                        return
+                    self.daemon.request(method, path, body, connection=connection)
                 self.answered[name] = True
         except (OSError, http.client.HTTPException):
             return
