@@ -25,7 +25,7 @@ bool run_maintenance_step(Session& session, const OpenOptions& options, Timestam
   const std::int64_t deleted = stores.idempotency.purge(kStep) +
                                stores.runs.purge(runs_before, kStep) +
                                stores.events.trim(options.event_retention, kStep);
-  const bool indexed = stores.measurements.index_block();
+  const bool indexed = stores.measurements.index_step();
   session.commit.run();
   return deleted > 0 || indexed;
 }

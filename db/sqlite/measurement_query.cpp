@@ -3,126 +3,212 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
+#include <utility>
 
 namespace fitgauge::store {
 namespace {
 
+using sqlite::Blob;
 using sqlite::Rows;
+using sqlite::Statement;
 
-constexpr std::int64_t kBlock = 1024;  ///< rows; the rest is scanned by every query
-constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+/// Statements kept for the filters asked with; then all begin anew.
+constexpr std::size_t kMostKept = 64;
 
-/// ?1 and ?2 are the ids between which to look, ?3 the newest id that counts.
-constexpr std::string_view kMatches =
-    "m.id > ?1 AND m.id <= ?2 AND (?4 IS NULL OR m.part_id = ?4) "
-    "AND (?5 IS NULL OR m.work_order = ?5) AND (?6 IS NULL OR m.characteristic = ?6) "
-    "AND (?7 IS NULL OR m.machine = ?7) AND (?8 IS NULL OR m.verdict = ?8) "
-    "AND (?9 IS NULL OR m.source = ?9) AND (?10 IS NULL OR m.measured_at >= ?10) "
-    "AND (?11 IS NULL OR m.measured_at < ?11) AND (?12 OR NOT EXISTS "
-    "(SELECT 1 FROM measurements c WHERE c.correction_of = m.id AND c.id <= ?3))";
-
-/// The ids after `after` up to and including `last`.
-struct Span {
-  std::int64_t after = 0;
-  std::int64_t last = 0;
-};
-
-/// A field of the lookup table, by its number there, with the value asked for.
-struct LookupValue {
-  int field = 0;
-  std::string_view value;
-};
-
-/// The field that is likely to have the fewest rows for a value.
-std::optional<LookupValue> lookup_value(const MeasurementFilter& filter) {
-  if (filter.part_id) return LookupValue{1, *filter.part_id};
-  if (filter.order) return LookupValue{2, *filter.order};
-  if (filter.characteristic) return LookupValue{3, *filter.characteristic};
-  if (filter.machine) return LookupValue{4, *filter.machine};
-  return std::nullopt;
+/// Calls `add(condition, value)` for each condition a row `m` has to meet.
+template <class Add>
+void for_each_condition(const MeasurementFilter& filter, Add&& add) {
+  if (filter.verdict) add("m.verdict = ?", *filter.verdict);
+  if (filter.source) add("m.source = ?", *filter.source);
+  if (filter.run_id) add("m.run_id = ?", *filter.run_id);
+  if (filter.designation) {
+    add("m.nominal_nm = ?", filter.designation->nominal_nm);
+    add("m.tolerance_class = ?", std::string_view(filter.designation->tolerance_class));
+  }
+  for (std::size_t i = 0; i < kTextColumns.size(); ++i) {
+    if (!filter.texts[i]) continue;
+    add(fmt::format("m.{} = ?", kTextColumns[i].column), std::string_view(*filter.texts[i]));
+  }
+  if (filter.from_ns) add("m.measured_at >= ?", *filter.from_ns);
+  if (filter.to_ns) add("m.measured_at < ?", *filter.to_ns);
+  if (filter.received_from_ns) add("m.received_at >= ?", *filter.received_from_ns);
+  if (filter.received_to_ns) add("m.received_at < ?", *filter.received_to_ns);
+  if (!filter.history) {
+    add("NOT EXISTS (SELECT 1 FROM measurements c WHERE c.correction_of = m.id AND c.id <= ?)",
+        filter.as_of_id.value_or(kLastId));
+  }
 }
 
-template <class... More>
-Rows query(sqlite::Statement& statement, const MeasurementFilter& filter, Span span,
-           const More&... more) {
-  return statement.query(span.after, span.last, filter.as_of_id.value_or(kEnd), filter.part_id,
-                         filter.order, filter.characteristic, filter.machine, filter.verdict,
-                         filter.source, filter.from_ns, filter.to_ns, filter.history, more...);
+/// The same for the node `b` of a block that may hold such rows.
+template <class Add>
+void for_each_time_condition(const MeasurementFilter& filter, Add&& add) {
+  if (filter.from_ns) add("b.max_measured_at >= ?", *filter.from_ns);
+  if (filter.to_ns) add("b.min_measured_at < ?", *filter.to_ns);
+  if (filter.received_from_ns) add("b.max_received_at >= ?", *filter.received_from_ns);
+  if (filter.received_to_ns) add("b.min_received_at < ?", *filter.received_to_ns);
 }
 
-/// @returns false when the visitor ended the query.
-bool visit_all(Rows rows, const MeasurementQuery::Visitor& visit) {
-  while (rows.next()) {
+std::string_view direction(ListOrder order) {
+  return order == ListOrder::NewestFirst ? " DESC" : "";
+}
+
+}  // namespace
+
+Statement last_block_statement(sqlite::Connection& connection) {
+  return {connection, "SELECT max(node) FROM measurement_nodes WHERE level = 0"};
+}
+
+std::int64_t indexed_to(Statement& last_block) {
+  const auto block = last_block.returning<std::optional<std::int64_t>>();
+  return block ? IndexNode{0, *block}.ids().last : 0;
+}
+
+MeasurementQuery::MeasurementQuery(sqlite::Connection& connection, std::string columns)
+    : connection_(connection),
+      columns_(std::move(columns)),
+      last_block_(last_block_statement(connection)),
+      block_rows_(connection,
+                  "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND "
+                  "block = ?") {}
+
+bool MeasurementQuery::run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
+                           const Visitor& visit) {
+  if (statements_.size() > kMostKept) statements_.clear();
+  const std::int64_t indexed = indexed_to(last_block_);
+  const IdSpan all = intersection(ids, {.first = 1, .last = filter.as_of_id.value_or(kLastId)});
+  const IdSpan known = intersection(all, {.first = 1, .last = indexed});
+  const IdSpan newer = intersection(all, {.first = indexed + 1, .last = kLastId});
+  Statement& matching = matching_rows(filter, order);
+  if (order == ListOrder::NewestFirst) {
+    return scan(matching, newer, visit) && run_indexed(filter, matching, known, order, visit);
+  }
+  return run_indexed(filter, matching, known, order, visit) && scan(matching, newer, visit);
+}
+
+/// The rows between two ids that match, all bound but the ids.
+Statement& MeasurementQuery::matching_rows(const MeasurementFilter& filter, ListOrder order) {
+  std::string sql =
+      fmt::format("SELECT {} FROM measurements m WHERE m.id BETWEEN ? AND ?", columns_);
+  for_each_condition(filter, [&](std::string_view condition, const auto&) {
+    sql += " AND ";
+    sql += condition;
+  });
+  Statement& matching = statement(fmt::format("{} ORDER BY m.id{}", sql, direction(order)));
+  int index = 2;
+  for_each_condition(filter,
+                     [&](std::string_view, const auto& value) { matching.bind(++index, value); });
+  return matching;
+}
+
+bool MeasurementQuery::scan(Statement& matching, const IdSpan& ids, const Visitor& visit) {
+  if (ids.empty()) return true;
+  matching.bind(1, ids.first);
+  matching.bind(2, ids.last);
+  for (Rows rows(matching); rows.next();) {
     if (!visit(rows)) return false;
   }
   return true;
 }
 
-}  // namespace
-
-MeasurementQuery::MeasurementQuery(sqlite::Connection& connection, std::string_view columns)
-    : scan_(connection,
-            fmt::format("SELECT {} FROM measurements m WHERE {} ORDER BY m.id", columns, kMatches)),
-      lookup_(connection,
-              fmt::format("SELECT {} FROM measurement_lookup l CROSS JOIN measurements m "
-                          "ON m.id = l.measurement WHERE l.field = ?13 AND l.value = ?14 "
-                          "AND l.measurement > ?1 AND l.measurement <= ?2 AND {} "
-                          "ORDER BY l.measurement",
-                          columns, kMatches)),
-      last_block_(connection, "SELECT coalesce(max(last_id), 0) FROM measurement_blocks"),
-      blocks_in_range_(connection,
-                       "SELECT min(first_id), max(last_id) FROM measurement_blocks WHERE "
-                       "(?1 IS NULL OR max_measured_at >= ?1) AND "
-                       "(?2 IS NULL OR min_measured_at < ?2)") {}
-
-void MeasurementQuery::run(const MeasurementFilter& filter, std::int64_t after,
-                           const Visitor& visit) {
-  const std::int64_t last = filter.as_of_id.value_or(kEnd);
-  const auto last_block = last_block_.returning<std::int64_t>();
-  Span known{after, std::min(last, last_block)};
-  if (filter.from_ns || filter.to_ns) {
-    Rows blocks = blocks_in_range_.query(filter.from_ns, filter.to_ns);
-    blocks.next();
-    known.after = std::max(known.after, blocks.get<std::int64_t>(0) - 1);
-    known.last = std::min(known.last, blocks.get<std::int64_t>(1));
+/// The values asked for, those first that are likely to have the fewest rows.
+std::vector<MeasurementQuery::Posting> MeasurementQuery::postings_of(
+    const MeasurementFilter& filter) {
+  std::vector<Posting> postings;
+  const auto add_text = [&](TextField field) {
+    if (const auto& text = filter.text(field)) postings.push_back({number_of(field), *text});
+  };
+  add_text(TextField::PartId);
+  if (filter.run_id)
+    postings.push_back({number_of(IndexField::Run), std::to_string(*filter.run_id)});
+  for (const TextField field : {TextField::Subgroup, TextField::Order, TextField::Characteristic,
+                                TextField::Operation, TextField::Gauge, TextField::Operator}) {
+    add_text(field);
   }
-  if (known.after < known.last) {
-    const std::optional<LookupValue> wanted = lookup_value(filter);
-    const bool more =
-        wanted ? visit_all(query(lookup_, filter, known, wanted->field, wanted->value), visit)
-               : visit_all(query(scan_, filter, known), visit);
-    if (!more) return;
+  if (filter.designation) {
+    postings.push_back(
+        {number_of(IndexField::Designation),
+         designation_key(filter.designation->nominal_nm, filter.designation->tolerance_class)});
   }
-  visit_all(query(scan_, filter, {std::max(after, last_block), last}), visit);
+  for (const TextField field :
+       {TextField::Machine, TextField::Unit, TextField::Caller, TextField::ToleranceClass}) {
+    add_text(field);
+  }
+  const auto add_code = [&](IndexField field, const auto& code) {
+    if (code) postings.push_back({number_of(field), std::to_string(static_cast<int>(*code))});
+  };
+  add_code(IndexField::Verdict, filter.verdict);
+  add_code(IndexField::Source, filter.source);
+  return postings;
 }
 
-MeasurementLookup::MeasurementLookup(sqlite::Connection& connection)
-    : next_block_(connection,
-                  "SELECT min(id), max(id), min(measured_at), max(measured_at) FROM (SELECT id, "
-                  "measured_at "
-                  "FROM measurements WHERE id > (SELECT coalesce(max(last_id), 0) "
-                  "FROM measurement_blocks) ORDER BY id LIMIT ?) HAVING count(*) = ?1"),
-      insert_block_(connection, "INSERT INTO measurement_blocks VALUES (?, ?, ?, ?)"),
-      // The four fields side by side: each row of the block is read once for all of them.
-      insert_values_(connection,
-                     "INSERT INTO measurement_lookup "
-                     "SELECT f.field, CASE f.field WHEN 1 THEN m.part_id WHEN 2 THEN m.work_order "
-                     "WHEN 3 THEN m.characteristic ELSE m.machine END AS value, m.id "
-                     "FROM measurements m CROSS JOIN "
-                     "(SELECT 1 AS field UNION ALL SELECT 2 UNION ALL SELECT 3 UNION ALL SELECT 4) "
-                     "f WHERE m.id BETWEEN ?1 AND ?2 AND value IS NOT NULL "
-                     "ORDER BY f.field, value, m.id") {}
-
-bool MeasurementLookup::take_in_block() {
-  Rows block = next_block_.query(kBlock);
-  if (!block.next()) return false;
-  const auto first = block.get<std::int64_t>(0);
-  const auto last = block.get<std::int64_t>(1);
-  insert_block_.run(first, last, block.get<std::int64_t>(2), block.get<std::int64_t>(3));
-  insert_values_.run(first, last);
+bool MeasurementQuery::run_indexed(const MeasurementFilter& filter, Statement& matching,
+                                   const IdSpan& ids, ListOrder order, const Visitor& visit) {
+  if (ids.empty()) return true;
+  const std::vector<Posting> postings = postings_of(filter);
+  if (postings.empty() && !filter.has_times()) return scan(matching, ids, visit);
+  std::string sql =
+      postings.empty()
+          ? "SELECT b.node FROM measurement_nodes b WHERE b.level = 0 AND b.node BETWEEN ? AND ?"
+          : "SELECT p.block, p.rows FROM measurement_postings p CROSS JOIN measurement_nodes b ON "
+            "b.level = 0 AND b.node = p.block WHERE p.block BETWEEN ? AND ? AND p.field = ? AND "
+            "p.value = ?";
+  for_each_time_condition(filter, [&](std::string_view condition, std::int64_t) {
+    sql += " AND ";
+    sql += condition;
+  });
+  Statement& blocks = statement(fmt::format(
+      "{} ORDER BY {}{}", sql, postings.empty() ? "b.node" : "p.block", direction(order)));
+  int index = 0;
+  blocks.bind(++index, IndexNode::of(ids.first, 0).node);
+  blocks.bind(++index, IndexNode::of(ids.last, 0).node);
+  if (!postings.empty()) {
+    blocks.bind(++index, postings.front().field);
+    blocks.bind(++index, std::string_view(postings.front().value));
+  }
+  for_each_time_condition(
+      filter, [&](std::string_view, std::int64_t value) { blocks.bind(++index, value); });
+  for (Rows rows(blocks); rows.next();) {
+    const auto block = rows.get<std::int64_t>(0);
+    RowSet wanted = postings.empty() ? RowSet::all() : RowSet::decode(rows.get<Blob>(1).bytes);
+    for (std::size_t i = 1; i < postings.size() && !wanted.empty(); ++i) {
+      // A source is looked at in the rows: most have the one that is asked for.
+      if (postings[i].field == number_of(IndexField::Source)) break;
+      wanted &= rows_in_block(postings[i], block);
+    }
+    if (!run_block(matching, ids, wanted, block, order, visit)) return false;
+  }
   return true;
+}
+
+RowSet MeasurementQuery::rows_in_block(const Posting& posting, std::int64_t block) {
+  Rows rows = block_rows_.query(posting.field, posting.value, block);
+  return rows.next() ? RowSet::decode(rows.get<Blob>(0).bytes) : RowSet();
+}
+
+/// Reads the rows of a block, those that follow each other at once.
+bool MeasurementQuery::run_block(Statement& matching, const IdSpan& ids, const RowSet& rows,
+                                 std::int64_t block, ListOrder order, const Visitor& visit) {
+  std::vector<IdSpan> runs;
+  const IdSpan whole = IndexNode{0, block}.ids();
+  const IdSpan looked_at = intersection(ids, whole);
+  for (std::int64_t id = looked_at.first; id <= looked_at.last; ++id) {
+    if (!rows.contains(id - whole.first)) continue;
+    if (!runs.empty() && runs.back().last == id - 1) {
+      runs.back().last = id;
+    } else {
+      runs.push_back({id, id});
+    }
+  }
+  if (order == ListOrder::NewestFirst) std::reverse(runs.begin(), runs.end());
+  return std::all_of(runs.begin(), runs.end(),
+                     [&](const IdSpan& run) { return scan(matching, run, visit); });
+}
+
+Statement& MeasurementQuery::statement(const std::string& sql) {
+  const auto found = statements_.find(sql);
+  if (found != statements_.end()) return found->second;
+  return statements_.try_emplace(sql, connection_, sql).first->second;
 }
 
 }  // namespace fitgauge::store

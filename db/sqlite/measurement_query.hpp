@@ -2,46 +2,57 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "sqlite/statement.hpp"
 #include "store/measurement_filter.hpp"
+#include "store/measurement_index.hpp"
 
 namespace fitgauge::store {
 
-/// Finds the measurements that match a filter, in storage order: first those the lookup tables know
-/// (by the value of a text field, or in the blocks that hold the time range), then the newer ones
-/// by a scan.
+/// The end of what is indexed: rows up to this id are in blocks. 0 when none is.
+std::int64_t indexed_to(sqlite::Statement& last_block);
+sqlite::Statement last_block_statement(sqlite::Connection& connection);
+
+/// Finds the measurements that match a filter, in either order: of the indexed blocks those that
+/// hold the values asked for, and in the newer rows all.
 class MeasurementQuery {
  public:
   /// @param columns what to select of the table `m`.
-  MeasurementQuery(sqlite::Connection& connection, std::string_view columns);
+  MeasurementQuery(sqlite::Connection& connection, std::string columns);
 
   /// Called for each row; false ends the query.
   using Visitor = std::function<bool(const sqlite::Rows&)>;
 
-  /// Visits the rows after the id `after`.
-  void run(const MeasurementFilter& filter, std::int64_t after, const Visitor& visit);
+  /// Visits the matching rows among `ids`. @returns false when the visitor ended the query.
+  bool run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
+           const Visitor& visit);
 
  private:
-  sqlite::Statement scan_;
-  sqlite::Statement lookup_;
+  /// A value that the index knows the rows of.
+  struct Posting {
+    int field = 0;
+    std::string value;
+  };
+  static std::vector<Posting> postings_of(const MeasurementFilter& filter);
+
+  sqlite::Statement& matching_rows(const MeasurementFilter& filter, ListOrder order);
+  static bool scan(sqlite::Statement& matching, const IdSpan& ids, const Visitor& visit);
+  bool run_indexed(const MeasurementFilter& filter, sqlite::Statement& matching, const IdSpan& ids,
+                   ListOrder order, const Visitor& visit);
+  bool run_block(sqlite::Statement& matching, const IdSpan& ids, const RowSet& rows,
+                 std::int64_t block, ListOrder order, const Visitor& visit);
+  RowSet rows_in_block(const Posting& posting, std::int64_t block);
+  sqlite::Statement& statement(const std::string& sql);
+
+  sqlite::Connection& connection_;
+  const std::string columns_;
   sqlite::Statement last_block_;
-  sqlite::Statement blocks_in_range_;
-};
-
-/// Fills the lookup tables, a block of rows at a time.
-class MeasurementLookup {
- public:
-  explicit MeasurementLookup(sqlite::Connection& connection);
-
-  /// @returns whether there was a whole block to take in.
-  bool take_in_block();
-
- private:
-  sqlite::Statement next_block_;
-  sqlite::Statement insert_block_;
-  sqlite::Statement insert_values_;
+  sqlite::Statement block_rows_;
+  std::map<std::string, sqlite::Statement> statements_;  ///< by their text
 };
 
 }  // namespace fitgauge::store

@@ -5,11 +5,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "sqlite/measurement_indexer.hpp"
 #include "sqlite/measurement_insert.hpp"
 #include "sqlite/measurement_query.hpp"
+#include "sqlite/measurement_summary.hpp"
 #include "sqlite/statement.hpp"
 #include "store/measurement_fields.hpp"
-#include "store/measurement_statistics.hpp"
 
 namespace fitgauge::store {
 namespace {
@@ -28,43 +29,6 @@ MeasurementRow read_row(const Rows& rows) {
   return row;
 }
 
-constexpr std::string_view column_of(GroupBy group_by) {
-  switch (group_by) {
-    case GroupBy::PartId: return "part_id";
-    case GroupBy::Characteristic: return "characteristic";
-    case GroupBy::Order: return "work_order";
-    case GroupBy::Operation: return "operation";
-    case GroupBy::Machine: return "machine";
-    case GroupBy::Operator: return "operator";
-    case GroupBy::Gauge: return "gauge";
-    case GroupBy::Unit: return "unit";
-    case GroupBy::ToleranceClass: return "tolerance_class";
-    case GroupBy::Caller: return "caller";
-  }
-  return "characteristic";
-}
-
-/// What is gathered of a group while its rows pass.
-struct Gathered {
-  ExactStatistics statistics;
-  SummaryGroup group;
-
-  void add(Verdict verdict, std::int64_t measured_nm) {
-    statistics.add(measured_nm);
-    const bool first = group.count++ == 0;
-    if (first || measured_nm < group.min_nm) group.min_nm = measured_nm;
-    if (first || measured_nm > group.max_nm) group.max_nm = measured_nm;
-    ++group.verdicts.at(static_cast<std::size_t>(verdict) - 1);
-  }
-
-  SummaryGroup finish(std::optional<std::string> value) {
-    group.value = std::move(value);
-    group.mean_mm = statistics.mean_mm();
-    if (group.count > 1) group.standard_deviation_mm = statistics.standard_deviation_mm();
-    return std::move(group);
-  }
-};
-
 }  // namespace
 
 struct MeasurementsStore::Statements {
@@ -75,8 +39,9 @@ struct MeasurementsStore::Statements {
         by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
         correction(c, "SELECT id FROM measurements WHERE correction_of = ?"),
         revision(c, "SELECT 1 FROM table_revisions WHERE number = ?"),
-        lookup(c),
-        whole_rows(c, measurement_columns()) {}
+        indexer(c),
+        whole_rows(c, measurement_columns()),
+        ids(c, "m.id") {}
 
   MeasurementChain::End chain_end() {
     Rows rows = newest.query();
@@ -113,11 +78,8 @@ struct MeasurementsStore::Statements {
   }
 
   /// Made at the first summary by this field.
-  MeasurementQuery& values_by(GroupBy group_by) {
-    const auto found = values.find(group_by);
-    if (found != values.end()) return found->second;
-    const std::string columns = fmt::format("m.{}, m.verdict, m.measured_nm", column_of(group_by));
-    return values.emplace(group_by, MeasurementQuery(connection, columns)).first->second;
+  MeasurementSummary& summary_by(TextField field) {
+    return summaries.try_emplace(field, connection, field).first->second;
   }
 
   sqlite::Connection& connection;
@@ -126,9 +88,10 @@ struct MeasurementsStore::Statements {
   Statement by_id;
   Statement correction;
   Statement revision;
-  MeasurementLookup lookup;
+  MeasurementIndexer indexer;
   MeasurementQuery whole_rows;
-  std::map<GroupBy, MeasurementQuery> values;
+  MeasurementQuery ids;
+  std::map<TextField, MeasurementSummary> summaries;
   std::optional<std::int64_t> seen_revision;
 };
 
@@ -154,6 +117,9 @@ Result<void> MeasurementsStore::append_linked(std::span<const MeasurementRow> ro
     if (row.table_revision) statements_->require_revision(*row.table_revision);
   }
   statements_->insert.append(rows);
+  for (const MeasurementRow& row : rows) {
+    if (row.correction_of) statements_->indexer.corrected(*row.correction_of);
+  }
   return {};
 }
 
@@ -172,11 +138,14 @@ std::optional<std::int64_t> MeasurementsStore::corrected_by(std::int64_t id) con
 
 std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& filter,
                                                     std::int64_t after, std::size_t limit,
-                                                    const Visitor& visit) const {
+                                                    const Visitor& visit, ListOrder order) const {
+  if (after == kLastId && order == ListOrder::OldestFirst) return std::nullopt;
+  IdSpan ids{.first = after + 1, .last = kLastId};
+  if (order == ListOrder::NewestFirst && after > 0) ids = {.first = 1, .last = after - 1};
   std::int64_t last = after;
   std::size_t count = 0;
   bool more = false;
-  statements_->whole_rows.run(filter, after, [&](const Rows& rows) {
+  statements_->whole_rows.run(filter, ids, order, [&](const Rows& rows) {
     // One row more than the page tells that there is a next one.
     more = count++ == limit;
     if (more) return false;
@@ -188,34 +157,29 @@ std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& fil
   return more ? std::optional(last) : std::nullopt;
 }
 
-bool MeasurementsStore::index_block() { return statements_->lookup.take_in_block(); }
+std::optional<std::int64_t> MeasurementsStore::first_of_newest(const MeasurementFilter& filter,
+                                                               std::size_t count) const {
+  std::optional<std::int64_t> first;
+  const IdSpan all{.first = 1, .last = kLastId};
+  statements_->ids.run(filter, all, ListOrder::NewestFirst, [&](const Rows& rows) {
+    first = rows.get<std::int64_t>(0);
+    return --count > 0;
+  });
+  return first;
+}
+
+bool MeasurementsStore::index_step() { return statements_->indexer.step(); }
+
+void MeasurementsStore::verify_index(const std::function<void(std::string)>& note) const {
+  statements_->indexer.verify(note);
+}
 
 std::int64_t MeasurementsStore::last_id() const { return chain_end().id; }
 
 Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFilter& filter,
-                                                             GroupBy group_by,
+                                                             TextField group_by,
                                                              std::size_t max_groups) const {
-  std::map<std::optional<std::string>, Gathered, std::less<>> groups;
-  bool fits = true;
-  statements_->values_by(group_by).run(filter, 0, [&](const Rows& rows) {
-    const auto value = rows.get<std::optional<std::string_view>>(0);
-    auto group = groups.find(value);
-    if (group == groups.end()) {
-      fits = groups.size() < max_groups;
-      if (!fits) return false;
-      group = groups.try_emplace(value ? std::optional(std::string(*value)) : std::nullopt).first;
-    }
-    group->second.add(rows.get<Verdict>(1), rows.get<std::int64_t>(2));
-    return true;
-  });
-  if (!fits) {
-    return Error{ErrorCode::QueryInvalid,
-                 fmt::format("there are more than {} groups; narrow the filter", max_groups)};
-  }
-  std::vector<SummaryGroup> summary;
-  summary.reserve(groups.size());
-  for (auto& [value, gathered] : groups) summary.push_back(gathered.finish(value));
-  return summary;
+  return statements_->summary_by(group_by).run(filter, max_groups);
 }
 
 }  // namespace fitgauge::store

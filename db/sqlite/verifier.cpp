@@ -95,6 +95,7 @@ void Verifier::check_measurements() {
   const auto check = [this](const MeasurementRow& row) { check_measurement(row); };
   std::optional<std::int64_t> after = 0;
   while (after) after = measurements.list(all, *after, kPage, check);
+  measurements.verify_index([this](std::string finding) { note(std::move(finding)); });
 }
 
 void Verifier::check_measurement(const MeasurementRow& row) {

@@ -1,26 +1,87 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "store/measurement_row.hpp"
 
 namespace fitgauge::store {
 
+/// A text of a measurement that lists filter and summaries group by. The numbers are stored in the
+/// index: never change one, never use one again.
+enum class TextField : std::uint8_t {
+  PartId = 1,
+  Order = 2,
+  Characteristic = 3,
+  Machine = 4,
+  Operation = 5,
+  Operator = 6,
+  Gauge = 7,
+  Unit = 8,
+  ToleranceClass = 9,
+  Caller = 10,
+  Subgroup = 11,
+};
+
+struct TextColumn {
+  TextField field = TextField::PartId;
+  std::string_view column;
+  std::optional<std::string_view> MeasurementRow::*text = nullptr;
+};
+
+/// By number.
+inline constexpr std::array<TextColumn, 11> kTextColumns = {{
+    {TextField::PartId, "part_id", &MeasurementRow::part_id},
+    {TextField::Order, "work_order", &MeasurementRow::order},
+    {TextField::Characteristic, "characteristic", &MeasurementRow::characteristic},
+    {TextField::Machine, "machine", &MeasurementRow::machine},
+    {TextField::Operation, "operation", &MeasurementRow::operation},
+    {TextField::Operator, "operator", &MeasurementRow::operator_id},
+    {TextField::Gauge, "gauge", &MeasurementRow::gauge},
+    {TextField::Unit, "unit", &MeasurementRow::unit},
+    {TextField::ToleranceClass, "tolerance_class", &MeasurementRow::tolerance_class},
+    {TextField::Caller, "caller", &MeasurementRow::caller},
+    {TextField::Subgroup, "subgroup", &MeasurementRow::subgroup},
+}};
+
+constexpr std::size_t index_of(TextField field) { return static_cast<std::size_t>(field) - 1; }
+constexpr std::string_view column_of(TextField field) {
+  return kTextColumns[index_of(field)].column;
+}
+
+/// A nominal size with its class, as in `25 H7`.
+struct DesignationFilter {
+  std::int64_t nominal_nm = 0;
+  std::string tolerance_class{};
+};
+
 /// Which measurements a list or a summary shows. A text filter matches the whole text exactly.
 struct MeasurementFilter {
-  std::optional<std::string> part_id{};
-  std::optional<std::string> characteristic{};
-  std::optional<std::string> order{};
-  std::optional<std::string> machine{};
+  std::array<std::optional<std::string>, kTextColumns.size()> texts{};  ///< by index_of()
+  std::optional<DesignationFilter> designation{};
+  std::optional<std::int64_t> run_id{};
   std::optional<Verdict> verdict{};
-  std::optional<Source> source = Source::Gauge;  ///< none: all
-  std::optional<std::int64_t> from_ns{};         ///< from <= measured_at
-  std::optional<std::int64_t> to_ns{};           ///< measured_at < to
-  bool history = false;                          ///< also rows that a later one corrects
+  std::optional<Source> source = Source::Gauge;    ///< none: all
+  std::optional<std::int64_t> from_ns{};           ///< from <= measured_at
+  std::optional<std::int64_t> to_ns{};             ///< measured_at < to
+  std::optional<std::int64_t> received_from_ns{};  ///< from <= received_at
+  std::optional<std::int64_t> received_to_ns{};    ///< received_at < to
+  bool history = false;                            ///< also rows that a later one corrects
   /// The state when this was the newest id, so that a list read in pages is of one piece.
   std::optional<std::int64_t> as_of_id{};
+
+  std::optional<std::string>& text(TextField field) { return texts[index_of(field)]; }
+  const std::optional<std::string>& text(TextField field) const { return texts[index_of(field)]; }
+
+  bool has_times() const { return from_ns || to_ns || received_from_ns || received_to_ns; }
 };
+
+/// The way a list goes through the measurements, which are numbered in the order of storing.
+enum class ListOrder : std::uint8_t { OldestFirst, NewestFirst };
 
 }  // namespace fitgauge::store

@@ -58,6 +58,8 @@ struct MeasurementRow {
   std::optional<std::int64_t> correction_of{};  ///< id of the row this one replaces
   std::optional<std::string_view> correction_reason{};
 
+  std::optional<std::string_view> subgroup{};  ///< of a control chart
+
   Digest hash{};  ///< given by MeasurementChain when the row is appended
 
   std::int64_t upper_limit_nm() const { return nominal_nm + upper_deviation_nm; }

@@ -1,6 +1,9 @@
 #include "store/measurement_statistics.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <cstring>
 
 namespace fitgauge::store {
 namespace {
@@ -32,10 +35,31 @@ std::string format_units(const Integer& units) {
 }  // namespace
 
 void ExactStatistics::add(std::int64_t value_nm) {
-  if (count_++ == 0) first_ = value_nm;
+  if (count_++ == 0) first_ = min_ = max_ = value_nm;
+  min_ = std::min(min_, value_nm);
+  max_ = std::max(max_, value_nm);
   const Sum difference = Sum{value_nm} - first_;
   sum_ += difference;
   squares_ += difference * difference;
+}
+
+void ExactStatistics::add(const ExactStatistics& other) {
+  if (other.count_ == 0) return;
+  if (count_ == 0) {
+    *this = other;
+    return;
+  }
+  // The other's differences are counted from its own first value, which lies `shift` from ours:
+  // the sum of (d + shift)^2. Unsigned, as a product on the way may not fit where the sum does.
+  const auto shift = static_cast<Bits>(Sum{other.first_} - first_);
+  const auto n = static_cast<Bits>(other.count_);
+  const auto sum = static_cast<Bits>(other.sum_);
+  sum_ += static_cast<Sum>(sum + n * shift);
+  squares_ = static_cast<Sum>(static_cast<Bits>(squares_) + static_cast<Bits>(other.squares_) +
+                              2 * shift * sum + n * shift * shift);
+  count_ += other.count_;
+  min_ = std::min(min_, other.min_);
+  max_ = std::max(max_, other.max_);
 }
 
 std::string ExactStatistics::mean_mm() const {
@@ -52,6 +76,31 @@ std::string ExactStatistics::standard_deviation_mm() const {
       (n * Integer(squares_) - sum * sum) * kUnitsPerNanometre * kUnitsPerNanometre * 4;
   const Integer twice_root = sqrt(numerator / (n * (n - 1)));
   return format_units((twice_root + 1) / 2);
+}
+
+std::array<char, ExactStatistics::kEncodedSize> ExactStatistics::encode() const {
+  std::array<char, kEncodedSize> bytes;
+  char* at = bytes.data();
+  const auto put = [&at](const auto& value) {
+    std::memcpy(at, &value, sizeof value);
+    at += sizeof value;
+  };
+  put(count_), put(first_), put(min_), put(max_), put(sum_), put(squares_);
+  return bytes;
+}
+
+ExactStatistics ExactStatistics::decode(std::string_view bytes) {
+  static_assert(std::endian::native == std::endian::little, "stored as this machine has them");
+  ExactStatistics statistics;
+  if (bytes.size() != kEncodedSize) return statistics;
+  const char* at = bytes.data();
+  const auto take = [&at](auto& value) {
+    std::memcpy(&value, at, sizeof value);
+    at += sizeof value;
+  };
+  take(statistics.count_), take(statistics.first_), take(statistics.min_), take(statistics.max_);
+  take(statistics.sum_), take(statistics.squares_);
+  return statistics;
 }
 
 }  // namespace fitgauge::store

@@ -10,20 +10,6 @@
 
 namespace fitgauge::store {
 
-/// The text field whose values form the groups of a summary.
-enum class GroupBy {
-  PartId,
-  Characteristic,
-  Order,
-  Operation,
-  Machine,
-  Operator,
-  Gauge,
-  Unit,
-  ToleranceClass,
-  Caller,
-};
-
 /// Counts and statistics of one group, from exact integer sums.
 struct SummaryGroup {
   std::optional<std::string> value{};  ///< none: the rows without the field

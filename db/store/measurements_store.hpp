@@ -54,21 +54,29 @@ class MeasurementsStore {
   /// The id of the row that corrects `id`, if one does.
   std::optional<std::int64_t> corrected_by(std::int64_t id) const;
 
-  /// Visits up to `limit` rows that match, in storage order, those after `after` (0: from the
-  /// first). @returns the cursor for the next page, or none when this was the last.
+  /// Visits up to `limit` rows that match, in storage order or from the newest on, those that come
+  /// after `after` on this way (0: from its beginning). @returns the cursor for the next page, or
+  /// none when this was the last.
   std::optional<std::int64_t> list(const MeasurementFilter& filter, std::int64_t after,
-                                   std::size_t limit, const Visitor& visit) const;
+                                   std::size_t limit, const Visitor& visit,
+                                   ListOrder order = ListOrder::OldestFirst) const;
+
+  /// The oldest of the newest `count` rows that match; none when none does.
+  std::optional<std::int64_t> first_of_newest(const MeasurementFilter& filter,
+                                              std::size_t count) const;
 
   /// The newest id, 0 when there is none.
   std::int64_t last_id() const;
 
   /// @errors QueryInvalid when there are more than `max_groups` groups.
-  Result<std::vector<SummaryGroup>> summary(const MeasurementFilter& filter, GroupBy group_by,
+  Result<std::vector<SummaryGroup>> summary(const MeasurementFilter& filter, TextField group_by,
                                             std::size_t max_groups = 10'000) const;
 
-  /// Takes the next block of rows into the tables that make filters fast; for idle times.
-  /// @returns whether there was a whole block.
-  bool index_block();
+  /// Takes the next block of rows into the index that makes filters and summaries fast, or mends a
+  /// part of it that a correction has made stale. @returns whether there was something to do.
+  bool index_step();
+  /// Derives the index again. @param note called with what differs, a sentence each.
+  void verify_index(const std::function<void(std::string)>& note) const;
 
  private:
   struct Statements;

@@ -17,6 +17,9 @@ constexpr std::size_t kRowsAPiece = 200;
 enum class Form { Json, Ndjson, Csv };
 
 Form form_of(const http::Request& request) {
+  if (const auto format = request.text("format")) {
+    return format == "csv" ? Form::Csv : format == "ndjson" ? Form::Ndjson : Form::Json;
+  }
   if (request.response_type() == "text/csv") return Form::Csv;
   if (request.response_type() == "application/x-ndjson") return Form::Ndjson;
   return Form::Json;
@@ -140,11 +143,14 @@ void answer_page(const http::Request& request, http::Responder& responder, Form 
 }  // namespace
 
 std::vector<http::Parameter> measurement_filter_parameters() {
-  return {
-      {.name = "part_id", .description = "Exactly this part"},
-      {.name = "characteristic", .description = "Exactly this characteristic"},
-      {.name = "order", .description = "Exactly this order"},
-      {.name = "machine", .description = "Exactly this machine"},
+  std::vector<http::Parameter> parameters;
+  for (const std::string_view name : app::kTextFilters) {
+    parameters.push_back(
+        {.name = std::string(name), .description = fmt::format("Exactly this {}", name)});
+  }
+  const std::vector<http::Parameter> others = {
+      {.name = "designation", .description = "Nominal size and class, as in `25 H7`"},
+      {.name = "run_id", .description = "Of this run; with source=simulation or all"},
       {.name = "verdict",
        .type = http::Words{{"good", "rework", "reject", "indeterminate"}},
        .description = "Only this verdict"},
@@ -153,22 +159,32 @@ std::vector<http::Parameter> measurement_filter_parameters() {
        .description = "gauge when absent"},
       {.name = "from", .type = http::Time{}, .description = "measured_at from then on"},
       {.name = "to", .type = http::Time{}, .description = "measured_at before then"},
+      {.name = "received_from", .type = http::Time{}, .description = "received_at from then on"},
+      {.name = "received_to", .type = http::Time{}, .description = "received_at before then"},
       {.name = "history",
        .type = http::Words{{"current", "all"}},
        .description = "all shows corrected rows too"},
   };
+  parameters.insert(parameters.end(), others.begin(), others.end());
+  return parameters;
 }
 
-app::MeasurementQuery measurement_query(const http::Request& request) {
-  const auto text = [&](std::string_view name) -> std::optional<std::string> {
-    const auto value = request.text(name);
-    return value ? std::optional<std::string>(*value) : std::nullopt;
-  };
+Result<app::MeasurementQuery> measurement_query(const http::Request& request) {
   app::MeasurementQuery query;
-  query.part_id = text("part_id");
-  query.characteristic = text("characteristic");
-  query.order = text("order");
-  query.machine = text("machine");
+  for (std::size_t i = 0; i < app::kTextFilters.size(); ++i) {
+    if (const auto text = request.text(app::kTextFilters[i])) query.texts[i].emplace(*text);
+  }
+  if (const auto text = request.text("designation")) {
+    auto designation = iso286::parse_designation(*text);
+    if (!designation) return designation.error();
+    query.designation = *std::move(designation);
+  }
+  if (const auto text = request.text("run_id")) {
+    const auto run = app::parse_run_id(*text);
+    if (!run)
+      return Error{ErrorCode::QueryInvalid, "run_id is the id of a run, as in r17", "run_id"};
+    query.run_id = *run;
+  }
   if (const auto verdict = request.text("verdict")) {
     query.verdict = gauging::verdict_from_word(*verdict);
   }
@@ -176,6 +192,8 @@ app::MeasurementQuery measurement_query(const http::Request& request) {
   if (const auto source = request.text("source")) query.source = app::source_from_word(*source);
   query.from = request.time("from");
   query.to = request.time("to");
+  query.received_from = request.time("received_from");
+  query.received_to = request.time("received_to");
   query.history = request.text("history") == "all";
   return query;
 }
@@ -186,18 +204,27 @@ void list_measurements(const Services& services, const http::Request& request,
   if (!cursor) return responder.fail(cursor.error());
   const Form form = form_of(request);
   const auto limit = request.integer("limit");
-  app::MeasurementQuery query = measurement_query(request);
-  query.as_of = cursor->as_of;
-  if (!limit && form != Form::Json) {
+  auto query = measurement_query(request);
+  if (!query) return responder.fail(query.error());
+  query->as_of = cursor->as_of;
+  query->newest_first = request.text("sort") == "newest";
+  if (const auto last = request.integer("last")) {
+    if (limit || request.text("after")) {
+      return responder.fail({ErrorCode::QueryInvalid,
+                             "last is a list of one page: leave limit and after out", "last"});
+    }
+    query->last = static_cast<std::size_t>(*last);
+  }
+  if (!limit && !query->last && form != Form::Json) {
     http::Response response(
         200, media_type(form),
         http::StreamedBody{.source = std::make_shared<MeasurementStream>(
-                               services.measurements, std::move(query), cursor->after, form)});
+                               services.measurements, *std::move(query), cursor->after, form)});
     return responder.answer(std::move(response).with("Vary", "Accept"));
   }
   auto rows = std::make_shared<std::string>();
   services.measurements.list(
-      query, cursor->after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
+      *query, cursor->after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
       [rows, form](const app::Measurement& measurement) {
         if (form == Form::Json && !rows->empty()) *rows += ',';
         append_row(*rows, form, measurement);

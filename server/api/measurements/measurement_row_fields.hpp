@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
+
+#include "app/measurements/measurement.hpp"
 
 namespace fitgauge::api {
 
@@ -25,6 +28,7 @@ struct RowField {
     Gauge,
     Unit,
     Comment,
+    Subgroup,
     MeasuredAt,
     Uncertainty,
     Coverage,
@@ -35,6 +39,8 @@ struct RowField {
 
   std::string_view name;
   std::size_t longest = 0;  ///< of a text, in bytes
+  /// The text that is kept as it is; null where the reader makes something of it.
+  std::optional<std::string_view> app::MeasurementTexts::*text = nullptr;
 };
 
 inline constexpr std::size_t kLongestIdentifier = 200;
@@ -49,15 +55,16 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = {{
     {"feature", 16},
     {"upper_um"},
     {"lower_um"},
-    {"part_id", kLongestIdentifier},
-    {"characteristic", kLongestIdentifier},
-    {"order", kLongestIdentifier},
-    {"operation", kLongestIdentifier},
-    {"machine", kLongestIdentifier},
-    {"operator", kLongestIdentifier},
-    {"gauge", kLongestIdentifier},
-    {"unit", kLongestIdentifier},
-    {"comment", kLongestComment},
+    {"part_id", kLongestIdentifier, &app::MeasurementTexts::part_id},
+    {"characteristic", kLongestIdentifier, &app::MeasurementTexts::characteristic},
+    {"order", kLongestIdentifier, &app::MeasurementTexts::order},
+    {"operation", kLongestIdentifier, &app::MeasurementTexts::operation},
+    {"machine", kLongestIdentifier, &app::MeasurementTexts::machine},
+    {"operator", kLongestIdentifier, &app::MeasurementTexts::operator_id},
+    {"gauge", kLongestIdentifier, &app::MeasurementTexts::gauge},
+    {"unit", kLongestIdentifier, &app::MeasurementTexts::unit},
+    {"comment", kLongestComment, &app::MeasurementTexts::comment},
+    {"subgroup", kLongestIdentifier, &app::MeasurementTexts::subgroup},
     {"measured_at", 64},
     {"uncertainty_um"},
     {"coverage_factor"},

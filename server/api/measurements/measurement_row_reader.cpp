@@ -104,15 +104,6 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
       break;
     case RowField::Upper: draft_.upper = length(field, value, true); break;
     case RowField::Lower: draft_.lower = length(field, value, true); break;
-    case RowField::PartId: m.texts.part_id = text(field, value); break;
-    case RowField::Characteristic: m.texts.characteristic = text(field, value); break;
-    case RowField::Order: m.texts.order = text(field, value); break;
-    case RowField::Operation: m.texts.operation = text(field, value); break;
-    case RowField::Machine: m.texts.machine = text(field, value); break;
-    case RowField::Operator: m.texts.operator_id = text(field, value); break;
-    case RowField::Gauge: m.texts.gauge = text(field, value); break;
-    case RowField::Unit: m.texts.unit = text(field, value); break;
-    case RowField::Comment: m.texts.comment = text(field, value); break;
     case RowField::MeasuredAt:
       if (const auto time = text(field, value)) {
         const auto parsed = parse_rfc3339(*time);
@@ -158,7 +149,7 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
                "temperature_c lies from -273.15 to 10000");
       }
       break;
-    default: break;
+    default: m.texts.*kRowFields[field].text = text(field, value); break;
   }
 }
 
@@ -198,7 +189,8 @@ std::optional<std::int64_t> MeasurementRowReader::decimal(std::size_t field,
 
 std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
                                                            const RawValue& value) {
-  const auto& [name, longest] = kRowFields[field];
+  const std::string_view name = kRowFields[field].name;
+  const std::size_t longest = kRowFields[field].longest;
   if (value.kind != RawValue::Kind::String) {
     report(ErrorCode::FieldType, name,
            fmt::format("{} takes a string, not {}", name, name_of(value.kind)));

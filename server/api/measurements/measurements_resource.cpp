@@ -28,9 +28,11 @@ void find_measurement(const Services& services, const http::Request& request,
 }
 
 void summarise(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto query = measurement_query(request);
+  if (!query) return responder.fail(query.error());
   const std::string_view group_by = request.text("group_by").value_or("characteristic");
   services.measurements.summary(
-      measurement_query(request), group_by,
+      *query, group_by,
       [group_by, responder = std::make_shared<http::Responder>(std::move(responder))](
           Result<std::vector<app::MeasurementGroup>> groups) {
         if (!groups) return responder->fail(groups.error());
@@ -61,12 +63,22 @@ std::vector<http::Parameter> list_parameters() {
                         .type = http::Integer{.min = 1, .max = 1000},
                         .description = "Most rows of a page; 100 when absent"});
   parameters.push_back({.name = "after", .description = "The cursor `next` of the page before"});
+  parameters.push_back(
+      {.name = "sort",
+       .type = http::Words{{"oldest", "newest"}},
+       .description = "Which come first by the time of storing; oldest when absent"});
+  parameters.push_back({.name = "last",
+                        .type = http::Integer{.min = 1, .max = 1000},
+                        .description = "Only so many of the newest; not beside limit or after"});
+  parameters.push_back({.name = "format",
+                        .type = http::Words{{"json", "csv", "ndjson"}},
+                        .description = "Instead of Accept"});
   return parameters;
 }
 
 std::vector<http::Parameter> summary_parameters() {
   auto parameters = measurement_filter_parameters();
-  const auto fields = app::summary_fields();
+  const auto& fields = app::kTextFilters;
   parameters.push_back({.name = "group_by",
                         .type = http::Words{{fields.begin(), fields.end()}},
                         .description = "Field whose values form the groups"});

@@ -1,9 +1,29 @@
 #include "app/measurements/mapping.hpp"
 
+#include <array>
 #include <map>
+#include <utility>
 
 namespace fitgauge::app {
 namespace {
+
+using Text = std::optional<std::string_view>;
+
+/// The texts of a measurement, in the service and in the store.
+constexpr std::array<std::pair<Text MeasurementTexts::*, Text store::MeasurementRow::*>,
+                     kMeasurementTexts.size()>
+    kTextColumns = {{
+        {&MeasurementTexts::part_id, &store::MeasurementRow::part_id},
+        {&MeasurementTexts::characteristic, &store::MeasurementRow::characteristic},
+        {&MeasurementTexts::order, &store::MeasurementRow::order},
+        {&MeasurementTexts::operation, &store::MeasurementRow::operation},
+        {&MeasurementTexts::machine, &store::MeasurementRow::machine},
+        {&MeasurementTexts::operator_id, &store::MeasurementRow::operator_id},
+        {&MeasurementTexts::gauge, &store::MeasurementRow::gauge},
+        {&MeasurementTexts::unit, &store::MeasurementRow::unit},
+        {&MeasurementTexts::comment, &store::MeasurementRow::comment},
+        {&MeasurementTexts::subgroup, &store::MeasurementRow::subgroup},
+    }};
 
 template <class T>
 std::optional<std::int64_t> count_of(const std::optional<T>& length) {
@@ -144,16 +164,8 @@ store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t>
                                                                   : store::Rule::GuardBand;
   row.uncertainty_nm = count_of(m.standard_uncertainty);
   if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
-  row.part_id = m.texts.part_id;
-  row.characteristic = m.texts.characteristic;
-  row.order = m.texts.order;
-  row.operation = m.texts.operation;
-  row.machine = m.texts.machine;
-  row.operator_id = m.texts.operator_id;
-  row.gauge = m.texts.gauge;
+  for (const auto& [text, column] : kTextColumns) row.*column = m.texts.*text;
   row.temperature = m.temperature;
-  row.unit = m.texts.unit;
-  row.comment = m.texts.comment;
   row.caller = m.caller;
   row.run_id = m.run_id;
   row.cycle = m.cycle;
@@ -195,15 +207,7 @@ Measurement from_store(const store::MeasurementRow& row, const RevisionIds& revi
   }
   judge(m);  // the excess is not stored; the verdict is, and that one holds
   m.result.verdict = from_store(row.verdict);
-  m.texts = {.part_id = row.part_id,
-             .characteristic = row.characteristic,
-             .order = row.order,
-             .operation = row.operation,
-             .machine = row.machine,
-             .operator_id = row.operator_id,
-             .gauge = row.gauge,
-             .unit = row.unit,
-             .comment = row.comment};
+  for (const auto& [text, column] : kTextColumns) m.texts.*text = row.*column;
   m.temperature = row.temperature;
   m.caller = row.caller;
   m.run_id = row.run_id;

@@ -35,11 +35,12 @@ struct MeasurementTexts {
   std::optional<std::string_view> gauge;
   std::optional<std::string_view> unit;
   std::optional<std::string_view> comment;
+  std::optional<std::string_view> subgroup;
 };
 
 /// Every text with its name.
 inline constexpr std::array<
-    std::pair<std::string_view, std::optional<std::string_view> MeasurementTexts::*>, 9>
+    std::pair<std::string_view, std::optional<std::string_view> MeasurementTexts::*>, 10>
     kMeasurementTexts = {{
         {"part_id", &MeasurementTexts::part_id},
         {"characteristic", &MeasurementTexts::characteristic},
@@ -50,6 +51,7 @@ inline constexpr std::array<
         {"gauge", &MeasurementTexts::gauge},
         {"unit", &MeasurementTexts::unit},
         {"comment", &MeasurementTexts::comment},
+        {"subgroup", &MeasurementTexts::subgroup},
     }};
 
 inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them

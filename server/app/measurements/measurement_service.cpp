@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "app/measurements/mapping.hpp"
 #include "app/tables/table_catalog.hpp"
@@ -14,24 +13,25 @@ namespace {
 
 store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
   store::MeasurementFilter filter;
-  filter.part_id = query.part_id;
-  filter.characteristic = query.characteristic;
-  filter.order = query.order;
-  filter.machine = query.machine;
+  filter.texts = query.texts;
+  if (query.designation) {
+    filter.designation = {.nominal_nm = query.designation->nominal_size.length().count(),
+                          .tolerance_class = query.designation->class_name};
+  }
+  filter.run_id = query.run_id;
   if (query.verdict) filter.verdict = to_store(*query.verdict);
   filter.source = query.source ? std::optional(to_store(*query.source)) : std::nullopt;
   if (query.from) filter.from_ns = query.from->nanoseconds;
   if (query.to) filter.to_ns = query.to->nanoseconds;
+  if (query.received_from) filter.received_from_ns = query.received_from->nanoseconds;
+  if (query.received_to) filter.received_to_ns = query.received_to->nanoseconds;
   filter.history = query.history;
   filter.as_of_id = query.as_of;
   return filter;
 }
 
-constexpr std::array<std::string_view, 10> kSummaryFields = {
-    "part_id",  "characteristic", "order", "operation",       "machine",
-    "operator", "gauge",          "unit",  "tolerance_class", "caller"};
-static_assert(static_cast<std::size_t>(store::GroupBy::Caller) + 1 == kSummaryFields.size(),
-              "the names stand in the order of store::GroupBy");
+static_assert(kTextFilters.size() == store::kTextColumns.size(),
+              "the names stand in the order of store::TextField");
 
 MeasurementGroup measurement_group(store::SummaryGroup group) {
   return {.value = std::move(group.value),
@@ -47,8 +47,6 @@ MeasurementGroup measurement_group(store::SummaryGroup group) {
 }
 
 }  // namespace
-
-std::span<const std::string_view> summary_fields() { return kSummaryFields; }
 
 void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t> done) {
   database_.readers().submit(
@@ -69,25 +67,33 @@ void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t>
 void MeasurementService::list(const MeasurementQuery& query, std::int64_t after, std::size_t limit,
                               Visitor visit, Done<ListPage> done) {
   database_.readers().submit(
-      [this, filter = measurement_filter(query), after, limit,
+      [this, filter = measurement_filter(query), after, limit, last = query.last,
+       order = query.newest_first ? store::ListOrder::NewestFirst : store::ListOrder::OldestFirst,
        visit = std::move(visit)](const store::Stores& stores) mutable -> Result<ListPage> {
         if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
+        if (last) {
+          limit = *last;
+          const auto first = stores.measurements.first_of_newest(filter, limit);
+          if (!first) return ListPage{.next = std::nullopt, .as_of = *filter.as_of_id};
+          if (order == store::ListOrder::OldestFirst) after = *first - 1;
+        }
         const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
         const auto next = stores.measurements.list(
             filter, after, limit,
-            [&](const store::MeasurementRow& row) { visit(from_store(row, ids)); });
-        return ListPage{.next = next, .as_of = *filter.as_of_id};
+            [&](const store::MeasurementRow& row) { visit(from_store(row, ids)); }, order);
+        return ListPage{.next = last ? std::nullopt : next, .as_of = *filter.as_of_id};
       },
       std::move(done));
 }
 
 void MeasurementService::summary(const MeasurementQuery& query, std::string_view group_by,
                                  Done<std::vector<MeasurementGroup>> done) {
-  const auto field = std::find(kSummaryFields.begin(), kSummaryFields.end(), group_by);
-  if (field == kSummaryFields.end()) {
+  const auto field = std::find(kTextFilters.begin(), kTextFilters.end(), group_by);
+  if (field == kTextFilters.end()) {
     return done(Error{ErrorCode::QueryInvalid, "group_by names no field to group by"});
   }
-  const auto group = static_cast<store::GroupBy>(field - kSummaryFields.begin());
+  const auto number = static_cast<std::size_t>(field - kTextFilters.begin());
+  const store::TextField group = store::kTextColumns.at(number).field;
   database_.readers().submit(
       [filter = measurement_filter(query),
        group](const store::Stores& stores) -> Result<std::vector<MeasurementGroup>> {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "app/measurements/measurement.hpp"
+#include "iso286/designation.hpp"
 
 namespace fitgauge::store {
 class Database;
@@ -39,18 +41,28 @@ struct IdempotencyScope {
   std::string_view body;  ///< alive until the answer
 };
 
+/// The texts of a measurement that lists filter and summaries group by.
+inline constexpr std::array<std::string_view, 11> kTextFilters = {
+    "part_id", "order", "characteristic",  "machine", "operation", "operator",
+    "gauge",   "unit",  "tolerance_class", "caller",  "subgroup"};
+
 /// Which measurements a list shows.
 struct MeasurementQuery {
-  std::optional<std::string> part_id;
-  std::optional<std::string> characteristic;
-  std::optional<std::string> order;
-  std::optional<std::string> machine;
+  std::array<std::optional<std::string>, kTextFilters.size()> texts;
+  std::optional<iso286::Designation> designation;
+  std::optional<std::int64_t> run_id;
   std::optional<gauging::Verdict> verdict;
   std::optional<Source> source = Source::Gauge;  ///< none: all
   std::optional<Timestamp> from;                 ///< from <= measured_at
   std::optional<Timestamp> to;                   ///< measured_at < to
+  std::optional<Timestamp> received_from;        ///< from <= received_at
+  std::optional<Timestamp> received_to;          ///< received_at < to
   bool history = false;                          ///< corrected rows too
   std::optional<std::int64_t> as_of;             ///< the state when this id was the newest
+
+  // Of lists.
+  bool newest_first = false;
+  std::optional<std::size_t> last;  ///< only so many of the newest that match, on one page
 };
 
 /// How a list goes on after a page.
@@ -134,13 +146,14 @@ class MeasurementService {
   /// Visits one measurement; `corrected_by` is set if it was. @errors MeasurementUnknown.
   void find(std::int64_t id, Visitor visit, Done<std::int64_t> done);
 
-  /// Visits up to `limit` matching measurements after the id `after`, in storage order. A query
+  /// Visits up to `limit` matching measurements that come after the id `after`, in storage order or
+  /// the other way round. A query
   /// without `as_of` is read in the newest state; the pages that follow name the one it gives, so
   /// that the list is of one piece however much is recorded and corrected meanwhile.
   void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
             Done<ListPage> done);
 
-  /// Groups by one of the text fields. @errors QueryInvalid for another field or too many groups.
+  /// Groups by one of kTextFilters. @errors QueryInvalid for another field or too many groups.
   void summary(const MeasurementQuery& query, std::string_view group_by,
                Done<std::vector<MeasurementGroup>> done);
 
@@ -157,8 +170,5 @@ class MeasurementService {
   const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs
   const std::unique_ptr<WorkerPool> long_requests_;
 };
-
-/// The fields a summary can group by, as the API names them.
-std::span<const std::string_view> summary_fields();
 
 }  // namespace fitgauge::app

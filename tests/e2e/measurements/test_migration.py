@@ -5,6 +5,7 @@ Some calls are made to fail by chance, which $SEED repeats; with FAULTS=all it i
 """
 
 import contextlib
+import hashlib
 import itertools
 import os
 import random
@@ -14,7 +15,7 @@ import subprocess
 import time
 import unittest
 
-from support.daemon import TRACEABLE, Daemon
+from support.daemon import ROOT, TRACEABLE, Daemon
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
@@ -38,6 +39,32 @@ def faults():
     print(f"seed {SEED}")
     return random.Random(SEED).sample(every, SAMPLE) + [
         "pwrite64:error=ENOSPC:when=1", "fdatasync:error=EIO:when=1", "renameat2:error=EIO:when=1"]
+
+
+def take_back_newest_migration(database):
+    """Makes the file what the version before would have made of its rows. @returns the newest migration's number."""
+    known = sorted((ROOT / "db" / "migrations").glob("*.sql"))
+    old = database.with_suffix(".old")
+    with contextlib.closing(sqlite3.connect(old)) as made:
+        for number, file in enumerate(known[:-1], 1):
+            made.executescript(file.read_text())
+            made.execute("INSERT INTO schema_migrations VALUES (?, ?, ?, 0)",
+                         (number, file.stem, hashlib.sha256(file.read_bytes()).digest()))
+        made.commit()
+        made.execute("ATTACH ? AS new", (str(database),))
+        application, = made.execute("PRAGMA new.application_id").fetchone()
+        tables = [name for name, in made.execute(
+            "SELECT name FROM main.sqlite_schema JOIN new.sqlite_schema USING (type, name) WHERE type = 'table' "
+            "AND name NOT LIKE 'sqlite_%' AND name <> 'schema_migrations'")]
+        for table in tables:
+            columns = ", ".join(name for name, in made.execute(
+                "SELECT name FROM pragma_table_info(?, 'main') JOIN pragma_table_info(?, 'new') USING (name)",
+                (table, table)))
+            made.execute(f"INSERT OR REPLACE INTO main.{table} ({columns}) SELECT {columns} FROM new.{table}")
+        made.commit()
+        made.executescript(f"PRAGMA application_id = {application}; PRAGMA user_version = {len(known) - 1}")
+    old.rename(database)
+    return len(known)
 
 
 @unittest.skipUnless(can_trace(), "needs strace and the right to trace")
@@ -93,12 +120,7 @@ class Migration(unittest.TestCase):
         old.start()
         self.assertEqual(old.measure([PART] * 3).status, 201)
         self.assertEqual(old.stop(), 0)
-        with contextlib.closing(sqlite3.connect(old.database)) as database:
-            newest, = database.execute(
-                "SELECT name FROM schema_migrations ORDER BY number DESC LIMIT 1").fetchone()
-            self.assertEqual(newest, "0006_events", "this takes back the newest migration")
-            database.executescript("DROP TABLE events; PRAGMA user_version = 5;"
-                                   "DELETE FROM schema_migrations WHERE number = 6;")
+        newest = take_back_newest_migration(old.database)
         count = 0
         for fault in faults():
             with self.subTest(fault):
@@ -106,8 +128,8 @@ class Migration(unittest.TestCase):
                 count += refused
                 with contextlib.closing(sqlite3.connect(daemon.database)) as database:
                     version, = database.execute("PRAGMA user_version").fetchone()
-                    tables, = database.execute(
-                        "SELECT count(*) FROM sqlite_schema WHERE name = 'events'").fetchone()
-                    self.assertEqual(tables, version - 5)
+                    applied, = database.execute("SELECT max(number) FROM schema_migrations").fetchone()
+                    self.assertIn(version, (newest - 1, newest))
+                    self.assertEqual(applied, version)
                 self.check(daemon, 3)
         self.assertGreater(count, 0, "no start was refused: the test proves nothing")

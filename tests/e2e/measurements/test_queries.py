@@ -8,6 +8,7 @@ import json
 import random
 import re
 import socket
+import urllib.parse
 
 from support.daemon import DaemonTest
 
@@ -65,6 +66,38 @@ class Lists(DaemonTest):
         self.assertEqual(self.ids("part_id=SN"), [])
         self.assertEqual(self.ids("source=simulation"), [])
         self.assertEqual(self.ids("source=all&part_id=SN-0"), rows[::50])
+
+    def test_newest_first_leads_through_all_pages_the_other_way(self):
+        path, seen = "/v1/measurements?sort=newest&limit=60", []
+        while path:
+            page = self.daemon.get(path)
+            seen += [m["id"] for m in page.json["measurements"]]
+            link = re.fullmatch(r'<(.*)>; rel="next"', page.headers.get("link", ""))
+            self.assertEqual(link is None, page.json["next"] is None)
+            path = link and link[1]
+        self.assertEqual(seen, self.rows[::-1])
+        self.assertEqual(self.ids("sort=newest&characteristic=bore-3&limit=2"), self.rows[3::5][:-3:-1])
+        lines = self.daemon.get("/v1/measurements?sort=newest&format=ndjson").text.splitlines()
+        self.assertEqual([json.loads(line)["id"] for line in lines], self.rows[::-1])
+
+    def test_the_greatest_cursor_has_nothing_after_it_and_all_before(self):
+        greatest = f"m{2**63 - 1}"
+        self.assertEqual(self.ids(f"after={greatest}"), [])
+        self.assertEqual(self.ids(f"after={greatest}&sort=newest&limit=2"), self.rows[:-3:-1])
+
+    def test_the_last_rows(self):
+        self.assertEqual(self.ids("last=3"), self.rows[-3:])
+        self.assertEqual(self.ids("last=3&sort=newest"), self.rows[:-4:-1])
+        self.assertEqual(self.ids("last=2&part_id=SN-7"), self.rows[7::50][-2:])
+        self.assertEqual(self.ids("last=1000"), self.rows)
+        self.assertEqual(self.ids("last=5&part_id=none"), [])
+        page = self.daemon.get("/v1/measurements?last=3")
+        self.assertIsNone(page.json["next"])
+        self.assertNotIn("link", page.headers)
+        text = self.daemon.get("/v1/measurements?last=3&format=csv").text
+        self.assertEqual([row["id"] for row in csv.DictReader(io.StringIO(text))], self.rows[-3:])
+        for query in ("last=3&limit=2", "last=3&after=m1", "last=0", "last=1001", "sort=up", "format=xml"):
+            self.assert_problem(self.daemon.get(f"/v1/measurements?{query}"), 400, "query.invalid")
 
     def test_the_time_range_takes_its_beginning_and_not_its_end(self):
         self.assertEqual(self.ids("from=2026-11-20T08:01:00Z&to=2026-11-20T08:01:10Z"),
@@ -195,3 +228,50 @@ class Statistics(DaemonTest):
                   if g["characteristic"] == "single"]
         self.assertIsNone(group["standard_deviation_mm"])
         self.assertEqual(group["mean_mm"], 25.01)
+
+
+class EveryFilter(DaemonTest):
+    """Each field that filters, alone, and what summaries make of it."""
+
+    FIELDS = ("part_id", "characteristic", "order", "operation", "machine", "operator", "gauge", "unit", "subgroup")
+
+    def ids(self, **query):
+        page = self.daemon.get("/v1/measurements?" + urllib.parse.urlencode({"limit": 1000, **query}))
+        self.assertEqual(page.status, 200, page)
+        return [m["id"] for m in page.json["measurements"]]
+
+    def test_every_field(self):
+        rows = [{"designation": "25 H7" if i % 2 else "40 g6", "measured_mm": 25.01 if i % 2 else 39.98,
+                 **{field: f"{field} {i % (k + 2)}" for k, field in enumerate(self.FIELDS)}} for i in range(60)]
+        stored = self.daemon.measure(rows, {"Prefer": "return=representation"}).json["measurements"]
+        ids = [m["id"] for m in stored]
+        self.assertEqual(stored[7]["subgroup"], "subgroup 7")
+        for k, field in enumerate(self.FIELDS):
+            with self.subTest(field):
+                self.assertEqual(self.ids(**{field: f"{field} 1"}), ids[1::k + 2])
+                self.assertEqual(self.ids(**{field: "none"}), [])
+                groups = self.daemon.get(f"/v1/measurements/summary?group_by={field}").json["groups"]
+                self.assertEqual({group[field]: group["count"] for group in groups},
+                                 {f"{field} {i}": len(ids[i::k + 2]) for i in range(k + 2)})
+                one = self.daemon.get("/v1/measurements/summary?" + urllib.parse.urlencode(
+                    {"group_by": "tolerance_class", field: f"{field} 0"})).json["groups"]
+                self.assertEqual(sum(group["count"] for group in one), len(ids[::k + 2]))
+        self.assertEqual(self.ids(designation="25H7"), ids[1::2])
+        self.assertEqual(self.ids(designation="Ø40 g6"), ids[::2])
+        self.assertEqual(self.ids(designation="25 g6"), [])
+        self.assertEqual(self.ids(tolerance_class="H7"), ids[1::2])
+        self.assertEqual(self.ids(tolerance_class="H7", designation="40 g6"), [])
+        self.assertEqual(self.ids(caller="none"), [])
+        self.assertEqual(self.ids(run_id="r1", source="all"), [])
+        received = stored[0]["received_at"]
+        self.assertEqual(self.ids(received_from=received), ids)
+        self.assertEqual(self.ids(received_to=received), [])
+        for query, code in (("designation=H7", "designation.malformed"), ("run_id=1", "query.invalid"),
+                            ("received_from=now", "query.invalid")):
+            answer = self.daemon.get(f"/v1/measurements?{query}")
+            self.assertEqual((answer.status, answer.json["code"]), (400, code), answer)
+            answer = self.daemon.get(f"/v1/measurements/summary?{query}")
+            self.assertEqual((answer.status, answer.json["code"]), (400, code), answer)
+        csv_rows = list(csv.DictReader(io.StringIO(self.daemon.get("/v1/measurements?format=csv").text)))
+        self.assertEqual([row["subgroup"] for row in csv_rows], [row["subgroup"] for row in rows])
+        self.assert_problem(self.daemon.measure({**rows[0], "subgroup": "x" * 201}), 422, "request.invalid")

@@ -1,8 +1,14 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
 #include <random>
 #include <vector>
 
 #include "fixture.hpp"
 #include "sqlite/connection.hpp"
+#include "store/measurement_index.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -20,65 +26,172 @@ std::optional<std::string> any_text(std::mt19937& random) {
 
 /// Rows whose texts are kept here, as the row has views only.
 struct Sample {
-  explicit Sample(unsigned seed, std::size_t size) {
+  Sample(unsigned seed, std::size_t size) {
     std::mt19937 random(seed);
-    texts.reserve(size * 4);
+    texts.reserve(size * kTextColumns.size());
     for (std::size_t i = 0; i < size; ++i) {
       MeasurementRow row = sample_row();
-      for (auto* field : {&row.part_id, &row.characteristic, &row.order, &row.machine}) {
+      for (const TextColumn& column : kTextColumns) {
+        if (column.field == TextField::ToleranceClass) continue;
         texts.push_back(any_text(random));
-        if (texts.back()) *field = *texts.back();
+        if (texts.back()) row.*column.text = *texts.back();
       }
-      // The clock goes forth and back.
+      // The clocks go forth and back.
       row.measured_at_ns = static_cast<std::int64_t>(i + random() % 2000);
+      row.received_at_ns = static_cast<std::int64_t>(i + random() % 300);
       row.source = random() % 4 == 0 ? Source::Simulation : Source::Gauge;
+      if (row.source == Source::Simulation) row.run_id = 1 + random() % 5;
+      row.nominal_nm += static_cast<std::int64_t>(random() % 2);
       row.measured_nm += static_cast<std::int64_t>(random() % 9000);
       row.verdict = row.measured_nm > row.upper_limit_nm() ? Verdict::Reject : Verdict::Good;
       rows.push_back(row);
     }
   }
 
+  /// Some of the later rows correct earlier ones, once each, and corrections are corrected too.
+  void add_corrections(std::mt19937& random, std::size_t count) {
+    while (count > 0) {
+      const std::size_t later = random() % rows.size();
+      const std::size_t earlier = random() % rows.size();
+      if (earlier >= later || rows[later].correction_of || corrected_by.contains(earlier)) continue;
+      rows[later].correction_of = static_cast<std::int64_t>(earlier) + 1;
+      rows[later].correction_reason = "wrong";
+      corrected_by[earlier] = static_cast<std::int64_t>(later) + 1;
+      --count;
+    }
+  }
+
+  bool matches(std::size_t i, const MeasurementFilter& filter) const {
+    const MeasurementRow& row = rows[i];
+    const auto id = static_cast<std::int64_t>(i) + 1;
+    const auto as_of = filter.as_of_id.value_or(std::numeric_limits<std::int64_t>::max());
+    const auto corrected = corrected_by.find(i);
+    const bool current = corrected == corrected_by.end() || corrected->second > as_of;
+    return id <= as_of && (filter.history || current) &&
+           std::all_of(kTextColumns.begin(), kTextColumns.end(),
+                       [&](const TextColumn& column) {
+                         const auto& wanted = filter.text(column.field);
+                         return !wanted || row.*column.text == wanted;
+                       }) &&
+           (!filter.run_id || row.run_id == filter.run_id) &&
+           (!filter.verdict || row.verdict == filter.verdict) &&
+           (!filter.source || row.source == filter.source) &&
+           (!filter.from_ns || row.measured_at_ns >= *filter.from_ns) &&
+           (!filter.to_ns || row.measured_at_ns < *filter.to_ns) &&
+           (!filter.received_from_ns || row.received_at_ns >= *filter.received_from_ns) &&
+           (!filter.received_to_ns || row.received_at_ns < *filter.received_to_ns);
+  }
+
+  std::vector<std::int64_t> ids(const MeasurementFilter& filter) const {
+    std::vector<std::int64_t> found;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (matches(i, filter)) found.push_back(static_cast<std::int64_t>(i) + 1);
+    }
+    return found;
+  }
+
   std::vector<std::optional<std::string>> texts;
   std::vector<MeasurementRow> rows;
+  std::map<std::size_t, std::int64_t> corrected_by;
 };
 
-MeasurementFilter any_filter(std::mt19937& random, std::int64_t last_id) {
+TextField any_field(std::mt19937& random) {
+  return kTextColumns[random() % kTextColumns.size()].field;
+}
+
+MeasurementFilter any_filter(std::mt19937& random, std::size_t size) {
   MeasurementFilter filter;
-  const auto text = [&] { return random() % 3 == 0 ? any_text(random) : std::nullopt; };
-  filter.part_id = text();
-  filter.characteristic = text();
-  filter.order = text();
-  filter.machine = text();
+  for (int i = 0; i < 2; ++i) {
+    if (random() % 2 == 0) filter.text(any_field(random)) = any_text(random);
+  }
+  if (random() % 6 == 0) filter.run_id = 1 + random() % 6;
   if (random() % 3 == 0) filter.verdict = Verdict::Reject;
   if (random() % 2 == 0) filter.source.reset();
-  if (random() % 3 == 0) filter.from_ns = random() % 6000;
-  if (random() % 3 == 0) filter.to_ns = random() % 6000;
-  if (random() % 4 == 0) filter.as_of_id = random() % (static_cast<unsigned>(last_id) + 10);
+  const auto time = [&](auto& bound) {
+    if (random() % 4 == 0) bound = static_cast<std::int64_t>(random() % (size + 2000));
+  };
+  time(filter.from_ns), time(filter.to_ns);
+  time(filter.received_from_ns), time(filter.received_to_ns);
+  filter.history = random() % 3 == 0;
+  if (random() % 4 == 0) filter.as_of_id = random() % (size + 10);
   return filter;
 }
 
-bool matches(const MeasurementRow& row, std::int64_t id, const MeasurementFilter& filter) {
-  const auto text = [](const auto& wanted, const auto& found) {
-    return !wanted || found == wanted;
+/// The groups from the sample alone, in sums of whole nanometres.
+std::string expected_summary(const Sample& sample, const MeasurementFilter& filter,
+                             TextField group_by) {
+  struct Group {
+    std::int64_t count = 0, rejects = 0, sum = 0, min = 0, max = 0;
   };
-  return text(filter.part_id, row.part_id) && text(filter.characteristic, row.characteristic) &&
-         text(filter.order, row.order) && text(filter.machine, row.machine) &&
-         (!filter.verdict || row.verdict == filter.verdict) &&
-         (!filter.source || row.source == filter.source) &&
-         (!filter.from_ns || row.measured_at_ns >= *filter.from_ns) &&
-         (!filter.to_ns || row.measured_at_ns < *filter.to_ns) &&
-         (!filter.as_of_id || id <= *filter.as_of_id);
+  std::map<std::optional<std::string_view>, Group> groups;
+  for (std::size_t i = 0; i < sample.rows.size(); ++i) {
+    if (!sample.matches(i, filter)) continue;
+    const MeasurementRow& row = sample.rows[i];
+    Group& group = groups[row.*kTextColumns[index_of(group_by)].text];
+    group.min = group.count == 0 ? row.measured_nm : std::min(group.min, row.measured_nm);
+    group.max = group.count == 0 ? row.measured_nm : std::max(group.max, row.measured_nm);
+    ++group.count;
+    group.rejects += row.verdict == Verdict::Reject ? 1 : 0;
+    group.sum += row.measured_nm;
+  }
+  std::string text;
+  for (const auto& [value, group] : groups) {
+    text += fmt::format("{}:{}x {}r {}..{} mean {:.3f}\n", value.value_or("none"), group.count,
+                        group.rejects, group.min, group.max,
+                        static_cast<double>(group.sum) / static_cast<double>(group.count) / 1e6);
+  }
+  return text;
 }
 
-std::int64_t count_in_summary(Fixture& fixture, const MeasurementFilter& filter) {
-  return *fixture.read([&](const Stores& stores) -> Result<std::int64_t> {
-    std::int64_t count = 0;
-    for (const SummaryGroup& group :
-         *stores.measurements.summary(filter, GroupBy::Characteristic)) {
-      count += group.count;
+std::string found_summary(Fixture& fixture, const MeasurementFilter& filter, TextField group_by) {
+  return *fixture.read([&](const Stores& stores) -> Result<std::string> {
+    std::string text;
+    for (const SummaryGroup& group : *stores.measurements.summary(filter, group_by)) {
+      text += fmt::format("{}:{}x {}r {}..{} mean {:.3f}\n", group.value.value_or("none"),
+                          group.count, group.verdict_count(Verdict::Reject), group.min_nm,
+                          group.max_nm, std::stod(group.mean_mm));
     }
-    return count;
+    return text;
   });
+}
+
+/// The ids a filter finds from the newest on, read page by page.
+std::vector<std::int64_t> newest_first(Fixture& fixture, const MeasurementFilter& filter,
+                                       std::size_t page) {
+  std::vector<std::int64_t> ids;
+  std::optional<std::int64_t> after = 0;
+  while (after) {
+    after = *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
+      return stores.measurements.list(
+          filter, *after, page, [&](const MeasurementRow& row) { ids.push_back(row.id); },
+          ListOrder::NewestFirst);
+    });
+  }
+  return ids;
+}
+
+bool index_step(Fixture& fixture) {
+  return *fixture.write(
+      [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); });
+}
+
+void check_filters(Fixture& fixture, const Sample& sample, std::mt19937& random, int count) {
+  for (int i = 0; i < count; ++i) {
+    const MeasurementFilter filter = any_filter(random, sample.rows.size());
+    std::vector<std::int64_t> expected = sample.ids(filter);
+    CHECK(fixture.list(filter, 1 + random() % 2000) == expected);
+    const std::size_t last = 1 + random() % 50;
+    const auto first =
+        *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
+          return stores.measurements.first_of_newest(filter, last);
+        });
+    CHECK(first.value_or(0) ==
+          (expected.empty() ? 0 : expected[expected.size() - std::min(last, expected.size())]));
+    std::reverse(expected.begin(), expected.end());
+    CHECK(newest_first(fixture, filter, 1 + random() % 2000) == expected);
+    const TextField field = any_field(random);
+    CHECK(found_summary(fixture, filter, field) == expected_summary(sample, filter, field));
+  }
 }
 
 }  // namespace
@@ -86,23 +199,99 @@ std::int64_t count_in_summary(Fixture& fixture, const MeasurementFilter& filter)
 TEST_CASE("a filter finds the same rows however many of them are indexed") {
   const unsigned seed = std::random_device{}();
   CAPTURE(seed);
-  Fixture fixture;
-  const Sample sample(seed, 4000);
-  REQUIRE(fixture.append(sample.rows).has_value());
   std::mt19937 random(seed);
-  for (int blocks = 0; blocks < 4; ++blocks) {
-    for (int i = 0; i < 20; ++i) {
-      const MeasurementFilter filter = any_filter(random, 4000);
-      std::vector<std::int64_t> expected;
-      for (std::size_t k = 0; k < sample.rows.size(); ++k) {
-        const auto id = static_cast<std::int64_t>(k) + 1;
-        if (matches(sample.rows[k], id, filter)) expected.push_back(id);
-      }
-      CHECK(fixture.list(filter, 1 + random() % 2000) == expected);
-      CHECK(count_in_summary(fixture, filter) == static_cast<std::int64_t>(expected.size()));
-    }
-    static_cast<void>(fixture.write(
-        [](Stores& stores) -> Result<bool> { return stores.measurements.index_block(); }));
+  Fixture fixture;
+  Sample sample(seed, 4000);
+  sample.add_corrections(random, 30);
+  // The maintenance indexes meanwhile, so that these are met with any part of the rows indexed.
+  // A correction names a row that is stored, so it begins a batch.
+  for (auto begin = sample.rows.begin(); begin != sample.rows.end();) {
+    const auto end = std::find_if(begin + 1, sample.rows.end(),
+                                  [](const MeasurementRow& row) { return row.correction_of; });
+    REQUIRE(fixture.append(std::span<const MeasurementRow>(begin, end)).has_value());
+    begin = end;
+  }
+  check_filters(fixture, sample, random, 40);
+  while (index_step(fixture)) {
+  }
+  check_filters(fixture, sample, random, 40);
+  CHECK(fixture.database->verify()->findings.empty());
+}
+
+TEST_CASE("summaries add nodes of every level, and mend those with a corrected row") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  Fixture fixture;
+  // One node of level 1, some blocks, some rows.
+  Sample sample(seed, 36'000);
+  for (std::size_t i = 0; i < sample.rows.size(); ++i) {
+    MeasurementRow& row = sample.rows[i];
+    row.measured_at_ns = row.received_at_ns = static_cast<std::int64_t>(i);
+  }
+  REQUIRE(fixture.append(sample.rows).has_value());
+  while (index_step(fixture)) {
+  }
+  const auto nodes = [&](const char* condition) {
+    return sqlite::Connection(fixture.directory.file(), sqlite::Mode::Read)
+        .query_integer(fmt::format("SELECT count(*) FROM measurement_nodes WHERE {}", condition));
+  };
+  CHECK(nodes("level = 1") == 1);
+  CHECK(nodes("level = 0") == 35);
+  check_filters(fixture, sample, random, 10);
+  // Corrections of rows that are indexed: right at once, and after the maintenance.
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t corrected = random() % 35'000;
+    MeasurementRow row = sample.rows[corrected];
+    row.correction_of = static_cast<std::int64_t>(corrected) + 1;
+    row.correction_reason = "wrong";
+    row.measured_nm += 1;
+    REQUIRE(fixture.append(row).has_value());
+    sample.rows.push_back(row);
+    sample.corrected_by[corrected] = static_cast<std::int64_t>(sample.rows.size());
+  }
+  check_filters(fixture, sample, random, 5);
+  while (index_step(fixture)) {
+  }
+  CHECK(nodes("stale = 1") == 0);
+  check_filters(fixture, sample, random, 5);
+  CHECK(fixture.database->verify()->findings.empty());
+}
+
+TEST_CASE("a field with many values has groups of its own where a summary can show them") {
+  Fixture fixture;
+  std::vector<std::string> texts;
+  for (int i = 0; i < 1'000; ++i) texts.push_back("WO-" + std::to_string(i));
+  std::vector<MeasurementRow> rows(33'000, sample_row());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].order = texts[i % texts.size()];
+  REQUIRE(fixture.append(rows).has_value());
+  while (index_step(fixture)) {
+  }
+  const auto count = [&](const char* where) {
+    return sqlite::Connection(fixture.directory.file(), sqlite::Mode::Read)
+        .query_integer(fmt::format("SELECT count(*) FROM measurement_aggregates WHERE {}", where));
+  };
+  CHECK(count("level = 0 AND field = 2") == 0);
+  CHECK(count("level = 1 AND field = 2") == 1'000);
+  const auto groups = *fixture.read(
+      [](const Stores& stores) { return stores.measurements.summary({}, TextField::Order); });
+  REQUIRE(groups.size() == 1'000);
+  CHECK(groups.front().count == 33);
+  MeasurementFilter one;
+  one.text(TextField::Order) = "WO-7";
+  const auto found = *fixture.read(
+      [&](const Stores& stores) { return stores.measurements.summary(one, TextField::Order); });
+  REQUIRE(found.size() == 1);
+  CHECK(found.front().count == 33);
+}
+
+TEST_CASE("rows of a block are kept as their numbers or as a bit each") {
+  for (const std::int64_t step : {1, 3, 16, 17, 500, 1023}) {
+    RowSet set;
+    for (std::int64_t row = 0; row < kBlock; row += step) set.add(row);
+    const RowSet again = RowSet::decode(set.encode());
+    for (std::int64_t row = 0; row < kBlock; ++row) CHECK(again.contains(row) == set.contains(row));
+    CHECK(set.encode().size() <= 128);
   }
 }
 
@@ -111,11 +300,11 @@ TEST_CASE("the writer indexes whole blocks when it is idle") {
   REQUIRE(fixture.append(std::vector<MeasurementRow>(2500, sample_row())).has_value());
   const auto blocks = [&] {
     return sqlite::Connection(fixture.directory.file(), sqlite::Mode::Read)
-        .query_integer("SELECT count(*) FROM measurement_blocks");
+        .query_integer("SELECT count(*) FROM measurement_nodes");
   };
   while (blocks() < 2) std::this_thread::yield();
   CHECK_FALSE(*fixture.write(
-      [](Stores& stores) -> Result<bool> { return stores.measurements.index_block(); }));
+      [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); }));
 }
 
 TEST_CASE("a summary groups by the values of a field") {
@@ -128,7 +317,7 @@ TEST_CASE("a summary groups by the values of a field") {
   rows[2].verdict = Verdict::Reject;
   REQUIRE(fixture.append(rows).has_value());
   const auto groups = *fixture.read([](const Stores& stores) {
-    return stores.measurements.summary({}, GroupBy::Characteristic);
+    return stores.measurements.summary({}, TextField::Characteristic);
   });
   REQUIRE(groups.size() == 3);
   CHECK(groups[0].value == std::nullopt);
@@ -145,7 +334,7 @@ TEST_CASE("a summary groups by the values of a field") {
   CHECK(groups[2].value == "bore-B");
 
   const auto too_many = fixture.read([](const Stores& stores) {
-    return stores.measurements.summary({}, GroupBy::Characteristic, 2);
+    return stores.measurements.summary({}, TextField::Characteristic, 2);
   });
   CHECK(too_many.error().code == ErrorCode::QueryInvalid);
 }

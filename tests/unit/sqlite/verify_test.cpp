@@ -149,3 +149,32 @@ TEST_CASE("a damaged page ends the verification with a finding") {
   fixture.open();
   CHECK_FALSE(fixture.findings().empty());
 }
+
+TEST_CASE("what is derived from the measurements is derived again") {
+  VerifyFixture fixture;
+  MeasurementRow row = sample_row();
+  row.part_id = "SN-1";
+  REQUIRE(fixture.append(std::vector<MeasurementRow>(3'000, row)).has_value());
+  while (*fixture.write(
+      [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); })) {
+  }
+  CHECK(fixture.findings().empty());
+  SUBCASE("a look-up that passes rows over") {
+    fixture.tamper("DELETE FROM measurement_postings WHERE field = 1 AND block = 1");
+  }
+  SUBCASE("a look-up with another row") {
+    fixture.tamper("UPDATE measurement_postings SET rows = x'0100' WHERE field = 1 AND block = 1");
+  }
+  SUBCASE("a value that no measurement has") {
+    fixture.tamper("INSERT INTO measurement_postings VALUES (1, 'SN-2', 1, x'0100')");
+  }
+  SUBCASE("another sum") {
+    fixture.tamper(
+        "UPDATE measurement_aggregates SET statistics = zeroblob(64) WHERE level = 0 "
+        "AND node = 1 AND field = 1");
+  }
+  SUBCASE("other times") {
+    fixture.tamper("UPDATE measurement_nodes SET max_measured_at = 1 WHERE node = 1");
+  }
+  CHECK_FALSE(fixture.findings().empty());
+}

@@ -277,7 +277,7 @@ TEST_CASE("a writer that never rests indexes, and purges what has expired, all t
   }
   constexpr int kMostLooks = 3'000;
   int looks = 0;
-  while (looks++ < kMostLooks && (count("SELECT count(*) FROM measurement_blocks") < 3 ||
+  while (looks++ < kMostLooks && (count("SELECT count(*) FROM measurement_nodes") < 3 ||
                                   count("SELECT count(*) FROM idempotent_answers") > 0)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
