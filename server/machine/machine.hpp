@@ -102,6 +102,10 @@ class Machine {
   /// @faults as move.
   virtual MachineResult<void> move_arc(const ArcMove& arc) = 0;
 
+  /// The normal of what the last contact touched, away from the material, in Machine coordinates;
+  /// nothing where the machine cannot know it, as a real one cannot.
+  virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
+
   /// Moves a touch probe towards the workpiece, or another tool towards the tool touch probe TT.
   /// @faults ToolAxisMissing, NoTool, FeedMissing, ValueInvalid (nothing has moved);
   /// StylusDeflected

@@ -146,6 +146,7 @@ double SimulatedMachine::free_part(const Path& path) {
 
 MachineResult<double> SimulatedMachine::contact(const Vec3& direction, double distance) {
   const RealTool tool = real_tool();
+  touching_.reset();
   return state().active_tool()->is_probe() ? probe_contact(direction, distance, tool)
                                            : plate_contact(direction, distance, tool);
 }
@@ -159,6 +160,8 @@ MachineResult<double> SimulatedMachine::probe_contact(const Vec3& direction, dou
   const Vec3 on_table = real_table(state().nose.rotary).inverse().direction(direction);
   const auto touched = workpiece_.contact(start, on_table, tool.radius, distance, allowance());
   if (!touched) return make_fault(FaultKind::NoContact);
+  touching_ = start + on_table * *touched;
+  table_at_contact_ = real_table(state().nose.rotary);
   double way = *touched;
   if (tool.probe != nullptr) {
     way += tool.probe->pretravel_um * kMillimetresPerMicrometre;
@@ -168,6 +171,13 @@ MachineResult<double> SimulatedMachine::probe_contact(const Vec3& direction, dou
   }
   if (way > distance) return make_fault(FaultKind::NoContact);
   return std::max(way, 0.0);
+}
+
+std::optional<Vec3> SimulatedMachine::contact_normal() const {
+  if (!touching_) return std::nullopt;
+  const auto normal = workpiece_.normal(*touching_);
+  if (!normal) return std::nullopt;
+  return unit(table_at_contact_.direction(*normal));
 }
 
 MachineResult<double> SimulatedMachine::plate_contact(const Vec3& direction, double distance,

@@ -18,6 +18,8 @@ class SimulatedMachine final : public ModelledMachine {
   /// @pre validate(setup) succeeds.
   explicit SimulatedMachine(const Setup& setup, Allowance* allowance = nullptr);
 
+  std::optional<Vec3> contact_normal() const override;
+
  private:
   /// The tool in the spindle as it really is.
   struct RealTool {
@@ -44,6 +46,8 @@ class SimulatedMachine final : public ModelledMachine {
   Vec3 slack_deg_;         ///< what backlash adds to the positions of A, B, C at present
   Displacements rest_;     ///< what the scatter of the axes adds at present
   Random random_;
+  std::optional<Vec3> touching_;  ///< centre of the ball at the last contact, on the table
+  Transform table_at_contact_;
 };
 
 }  // namespace fitgauge::machine

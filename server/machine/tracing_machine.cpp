@@ -88,7 +88,7 @@ void TracingMachine::write(const MachineResult<T>& result, const Text& text) {
 
 /// The block is asked for only when its move is kept.
 void TracingMachine::add(TracedMove move) {
-  if (moves_.size() >= options_.longest) {
+  if (is_full()) {
     ++dropped_;
     return;
   }
@@ -96,11 +96,34 @@ void TracingMachine::add(TracedMove move) {
   moves_.push_back(move);
 }
 
-void TracingMachine::keep(MoveKind kind, const Begun& begun, const Feed& feed) {
+void TracingMachine::keep(MoveKind kind, const Begun& begun, const Feed& feed,
+                          const std::optional<TracedArc>& arc) {
   const Position end = state().position();
   const double seconds = state().elapsed_s - begun.elapsed_s;
   if (seconds == 0 && end == begun.start) return;
-  add({kind, 0, begun.start, end, feed.rate_on(state().rapid_mm_min), seconds, std::nullopt});
+  add({.kind = kind,
+       .start = begun.start,
+       .end = end,
+       .feed_mm_min = feed.rate_on(state().rapid_mm_min),
+       .seconds = seconds,
+       .machine_start = begun.machine_start,
+       .machine_end = machine_tip(),
+       .arc = arc});
+}
+
+/// An arc in the machine's coordinates, where a mirror turns it the other way round.
+TracedArc TracingMachine::traced(const ArcMove& arc, const Begun& begun) const {
+  const Frames& frames = state().frames;
+  const std::size_t up = index(arc.normal);
+  TracedArc traced{.centre = arc.centre, .sweep_deg = arc.sweep_deg, .axis = arc.normal};
+  traced.centre[up] = begun.start.linear[up];
+  traced.machine_centre = frames.to_machine(traced.centre);
+  const auto direction = [&](Axis axis) {
+    return frames.direction_to_machine(unit_vector(axis), CoordinateSystem::Input);
+  };
+  const auto next = [](Axis axis) { return static_cast<Axis>((index(axis) + 1) % 3); };
+  traced.machine_axis = unit(cross(direction(next(arc.normal)), direction(next(next(arc.normal)))));
+  return traced;
 }
 
 MachineResult<void> TracingMachine::move(const LinearMove& move) {
@@ -115,8 +138,9 @@ MachineResult<void> TracingMachine::move(const LinearMove& move) {
 
 MachineResult<void> TracingMachine::move_arc(const ArcMove& arc) {
   const Begun begun = begin();
+  const TracedArc kept = traced(arc, begun);
   auto result = inner_.move_arc(arc);
-  keep(MoveKind::Arc, begun, arc.feed);
+  keep(MoveKind::Arc, begun, arc.feed, kept);
   write(result, [&] {
     return fmt::format("ARC {} CC {} {:+.4f} {}", text_of(state().position(), state()),
                        text_of(arc.centre), arc.sweep_deg, text_of(arc.feed));
@@ -147,9 +171,19 @@ void TracingMachine::keep_probing(const Begun& begun, const ProbeMove& move,
   const Frames& frames = state().frames;
   const Vec3 along = unit(frames.direction_to_machine(move.direction, move.system));
   touching.linear = frames.from_machine(frames.to_machine(begun.start.linear) + along * travelled);
-  add({MoveKind::Probe, 0, begun.start, touching, move.feed, result->seconds, result->surface});
+  const Vec3 machine_touching = begun.machine_start + along * travelled;
+  add({.kind = MoveKind::Probe,
+       .start = begun.start,
+       .end = touching,
+       .feed_mm_min = move.feed,
+       .seconds = result->seconds,
+       .machine_start = begun.machine_start,
+       .machine_end = machine_touching,
+       .contact = TracedContact{.surface = result->surface,
+                                .machine_surface = frames.to_machine(result->surface),
+                                .normal = is_full() ? std::nullopt : inner_.contact_normal()}});
   keep(move.retract_feed.is_rapid ? MoveKind::Rapid : MoveKind::Feed,
-       {touching, begun.elapsed_s + result->seconds}, move.retract_feed);
+       {touching, machine_touching, begun.elapsed_s + result->seconds}, move.retract_feed);
 }
 
 MachineResult<void> TracingMachine::call_tool(const ToolCall& call) {

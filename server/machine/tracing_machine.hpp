@@ -16,7 +16,25 @@ enum class MoveKind : std::uint8_t { Rapid, Feed, Probe, Arc };
 /// "rapid", "feed", "probe", "arc".
 std::string_view name(MoveKind kind);
 
-/// One move of the trace: of the tool tip, in input coordinates.
+/// What an arc has beside its ends. The machine's forms hold where no scaling factor of its own
+/// makes an ellipse of it.
+struct TracedArc {
+  Vec3 centre;          ///< in input coordinates, at the height of the start
+  double sweep_deg;     ///< as programmed; positive counter-clockwise seen from the axis' tip
+  Axis axis = Axis::Z;  ///< of the input coordinates, across the arc's plane
+  Vec3 machine_centre{};
+  Vec3 machine_axis{};  ///< unit vector
+};
+
+/// What a probing move touched.
+struct TracedContact {
+  Vec3 surface;  ///< the point of the surface, in input coordinates
+  Vec3 machine_surface;
+  std::optional<Vec3>
+      normal;  ///< away from the material, in Machine coordinates, where it is known
+};
+
+/// One move of the trace: of the tool tip, in input coordinates and in those of the machine.
 struct TracedMove {
   MoveKind kind = MoveKind::Rapid;
   std::int64_t block = 0;
@@ -24,7 +42,10 @@ struct TracedMove {
   Position end;
   double feed_mm_min = 0;  ///< of a rapid the rate it is limited to
   double seconds = 0;
-  std::optional<Vec3> contact;  ///< of a probing move: the touched point of the surface
+  Vec3 machine_start;  ///< Machine coordinates: a preset or a rotation does not break the line
+  Vec3 machine_end;
+  std::optional<TracedArc> arc{};
+  std::optional<TracedContact> contact{};
 };
 
 struct TraceOptions {
@@ -47,6 +68,7 @@ class TracingMachine final : public Machine {
   std::size_t dropped() const { return dropped_; }
 
   const MachineState& state() const override { return inner_.state(); }
+  std::optional<Vec3> contact_normal() const override { return inner_.contact_normal(); }
   MachineResult<void> move(const LinearMove& move) override;
   MachineResult<void> move_arc(const ArcMove& arc) override;
   MachineResult<ContactPoint> probe(const ProbeMove& move) override;
@@ -67,14 +89,19 @@ class TracingMachine final : public Machine {
   /// A move that is under way: what it started from.
   struct Begun {
     Position start;
+    Vec3 machine_start;
     double elapsed_s;
   };
 
-  Begun begin() const { return {state().position(), state().elapsed_s}; }
-  void keep(MoveKind kind, const Begun& begun, const Feed& feed);
+  Begun begin() const { return {state().position(), machine_tip(), state().elapsed_s}; }
+  Vec3 machine_tip() const { return state().position(CoordinateSystem::Machine).linear; }
+  TracedArc traced(const ArcMove& arc, const Begun& begun) const;
+  void keep(MoveKind kind, const Begun& begun, const Feed& feed,
+            const std::optional<TracedArc>& arc = std::nullopt);
   void keep_probing(const Begun& begun, const ProbeMove& move,
                     const MachineResult<ContactPoint>& result);
   void add(TracedMove move);
+  bool is_full() const { return moves_.size() >= options_.longest; }
   /// Writes the line that `text()` makes, with the fault when there is one.
   template <class T, class Text>
   void write(const MachineResult<T>& result, const Text& text);

@@ -257,6 +257,21 @@ std::optional<double> Workpiece::contact(const Vec3& start, const Vec3& directio
   return first;
 }
 
+std::optional<Vec3> Workpiece::normal(const Vec3& at) const {
+  constexpr double kStep = 1e-4;
+  Vec3 gradient;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vec3 step;
+    step[axis] = kStep;
+    gradient[axis] = (clearance(at + step, 0) - clearance(at - step, 0)) / (2 * kStep);
+  }
+  const double length = norm(gradient);
+  // A distance changes by 1 along its gradient; less where two surfaces are equally near.
+  constexpr double kClear = 0.99;
+  if (!(length > kClear)) return std::nullopt;
+  return gradient * (1 / length);
+}
+
 std::optional<double> Workpiece::traced_contact(const Vec3& start, const Vec3& direction,
                                                 double radius, double longest) const {
   if (parts_.empty()) return std::nullopt;

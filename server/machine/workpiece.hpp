@@ -42,7 +42,10 @@ class Workpiece {
     Allowance unlimited;
     return contact(start, direction, radius, longest, unlimited);
   }
-  /// The same found by tracing alone, step by step: what `contact` is held to. Slow.
+  /// Unit vector away from the material nearest to `at`, to 1e-6; nothing on a ridge between two.
+  std::optional<Vec3> normal(const Vec3& at) const;
+
+  /// What `contact` finds, found by tracing alone, step by step: what it is held to. Slow.
   std::optional<double> traced_contact(const Vec3& start, const Vec3& direction, double radius,
                                        double longest) const;
 

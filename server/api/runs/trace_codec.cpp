@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include "api/wire/json_value.hpp"
 #include "api/wire/json_writer.hpp"
@@ -35,6 +37,30 @@ void write_position(JsonWriter& json, std::string_view which, const machine::Pos
   json.end_object();
 }
 
+void write_point(JsonWriter& json, std::string_view key, const machine::Vec3& point) {
+  json.key(key).begin_object();
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+    json.key(name(axis)).raw(number(point[index(axis)]));
+  }
+  json.end_object();
+}
+
+void write_arc(JsonWriter& json, const machine::TracedArc& arc) {
+  write_point(json, "center_mm", arc.centre);
+  json.key("sweep_deg").raw(number(arc.sweep_deg)).member("axis", name(arc.axis));
+  write_point(json, "machine_center_mm", arc.machine_centre);
+  write_point(json, "machine_axis", arc.machine_axis);
+}
+
+void write_machine_contact(JsonWriter& json, const machine::TracedContact& contact) {
+  write_point(json, "machine_contact_mm", contact.machine_surface);
+  if (contact.normal) {
+    write_point(json, "machine_contact_normal", *contact.normal);
+  } else {
+    json.key("machine_contact_normal").null();
+  }
+}
+
 void write_move(JsonWriter& json, const machine::TracedMove& move, const app::RunTrace& trace) {
   const app::RunTrace::Place& place = trace.places[static_cast<std::size_t>(move.block)];
   json.begin_object().member("kind", name(move.kind)).key("block");
@@ -47,18 +73,31 @@ void write_move(JsonWriter& json, const machine::TracedMove& move, const app::Ru
   write_position(json, "start", move.start, trace.axes);
   write_position(json, "end", move.end, trace.axes);
   json.key("feed_mm_min").raw(number(move.feed_mm_min)).key("seconds").raw(number(move.seconds));
-  json.key("contact_mm");
   if (move.contact) {
-    json.begin_object();
-    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
-      json.key(name(axis)).raw(number((*move.contact)[index(axis)]));
-    }
-    json.end_object();
+    write_point(json, "contact_mm", move.contact->surface);
+  } else {
+    json.key("contact_mm").null();
+  }
+  json.key("cycle");
+  if (place.cycle != 0) {
+    json.value(static_cast<std::uint32_t>(place.cycle));
   } else {
     json.null();
   }
+  write_point(json, "machine_start_mm", move.machine_start);
+  write_point(json, "machine_end_mm", move.machine_end);
+  if (move.arc) write_arc(json, *move.arc);
+  if (move.contact) write_machine_contact(json, *move.contact);
   json.end_object();
 }
+
+/// Members that only some moves have, or that may be null, and whether they are points: each has
+/// its columns in every CSV.
+constexpr std::pair<std::string_view, bool> kOptional[] = {
+    {"contact_mm", true},         {"center_mm", true},
+    {"sweep_deg", false},         {"axis", false},
+    {"machine_center_mm", true},  {"machine_axis", true},
+    {"machine_contact_mm", true}, {"machine_contact_normal", true}};
 
 /// A column of the CSV: a member of a move, or one axis of a position.
 struct Column {
@@ -75,12 +114,21 @@ struct Column {
 std::vector<Column> columns_of(const JsonValue& move) {
   std::vector<Column> columns;
   for (const auto& [name, value] : move.members) {
-    if (name == "contact_mm") {
-      for (const char* axis : {"X", "Y", "Z"}) columns.push_back({name, axis});
-    } else if (value.is(JsonValue::Kind::Object)) {
+    const std::string_view member = name;
+    if (std::any_of(std::begin(kOptional), std::end(kOptional),
+                    [&](const auto& optional) { return optional.first == member; })) {
+      continue;
+    }
+    if (value.is(JsonValue::Kind::Object)) {
       for (const auto& [axis, coordinate] : value.members) columns.push_back({name, axis});
     } else {
       columns.push_back({name});
+    }
+  }
+  for (const auto& [member, is_point] : kOptional) {
+    if (!is_point) columns.push_back({std::string(member)});
+    for (const char* axis : {"X", "Y", "Z"}) {
+      if (is_point) columns.push_back({std::string(member), axis});
     }
   }
   return columns;

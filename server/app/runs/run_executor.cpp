@@ -9,7 +9,7 @@ using interpreter::MessageKind;
 using interpreter::RunStatus;
 
 /// Moves that are kept: about 15 MB as text.
-constexpr std::size_t kLongestTrace = 50'000;
+constexpr std::size_t kLongestTrace = 30'000;
 
 /// Passes on what a run prints and remembers which block is commanding the machine.
 class Follower final : public interpreter::RunObserver {
@@ -17,6 +17,7 @@ class Follower final : public interpreter::RunObserver {
   explicit Follower(ActiveRun& active) : active_(active) {}
 
   void entered(const interpreter::Place& place) override { place_ = place; }
+  void moved_by_cycle(int number) override { cycle_ = number; }
   void progressed(std::uint64_t blocks) override { active_.progressed(blocks); }
   void printed(std::string_view line) override { active_.printed(line); }
 
@@ -24,8 +25,9 @@ class Follower final : public interpreter::RunObserver {
   std::int64_t place() {
     if (place_.program == nullptr) {
       if (places_.empty()) places_.emplace_back();  // a move before the first block
-    } else if (places_.empty() || kept_.program != place_.program || kept_.index != place_.index) {
-      places_.push_back({std::string(place_.path()), place_.line(), place_.block()});
+    } else if (places_.empty() || kept_.program != place_.program || kept_.index != place_.index ||
+               places_.back().cycle != cycle_) {
+      places_.push_back({std::string(place_.path()), place_.line(), place_.block(), cycle_});
       kept_ = place_;
     }
     return static_cast<std::int64_t>(places_.size()) - 1;
@@ -36,6 +38,7 @@ class Follower final : public interpreter::RunObserver {
  private:
   ActiveRun& active_;
   interpreter::Place place_;
+  int cycle_ = 0;
   interpreter::Place kept_;  ///< the last of places_
   std::vector<RunTrace::Place> places_;
 };

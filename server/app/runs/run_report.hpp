@@ -56,6 +56,7 @@ struct RunTrace {
     std::string program;
     std::uint32_t line = 0;
     std::optional<std::uint32_t> block{};  ///< its number as written
+    int cycle = 0;                         ///< that commands the machine, 0 for the block itself
   };
 
   std::vector<machine::TracedMove> moves{};  ///< their `block` is an index into `places`

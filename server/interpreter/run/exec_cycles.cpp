@@ -59,6 +59,20 @@ NcResult<probing::ArgumentValue> argument(Channel& channel, const klartext::Cycl
   return probing::ArgumentValue(*value * scale_of(parameter.unit, channel.linked().is_inch()));
 }
 
+/// Tells the observer which cycle commands the machine while this lives.
+class MovedByCycle {
+ public:
+  MovedByCycle(Channel& channel, int number) : observer_(channel.environment.observer) {
+    observer_.moved_by_cycle(number);
+  }
+  MovedByCycle(const MovedByCycle&) = delete;
+  MovedByCycle& operator=(const MovedByCycle&) = delete;
+  ~MovedByCycle() { observer_.moved_by_cycle(0); }
+
+ private:
+  RunObserver& observer_;
+};
+
 /// A travel that ends before the nominal contact finds only material that lies nearer.
 NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arguments) {
   const auto probe = channel.machine().state().probe_system();
@@ -76,6 +90,7 @@ NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cyc
   if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
   if (auto noted = note_short_travel(channel, arguments); !noted) return noted;
   channel.active_cycle.last_probing = cycle.descriptor.number;
+  const MovedByCycle moved(channel, cycle.descriptor.number);
   ChannelCycleHost host(channel);
   const auto done = probing::run_cycle(cycle, std::move(arguments), channel.machine(), host);
   if (host.failure()) return *host.failure();
@@ -176,6 +191,7 @@ NcResult<Next> call_active_cycle(Channel& channel) {
   const auto* drilling = std::get_if<DrillingDefinition>(&definition);
   if (drilling == nullptr) return nc_error(1027);
   if (auto done = channel.contour.finish(channel); !done) return done.error();
+  const MovedByCycle moved(channel, channel.active_cycle.number);
   if (auto done = drill(channel, *drilling); !done) return done.error();
   return Next{};
 }

@@ -34,6 +34,8 @@ class RunObserver {
   /// The block that is about to run: what the machine is commanded until the next call is its
   /// doing.
   virtual void entered(const Place&) {}
+  /// The cycle that commands the machine from now on; 0: the blocks themselves.
+  virtual void moved_by_cycle(int /*number*/) {}
   /// Now and then, with the blocks executed so far.
   virtual void progressed(std::uint64_t /*blocks*/) {}
   virtual void printed(std::string_view /*screen_line*/) {}

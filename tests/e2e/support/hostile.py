@@ -4,6 +4,10 @@ Families, each with the forms it can take: what never ends, what lasts inside of
 grows, what leaves the finite numbers, what leaves the disk, and what is merely very large.
 """
 
+import os
+
+# A file holds up to 8 MiB; the short form takes less, since sanitizers parse slowly.
+SCALE = 8 if os.environ.get("FITGAUGE_DEEP") else 1
 ENDLESS = "FN 9: IF +0 EQU +0 GOTO LBL 1"
 MEGABYTE = 1 << 20
 SPACE = 1_000_000
@@ -153,19 +157,19 @@ def outside():
     yield "open_outside", ["FN 26: TABOPEN ..\\..\\..\\etc\\passwd"]
     yield "call_outside", ["CALL PGM ..\\..\\x.h"]
     yield "exists_again", loop("FN 18: SYSREAD Q1 = ID10 NR110 IDX1", before=['QS1 = "big.bin"']), \
-        {}, {"big.bin": "x" * (8 * MEGABYTE - 1)}
+        {}, {"big.bin": "x" * (SCALE * MEGABYTE - 1)}
 
 
 def large():
     """What is merely very large."""
-    most = 8 * MEGABYTE - 200
+    most = SCALE * MEGABYTE - 200
     yield "formulas", ["Q1=1"] * (most // 9)
     yield "short_blocks", ["M5"] * (most // 11)
-    yield "labels", [f"LBL {n}" for n in range(1, 65_000)]
+    yield "labels", [f"LBL {n}" for n in range(1, 8_000 * SCALE)]
     yield "one_comment", ["; " + "x" * (most - 100)]
     yield "one_formula", ["Q1 = " + "1 + " * 100_000 + "1"]
     yield "deep", ["Q1 = " + "( " * 10_000 + "1" + " )" * 10_000]
-    yield "faults", ["GARBAGE"] * 100_000
+    yield "faults", ["GARBAGE"] * (12_500 * SCALE)
     yield "line_ends", ["\n" * (most - 100)]
     yield "mask_lines", ["FN 16: F-PRINT m.a / SCREEN:"], {}, {"m.a": "L_ALL\n" * (most // 6)}
     yield "mask_texts", ["FN 16: F-PRINT m.a / SCREEN:"], {}, {"m.a": '"";\n' * (most // 4)}
@@ -175,8 +179,8 @@ def large():
     yield "table_description", ["FN 26: TABOPEN t.tab"], {}, \
         {"t.tab": f"BEGIN t .TAB MM\n#STRUCTBEGIN\n{described}#STRUCTEND\nNR X\n0  1\n[END]\n"}
     yield "table_lines", ["FN 26: TABOPEN t.tab"], {}, {"t.tab": "BEGIN t\nNR X\n" + "\n" * (most - 100) + "[END]\n"}
-    yield "table_cells", ["FN 26: TABOPEN t.tab"], {}, {"t.tab": rows(800_000)[:most]}
-    called = "BEGIN PGM S MM\n" + "Q1 = Q1 + 1\n" * 150_000 + "END PGM S MM\n"
+    yield "table_cells", ["FN 26: TABOPEN t.tab"], {}, {"t.tab": rows(100_000 * SCALE)[:most]}
+    called = "BEGIN PGM S MM\n" + "Q1 = Q1 + 1\n" * (18_000 * SCALE) + "END PGM S MM\n"
     yield "many_programs", [f"CALL PGM s{n}.h" for n in range(12)], {}, {f"s{n}.h": called for n in range(12)}
 
 

@@ -1,5 +1,7 @@
 #include "api/runs/run_codec.hpp"
 
+#include "api/runs/trace_codec.hpp"
+
 #include <doctest/doctest.h>
 
 #include "api/wire/json_value.hpp"
@@ -94,6 +96,40 @@ TEST_CASE("a trace is written move by move") {
   CHECK(first.find("end_mm")->find("X")->text == "0");
   CHECK(first.find("end_mm")->find("A") == nullptr);
   CHECK(first.find("contact_mm")->is(JsonValue::Kind::Null));
+  CHECK(first.find("cycle")->is(JsonValue::Kind::Null));
+  CHECK(first.find("machine_start_mm")->find("Z")->text == "0");
+  CHECK(first.find("sweep_deg") == nullptr);
+}
+
+TEST_CASE("an arc and a contact bring what draws them, and columns in every CSV") {
+  app::RunTrace trace;
+  trace.axes = {machine::Axis::X, machine::Axis::Y, machine::Axis::Z};
+  trace.places = {{.program = "TNC:\\a.h", .line = 4, .block = 3, .cycle = 421}};
+  machine::TracedMove arc{};
+  arc.kind = machine::MoveKind::Arc;
+  arc.arc = machine::TracedArc{
+      .centre = {1, 2, 3}, .sweep_deg = -90, .axis = machine::Axis::Y, .machine_axis = {0, -1, 0}};
+  machine::TracedMove probe{};
+  probe.kind = machine::MoveKind::Probe;
+  probe.contact =
+      machine::TracedContact{.surface = {4, 5, 6}, .machine_surface = {7, 8, 9}, .normal = {}};
+  trace.moves = {machine::TracedMove{}, arc, probe};
+  const std::string json = run_format().trace(trace);
+  const auto moves = parse_json(json).value();
+  const JsonValue& drawn = moves.find("moves")->items.at(1);
+  CHECK(drawn.find("center_mm")->find("Y")->text == "2");
+  CHECK(drawn.find("sweep_deg")->text == "-90");
+  CHECK(drawn.find("axis")->text == "Y");
+  CHECK(drawn.find("machine_axis")->find("Y")->text == "-1");
+  CHECK(drawn.find("cycle")->text == "421");
+  const JsonValue& touched = moves.find("moves")->items.at(2);
+  CHECK(touched.find("contact_mm")->find("X")->text == "4");
+  CHECK(touched.find("machine_contact_mm")->find("X")->text == "7");
+  CHECK(touched.find("machine_contact_normal")->is(JsonValue::Kind::Null));
+  const std::string csv = trace_csv(json);
+  CHECK(csv.find("center_x_mm,center_y_mm,center_z_mm,sweep_deg,axis,machine_center_x_mm") !=
+        std::string::npos);
+  CHECK(csv.find("1,2,3,-90,Y,") != std::string::npos);
 }
 
 }  // namespace

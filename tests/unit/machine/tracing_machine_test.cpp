@@ -63,7 +63,7 @@ TEST_CASE("a trace holds every move with its block, feed, time and contact") {
   check_near(moves[3].end.linear, {26, 28, 0}, 1e-8);
   REQUIRE(moves[3].contact);
   // DR makes the ball larger for the control than it is; the tip that touches stays the same.
-  check_near(*moves[3].contact, {26, 28, 0});
+  check_near(moves[3].contact->surface, {26, 28, 0});
   CHECK(moves[4].kind == MoveKind::Rapid);
   check_near(moves[4].start.linear, moves[3].end.linear);
   check_near(moves[4].end.linear, {26, 28, 10});
@@ -72,6 +72,60 @@ TEST_CASE("a trace holds every move with its block, feed, time and contact") {
   double seconds = 0.5;
   for (const TracedMove& move : moves) seconds += move.seconds;
   CHECK(near(seconds, machine.state().elapsed_s));
+}
+
+TEST_CASE("a traced move is drawn from itself alone, also where the coordinates have changed") {
+  SimulatedMachine simulated(face_setup());
+  TracingMachine machine(simulated, {});
+  ToolCall call;
+  call.number = 30;
+  call.axis = Axis::Z;
+  CHECK(ok(machine.call_tool(call)));
+  Preset preset;
+  preset.number = 4;
+  preset.frame.origin = {10, 20, 5};
+  preset.frame.basic_rotation_deg = {0, 0, 90};
+  CHECK(ok(machine.write_preset(preset)));
+  CHECK(ok(machine.move(to({20, 20, 30}, Feed::rapid()))));
+  CHECK(ok(machine.activate_preset(4)));
+  CHECK(ok(machine.move(to({8, 0, 10}, Feed::at(600)))));
+  CHECK(ok(machine.move_arc({{0, 8, 13}, {0, 0, 0}, 450, Axis::Z, Feed::at(1000)})));
+  CHECK(ok(machine.probe({{0, 0, -1}, 40, 120, CoordinateSystem::Input, std::nullopt, {}})));
+
+  const auto& moves = machine.moves();
+  REQUIRE(moves.size() == 5);
+  for (std::size_t k = 1; k < moves.size(); ++k) {
+    check_near(moves[k].machine_start, moves[k - 1].machine_end);
+  }
+  // Input (x, y, z) is Machine (10 - y, 20 + x, 5 + z).
+  check_near(moves[1].machine_end, {10, 28, 15});
+  const TracedMove& arc = moves[2];
+  REQUIRE(arc.arc);
+  check_near(arc.arc->machine_centre, {10, 20, 15});
+  check_near(arc.arc->machine_axis, {0, 0, 1});
+  for (const double part : {0.0, 0.3, 1.0}) {  // the helix, worked out from what the trace says
+    const Vec3 from = arc.machine_start - arc.arc->machine_centre;
+    const Vec3 turned = Matrix3::rotation(arc.arc->machine_axis, arc.arc->sweep_deg * part) * from;
+    const double rise = dot(arc.machine_end - arc.machine_start, arc.arc->machine_axis);
+    const Vec3 at = arc.arc->machine_centre + turned + arc.arc->machine_axis * (rise * part);
+    if (part == 0) check_near(at, arc.machine_start);
+    if (part == 1) check_near(at, arc.machine_end);
+    CHECK(near(norm(at - arc.arc->machine_centre - arc.arc->machine_axis * (rise * part)), 8));
+  }
+  const TracedMove& probe = moves[3];
+  REQUIRE(probe.contact);
+  check_near(probe.contact->machine_surface, {2, 20, 0});
+  REQUIRE(probe.contact->normal);
+  check_near(*probe.contact->normal, {0, 0, 1}, 1e-6);
+
+  machine.set_frames([&] {
+    Frames mirrored = machine.state().frames;
+    mirrored.set_mirror({true, false, false});
+    return mirrored;
+  }());
+  CHECK(ok(machine.move(to({8, 0, 20}, Feed::rapid()))));
+  CHECK(ok(machine.move_arc({{0, 8, 20}, {0, 0, 0}, 90, Axis::Z, Feed::at(1000)})));
+  check_near(machine.moves().back().arc->machine_axis, {0, 0, -1});
 }
 
 TEST_CASE("each command writes a line") {
