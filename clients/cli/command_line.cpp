@@ -5,6 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "base/text.hpp"
 #include "cli/address.hpp"
@@ -94,6 +97,55 @@ int complain(const Failure& failure, bool json) {
   return end_with(failure.exit_code);
 }
 
+/// How many letters two words differ by (Levenshtein).
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+/// The command that a word was meant to be, if there is one like it.
+std::string nearest_command(const CLI::App& app, std::string_view word) {
+  constexpr std::size_t kMostTypos = 2;
+  std::string nearest;
+  std::size_t least = std::min(kMostTypos, word.size() / 2) + 1;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    const std::size_t typos = distance(word, command->get_name());
+    if (typos < least) {
+      least = typos;
+      nearest = command->get_name();
+    }
+  }
+  return nearest;
+}
+
+/// What cannot be read, and where to read on: at the command as far as it was understood.
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* command = &app;
+  std::string name = "fitgauge";
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += ' ' + command->get_name();
+  }
+  std::string what = error.what();
+  const auto words = app.remaining(true);
+  const bool wants_command = command->get_require_subcommand_min() > 0;
+  if (wants_command && !words.empty() && !words.front().starts_with('-')) {
+    const std::string nearest = nearest_command(*command, words.front());
+    what = fmt::format("there is no command '{}'", words.front());
+    if (!nearest.empty()) what += fmt::format("; did you mean '{}'?", nearest);
+  }
+  return fmt::format("{}{} see {} --help", what, what.ends_with('?') ? "" : ";", name);
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -127,7 +179,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return complain({ExitCode::Usage, std::string(error.what()) + "; see fitgauge --help"}, false);
+    return complain({ExitCode::Usage, usage_text(app, error)}, false);
   } catch (const std::exception& defect) {
     return complain({ExitCode::Defect, std::string("internal error: ") + defect.what()}, false);
   }

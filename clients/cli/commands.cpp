@@ -8,6 +8,8 @@
 #include "cli/limits_commands.hpp"
 #include "cli/measure_command.hpp"
 #include "cli/nc_commands.hpp"
+#include "cli/record_commands.hpp"
+#include "cli/stored_commands.hpp"
 #include "cli/watch_command.hpp"
 
 namespace fitgauge::cli {
@@ -42,7 +44,8 @@ void add_gauge(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<GaugeOptions>();
   CLI::App* gauge = add_command(app, "gauge", "Judge a value: fitgauge gauge 25H7 25.013", chosen,
                                 options, run_gauge);
-  gauge->add_option("designation", options->designation, "Size and class")->required();
+  gauge->add_option("designation", options->designation, "Size and class, or the nominal size")
+      ->required();
   gauge->add_option("measured", options->measured, "Measured value in mm")->required();
   gauge->add_option("--rule", options->rule, "simple or guard_band");
   gauge->add_option("--uncertainty-um", options->uncertainty_um, "Standard uncertainty in µm");
@@ -51,6 +54,15 @@ void add_gauge(CLI::App& app, Action& chosen) {
   const auto field = [&](const std::string& name, std::string& value, const std::string& help) {
     gauge->add_option(name, value, help)->needs(record);
   };
+  const auto feature =
+      gauge->add_option("--feature", options->feature, "hole or shaft, with a drawing's own limits")
+          ->needs(record)
+          ->check(CLI::IsMember({"hole", "shaft"}));
+  const auto upper = gauge->add_option("--upper-um", options->upper_um, "Upper deviation in µm");
+  const auto lower = gauge->add_option("--lower-um", options->lower_um, "Lower deviation in µm");
+  feature->needs(upper)->needs(lower);
+  upper->needs(feature);
+  lower->needs(feature);
   field("--part-id", options->part_id, "Part, as its label says");
   field("--characteristic", options->characteristic, "What was measured on it");
   field("--order", options->order, "Work order");
@@ -92,14 +104,13 @@ void add_nc_files(CLI::App& nc, Action& chosen) {
     };
   });
 
-  const auto from = std::make_shared<std::string>();
-  const auto to = std::make_shared<std::string>();
-  CLI::App* get = nc.add_subcommand("get", "Fetch a file: nc get nc_prog/8255/8255.h");
-  get->add_option("path", *from, "Path on the control")->required();
-  get->add_option("file", *to, "File it goes to, else its name here; - is standard output");
-  get->callback([&chosen, from, to] {
-    chosen = [from, to](const Context& context) { return run_nc_get(context, *from, *to); };
-  });
+  const auto options = std::make_shared<GetOptions>();
+  CLI::App* get = add_command(nc, "get", "Fetch a file: nc get nc_prog/8255/8255.h", chosen,
+                              options, run_nc_get);
+  get->add_option("path", options->path, "Path on the control")->required();
+  get->add_option("file", options->file,
+                  "File it goes to, else its name here; - is standard output");
+  get->add_flag("--force", options->force, "Replace a file that is there");
 }
 
 void add_nc_programs(CLI::App& nc, Action& chosen) {
@@ -121,6 +132,104 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   run->add_option("--on-stop", options->on_stop, "At STOP: continue or end");
   run->add_option("--language", options->language, "Of masks: english, german, dutch, italian");
   run->add_flag("--block-skip", options->block_skip, "Pass over blocks that begin with /");
+}
+
+std::shared_ptr<RecordQuery> add_filters(CLI::App& command,
+                                         const std::shared_ptr<RecordQuery>& query) {
+  for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
+    const RecordFilter& filter = kRecordFilters.at(i);
+    command.add_option(std::string(filter.option), query->filters.at(i), std::string(filter.help));
+  }
+  return query;
+}
+
+void add_records(CLI::App& app, Action& chosen) {
+  auto query = std::make_shared<RecordQuery>();
+  CLI::App* list = add_command(app, "list", "Print stored measurements", chosen, query, run_list);
+  add_filters(*list, query);
+  list->add_option("--limit", query->limit, "Most records, else 100")->check(CLI::Range(1, 1000));
+  list->add_option("--after", query->after, "Begin where the page before ended");
+
+  query = std::make_shared<RecordQuery>();
+  CLI::App* out = add_command(app, "export", "Write all stored measurements that match", chosen,
+                              query, run_export);
+  add_filters(*out, query);
+  out->add_option("--format", query->format, "csv or ndjson")
+      ->check(CLI::IsMember({"csv", "ndjson"}));
+  out->add_option("--output,-o", query->output, "File, else standard output");
+
+  query = std::make_shared<RecordQuery>();
+  CLI::App* summary = add_command(app, "summary", "Count, mean and scatter of each group", chosen,
+                                  query, run_summary);
+  add_filters(*summary, query);
+  summary->add_option("--group-by", query->group_by, "Field of the groups, else characteristic");
+
+  const auto options = std::make_shared<CorrectOptions>();
+  CLI::App* correct =
+      add_command(app, "correct", "Correct a record: fitgauge correct m17 25.0131",
+                  chosen, options, run_correct);
+  correct->add_option("id", options->id, "The record")->required();
+  correct->add_option("measured", options->measured, "Right value in mm")->required();
+  correct->add_option("--reason", options->reason, "Why it is corrected")->required();
+}
+
+/// Registers a command of up to three words, the last of which may be left out.
+template <class Run>
+CLI::App* add_words(CLI::App& parent, const std::string& name, const std::string& help,
+                    Action& chosen, const std::vector<std::string>& words, std::size_t required,
+                    const Run& run) {
+  const auto values = std::make_shared<std::vector<std::string>>(words.size());
+  CLI::App* command = parent.add_subcommand(name, help);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    command->add_option(words[i], values->at(i))->required(i < required);
+  }
+  command->callback([&chosen, values, run] {
+    chosen = [values, run](const Context& context) { return run(context, *values); };
+  });
+  return command;
+}
+
+using Words = std::vector<std::string>;
+
+void add_setups(CLI::App& app, Action& chosen) {
+  CLI::App* setups = app.add_subcommand("setups", "Machines with what lies on their tables");
+  setups->require_subcommand(1);
+  add_words(*setups, "ls", "List the stored setups", chosen, {}, 0,
+            [](const Context& context, const Words&) { return run_setups_ls(context); });
+  add_words(*setups, "put", "Store a setup: setups put m3 m3.json", chosen, {"name", "file"}, 2,
+            [](const Context& context, const Words& words) {
+              return run_setups_put(context, words[0], words[1]);
+            });
+  add_words(*setups, "get", "Print a setup, or write it into a file", chosen, {"name", "file"}, 1,
+            [](const Context& context, const Words& words) {
+              return run_setups_get(context, words[0], words[1]);
+            });
+  add_words(
+      *setups, "rm", "Delete a setup", chosen, {"name"}, 1,
+      [](const Context& context, const Words& words) { return run_setups_rm(context, words[0]); });
+}
+
+void add_runs(CLI::App& app, Action& chosen) {
+  CLI::App* runs = app.add_subcommand("runs", "The runs of NC programs");
+  runs->require_subcommand(1);
+  const auto query = std::make_shared<RunsQuery>();
+  CLI::App* list =
+      add_command(*runs, "ls", "List the runs, the newest first", chosen, query, run_runs_ls);
+  list->add_option("--status", query->status, "queued, running, completed, stopped, failed, …");
+  list->add_option("--program", query->program, "Only this program");
+  list->add_option("--limit", query->limit, "Most runs, else 100")->check(CLI::Range(1, 1000));
+  list->add_option("--after", query->after, "Begin where the page before ended");
+  add_words(
+      *runs, "show", "Screen, messages and files of a run", chosen, {"id"}, 1,
+      [](const Context& context, const Words& words) { return run_runs_show(context, words[0]); });
+  add_words(*runs, "get", "Print a file a run has written", chosen, {"id", "name", "file"}, 2,
+            [](const Context& context, const Words& words) {
+              return run_runs_get(context, words[0], words[1], words[2]);
+            });
+  add_words(*runs, "cancel", "Cancel a run that is queued or under way", chosen, {"id"}, 1,
+            [](const Context& context, const Words& words) {
+              return run_runs_cancel(context, words[0]);
+            });
 }
 
 void add_tables(CLI::App& app, Action& chosen) {
@@ -174,6 +283,9 @@ void add_commands(CLI::App& app, Action& chosen) {
   nc->require_subcommand(1);
   add_nc_programs(*nc, chosen);
   add_nc_files(*nc, chosen);
+  add_records(app, chosen);
+  add_setups(app, chosen);
+  add_runs(app, chosen);
   add_tables(app, chosen);
   add_watch(app, chosen);
   add_about(app, chosen);

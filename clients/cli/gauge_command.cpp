@@ -54,9 +54,16 @@ std::string verdict_query(const GaugeOptions& options, const std::string& measur
 }
 
 std::string record_body(const GaugeOptions& options, const std::string& measured) {
-  return JsonObject()
-      .add("designation", options.designation)
-      .add("measured_mm", measured)
+  JsonObject body;
+  if (options.feature.empty()) {
+    body.add("designation", options.designation);
+  } else {
+    body.add("nominal_mm", options.designation)
+        .add("feature", options.feature)
+        .add("upper_um", options.upper_um)
+        .add("lower_um", options.lower_um);
+  }
+  return body.add("measured_mm", measured)
       .add_given("rule", options.rule)
       .add_given("uncertainty_um", options.uncertainty_um)
       .add_given("coverage_factor", options.coverage_factor)
@@ -104,10 +111,11 @@ Colour verdict_colour(std::string_view word) {
 
 std::string format_verdict(const JsonValue& document, const Terminal& terminal) {
   const std::string_view word = document.text_of("verdict");
+  const bool explicit_limits = document.text_of("designation").empty();
   std::string text = terminal.painted(ascii_upper(word), verdict_colour(word));
   text += fmt::format("  {} mm  {} ({} to {} mm): {}\n", document.text_of("measured_mm"),
-                      document.text_of("designation"), document.text_of("lower_limit_mm"),
-                      document.text_of("upper_limit_mm"),
+                      document.text_of(explicit_limits ? "nominal_mm" : "designation"),
+                      document.text_of("lower_limit_mm"), document.text_of("upper_limit_mm"),
                       distance_text(document, terminal.micrometre()));
   if (const std::string_view id = document.text_of("id"); !id.empty()) {
     text += fmt::format("stored as {}\n", id);
@@ -115,29 +123,34 @@ std::string format_verdict(const JsonValue& document, const Terminal& terminal) 
   return text;
 }
 
-Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
-  const auto measured =
-      parse_length_mm(options.measured, {.decimal_comma = true, .round_to_nearest = true});
-  if (!measured) {
-    return Failure{ExitCode::Usage, fmt::format("'{}' is no measured value in mm: {}",
-                                                options.measured, measured.error().message)};
-  }
-  const std::string text = format_mm(*measured);
-  auto answer =
-      options.record
-          ? record(context, record_body(options, text))
-          : context.client.send({.target = "/v1/verdicts/" + percent_encoded(options.designation) +
-                                           verdict_query(options, text)});
-  answer = expect_ok(std::move(answer), context.client.url());
-  if (!answer) return answer.error();
-  const auto document = read_document(*answer, context.client.url());
+Outcome<std::string> measured_text(const std::string& typed) {
+  const auto measured = parse_length_mm(typed, {.decimal_comma = true, .round_to_nearest = true});
+  if (measured) return format_mm(*measured);
+  return Failure{ExitCode::Usage, fmt::format("'{}' is no measured value in mm: {}", typed,
+                                              measured.error().message)};
+}
+
+Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {
+  const auto document = read_document(answer, context.client.url());
   if (!document) return document.error();
   if (context.json) {
-    context.print_document(answer->body);
+    context.print_document(answer.body);
   } else {
     context.print("{}", format_verdict(*document, context.out));
   }
   return verdict_exit_code(document->text_of("verdict"));
+}
+
+Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
+  const auto text = measured_text(options.measured);
+  if (!text) return text.error();
+  auto answer =
+      options.record
+          ? record(context, record_body(options, *text))
+          : context.client.send({.target = "/v1/verdicts/" + percent_encoded(options.designation) +
+                                           verdict_query(options, *text)});
+  answer = expect_ok(std::move(answer), context.client.url());
+  return answer ? show_verdict(context, *answer) : answer.error();
 }
 
 }  // namespace fitgauge::cli

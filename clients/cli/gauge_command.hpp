@@ -10,11 +10,15 @@ namespace fitgauge::cli {
 
 /// The command line of `fitgauge gauge`, as it was typed; an empty text was not given.
 struct GaugeOptions {
-  std::string designation;
-  std::string measured;  ///< mm, with a point or a comma
+  std::string designation;  ///< or the nominal size, with limits of a drawing
+  std::string measured;     ///< mm, with a point or a comma
   std::string rule{};
   std::string uncertainty_um{};
   std::string coverage_factor{};
+  // Limits of a drawing: all or none.
+  std::string feature{};
+  std::string upper_um{};
+  std::string lower_um{};
   bool record = false;
   // Fields of a record.
   std::string part_id{};
@@ -36,6 +40,12 @@ Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options)
 
 /// The text of a verdict or of a record: the word, the value, the distance to the nearest limit.
 std::string format_verdict(const JsonValue& document, const Terminal& terminal);
+
+/// A measured value as it is sent. @param typed mm, with a point or a comma. @errors Usage
+Outcome<std::string> measured_text(const std::string& typed);
+
+/// Prints the record or verdict of an answer; the exit code is its verdict.
+Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer);
 
 /// @errors NoAnswer for another word.
 Outcome<ExitCode> verdict_exit_code(std::string_view word);

@@ -36,6 +36,20 @@ struct Reading {
   bool ended_by_sink = false;
 };
 
+/// What to do about a connection that did not come about.
+std::string_view advice_for(CURLcode code) {
+  switch (code) {
+    case CURLE_PEER_FAILED_VERIFICATION:
+      return "name the authority of its certificate with --ca, or its right name with --server";
+    case CURLE_SSL_CACERT_BADFILE: return "--ca takes a PEM file with certificates";
+    case CURLE_SSL_CERTPROBLEM:
+      return "--cert and --cert-key take this client's certificate and its key as PEM files";
+    case CURLE_SSL_CONNECT_ERROR:
+      return "does it speak TLS there, and does it want a certificate (--cert, --cert-key)?";
+    default: return "start fitgauged there, or name another address with --server";
+  }
+}
+
 std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
   auto& reading = *static_cast<Reading*>(user);
   if (reading.answer.status == 0) {
@@ -144,9 +158,8 @@ Outcome<Answer> HttpClient::perform(const Request& request, const Sink* sink) {
   if (code != CURLE_OK && !reading.ended_by_sink) {
     const char* const reason =
         handle.error.front() == '\0' ? curl_easy_strerror(code) : handle.error.data();
-    return Failure{ExitCode::NoAnswer, fmt::format("no answer from {}: {}; start fitgauged there, "
-                                                   "or name another address with --server",
-                                                   connection_.url, reason)};
+    return Failure{ExitCode::NoAnswer, fmt::format("no answer from {}: {}; {}", connection_.url,
+                                                   reason, advice_for(code))};
   }
   curl_easy_getinfo(handle.curl, CURLINFO_RESPONSE_CODE, &reading.answer.status);
   const char* type = nullptr;

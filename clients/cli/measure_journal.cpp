@@ -5,11 +5,13 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "cli/input_file.hpp"
 #include "cli/json_value.hpp"
@@ -42,6 +44,24 @@ std::string format_position(const CsvPosition& place) {
       .add_raw("lines", std::to_string(place.lines))
       .add("sha256", place.sha256)
       .text();
+}
+
+/// A folder of states would grow by one for every input ever sent: the newest stay.
+void forget_oldest_states(const std::filesystem::path& folder) {
+  constexpr std::size_t kMostStates = 1000;
+  std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> states;
+  std::error_code ignored;  // another fitgauge may forget the same
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".state") {
+      states.emplace_back(entry.last_write_time(ignored), entry.path());
+    }
+  }
+  if (states.size() <= kMostStates) return;
+  const auto oldest = states.end() - static_cast<std::ptrdiff_t>(kMostStates);
+  std::nth_element(states.begin(), oldest, states.end());
+  for (auto state = states.begin(); state != oldest; ++state) {
+    std::filesystem::remove(state->second, ignored);
+  }
 }
 
 Failure state_failure(const std::string& path, const char* what) {
@@ -169,7 +189,9 @@ Outcome<std::string> journal_path(const std::string& input, const std::string& s
   const auto absolute = std::filesystem::absolute(input, ignored);
   Sha256 digest;
   digest.add(server + '\n' + std::filesystem::weakly_canonical(absolute, ignored).string());
-  return folder + "/fitgauge/" + digest.digest().substr(0, kKeyDigits) + ".state";
+  folder += "/fitgauge";
+  forget_oldest_states(folder);
+  return folder + "/" + digest.digest().substr(0, kKeyDigits) + ".state";
 }
 
 }  // namespace fitgauge::cli

@@ -1,6 +1,9 @@
 #include "cli/nc_commands.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <iostream>
 
 #include "base/text.hpp"
 #include "cli/address.hpp"
@@ -57,13 +60,6 @@ Outcome<std::string> setup_json(const RunOptions& options) {
   return Failure{ExitCode::LocalFile, options.setup_file + ": is not JSON"};
 }
 
-void print_messages(const JsonValue& run) {
-  for (const JsonValue& message : run.items_of("messages")) {
-    fmt::print(stderr, "{}:{}: {} {}: {}\n", message.text_of("program"), message.text_of("line"),
-               message.text_of("kind"), message.text_of("number"), message.text_of("text"));
-  }
-}
-
 Failure refused_run(const Context& context, const Answer& answer) {
   const auto document = parse_json(answer.body);
   if (document && !context.json) print_diagnostics(*document, stderr);
@@ -74,7 +70,25 @@ Failure refused_run(const Context& context, const Answer& answer) {
   return failure;
 }
 
+/// Nothing here is replaced without a yes: of the one who looks on, or of --force.
+Outcome<void> may_write(const GetOptions& options, const std::string& file) {
+  if (options.force || file == "-" || ::access(file.c_str(), F_OK) != 0) return {};
+  if (::isatty(STDIN_FILENO) == 1) {
+    fmt::print(stderr, "fitgauge: {} is there already: replace it? [y/N] ", file);
+    std::string line;
+    if (std::getline(std::cin, line) && (line == "y" || line == "Y")) return {};
+  }
+  return Failure{ExitCode::LocalFile, file + ": is there already; --force replaces it"};
+}
+
 }  // namespace
+
+void print_messages(const JsonValue& run) {
+  for (const JsonValue& message : run.items_of("messages")) {
+    fmt::print(stderr, "{}:{}: {} {}: {}\n", message.text_of("program"), message.text_of("line"),
+               message.text_of("kind"), message.text_of("number"), message.text_of("text"));
+  }
+}
 
 Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix) {
   const auto answer =
@@ -117,11 +131,13 @@ Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::stri
   return ExitCode::Good;
 }
 
-Outcome<ExitCode> run_nc_get(const Context& context, const std::string& path,
-                             const std::string& file) {
-  const auto answer = send(context, {.target = file_target(path)});
+Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options) {
+  const std::string file =
+      options.file.empty() ? std::string(base_name(options.path)) : options.file;
+  const auto answer = send(context, {.target = file_target(options.path)});
   if (!answer) return answer.error();
-  const auto written = write_file(file.empty() ? std::string(base_name(path)) : file, answer->body);
+  if (const auto allowed = may_write(options, file); !allowed) return allowed.error();
+  const auto written = write_file(file, answer->body);
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 

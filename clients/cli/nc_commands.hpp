@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/context.hpp"
+#include "cli/json_value.hpp"
 
 namespace fitgauge::cli {
 
@@ -18,9 +19,17 @@ Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix);
 Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::string>& files,
                              const std::string& destination);
 
-/// `nc get PATH [FILE]`: into a file of its name here, or into FILE; `-` is standard output.
-Outcome<ExitCode> run_nc_get(const Context& context, const std::string& path,
-                             const std::string& file);
+struct GetOptions {
+  std::string path;
+  std::string file{};  ///< its name here when empty; `-` is standard output
+  bool force = false;  ///< replace a file that is there
+};
+
+/// `nc get PATH [FILE]`: asks before it replaces a file. @errors LocalFile when nobody says yes.
+Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options);
+
+/// The messages of a run, on standard error.
+void print_messages(const JsonValue& run);
 
 /// `nc check PATH`: ProgramFailed when there are errors; warnings are printed too.
 Outcome<ExitCode> run_nc_check(const Context& context, const std::string& path);

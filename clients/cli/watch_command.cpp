@@ -25,15 +25,6 @@ std::string joined(const JsonValue& document, std::initializer_list<std::string_
   return text;
 }
 
-std::string record_line(const JsonValue& record, const Terminal& terminal) {
-  const std::string_view verdict = record.text_of("verdict");
-  const std::string text = joined(record, {"measured_at", "id", "designation", "measured_mm"});
-  const std::string about = joined(record, {"part_id", "characteristic", "order", "machine"});
-  return fmt::format("{} mm  {}{}{}\n", text,
-                     terminal.painted(ascii_upper(verdict), verdict_colour(verdict)),
-                     about.empty() ? "" : "  ", about);
-}
-
 /// Reads events for as long as the service lets it.
 class Watch {
  public:
@@ -90,6 +81,15 @@ class Watch {
 };
 
 }  // namespace
+
+std::string record_line(const JsonValue& record, const Terminal& terminal) {
+  const std::string_view verdict = record.text_of("verdict");
+  const std::string text = joined(record, {"measured_at", "id", "designation", "measured_mm"});
+  const std::string about = joined(record, {"part_id", "characteristic", "order", "machine"});
+  return fmt::format("{} mm  {}{}{}\n", text,
+                     terminal.painted(ascii_upper(verdict), verdict_colour(verdict)),
+                     about.empty() ? "" : "  ", about);
+}
 
 std::string event_json(const Event& event) {
   return JsonObject()

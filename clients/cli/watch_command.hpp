@@ -5,6 +5,7 @@
 
 #include "cli/context.hpp"
 #include "cli/event_reader.hpp"
+#include "cli/json_value.hpp"
 
 namespace fitgauge::cli {
 
@@ -13,6 +14,9 @@ struct WatchOptions {
   std::string after{};      ///< the id of the last event that is known
   std::uint64_t count = 0;  ///< ends after so many; 0 never does
 };
+
+/// A record in one line: when, id, size, value, verdict, and what it is of.
+std::string record_line(const JsonValue& record, const Terminal& terminal);
 
 /// `fitgauge watch`: prints what happens as it happens. When the connection is lost it comes back
 /// and goes on with the next event. @errors NoAnswer, Refused, KeyNeeded at the first connection.

@@ -4,7 +4,7 @@
 _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
-  local commands='limits fit gauge measure nc tables watch version completion'
+  local commands='limits fit gauge measure list export summary correct nc setups runs tables watch version completion'
   COMPREPLY=()
 
   # What the option before takes.
@@ -12,8 +12,18 @@ _fitgauge() {
     --server | --retry | --chunk | --count | --after | --set | --classes | --revision | --setup) return ;;
     --part-id | --characteristic | --order | --operation | --machine | --operator | --gauge) return ;;
     --unit | --measured-at | --temperature-c | --comment | --uncertainty-um | --coverage-factor) return ;;
+    --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --group-by) return ;;
+    --verdict) _fitgauge_words 'good rework reject indeterminate'; return ;;
+    --history) _fitgauge_words 'current all'; return ;;
+    --feature) _fitgauge_words 'hole shaft'; return ;;
+    --status) _fitgauge_words 'queued running completed stopped failed limit_exceeded cancelled'; return ;;
     --rule) _fitgauge_words 'simple guard_band'; return ;;
-    --format) _fitgauge_words 'csv json tab'; return ;;
+    --format)
+      case " ${COMP_WORDS[*]} " in
+        *' tables '*) _fitgauge_words 'csv json tab' ;;
+        *) _fitgauge_words 'csv ndjson' ;;
+      esac
+      return ;;
     --source) _fitgauge_words 'gauge simulation all'; return ;;
     --on-stop) _fitgauge_words 'continue end'; return ;;
     --language) _fitgauge_words 'english german dutch italian'; return ;;
@@ -25,19 +35,30 @@ _fitgauge() {
   local i
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case ${COMP_WORDS[i]} in
-      --json | --record | --again | --exit-verdict | --block-skip) ;;
+      --json | --record | --again | --exit-verdict | --block-skip | --force) ;;
       -*) ((++i)) ;;
       *) words+=("${COMP_WORDS[i]}") ;;
     esac
   done
 
   local options=
+  local filters='--part-id --characteristic --order --machine --verdict --source --from --to --history'
   case ${words[0]-} in
     '') _fitgauge_words "$commands $common --version"; return ;;
     gauge)
       options='--rule --uncertainty-um --coverage-factor --record --part-id --characteristic --order
-               --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment' ;;
+               --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um' ;;
     measure) options='--state --chunk --again --exit-verdict' ;;
+    list) options="$filters --limit --after" ;;
+    export) options="$filters --format --output" ;;
+    summary) options="$filters --group-by" ;;
+    correct) options='--reason' ;;
+    setups) ((${#words[@]} > 1)) || options='ls put get rm' ;;
+    runs)
+      case ${words[1]-} in
+        '') options='ls show get cancel' ;;
+        ls) options='--status --program --limit --after' ;;
+      esac ;;
     watch) options='--source --after --count' ;;
     completion) ((${#words[@]} > 1)) || options=bash ;;
     tables)
@@ -50,11 +71,12 @@ _fitgauge() {
     nc)
       case ${words[1]-} in
         '') options='check run put get ls' ;;
+        get) options=--force ;;
         run) options='--setup --setup-file --set --on-stop --language --block-skip' ;;
       esac ;;
   esac
   case ${words[*]} in
-    measure | nc\ put | nc\ put\ * | nc\ get\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    measure | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

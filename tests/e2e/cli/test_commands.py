@@ -216,6 +216,89 @@ class Programs(ClientTest):
         self.assertIn("ended as failed", failed.stderr_text)
 
 
+class Records(ClientTest):
+    def test_stored_values_are_listed_exported_summed_up_and_corrected(self):
+        for value in ("25.004", "25.006", "25.03"):
+            self.client.run("gauge", "25H7", value, "--record", "--part-id", "SN-7", "--characteristic", "bore-A")
+        self.client.run("gauge", "25H7", "25.01", "--record", "--part-id", "SN-8")
+        lines = self.assert_runs(0, "list", "--part-id", "SN-7").splitlines()
+        self.assertEqual(len(lines), 3)
+        self.assertRegex(lines[2], r"25 H7  25.03 mm  REJECT  SN-7")
+        first = self.client.run("list", "--part-id", "SN-7", "--limit", "2")
+        cursor = first.stderr_text.split("--after ")[1].strip()
+        self.assertEqual(self.assert_runs(0, "list", "--part-id", "SN-7", "--after", cursor).splitlines(), lines[2:])
+        document = json.loads(self.assert_runs(0, "--json", "list", "--verdict", "reject"))
+        wrong = document["measurements"][0]["id"]
+
+        exported = self.assert_runs(0, "export", "--part-id", "SN-7")
+        self.assertEqual(exported, self.daemon.get("/v1/measurements?part_id=SN-7", Accept="text/csv").text)
+        self.assert_runs(0, "export", "--source", "all", "--format", "ndjson", "-o", "all.ndjson")
+        self.assertEqual((self.client.folder / "all.ndjson").read_text().count("25 H7"), 4)
+        self.assert_fails(5, "export", "-o", "no/such/folder.csv")
+
+        self.assertIn("bore-A: 3 values, 2 good, 0 rework, 1 reject", self.assert_runs(0, "summary"))
+        self.assertIn("SN-8: 1 values", self.assert_runs(0, "summary", "--group-by", "part_id"))
+        self.assertIn("mean 25.005 mm", self.assert_runs(0, "summary", "--verdict", "good", "--part-id", "SN-7"))
+
+        self.assertIn("GOOD", self.assert_runs(0, "correct", wrong, "25,003", "--reason", "misread"))
+        self.assertNotIn(wrong + "  ", self.assert_runs(0, "list"))
+        self.assertIn(wrong + "  ", self.assert_runs(0, "list", "--history", "all"))
+        self.assert_fails(7, "correct", wrong, "25.003", "--reason", "again")
+        self.assert_fails(4, "correct", wrong, "x", "--reason", "again")
+        self.assert_fails(4, "correct", wrong, "25.003")
+
+    def test_the_limits_of_a_drawing(self):
+        limits = ("--feature", "shaft", "--upper-um", "0", "--lower-um", "-9", "--record")
+        self.assertIn("GOOD  7.9955 mm  8 (7.991 to 8 mm)", self.assert_runs(0, "gauge", "8", "7,9955", *limits))
+        self.assert_runs(2, "gauge", "8", "7.99", *limits)
+        self.assertIn("--feature", self.assert_fails(4, "gauge", "8", "8", "--upper-um", "0"))
+
+    def test_setups_and_runs(self):
+        self.client.write("m3.json", '{"seed":7}')
+        self.assert_runs(0, "setups", "put", "m3", "m3.json")
+        self.assertIn("  m3\n", self.assert_runs(0, "setups", "ls"))
+        self.assertEqual(self.assert_runs(0, "setups", "get", "m3"), '{"seed":7}')
+        self.client.write("p.h", '0 BEGIN PGM P MM\n1 Q1 = 5\n2 FN 16: F-PRINT TNC:\\m.a / TNC:\\out.txt\n3 END PGM P MM\n')
+        self.client.write("m.a", '"five";\n')
+        self.assert_runs(0, "nc", "put", "p.h", "m.a", "/")
+        self.assert_runs(0, "nc", "run", "p.h", "--setup", "m3")
+        run = json.loads(self.assert_runs(0, "--json", "runs", "ls", "--status", "completed"))["runs"][0]["id"]
+        self.assertIn("TNC:\\p.h", self.assert_runs(0, "runs", "ls", "--program", "p.h"))
+        self.assertIn("out.txt", self.assert_runs(0, "runs", "show", run).lower())
+        self.assertIn("five", self.assert_runs(0, "runs", "get", run, "OUT.TXT"))
+        self.assert_fails(7, "runs", "cancel", run)
+        self.assert_runs(0, "setups", "rm", "m3")
+        self.assert_fails(7, "setups", "get", "m3")
+
+    def test_a_file_that_is_there_is_not_replaced_unasked(self):
+        self.client.write("p.h", "0 BEGIN PGM P MM\n1 END PGM P MM\n")
+        self.assert_runs(0, "nc", "put", "p.h", "p.h")
+        self.client.write("p.h", "mine")
+        self.assertIn("--force", self.assert_fails(5, "nc", "get", "p.h"))
+        self.assertEqual((self.client.folder / "p.h").read_text(), "mine")
+        self.assert_runs(0, "nc", "get", "p.h", "--force")
+        self.assertIn("BEGIN PGM", (self.client.folder / "p.h").read_text())
+
+    def test_what_was_meant_is_named(self):
+        self.assertIn("there is no command 'limit'; did you mean 'limits'? see fitgauge --help",
+                      self.assert_fails(4, "limit", "25H7"))
+        self.assertIn("there is no command 'bogus'; see fitgauge --help", self.assert_fails(4, "bogus"))
+        self.assertIn("did you mean 'check'? see fitgauge nc --help", self.assert_fails(4, "nc", "chek", "x"))
+        self.assertIn("see fitgauge gauge --help", self.assert_fails(4, "gauge", "25H7"))
+
+    def test_states_of_old_inputs_go(self):
+        folder = self.client.folder / "state/fitgauge"
+        folder.mkdir(parents=True)
+        for number in range(1005):
+            state = folder / f"{number:032x}.state"
+            state.write_text("")
+            os.utime(state, (number, number))
+        self.client.write("one.csv", "designation,measured_mm\n25 H7,25.01\n")
+        self.assert_runs(0, "measure", "one.csv")
+        self.assertFalse((folder / f"{4:032x}.state").exists())
+        self.assertTrue((folder / f"{5:032x}.state").exists())
+
+
 class Watching(unittest.TestCase):
     def test_it_goes_on_with_the_next_event_after_a_restart(self):
         daemon = Daemon()

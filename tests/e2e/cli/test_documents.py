@@ -9,8 +9,11 @@ import unittest
 from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 
-COMMANDS = ("limits", "fit", "gauge", "measure", "nc", "tables", "watch", "version", "completion")
-SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables")] + [
+COMMANDS = ("limits", "fit", "gauge", "measure", "list", "export", "summary", "correct", "nc", "setups", "runs",
+            "tables", "watch", "version", "completion")
+SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables", "setups", "runs")] + [
+    ("setups", name) for name in ("ls", "put", "get", "rm")] + [
+    ("runs", name) for name in ("ls", "show", "get", "cancel")] + [
     ("nc", name) for name in ("ls", "put", "get", "check", "run")] + [("tables", "export")]
 
 
@@ -70,6 +73,8 @@ class Completion(unittest.TestCase):
         self.assertEqual(completions(""), set(COMMANDS))
         self.assertEqual(completions("me"), {"measure"})
         self.assertEqual(completions("nc", ""), {"check", "run", "put", "get", "ls"})
+        self.assertEqual(completions("setups", ""), {"ls", "put", "get", "rm"})
+        self.assertEqual(completions("runs", ""), {"ls", "show", "get", "cancel"})
         self.assertEqual(completions("--server", "x", "--json", "tables", ""), {"export"})
 
     def test_every_option_is_offered_where_it_is_taken(self):
@@ -84,6 +89,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(completions("tables", "export", ""), {"hole", "shaft"})
         self.assertEqual(completions("tables", "export", "hole", ""), set())
         self.assertEqual(completions("tables", "export", "hole", "--format", ""), {"csv", "json", "tab"})
+        self.assertEqual(completions("export", "--format", ""), {"csv", "ndjson"})
         self.assertEqual(completions("watch", "--source", "s"), {"simulation"})
         self.assertEqual(completions("completion", ""), {"bash"})
         self.assertEqual(completions("gauge", "25H7", "--part-id", ""), set())

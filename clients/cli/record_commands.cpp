@@ -1,0 +1,141 @@
+#include "cli/record_commands.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "base/length.hpp"
+#include "base/text.hpp"
+#include "cli/address.hpp"
+#include "cli/gauge_command.hpp"
+#include "cli/json_value.hpp"
+#include "cli/problem.hpp"
+#include "cli/retry.hpp"
+#include "cli/watch_command.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+/// A path with the filters that were given and whatever else is not empty.
+std::string target_of(std::string path, const RecordQuery& query,
+                      std::initializer_list<std::pair<std::string_view, std::string>> others) {
+  char separator = '?';
+  const auto add = [&path, &separator](std::string_view name, const std::string& value) {
+    if (value.empty()) return;
+    path += separator;
+    path.append(name).append("=").append(percent_encoded(value));
+    separator = '&';
+  };
+  for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
+    add(kRecordFilters.at(i).parameter, query.filters.at(i));
+  }
+  for (const auto& [name, value] : others) add(name, value);
+  return path;
+}
+
+Outcome<JsonValue> get(const Context& context, const std::string& target) {
+  const auto answer = expect_ok(context.client.send({.target = target}), context.client.url());
+  if (!answer) return answer.error();
+  if (context.json) context.print_document(answer->body);
+  return read_document(*answer, context.client.url());
+}
+
+/// Where a stream goes: a file, or standard output.
+class Output {
+ public:
+  explicit Output(const std::string& path)
+      : path_(path), file_(is_standard() ? stdout : std::fopen(path.c_str(), "wb")) {}
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  ~Output() {
+    if (file_ != nullptr && !is_standard()) std::fclose(file_);
+  }
+
+  bool write(std::string_view bytes) {
+    good_ = good_ && file_ != nullptr &&
+            std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+    return good_;
+  }
+  /// Whether all was written. @errors LocalFile
+  Outcome<ExitCode> finish() {
+    if (good_ && file_ != nullptr && std::fflush(file_) == 0) return ExitCode::Good;
+    return Failure{ExitCode::LocalFile, (is_standard() ? "standard output" : path_) +
+                                            ": cannot be written, or only in part"};
+  }
+
+ private:
+  bool is_standard() const { return path_.empty() || path_ == "-"; }
+
+  const std::string path_;
+  std::FILE* file_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
+  const auto page =
+      get(context, target_of("/v1/measurements", query,
+                             {{"limit", std::to_string(query.limit)}, {"after", query.after}}));
+  if (!page) return page.error();
+  if (context.json) return ExitCode::Good;
+  for (const JsonValue& record : page->items_of("measurements")) {
+    context.print("{}", record_line(record, context.out));
+  }
+  if (const std::string_view next = page->text_of("next"); !next.empty()) {
+    context.note(fmt::format("there are more: --after {}", next));
+  }
+  return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
+  const bool ndjson = query.format == "ndjson" || (query.format.empty() && context.json);
+  const std::string type = ndjson ? "application/x-ndjson" : "text/csv";
+  Output output(query.output);
+  const auto answer = context.client.stream(
+      {.target = target_of("/v1/measurements", query, {}), .headers = {"Accept: " + type}},
+      [&output](std::string_view piece) { return output.write(piece); });
+  const auto good = expect_ok(answer, context.client.url());
+  return good ? output.finish() : good.error();
+}
+
+Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) {
+  const std::string group_by = query.group_by.empty() ? "characteristic" : query.group_by;
+  const auto summary =
+      get(context, target_of("/v1/measurements/summary", query, {{"group_by", group_by}}));
+  if (!summary) return summary.error();
+  if (context.json) return ExitCode::Good;
+  for (const JsonValue& group : summary->items_of("groups")) {
+    const JsonValue& verdicts = group.object("verdicts");
+    const std::string_view value = group.text_of(group_by);
+    const std::string_view scatter = group.text_of("standard_deviation_mm");
+    context.print("{}: {} values, {} good, {} rework, {} reject, {} indeterminate\n",
+                  value.empty() ? "(none)" : value, group.text_of("count"),
+                  verdicts.text_of("good"), verdicts.text_of("rework"), verdicts.text_of("reject"),
+                  verdicts.text_of("indeterminate"));
+    context.print("    mean {} mm, s {} mm, {} to {} mm\n", group.text_of("mean_mm"),
+                  scatter.empty() ? "-" : scatter, group.text_of("min_mm"),
+                  group.text_of("max_mm"));
+  }
+  return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_correct(const Context& context, const CorrectOptions& options) {
+  const auto measured = measured_text(options.measured);
+  if (!measured) return measured.error();
+  const std::string body =
+      JsonObject().add("measured_mm", *measured).add("reason", options.reason).text();
+  const Request request{
+      .method = "POST",
+      .target = "/v1/measurements/" + percent_encoded(options.id) + "/corrections",
+      .headers = {"Idempotency-Key: " + new_idempotency_key()},
+      .content_type = "application/json",
+      .body = body};
+  const auto answer = expect_ok(
+      send_until_answered(context.client, request, Backoff(context.retry_budget),
+                          [&context](const Failure& f, auto) { context.note(f.message); }),
+      context.client.url());
+  return answer ? show_verdict(context, *answer) : answer.error();
+}
+
+}  // namespace fitgauge::cli

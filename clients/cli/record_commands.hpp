@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "cli/context.hpp"
+
+namespace fitgauge::cli {
+
+/// What records may be chosen by: an option and the query parameter of the service.
+struct RecordFilter {
+  std::string_view option;
+  std::string_view parameter;
+  std::string_view help;
+};
+inline constexpr std::array<RecordFilter, 9> kRecordFilters = {{
+    {"--part-id", "part_id", "Exactly this part"},
+    {"--characteristic", "characteristic", "Exactly this characteristic"},
+    {"--order", "order", "Exactly this work order"},
+    {"--machine", "machine", "Exactly this machine"},
+    {"--verdict", "verdict", "good, rework, reject or indeterminate"},
+    {"--source", "source", "gauge, simulation or all; gauge when absent"},
+    {"--from", "from", "Measured from this RFC 3339 time on"},
+    {"--to", "to", "Measured before this time"},
+    {"--history", "history", "all shows corrected records too"},
+}};
+
+/// The command lines of list, export and summary. A filter that was not given is empty.
+struct RecordQuery {
+  std::array<std::string, kRecordFilters.size()> filters{};
+  std::uint64_t limit = 100;  ///< of list
+  std::string after{};        ///< of list: where the page before ended
+  std::string format{};       ///< of export: csv or ndjson
+  std::string output{};       ///< of export: a file; - or empty is standard output
+  std::string group_by{};     ///< of summary
+};
+
+/// `fitgauge list`: a page of records, one a line, and on standard error how to get the next.
+Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query);
+
+/// `fitgauge export`: every record that matches, written as it comes.
+Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query);
+
+/// `fitgauge summary`: count, verdicts, mean and scatter of each group.
+Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query);
+
+struct CorrectOptions {
+  std::string id;
+  std::string measured;  ///< mm, with a point or a comma
+  std::string reason;
+};
+
+/// `fitgauge correct m17 25.0131 --reason …`: a new record in place of a wrong one, which stays.
+/// The exit code is the new verdict.
+Outcome<ExitCode> run_correct(const Context& context, const CorrectOptions& options);
+
+}  // namespace fitgauge::cli

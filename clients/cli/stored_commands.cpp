@@ -1,0 +1,123 @@
+#include "cli/stored_commands.hpp"
+
+#include "cli/address.hpp"
+#include "cli/input_file.hpp"
+#include "cli/json_value.hpp"
+#include "cli/nc_commands.hpp"
+#include "cli/problem.hpp"
+#include "cli/retry.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+Outcome<Answer> send(const Context& context, const Request& request) {
+  return expect_ok(
+      send_until_answered(context.client, request, Backoff(context.retry_budget),
+                          [&context](const Failure& f, auto) { context.note(f.message); }),
+      context.client.url());
+}
+
+Outcome<ExitCode> done(const Outcome<Answer>& answer) {
+  return answer ? Outcome<ExitCode>(ExitCode::Good) : answer.error();
+}
+
+/// Prints the document that a GET gives as it is, or `line` of each of its items.
+template <class Line>
+Outcome<ExitCode> list(const Context& context, const std::string& target, std::string_view items,
+                       const Line& line) {
+  const auto answer = send(context, {.target = target});
+  if (!answer) return answer.error();
+  if (context.json) {
+    context.print_document(answer->body);
+    return ExitCode::Good;
+  }
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  for (const JsonValue& item : document->items_of(items)) context.print("{}\n", line(item));
+  if (const std::string_view next = document->text_of("next"); !next.empty()) {
+    context.note(fmt::format("there are more: --after {}", next));
+  }
+  return ExitCode::Good;
+}
+
+/// Writes what a GET gives into a file, or standard output.
+Outcome<ExitCode> fetch(const Context& context, const std::string& target,
+                        const std::string& file) {
+  const auto answer = send(context, {.target = target});
+  if (!answer) return answer.error();
+  const auto written = write_file(file.empty() ? "-" : file, answer->body);
+  return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
+}
+
+std::string setup_target(const std::string& name) { return "/v1/setups/" + percent_encoded(name); }
+
+std::string run_target(const std::string& id) { return "/v1/runs/" + percent_encoded(id); }
+
+}  // namespace
+
+Outcome<ExitCode> run_setups_ls(const Context& context) {
+  return list(context, "/v1/setups", "setups", [](const JsonValue& setup) {
+    return fmt::format("{}  {}", setup.text_of("modified_at"), setup.text_of("name"));
+  });
+}
+
+Outcome<ExitCode> run_setups_put(const Context& context, const std::string& name,
+                                 const std::string& file) {
+  const auto text = read_file(file);
+  if (!text) return text.error();
+  return done(send(context, {.method = "PUT",
+                             .target = setup_target(name),
+                             .content_type = "application/json",
+                             .body = *text}));
+}
+
+Outcome<ExitCode> run_setups_get(const Context& context, const std::string& name,
+                                 const std::string& file) {
+  return fetch(context, setup_target(name), file);
+}
+
+Outcome<ExitCode> run_setups_rm(const Context& context, const std::string& name) {
+  return done(send(context, {.method = "DELETE", .target = setup_target(name)}));
+}
+
+Outcome<ExitCode> run_runs_ls(const Context& context, const RunsQuery& query) {
+  std::string target = "/v1/runs?limit=" + std::to_string(query.limit);
+  if (!query.status.empty()) target += "&status=" + percent_encoded(query.status);
+  if (!query.program.empty()) target += "&program=" + percent_encoded(control_path(query.program));
+  if (!query.after.empty()) target += "&after=" + percent_encoded(query.after);
+  return list(context, target, "runs", [](const JsonValue& run) {
+    return fmt::format("{}  {:6}  {:14}  {}", run.text_of("created_at"), run.text_of("id"),
+                       run.text_of("status"), run.text_of("program"));
+  });
+}
+
+Outcome<ExitCode> run_runs_show(const Context& context, const std::string& id) {
+  const auto answer = send(context, {.target = run_target(id)});
+  if (!answer) return answer.error();
+  if (context.json) {
+    context.print_document(answer->body);
+    return ExitCode::Good;
+  }
+  const auto run = read_document(*answer, context.client.url());
+  if (!run) return run.error();
+  context.print("{}  {}  {}  {}\n", run->text_of("created_at"), run->text_of("program"),
+                run->text_of("status"), run->text_of("verdict"));
+  for (const JsonValue& line : run->items_of("screen")) context.print("{}\n", line.text);
+  print_messages(*run);
+  for (const JsonValue& file : run->items_of("files")) {
+    context.print("{:>9}  {}\n", file.text_of("size"), file.text_of("path"));
+  }
+  return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_runs_get(const Context& context, const std::string& id,
+                               const std::string& name, const std::string& file) {
+  return fetch(context, run_target(id) + "/files/" + percent_encoded(base_name(name)), file);
+}
+
+Outcome<ExitCode> run_runs_cancel(const Context& context, const std::string& id) {
+  return done(expect_ok(context.client.send({.method = "DELETE", .target = run_target(id)}),
+                        context.client.url()));
+}
+
+}  // namespace fitgauge::cli
