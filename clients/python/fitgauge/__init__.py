@@ -37,13 +37,17 @@ from contextlib import suppress
 from datetime import datetime, timezone
 from decimal import Decimal
 from email.utils import parsedate_to_datetime
-from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence, TypedDict, Union
+from typing import Any, Callable, Dict, Iterable, Iterator, Literal, Mapping, NamedTuple, Sequence, TypedDict, Union
 
 __version__ = "0.1.0"
 
 Size = Union[Decimal, int, str]  # in the unit that the field's name ends with
 Parameter = Union[Decimal, int, str, datetime, None]  # of a query; None is left out
 Text = Union[str, bytes]
+VerdictWord = Literal["good", "rework", "reject", "indeterminate"]
+RuleWord = Literal["simple", "guard_band"]
+FeatureWord = Literal["hole", "shaft"]
+RunStatus = Literal["queued", "running", "completed", "stopped", "failed", "limit_exceeded", "cancelled"]
 
 _SILENCE_S = 45.0  # a stream of events has a sign of life every 15 s
 _FIRST_PAUSE_S, _LONGEST_PAUSE_S = 0.1, 10.0
@@ -54,6 +58,19 @@ _MOST_BYTES = 8 << 20  # of a request with many rows; the service takes 32 MiB
 # --- JSON with exact decimals -------------------------------------------------------------------------
 
 _EXACT = re.compile(r"_(mm|um|c|deg|s|mm_min)$|^(seconds|coverage_factor|parameters)$")
+
+
+class _Exact(Dict[str, bool]):
+    """Whether a name is of an exact number: each is looked at once, for there are few."""
+
+    def __missing__(self, name: str) -> bool:
+        found = bool(_EXACT.search(name))
+        if len(self) < 1_000:
+            self[name] = found
+        return found
+
+
+_exact = _Exact()
 
 
 def _decimals(value: Any) -> Any:
@@ -69,11 +86,17 @@ def _decimals(value: Any) -> Any:
 def loads(text: Text) -> Any:
     """Reads JSON; a fraction, and every number in a field with a unit, becomes a Decimal."""
     def make(pairs: list[tuple[str, Any]]) -> Any:
-        return {name: _decimals(value) if _EXACT.search(name) else value for name, value in pairs}
+        return {name: _decimals(value) if _exact[name] else value for name, value in pairs}
     return json.loads(text, parse_float=Decimal, object_pairs_hook=make)
 
 
+def _refuse_float(value: Any) -> None:
+    if isinstance(value, float):
+        raise TypeError(f"{value!r} is a binary float: give a Decimal, an int or a string")
+
+
 def _plain(value: Union[Decimal, int, datetime]) -> str:
+    _refuse_float(value)
     if isinstance(value, datetime):
         if value.tzinfo is None:
             raise ValueError(f"{value} has no time zone: use datetime.now(timezone.utc), say")
@@ -85,8 +108,7 @@ def _plain(value: Union[Decimal, int, datetime]) -> str:
 
 def dumps(value: Any) -> str:
     """Writes JSON with the digits of each Decimal. TypeError for a float: it is not the number that was meant."""
-    if isinstance(value, float):
-        raise TypeError(f"{value!r} is a binary float: give a Decimal, an int or a string")
+    _refuse_float(value)
     if isinstance(value, Decimal):
         return _plain(value)
     if isinstance(value, datetime):
@@ -101,20 +123,24 @@ def dumps(value: Any) -> str:
 # --- What the service answers -------------------------------------------------------------------------
 
 
-class Limits(TypedDict, total=False):
-    """Limits of size. `size_range_mm` has `over` and `up_to`; `basis` is iso286, custom or explicit."""
-
-    designation: str
+class _Sizes(TypedDict):
     nominal_mm: Decimal
-    tolerance_class: str
-    feature: str
+    feature: FeatureWord
     upper_deviation_um: Decimal
     lower_deviation_um: Decimal
     upper_limit_mm: Decimal
     lower_limit_mm: Decimal
     tolerance_um: Decimal
+    basis: Literal["iso286", "custom", "explicit"]
+
+
+class Limits(_Sizes, total=False):
+    """Limits of size. `size_range_mm` has `over` and `up_to`. With the limits of a drawing (`basis` explicit)
+    there is no class, range and revision."""
+
+    designation: str
+    tolerance_class: str
     size_range_mm: Mapping[str, Decimal]
-    basis: str
     table_revision: str
 
 
@@ -124,17 +150,17 @@ class Fit(TypedDict):
     designation: str
     hole: Limits
     shaft: Limits
-    type: str
+    type: Literal["clearance", "transition", "interference"]
     max_clearance_um: Decimal
     min_clearance_um: Decimal
 
 
-class Verdict(Limits, total=False):
-    """`verdict` is good, rework, reject or indeterminate; `excess_um` is 0 within the limits."""
+class Verdict(Limits):
+    """`excess_um` is 0 within the limits."""
 
     measured_mm: Decimal
     deviation_um: Decimal
-    verdict: str
+    verdict: VerdictWord
     excess_um: Decimal
 
 
@@ -148,18 +174,21 @@ class _Circumstances(TypedDict, total=False):
     gauge: str
     unit: str
     comment: str
-    rule: str
+    rule: RuleWord
 
 
-class NewMeasurement(_Circumstances, total=False):
+class _Measured(TypedDict):
+    measured_mm: Size
+
+
+class NewMeasurement(_Measured, _Circumstances, total=False):
     """`measured_mm`, and the limits once: `designation`, or `nominal_mm` with `tolerance_class`, or
     `nominal_mm` with `feature`, `upper_um` and `lower_um`. A correction has a `reason` too."""
 
-    measured_mm: Size
     designation: str
     nominal_mm: Size
     tolerance_class: str
-    feature: str
+    feature: FeatureWord
     upper_um: Size
     lower_um: Size
     measured_at: Union[str, datetime]
@@ -169,13 +198,16 @@ class NewMeasurement(_Circumstances, total=False):
     reason: str
 
 
-class Measurement(Verdict, _Circumstances, total=False):
-    """A record as it is stored; fields that were not given are not there."""
-
+class _Origin(TypedDict):
     id: str
-    source: str
+    source: Literal["gauge", "simulation"]
     measured_at: str
     received_at: str
+
+
+class Measurement(Verdict, _Origin, _Circumstances, total=False):
+    """A record as it is stored; fields that were not given are not there. `when` reads its times."""
+
     uncertainty_um: Decimal
     coverage_factor: Decimal
     temperature_c: Decimal
@@ -205,16 +237,19 @@ class FieldError(TypedDict, total=False):
     line: int
 
 
-class Run(TypedDict, total=False):
-    """A run of an NC program; `status` is queued or running until it is over."""
-
+class _RunHead(TypedDict):
     id: str
-    status: str
+    status: RunStatus
     program: str
     created_at: str
+
+
+class Run(_RunHead, total=False):
+    """A run of an NC program; `status` is queued or running until it is over."""
+
     finished_at: str
     blocks_executed: int
-    verdict: str | None
+    verdict: VerdictWord | None
     parameters: Mapping[str, Union[Decimal, str]]
     screen: list[str]
     files: list[dict[str, Any]]
@@ -227,12 +262,25 @@ class Run(TypedDict, total=False):
     setup_seed: int
 
 
+class RunLimits(TypedDict, total=False):
+    """What ends a run with the status limit_exceeded."""
+
+    blocks: int
+    seconds: Size
+
+
 class Event(NamedTuple):
     """What happened; `id` is where a reader goes on that comes back."""
 
     type: str
     id: str | None
     data: Any
+
+
+def when(text: str) -> datetime:
+    """The moment of `measured_at`, `received_at`, `created_at`: in UTC, to the microsecond."""
+    whole, _, fraction = text.rstrip("Z").partition(".")
+    return datetime.fromisoformat(f"{whole}.{fraction[:6]:0<6}+00:00")
 
 
 # --- What goes wrong ----------------------------------------------------------------------------------
@@ -370,6 +418,9 @@ def _pause(attempt: int) -> float:
 
 
 def _path(*segments: str) -> str:
+    for segment in segments:
+        if not isinstance(segment, str):
+            raise TypeError(f"{segment!r} is no text: a designation is '25 H7', a name or an id a string")
     return "/v1/" + "/".join(urllib.parse.quote(segment, safe="") for segment in segments)
 
 
@@ -380,10 +431,14 @@ def _query(parameters: Mapping[str, Parameter]) -> str:
     return "?" + urllib.parse.urlencode(pairs) if pairs else ""
 
 
-def _control_path(path: str) -> str:
-    """`TNC:\\nc_prog\\8255.h` and `nc_prog/8255.h` are the same file."""
+def _below_drive(path: str) -> str:
+    """`TNC:\\nc_prog\\8255.h` and `nc_prog/8255.h` are the same file: the latter."""
     plain = path[4:] if path[:4].upper() == "TNC:" else path
-    return _path("files", *plain.replace("\\", "/").lstrip("/").split("/"))
+    return plain.replace("\\", "/").lstrip("/")
+
+
+def _control_path(path: str) -> str:
+    return _path("files", *_below_drive(path).split("/"))
 
 
 def _events(pieces: Iterable[bytes]) -> Iterator[Event]:
@@ -443,6 +498,8 @@ def _csv_records(lines: Iterable[str]) -> Iterator[str]:
     """Records of CSV: a line break between quotes does not end one."""
     held = ""
     for line in lines:
+        if not isinstance(line, str):
+            raise TypeError("a line of CSV is text: open the file with newline='' and an encoding, not 'rb'")
         held += line
         if held.count('"') % 2 == 0:
             yield held if held.endswith("\n") else held + "\n"
@@ -648,7 +705,7 @@ class Client:
         """The fit `25 H7/g6`."""
         return self._get(_path("fits", designation))
 
-    def verdict(self, designation: str, measured_mm: Size, *, rule: str | None = None,
+    def verdict(self, designation: str, measured_mm: Size, *, rule: RuleWord | None = None,
                 uncertainty_um: Size | None = None, coverage_factor: Size | None = None) -> Verdict:
         """Judges a value and stores nothing. `rule` is simple or guard_band, which needs `uncertainty_um`."""
         return self._get(_path("verdicts", designation), {
@@ -691,6 +748,8 @@ class Client:
 
     def measure(self, measurement: NewMeasurement, *, idempotency_key: str | None = None) -> Measurement:
         """Judges and stores one value; when this returns it is on the service's disk."""
+        if not isinstance(measurement, Mapping):
+            raise TypeError("measure takes one measurement; measure_all and measure_many take several")
         return self._post("/v1/measurements", dumps(measurement).encode(), "application/json",
                                          idempotency_key)
 
@@ -713,6 +772,8 @@ class Client:
     def measure_csv(self, lines: Iterable[str], *, idempotency_key: str | None = None, rows: int = 5_000,
                     progress: Callable[[Accepted], object] | None = None) -> Accepted:
         """The same from the lines of CSV, the header line first: an open file, say."""
+        if isinstance(lines, (str, bytes)):
+            raise TypeError("measure_csv takes lines: an open file, io.StringIO(text), or a list of lines")
         records = _csv_records(lines)
         return self._post_batches(_batches(records, next(records, ""), rows), "text/csv", idempotency_key, progress)
 
@@ -814,22 +875,29 @@ class Client:
         self._perform(_Request("DELETE", _path("setups", name)))
 
     def run_program(self, program: str, setup: Union[str, Mapping[str, Any], None] = None, *,
-                    idempotency_key: str | None = None, **order: Any) -> Run:
-        """Runs `TNC:\\nc_prog\\8255.h` and waits for its end. `order` has `parameters`, `limits`, `on_stop`,
-        `block_skip`, `language`. A program that fails is a run with that status; one that cannot start is
-        ProgramInvalid."""
-        return self._order(program, setup, order, idempotency_key, "")
+                    parameters: Mapping[str, Size] | None = None, limits: RunLimits | None = None,
+                    on_stop: Literal["continue", "end"] | None = None, block_skip: bool | None = None,
+                    language: Literal["english", "german", "dutch", "italian"] | None = None,
+                    idempotency_key: str | None = None) -> Run:
+        """Runs `nc_prog/8255.h` or `TNC:\\nc_prog\\8255.h` and waits for its end. A program that fails is a
+        run with that status; one that cannot start is ProgramInvalid."""
+        order = {"setup": setup, "parameters": parameters, "limits": limits, "on_stop": on_stop,
+                 "block_skip": block_skip, "language": language}
+        return self._order(program, order, idempotency_key, "")
 
     def start_run(self, program: str, setup: Union[str, Mapping[str, Any], None] = None, *,
-                  idempotency_key: str | None = None, **order: Any) -> Run:
+                  parameters: Mapping[str, Size] | None = None, limits: RunLimits | None = None,
+                  on_stop: Literal["continue", "end"] | None = None, block_skip: bool | None = None,
+                  language: Literal["english", "german", "dutch", "italian"] | None = None,
+                  idempotency_key: str | None = None) -> Run:
         """The same without waiting."""
-        return self._order(program, setup, order, idempotency_key, "respond-async")
+        order = {"setup": setup, "parameters": parameters, "limits": limits, "on_stop": on_stop,
+                 "block_skip": block_skip, "language": language}
+        return self._order(program, order, idempotency_key, "respond-async")
 
-    def _order(self, program: str, setup: Union[str, Mapping[str, Any], None], order: Mapping[str, Any],
-               key: str | None, prefer: str) -> Run:
-        body: dict[str, Any] = {"program": program, **order}
-        if setup is not None:
-            body["setup"] = setup
+    def _order(self, program: str, order: Mapping[str, Any], key: str | None, prefer: str) -> Run:
+        body = {"program": "TNC:\\" + _below_drive(program).replace("/", "\\"),
+                **{name: value for name, value in order.items() if value is not None}}
         return self._post("/v1/runs", dumps(body).encode(), "application/json", key, prefer, _RUN_S)
 
     def wait_for_run(self, run_id: str) -> Run:
@@ -895,6 +963,19 @@ class Client:
     def ready(self) -> dict[str, Any]:
         """Version, database and table revision. Unavailable says what is not in order."""
         return self._get("/readyz")
+
+    def wait_until_ready(self, timeout: float = 60.0) -> dict[str, Any]:
+        """What `ready` gives, as soon as it does; what was wrong last when `timeout` seconds are over."""
+        end = time.monotonic() + timeout
+        for attempt in itertools.count():
+            try:
+                return loads(self._perform(_Request("GET", "/readyz", repeatable=False)).body)
+            except (NoAnswer, Unavailable):
+                pause = _pause(attempt)
+                if time.monotonic() + pause >= end:
+                    raise
+                time.sleep(pause)
+        raise AssertionError("unreachable")
 
     def metrics(self) -> str:
         """Counters for Prometheus."""

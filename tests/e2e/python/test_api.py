@@ -113,7 +113,7 @@ class EveryRoute(ControlTest):
         self.assertEqual(client.wait_for_run(started["id"])["verdict"], "reject")
         self.assertEqual([event.type for event in client.run_events(started["id"])][-1], "end")
 
-        endless = client.start_run("TNC:\\some\\file 1.h", limits={"blocks": 100_000_000, "seconds": 60})
+        endless = client.start_run("some/file 1.h", limits={"blocks": 100_000_000, "seconds": 60})
         client.cancel_run(endless["id"])
         with self.assertRaises(fitgauge.Conflict):
             client.cancel_run(run["id"])
@@ -125,6 +125,9 @@ class EveryRoute(ControlTest):
 
     def call_service(self, client):
         self.assertTrue(client.live())
+        self.assertEqual(client.wait_until_ready(), client.ready())
+        with fitgauge.Client("http://127.0.0.1:1") as nobody, self.assertRaises(fitgauge.NoAnswer):
+            nobody.wait_until_ready(timeout=0.2)
         self.assertEqual(client.ready()["version"], fitgauge.__version__)
         self.assertIn("fitgauge_", client.metrics())
         self.assertEqual(client.cycle(421), next(c for c in client.cycles() if c["number"] == 421))
@@ -227,7 +230,26 @@ class Numbers(ControlTest):
         with self.assertRaises(ValueError):
             client.measure({**PART, "measured_at": datetime(2026, 11, 20)})
         self.assertEqual(list(client.measurements(part_id="SN-1")), [])
+        for call in (lambda: client.verdict("25H7", 25.01), lambda: client.limits_of(25.0, "H7"),
+                     lambda: client.run_program("nc_prog/8255.h", parameters={"Q1": 25.0})):
+            with self.assertRaisesRegex(TypeError, "binary float"):
+                call()
         client.close()
+
+    def test_what_was_meant_otherwise_is_told(self):
+        client = self.daemon.client()
+        for call, told in ((lambda: client.limits(25), "no text"), (lambda: client.measure([PART]), "measure_all"),
+                           (lambda: client.measure_csv("night.csv"), "open file"),
+                           (lambda: client.measure_csv(io.BytesIO(b"a\nb\n")), "'rb'")):
+            with self.assertRaisesRegex(TypeError, told):
+                call()
+        client.close()
+
+    def test_times(self):
+        moment = datetime(2026, 11, 20, 7, 0, 1, 250000, tzinfo=timezone.utc)
+        self.assertEqual(fitgauge.when("2026-11-20T07:00:01.25Z"), moment)
+        self.assertEqual(fitgauge.when("2026-11-20T07:00:01.250000999Z"), moment)
+        self.assertEqual(fitgauge.when("2026-11-20T07:00:01Z"), moment.replace(microsecond=0))
 
 
 class Problems(ControlTest):

@@ -5,9 +5,11 @@ A fenced block says in its first line what becomes of it:
     sh            is run; it ends with 0, no curl in it gets an error, and it prints what stands behind #→
     console       lines with `$ ` are run, and what stands below each is what it prints; … is any text
     python        is run
+    … needs-X     is run where the Python module X can be imported, and else only compiled
     sh not-run    is only read by the shell, for it needs what a test has not: a container engine, systemd
 """
 
+import importlib.util
 import os
 import pathlib
 import re
@@ -68,6 +70,7 @@ class Block:
         self.line = document.count("\n", 0, match.start()) + 2
         self.language, *flags = match[1].split() or [""]
         self.flags = set(flags)
+        self.modules = [flag.removeprefix("needs-") for flag in flags if flag.startswith("needs-")]
         self.text = match[2]
 
     def commands(self):
@@ -171,6 +174,8 @@ class Reader:
             for part in re.findall(r"#→ (.*)$", block.text, re.MULTILINE):
                 if part not in printed:
                     raise AssertionError(f"{block.text}\nprints\n{printed}\nand not\n{part}")
+        elif block.language == "python" and not all(map(importlib.util.find_spec, block.modules)):
+            compile(block.text, "document", "exec")
         elif block.language == "python":
             self.python(block.text)
         elif block.language == "console":
