@@ -40,6 +40,14 @@ class Commands(unittest.TestCase):
             except AssertionError as error:
                 raise AssertionError(f"{path.name}:{block.line}: {error}") from None
 
+    def test_an_old_curl_can_do_what_is_shown(self):
+        """Debian 11 has curl 7.74; these came later."""
+        for path in DOCUMENTS:
+            for block in blocks(path):
+                for command in re.findall(r"curl (?:[^\n]|(?<=\\\\)\n)*", block.text):
+                    self.assertNotRegex(command, r"--json|%header\{|--fail-with-body|--url-query|--variable|--remove-on-error",
+                                        f"{path.name}:{block.line}")
+
     def test_few_blocks_are_not_run(self):
         not_run = [block for path in DOCUMENTS for block in blocks(path) if "not-run" in block.flags]
         self.assertLessEqual(len(not_run), 5)
