@@ -1,6 +1,8 @@
 #include "api/routes.hpp"
 
 #include "api/files/files_resource.hpp"
+#include "api/limits/fits_resource.hpp"
+#include "api/limits/gauges_resource.hpp"
 #include "api/limits/limits_resource.hpp"
 #include "api/limits/verdicts_resource.hpp"
 #include "api/measurements/measurements_resource.hpp"
@@ -11,6 +13,8 @@
 #include "api/service/openapi.hpp"
 #include "api/service/page_resource.hpp"
 #include "api/service/service_resource.hpp"
+#include "api/statistics/statistics_resource.hpp"
+#include "api/statistics/uncertainty_resource.hpp"
 #include "api/tables/tables_resource.hpp"
 
 namespace fitgauge::api {
@@ -20,9 +24,13 @@ http::RouteTable make_routes(const Services& services) {
   const auto cache = std::make_shared<ResponseCache>(services.tables);
   add_limits_routes(routes, cache);
   add_fits_routes(routes, cache);
+  add_gauges_routes(routes, cache);
+  add_press_fits_routes(routes, services);
   add_tables_routes(routes, services, cache);
   add_verdicts_routes(routes, services);
   add_measurements_routes(routes, services);
+  add_statistics_routes(routes, services);
+  add_uncertainty_routes(routes, services);
   add_files_routes(routes, services);
   add_setups_routes(routes, services);
   add_runs_routes(routes, services);

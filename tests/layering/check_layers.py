@@ -11,12 +11,12 @@ from pathlib import Path
 
 FOLDERS = {
     "base": "tables/base", "iso286": "tables/iso286", "tabfile": "tables/tabfile",
-    "store": "db/store", "sqlite": "db/sqlite", "gauging": "server/gauging", "klartext": "server/klartext",
+    "store": "db/store", "sqlite": "db/sqlite", "gauging": "server/gauging", "metrology": "server/metrology", "klartext": "server/klartext",
     "machine": "server/machine", "probing": "server/probing",
     "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http", "tlog": "server/tlog",
     "api": "server/api", "daemon": "server/daemon", "clients": "clients",
 }
-DOMAIN = {"iso286", "tabfile", "gauging", "klartext", "machine", "probing", "program", "run"}
+DOMAIN = {"iso286", "tabfile", "gauging", "metrology", "klartext", "machine", "probing", "program", "run"}
 
 
 def allowed_edges(architecture: str) -> dict[str, set[str]]:

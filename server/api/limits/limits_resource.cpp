@@ -34,48 +34,6 @@ Result<http::Response> limits_of_query(const http::Request& request,
   return limits_response(*size, *request.text("tolerance_class"), tables);
 }
 
-Result<http::Response> fit_response(const iso286::FitDesignation& designation,
-                                    const ToleranceTables& tables) {
-  const auto hole = tables.find_class(designation.hole_class);
-  if (!hole) return hole.error();
-  const auto shaft = tables.find_class(designation.shaft_class);
-  if (!shaft) return shaft.error();
-  const auto fit = tables.fit(designation.nominal_size, *hole, *shaft);
-  if (!fit) return fit.error();
-
-  const std::string text =
-      designation_text(designation.nominal_size.length(), designation.hole_class) + '/' +
-      designation.shaft_class;
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object().member("designation", std::string_view(text)).key("hole");
-  write_limits(json, fit->hole, tables);
-  json.key("shaft");
-  write_limits(json, fit->shaft, tables);
-  json.member("type", word(fit->kind()))
-      .member_um("max_clearance_um", fit->max_clearance())
-      .member_um("min_clearance_um", fit->min_clearance())
-      .end_object();
-  http::Response response(200, "application/json", std::move(body));
-  response.etag = etag_of(tables);
-  return response;
-}
-
-Result<http::Response> fit_of_two_segments(const http::Request& request,
-                                           const ToleranceTables& tables) {
-  const auto designation =
-      iso286::parse_fit_designation(*request.text("hole"), *request.text("shaft"));
-  if (!designation) return designation.error();
-  return fit_response(*designation, tables);
-}
-
-Result<http::Response> fit_of_one_segment(const http::Request& request,
-                                          const ToleranceTables& tables) {
-  const auto designation = iso286::parse_fit_designation(*request.text("fit"));
-  if (!designation) return designation.error();
-  return fit_response(*designation, tables);
-}
-
 }  // namespace
 
 void add_limits_routes(std::vector<http::Route>& routes,
@@ -102,33 +60,6 @@ void add_limits_routes(std::vector<http::Route>& routes,
                      {.name = "tolerance_class",
                       .required = true,
                       .description = "H7, g6 or a column of the shop's own"}},
-      .access = "open",
-  });
-}
-
-void add_fits_routes(std::vector<http::Route>& routes,
-                     const std::shared_ptr<ResponseCache>& cache) {
-  routes.push_back({
-      .pattern = "/v1/fits/{hole}/{shaft}",
-      .handler = ResponseCache::cached(cache, fit_of_two_segments),
-      .summary = "Fit of a hole and a shaft",
-      .description = "Limits of both and the clearances; interference is negative clearance.",
-      .parameters = {{.name = "hole",
-                      .place = http::ParameterPlace::Path,
-                      .description = "Size and class of the hole: 25H7"},
-                     {.name = "shaft",
-                      .place = http::ParameterPlace::Path,
-                      .description = "Class of the shaft: g6"}},
-      .access = "open",
-  });
-  routes.push_back({
-      .pattern = "/v1/fits/{fit}",
-      .handler = ResponseCache::cached(cache, fit_of_one_segment),
-      .summary = "Fit of a hole and a shaft, written as one",
-      .description = "The same with an encoded stroke: 25H7%2Fg6.",
-      .parameters = {{.name = "fit",
-                      .place = http::ParameterPlace::Path,
-                      .description = "25H7/g6, the stroke percent-encoded"}},
       .access = "open",
   });
 }

@@ -12,7 +12,4 @@ namespace fitgauge::api {
 void add_limits_routes(std::vector<http::Route>& routes,
                        const std::shared_ptr<ResponseCache>& cache);
 
-/// /v1/fits: a hole and a shaft of one nominal size.
-void add_fits_routes(std::vector<http::Route>& routes, const std::shared_ptr<ResponseCache>& cache);
-
 }  // namespace fitgauge::api

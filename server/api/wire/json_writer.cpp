@@ -65,6 +65,17 @@ JsonWriter& JsonWriter::value(double value) {
   return *this;
 }
 
+JsonWriter& JsonWriter::figure(long double value) {
+  if (!std::isfinite(value)) return null();
+  separate();
+  char digits[40];
+  const auto end =
+      std::to_chars(std::begin(digits), std::end(digits), value, std::chars_format::general, 17)
+          .ptr;
+  out_.append(std::begin(digits), end);
+  return *this;
+}
+
 JsonWriter& JsonWriter::value(std::string_view text) {
   separate();
   append_json_string(out_, text);

@@ -28,6 +28,8 @@ class JsonWriter {
   JsonWriter& value(std::uint32_t number) { return value(std::uint64_t{number}); }
   /// The shortest text that reads back as the same double; null when it is not finite.
   JsonWriter& value(double value);
+  /// 17 significant digits, the nearest to the value; null when it is not finite.
+  JsonWriter& figure(long double value);
   JsonWriter& value(std::string_view text);
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
   JsonWriter& value(const char* text) { return value(std::string_view(text)); }

@@ -69,6 +69,9 @@ int status_of(ErrorCode code) {
     case ErrorCode::NumberOutOfRange:
     case ErrorCode::RuleInvalid:
     case ErrorCode::LimitsInvalid:
+    case ErrorCode::StatisticsTooFew:
+    case ErrorCode::StatisticsZeroSpread:
+    case ErrorCode::StatisticsUnbalanced:
     case ErrorCode::TableRowsInvalid:
     case ErrorCode::TableFileMalformed:
     case ErrorCode::IdempotencyKeyReused:

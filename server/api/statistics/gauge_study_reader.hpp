@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "api/wire/json_value.hpp"
+#include "base/result.hpp"
+
+namespace fitgauge::api {
+
+/// The answer to a gauge study's body, by its method.
+Result<std::string> gauge_study(const JsonValue& body);
+
+}  // namespace fitgauge::api

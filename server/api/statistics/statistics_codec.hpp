@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "api/wire/json_writer.hpp"
+#include "metrology/anova.hpp"
+#include "metrology/capability.hpp"
+#include "metrology/control_chart.hpp"
+#include "metrology/gauge_study.hpp"
+#include "metrology/summary.hpp"
+
+// The answers of /v1/statistics. Figures have 17 significant digits; what is undefined is null.
+
+namespace fitgauge::api {
+
+void write_summary(JsonWriter& json, const metrology::Summary& summary);
+
+/// degrees_of_freedom, sum_of_squares and mean_square, without braces.
+void write_variation_members(JsonWriter& json, const metrology::Variation& variation);
+void write_test_members(JsonWriter& json, const metrology::FTest& test);
+
+/// The members of a chart's answer, without braces.
+void write_chart_members(JsonWriter& json, const metrology::ControlCharts& charts);
+
+void write_capability(JsonWriter& json, const metrology::Capability& capability,
+                      const metrology::SpecificationLimits& limits, long double confidence);
+
+/// @param tolerance none: its shares are null
+void write_gauge_study(JsonWriter& json, const metrology::GaugeStudy& study,
+                       metrology::StudyMethod method, const std::optional<long double>& tolerance);
+
+void write_linearity(JsonWriter& json, const metrology::LinearityStudy& study);
+
+}  // namespace fitgauge::api

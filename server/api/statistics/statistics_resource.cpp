@@ -1,0 +1,271 @@
+#include "api/statistics/statistics_resource.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "api/statistics/computation.hpp"
+#include "api/statistics/exact_reader.hpp"
+#include "api/statistics/gauge_study_reader.hpp"
+#include "api/statistics/statistics_codec.hpp"
+#include "metrology/pairing.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using metrology::Exact;
+
+Result<std::string> summary(const JsonValue& body) {
+  FieldErrors errors;
+  FieldReader fields(body, "", errors);
+  const metrology::Decimals values = read_values(fields, "values", errors);
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return *std::move(error);
+  std::string out;
+  JsonWriter json(out);
+  write_summary(json, metrology::summarise(values));
+  return out;
+}
+
+Result<std::string> anova(const JsonValue& body) {
+  FieldErrors errors;
+  FieldReader fields(body, "", errors);
+  const metrology::Groups groups = read_groups(fields, "groups", errors);
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return *std::move(error);
+  const auto made = metrology::analyse_variance(groups);
+  if (!made) return at_member("groups", made.error());
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object().key("between").begin_object();
+  write_variation_members(json, made->between);
+  json.end_object().key("within").begin_object();
+  write_variation_members(json, made->within);
+  json.end_object();
+  write_test_members(json, made->test);
+  json.key("r_squared").figure(made->r_squared);
+  json.key("residual_standard_deviation").figure(made->residual_standard_deviation).end_object();
+  return out;
+}
+
+std::string_view data_member(const JsonValue& body) {
+  return body.find("subgroups") != nullptr ? "subgroups" : "values";
+}
+
+Result<std::string> capability(const JsonValue& body) {
+  FieldErrors errors;
+  FieldReader fields(body, "", errors);
+  const metrology::Subgroups data = read_subgroups(fields, errors);
+  const metrology::SpecificationLimits limits{
+      .lower = read_exact(fields, "lower", false, errors),
+      .upper = read_exact(fields, "upper", false, errors),
+      .target = read_exact(fields, "target", false, errors)};
+  if (!fields.has("lower") && !fields.has("upper")) {
+    fields.report(ErrorCode::FieldMissing, "upper", "give lower, upper or both");
+  }
+  const double confidence = fields.number_or("confidence", 0.95);
+  if (!(confidence > 0 && confidence < 1)) {
+    fields.report(ErrorCode::FieldInvalid, "confidence", "confidence lies between 0 and 1");
+  }
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return *std::move(error);
+  const auto made = metrology::assess_capability(data, limits, confidence);
+  if (!made) {
+    const bool of_limits = made.error().code == ErrorCode::LimitsInvalid;
+    return at_member(of_limits ? "upper" : data_member(body), made.error());
+  }
+  std::string out;
+  JsonWriter json(out);
+  write_capability(json, *made, limits, confidence);
+  return out;
+}
+
+metrology::ZoneRules read_rules(FieldReader& fields) {
+  metrology::ZoneRules rules;
+  if (!fields.has("rules")) {
+    fields.optional("rules");
+    return rules;
+  }
+  const JsonValue* array = fields.array("rules");
+  if (array == nullptr) return rules;
+  for (const JsonValue& item : array->items) {
+    const bool known = item.is(JsonValue::Kind::Number) && item.text.size() == 1 &&
+                       item.text[0] >= '1' && item.text[0] <= '4';
+    if (known) {
+      rules.add(item.text[0] - '0');
+    } else {
+      fields.report(ErrorCode::FieldInvalid, "rules", "rules are of 1, 2, 3 and 4");
+      return rules;
+    }
+  }
+  return rules;
+}
+
+std::optional<metrology::ChartPlan::Phase> read_phase(FieldReader& fields, FieldErrors& errors) {
+  if (!fields.has("phase1")) return std::nullopt;
+  const JsonValue* object = fields.object("phase1");
+  if (object == nullptr) return std::nullopt;
+  constexpr std::int64_t kMost = 100'000'000;
+  FieldReader phase(*object, fields.at("phase1"), errors);
+  const auto from = phase.integer_or("from", 0, 0, kMost);
+  if (!phase.has("to")) phase.report(ErrorCode::FieldMissing, "to", "to is required");
+  const auto to = phase.integer_or("to", 0, 0, kMost);
+  phase.refuse_unknown();
+  return metrology::ChartPlan::Phase{static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
+}
+
+/// A number within ends that belong to it, or its fallback.
+double number_between(FieldReader& fields, std::string_view name, double fallback, double above,
+                      double up_to) {
+  const double value = fields.number_or(name, fallback);
+  if (value > above && value <= up_to) return value;
+  fields.report(ErrorCode::FieldInvalid, name,
+                fmt::format("{} is above {} and at most {}", name, above, up_to));
+  return fallback;
+}
+
+metrology::ChartPlan read_plan(FieldReader& fields, FieldErrors& errors) {
+  metrology::ChartPlan plan;
+  if (const auto text = fields.text("kind")) {
+    const auto kind = metrology::chart_kind_from_word(*text);
+    if (!kind) {
+      fields.report(ErrorCode::FieldInvalid, "kind", "kind is i_mr, xbar_r, xbar_s, ewma or cusum");
+    }
+    plan.kind = kind.value_or(plan.kind);
+  }
+  constexpr double kWidest = 1e15;
+  plan.rules = read_rules(fields);
+  plan.phase1 = read_phase(fields, errors);
+  if (fields.has("centre")) plan.centre = fields.number("centre");
+  if (fields.has("standard_deviation")) {
+    plan.standard_deviation = number_between(fields, "standard_deviation", 1, 0, kWidest);
+  }
+  plan.lambda = number_between(fields, "lambda", plan.lambda, 0, 1);
+  plan.reference_value = number_between(fields, "reference_value", plan.reference_value, 0, 10);
+  plan.decision_interval =
+      number_between(fields, "decision_interval", plan.decision_interval, 0, 20);
+  for (const std::string_view known : {"centre", "standard_deviation", "phase1"}) {
+    fields.optional(known);
+  }
+  return plan;
+}
+
+Result<std::string> chart(const JsonValue& body) {
+  FieldErrors errors;
+  FieldReader fields(body, "", errors);
+  const metrology::ChartPlan plan = read_plan(fields, errors);
+  const metrology::Subgroups data = read_subgroups(fields, errors);
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return *std::move(error);
+  const auto made = metrology::make_charts(data, plan);
+  if (!made) return at_member(data_member(body), made.error());
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object().member("kind", word(plan.kind));
+  write_chart_members(json, *made);
+  json.end_object();
+  return out;
+}
+
+Result<std::string> type1(const JsonValue& body) {
+  FieldErrors errors;
+  FieldReader fields(body, "", errors);
+  const metrology::Decimals values = read_values(fields, "values", errors);
+  const auto reference = read_exact(fields, "reference", true, errors);
+  const auto tolerance = read_exact(fields, "tolerance", true, errors);
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return *std::move(error);
+  const auto made = metrology::study_type1(values, *reference, *tolerance);
+  if (!made) {
+    const bool of_tolerance = made.error().code == ErrorCode::LimitsInvalid;
+    return at_member(of_tolerance ? "tolerance" : "values", made.error());
+  }
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object().member("count", std::uint64_t{made->count}).key("mean").figure(made->mean);
+  json.key("standard_deviation").figure(made->standard_deviation).key("bias").figure(made->bias);
+  json.key("t").figure(made->t).key("p").figure(made->p);
+  json.key("cg").figure(made->cg).key("cgk").figure(made->cgk).end_object();
+  return out;
+}
+
+/// Sizes of measured parts, under either of two names.
+std::vector<Length> read_sizes(FieldReader& fields, std::string_view name, std::string_view other,
+                               FieldErrors& errors) {
+  const std::string_view given = fields.has(other) && !fields.has(name) ? other : name;
+  std::vector<Length> sizes;
+  const JsonValue* array = fields.array(given);
+  if (array == nullptr) return sizes;
+  for (std::size_t i = 0; i < array->items.size(); ++i) {
+    const JsonValue& item = array->items[i];
+    const std::string pointer = pointer_to(fields.at(given), i);
+    if (!item.is(JsonValue::Kind::Number) && !item.is(JsonValue::Kind::String)) {
+      errors.add(ErrorCode::FieldType, pointer,
+                 fmt::format("a size in mm is wanted, not {}", name_of(item.kind)));
+      continue;
+    }
+    const auto size = parse_length_mm(
+        item.text, {.exponent = item.is(JsonValue::Kind::Number), .round_to_nearest = true});
+    if (size) {
+      sizes.push_back(*size);
+    } else {
+      errors.add(size.error().code, pointer, size.error().message);
+    }
+  }
+  return sizes;
+}
+
+Result<std::string> pairing(const JsonValue& body) {
+  FieldErrors errors;
+  FieldReader fields(body, "", errors);
+  const std::vector<Length> holes = read_sizes(fields, "holes", "holes_mm", errors);
+  const std::vector<Length> shafts = read_sizes(fields, "shafts", "shafts_mm", errors);
+  const auto target = fields.um("target_clearance_um");
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return *std::move(error);
+  const auto made = metrology::pair(holes, shafts, *target);
+  if (!made) return at_member(holes.empty() ? "holes" : "shafts", made.error());
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object().key("pairs").begin_array();
+  for (const metrology::Pair& pair : *made) {
+    json.begin_object()
+        .member("hole", std::uint64_t{pair.hole})
+        .member("shaft", std::uint64_t{pair.shaft})
+        .member_um("clearance_um", pair.clearance)
+        .end_object();
+  }
+  json.end_array().end_object();
+  return out;
+}
+
+}  // namespace
+
+void add_statistics_routes(std::vector<http::Route>& routes, const Services& services) {
+  const auto add = [&](std::string name, Result<std::string> (*compute)(const JsonValue&),
+                       std::string title, std::string description) {
+    routes.push_back(computation(services, "/v1/statistics/" + std::move(name), compute,
+                                 std::move(title), std::move(description)));
+  };
+  add("summary", summary, "Count, mean, standard deviation, r(1), extremes and quantiles",
+      "Exact sums of decimals, rounded once to 17 digits. Body: `{\"values\":[…]}`.");
+  add("anova", anova, "One-way analysis of variance",
+      "Body: `{\"groups\":[[…],…]}`; groups may differ in size.");
+  add("capability", capability, "Capability and performance indices with their intervals",
+      "Body: values or subgroups, lower, upper, target, confidence (0.95).");
+  add("chart", chart, "Control chart with the violations of its rules and their price",
+      "Body: kind (i_mr, xbar_r, xbar_s, ewma, cusum), values or subgroups, rules, phase1 "
+      "(from <= index < to), centre, standard_deviation, lambda, reference_value, "
+      "decision_interval.");
+  add("type1", type1, "Repeatability and bias of a gauge on one master: Cg, Cgk",
+      "Body: values, reference, tolerance.");
+  add("grr", gauge_study, "Gauge study: repeatability, reproducibility, parts",
+      "Body: measurements with part, operator, trial and value; method (anova, average_range, "
+      "type3, nested; linearity with reference, stability with at), model (auto, interaction, "
+      "pooled), tolerance.");
+  add("pairing", pairing, "Measured holes and shafts paired for a clearance",
+      "Body: holes, shafts (mm), target_clearance_um; the least sum of squares of all "
+      "assignments.");
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,219 @@
+#include "api/statistics/uncertainty_resource.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "api/statistics/computation.hpp"
+#include "api/wire/field_reader.hpp"
+#include "api/wire/json_writer.hpp"
+#include "metrology/uncertainty.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using metrology::Contribution;
+using metrology::Distribution;
+
+constexpr std::size_t kMostContributions = 100;
+
+/// A number that is 0 or more, where the member is given.
+std::optional<double> not_negative(FieldReader& row, std::string_view name) {
+  if (!row.has(name)) {
+    row.optional(name);
+    return std::nullopt;
+  }
+  const auto value = row.number(name);
+  if (value && *value < 0) {
+    row.report(ErrorCode::FieldInvalid, name, fmt::format("{} is 0 or more", name));
+  }
+  return value;
+}
+
+Contribution read_contribution(FieldReader& row) {
+  Contribution c;
+  const auto u = not_negative(row, "standard_uncertainty");
+  const auto half_width = not_negative(row, "half_width");
+  const std::string word =
+      row.optional_text("distribution").value_or(half_width ? "rectangular" : "normal");
+  if (const auto distribution = metrology::distribution_from_word(word)) {
+    c.distribution = *distribution;
+  } else {
+    row.report(ErrorCode::FieldInvalid, "distribution",
+               "distribution is normal, rectangular, triangular, u_shaped or t");
+  }
+  if (u && half_width) {
+    row.report(ErrorCode::FieldConflict, "half_width",
+               "give standard_uncertainty or half_width, not both");
+  } else if (!u && !half_width) {
+    if (!row.has("standard_uncertainty") && !row.has("half_width")) {
+      row.report(ErrorCode::FieldMissing, "standard_uncertainty",
+                 "standard_uncertainty is required, or half_width with distribution");
+    }
+  } else if (u) {
+    c.standard_uncertainty = *u;
+  } else if (const auto of = metrology::standard_uncertainty_of(c.distribution, *half_width)) {
+    c.standard_uncertainty = *of;
+  } else {
+    row.report(ErrorCode::FieldInvalid, "half_width",
+               "half_width belongs to rectangular, triangular and u_shaped; for the others give "
+               "standard_uncertainty");
+  }
+  c.sensitivity = row.number_or("sensitivity", 1);
+  if (row.has("degrees_of_freedom")) {
+    const auto freedom = row.number("degrees_of_freedom");
+    if (freedom && !(*freedom > 0)) {
+      row.report(ErrorCode::FieldInvalid, "degrees_of_freedom", "degrees_of_freedom is above 0");
+    }
+    c.degrees_of_freedom = freedom.value_or(c.degrees_of_freedom);
+  }
+  row.optional("degrees_of_freedom");
+  return c;
+}
+
+/// The names of contributions, to which correlations refer.
+using Names = std::map<std::string, std::size_t>;
+
+Names read_contributions(FieldReader& fields, metrology::Budget& budget, FieldErrors& errors) {
+  Names names;
+  const JsonValue* array = fields.array("contributions");
+  if (array == nullptr) return names;
+  if (array->items.empty() || array->items.size() > kMostContributions) {
+    fields.report(ErrorCode::FieldInvalid, "contributions",
+                  fmt::format("a budget has 1 to {} contributions", kMostContributions));
+    return names;
+  }
+  for (std::size_t i = 0; i < array->items.size(); ++i) {
+    FieldReader row(array->items[i], pointer_to(fields.at("contributions"), i), errors);
+    if (!array->items[i].is(JsonValue::Kind::Object)) continue;
+    const auto name = row.text("name");
+    budget.contributions.push_back(read_contribution(row));
+    row.refuse_unknown();
+    if (name && !names.try_emplace(*name, i).second) {
+      row.report(ErrorCode::FieldConflict, "name",
+                 fmt::format("another contribution is called '{}'", *name));
+    }
+  }
+  return names;
+}
+
+void read_correlations(FieldReader& fields, const Names& names, metrology::Budget& budget,
+                       FieldErrors& errors) {
+  if (!fields.has("correlations")) {
+    fields.optional("correlations");
+    return;
+  }
+  const JsonValue* array = fields.array("correlations");
+  if (array == nullptr) return;
+  for (std::size_t i = 0; i < array->items.size(); ++i) {
+    FieldReader row(array->items[i], pointer_to(fields.at("correlations"), i), errors);
+    if (!array->items[i].is(JsonValue::Kind::Object)) continue;
+    const JsonValue* between = row.array("between");
+    const auto coefficient = row.number("coefficient");
+    row.refuse_unknown();
+    if (coefficient && std::abs(*coefficient) > 1) {
+      row.report(ErrorCode::FieldInvalid, "coefficient", "coefficient lies from -1 to 1");
+    }
+    if (between == nullptr) continue;
+    std::vector<std::size_t> pair;
+    for (const JsonValue& name : between->items) {
+      if (const auto found = names.find(name.text); found != names.end()) {
+        pair.push_back(found->second);
+      }
+    }
+    if (pair.size() != 2 || between->items.size() != 2 || pair[0] == pair[1]) {
+      row.report(ErrorCode::FieldInvalid, "between", "between names two contributions");
+      continue;
+    }
+    budget.correlations.push_back({pair[0], pair[1], coefficient.value_or(0)});
+  }
+}
+
+struct Simulation {
+  std::uint64_t trials = 0;
+  std::uint64_t seed = 0;
+};
+
+std::optional<Simulation> read_simulation(FieldReader& fields, std::size_t contributions,
+                                          FieldErrors& errors) {
+  if (!fields.has("monte_carlo")) {
+    fields.optional("monte_carlo");
+    return std::nullopt;
+  }
+  const JsonValue* object = fields.object("monte_carlo");
+  if (object == nullptr) return std::nullopt;
+  constexpr std::int64_t kUsual = 1'000'000;
+  constexpr std::int64_t kFewest = 1'000;
+  FieldReader own(*object, fields.at("monte_carlo"), errors);
+  const auto most =
+      static_cast<std::int64_t>(metrology::kMostDraws / std::max<std::size_t>(contributions, 5));
+  const Simulation simulation{.trials = static_cast<std::uint64_t>(
+                                  own.integer_or("trials", std::min(kUsual, most), kFewest, most)),
+                              .seed = static_cast<std::uint64_t>(own.integer_or(
+                                  "seed", 1, 0, std::numeric_limits<std::int64_t>::max()))};
+  own.refuse_unknown();
+  return simulation;
+}
+
+Result<std::string> uncertainty(const JsonValue& body) {
+  FieldErrors errors;
+  FieldReader fields(body, "", errors);
+  metrology::Budget budget;
+  const Names names = read_contributions(fields, budget, errors);
+  read_correlations(fields, names, budget, errors);
+  budget.probability = fields.number_or("probability", budget.probability);
+  if (!(budget.probability > 0 && budget.probability < 1)) {
+    fields.report(ErrorCode::FieldInvalid, "probability", "probability lies between 0 and 1");
+  }
+  const auto simulation = read_simulation(fields, budget.contributions.size(), errors);
+  fields.refuse_unknown();
+  if (auto error = errors.take()) return *std::move(error);
+
+  const auto combined = metrology::combine(budget);
+  if (!combined) {
+    errors.add(combined.error().code, "/correlations", combined.error().message);
+    return *errors.take();
+  }
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object()
+      .member("combined_standard_uncertainty", combined->combined)
+      .member("effective_degrees_of_freedom", combined->degrees_of_freedom)
+      .member("welch_satterthwaite", combined->welch_satterthwaite)
+      .member("probability", budget.probability)
+      .member("coverage_factor", combined->coverage_factor)
+      .member("expanded_uncertainty", combined->expanded);
+  if (simulation) {
+    const auto made = metrology::simulate(budget, simulation->trials, simulation->seed);
+    if (!made) {
+      errors.add(made.error().code, "/correlations", made.error().message);
+      return *errors.take();
+    }
+    json.key("monte_carlo")
+        .begin_object()
+        .member("trials", simulation->trials)
+        .member("seed", simulation->seed)
+        .member("mean", made->mean)
+        .member("standard_deviation", made->standard_deviation)
+        .key("interval")
+        .begin_object()
+        .member("lower", made->lower)
+        .member("upper", made->upper)
+        .end_object()
+        .end_object();
+  }
+  json.end_object();
+  return out;
+}
+
+}  // namespace
+
+void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back(computation(
+      services, "/v1/uncertainty", uncertainty, "Uncertainty budget: u_c, degrees of freedom, k, U",
+      "Body: contributions with name, standard_uncertainty or half_width and distribution (normal, "
+      "rectangular, triangular, u_shaped, t), sensitivity, degrees_of_freedom; correlations; "
+      "probability (0.95); monte_carlo with trials and seed."));
+}
+
+}  // namespace fitgauge::api

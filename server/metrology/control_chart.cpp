@@ -1,0 +1,293 @@
+#include "metrology/control_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "metrology/chart_constants.hpp"
+#include "metrology/run_length.hpp"
+#include "metrology/summary.hpp"
+
+namespace fitgauge::metrology {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ChartKind>, 5> kWords = {{
+    {"i_mr", ChartKind::IMr},
+    {"xbar_r", ChartKind::XbarR},
+    {"xbar_s", ChartKind::XbarS},
+    {"ewma", ChartKind::Ewma},
+    {"cusum", ChartKind::Cusum},
+}};
+
+constexpr double kWidth = 3;  ///< of the limits, in standard deviations of a point
+
+using Counts = std::span<const Wide>;
+using Phase = ChartPlan::Phase;
+
+Wide range_of(Counts group) {
+  const auto [low, high] = std::minmax_element(group.begin(), group.end());
+  return *high - *low;
+}
+
+Wide moving_range(Counts counts, std::size_t i) {
+  return counts[i] > counts[i - 1] ? counts[i] - counts[i - 1] : counts[i - 1] - counts[i];
+}
+
+/// Values in subgroups, and the part of them the limits come from.
+class Source {
+ public:
+  Source(const Subgroups& data, Phase phase)
+      : data_(data), phase_(phase), unit_(power_of_ten(data.values.scale())) {}
+
+  std::size_t size() const { return data_.size; }
+  std::size_t count() const { return data_.count(); }
+  Counts counts() const { return data_.values.counts(); }
+  Counts group(std::size_t i) const { return counts().subspan(i * size(), size()); }
+  long double in_units(const Integer& sum, std::size_t of) const {
+    return nearest(Exact(sum, unit_ * Integer(of)));
+  }
+  /// sum / of, as a point.
+  double point(Wide sum, std::size_t of) const {
+    return static_cast<double>(short_unit_ != 0 ? ratio(sum, short_unit_ * static_cast<Wide>(of))
+                                                : in_units(Integer(sum), of));
+  }
+
+  long double mean() const {
+    const Counts used = counts().subspan(phase_.from * size(), (phase_.to - phase_.from) * size());
+    return nearest(moments(used, data_.values.scale()).mean);
+  }
+  long double mean_range() const {
+    ExactSum sum;
+    for (std::size_t i = phase_.from; i < phase_.to; ++i) sum.add(range_of(group(i)));
+    return in_units(sum.value(), phase_.to - phase_.from);
+  }
+  long double mean_moving_range() const {
+    ExactSum sum;
+    for (std::size_t i = phase_.from + 1; i < phase_.to; ++i) sum.add(moving_range(counts(), i));
+    return in_units(sum.value(), phase_.to - phase_.from - 1);
+  }
+  long double deviation(std::size_t i) const {
+    return moments(group(i), data_.values.scale()).standard_deviation();
+  }
+  long double mean_deviation() const {
+    long double sum = 0;
+    for (std::size_t i = phase_.from; i < phase_.to; ++i) sum += deviation(i);
+    return sum / static_cast<long double>(phase_.to - phase_.from);
+  }
+
+  std::vector<double> means() const {
+    std::vector<double> points;
+    points.reserve(count());
+    for (std::size_t i = 0; i < count(); ++i) {
+      Wide sum = 0;
+      for (const Wide value : group(i)) sum += value;
+      points.push_back(point(sum, size()));
+    }
+    return points;
+  }
+
+ private:
+  const Subgroups& data_;
+  Phase phase_;
+  Integer unit_;
+  /// The unit where it is short enough for quick points, else 0.
+  Wide short_unit_ = data_.values.scale() <= 18 ? static_cast<Wide>(unit_) : 0;
+};
+
+/// The spread chart that belongs to a location chart: its points, their mean in control and what
+/// that mean says of the standard deviation of single values.
+struct Spread {
+  std::string_view name;
+  std::vector<double> points;
+  long double mean = 0;
+  double per_mean = 1;       ///< mean of the statistic for a standard deviation of 1
+  double per_deviation = 1;  ///< standard deviation of the statistic, likewise
+};
+
+Spread moving_ranges(const Source& source) {
+  Spread spread{.name = "mr",
+                .points = {},
+                .mean = source.mean_moving_range(),
+                .per_mean = kMovingRangeDivisor,
+                .per_deviation = range_constants(2).d3};
+  spread.points.reserve(source.count());
+  for (std::size_t i = 1; i < source.count(); ++i) {
+    spread.points.push_back(source.point(moving_range(source.counts(), i), 1));
+  }
+  return spread;
+}
+
+Spread ranges(const Source& source) {
+  const RangeConstants constants = range_constants(source.size());
+  Spread spread{.name = "r",
+                .points = {},
+                .mean = source.mean_range(),
+                .per_mean = constants.d2,
+                .per_deviation = constants.d3};
+  spread.points.reserve(source.count());
+  for (std::size_t i = 0; i < source.count(); ++i) {
+    spread.points.push_back(source.point(range_of(source.group(i)), 1));
+  }
+  return spread;
+}
+
+Spread deviations(const Source& source) {
+  const double c = c4(source.size());
+  Spread spread{.name = "s",
+                .points = {},
+                .mean = source.mean_deviation(),
+                .per_mean = c,
+                .per_deviation = std::sqrt(1 - c * c)};
+  spread.points.reserve(source.count());
+  for (std::size_t i = 0; i < source.count(); ++i) {
+    spread.points.push_back(static_cast<double>(source.deviation(i)));
+  }
+  return spread;
+}
+
+Spread spread_of(const Source& source, ChartKind kind) {
+  if (source.size() == 1) return moving_ranges(source);
+  return kind == ChartKind::XbarS ? deviations(source) : ranges(source);
+}
+
+Chart spread_chart(Spread spread, long double sigma) {
+  Chart chart{.name = spread.name, .points = std::move(spread.points)};
+  chart.centre = sigma * spread.per_mean;
+  chart.upper_limit = chart.centre + kWidth * sigma * spread.per_deviation;
+  chart.lower_limit = std::max(0.0L, chart.centre - kWidth * sigma * spread.per_deviation);
+  return chart;
+}
+
+Chart ewma_chart(const std::vector<double>& points, long double centre, long double point_sigma,
+                 double lambda) {
+  Chart chart{.name = "ewma", .centre = centre};
+  const long double width = kWidth * point_sigma * std::sqrt(lambda / (2 - lambda));
+  chart.lower_limit = centre - width;
+  chart.upper_limit = centre + width;
+  long double weighted = centre;
+  chart.points.reserve(points.size());
+  for (const double point : points) {
+    weighted = lambda * static_cast<long double>(point) + (1 - lambda) * weighted;
+    chart.points.push_back(static_cast<double>(weighted));
+  }
+  return chart;
+}
+
+Chart cusum_chart(const std::vector<double>& points, long double centre, long double point_sigma,
+                  const ChartPlan& plan) {
+  Chart chart{.name = "cusum"};
+  chart.upper_limit = plan.decision_interval * point_sigma;
+  chart.lower_limit = -chart.upper_limit;
+  const long double slack = plan.reference_value * point_sigma;
+  long double up = 0;
+  long double down = 0;
+  for (const double point : points) {
+    up = std::max(0.0L, up + point - centre - slack);
+    down = std::min(0.0L, down + point - centre + slack);
+    chart.points.push_back(static_cast<double>(up));
+    chart.lower_points.push_back(static_cast<double>(down));
+  }
+  return chart;
+}
+
+/// Rule 1 of a chart that has no zones.
+void find_beyond(const Chart& chart, std::vector<ChartViolation>& violations) {
+  const auto upper = static_cast<double>(chart.upper_limit);
+  const auto lower = static_cast<double>(chart.lower_limit);
+  for (std::size_t i = 0; i < chart.points.size(); ++i) {
+    const double low = chart.lower_points.empty() ? chart.points[i] : chart.lower_points[i];
+    if (chart.points[i] > upper || low < lower) violations.push_back({chart.name, 1, i});
+  }
+}
+
+Result<Phase> phase_of(const Subgroups& data, const ChartPlan& plan) {
+  const Phase phase = plan.phase1.value_or(Phase{0, data.count()});
+  if (phase.from > phase.to || phase.to > data.count()) {
+    return Error{
+        ErrorCode::FieldInvalid,
+        fmt::format("phase1 takes points from <= index < to, to at most {}", data.count())};
+  }
+  if (phase.to - phase.from < 2) {
+    return Error{ErrorCode::StatisticsTooFew,
+                 "the limits of a chart are taken from two points or more"};
+  }
+  return phase;
+}
+
+}  // namespace
+
+std::string_view word(ChartKind kind) { return kWords[static_cast<std::size_t>(kind)].first; }
+
+std::optional<ChartKind> chart_kind_from_word(std::string_view text) {
+  for (const auto& [name, kind] : kWords) {
+    if (name == text) return kind;
+  }
+  return std::nullopt;
+}
+
+Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) {
+  const bool needs_groups = plan.kind == ChartKind::XbarR || plan.kind == ChartKind::XbarS;
+  if (needs_groups && data.size < 2) {
+    return Error{ErrorCode::StatisticsTooFew,
+                 fmt::format("{} takes subgroups of two values or more", word(plan.kind))};
+  }
+  if (plan.kind == ChartKind::IMr && data.size > 1) {
+    return Error{ErrorCode::FieldInvalid, "i_mr takes values, not subgroups"};
+  }
+  const auto phase = phase_of(data, plan);
+  if (!phase) return phase.error();
+
+  const Source source(data, *phase);
+  Spread spread = spread_of(source, plan.kind);
+  const long double sigma = plan.standard_deviation
+                                ? static_cast<long double>(*plan.standard_deviation)
+                                : spread.mean / spread.per_mean;
+  const long double point_sigma = sigma / std::sqrt(static_cast<long double>(data.size));
+  const long double centre = plan.centre ? static_cast<long double>(*plan.centre) : source.mean();
+  std::vector<double> points = source.means();
+
+  ControlCharts made{.charts = {},
+                     .violations = {},
+                     .average_run_length = std::numeric_limits<double>::infinity(),
+                     .standard_deviation = sigma};
+  if (plan.kind == ChartKind::Ewma || plan.kind == ChartKind::Cusum) {
+    const bool ewma = plan.kind == ChartKind::Ewma;
+    made.charts.push_back(ewma ? ewma_chart(points, centre, point_sigma, plan.lambda)
+                               : cusum_chart(points, centre, point_sigma, plan));
+    if (plan.rules.has(1)) {
+      find_beyond(made.charts.front(), made.violations);
+      made.average_run_length =
+          ewma ? ewma_run_length(plan.lambda, kWidth)
+               : cusum_run_length(plan.reference_value, plan.decision_interval);
+    }
+    return made;
+  }
+
+  for (const RuleViolation& found : find_violations(points, static_cast<double>(centre),
+                                                    static_cast<double>(point_sigma), plan.rules)) {
+    made.violations.push_back({needs_groups ? "xbar" : "i", found.rule, found.index});
+  }
+  made.charts.push_back({.name = needs_groups ? "xbar" : "i",
+                         .centre = centre,
+                         .lower_limit = centre - kWidth * point_sigma,
+                         .upper_limit = centre + kWidth * point_sigma,
+                         .points = std::move(points)});
+  made.charts.push_back(spread_chart(std::move(spread), sigma));
+  if (plan.rules.has(1)) find_beyond(made.charts.back(), made.violations);
+  if (!plan.rules.empty()) made.average_run_length = zone_rules_run_length(plan.rules);
+  return made;
+}
+
+Result<long double> within_standard_deviation(const Subgroups& data) {
+  if (data.values.size() < 2) {
+    return Error{ErrorCode::StatisticsTooFew, "one value says nothing of its spread"};
+  }
+  const Source source(data, {0, data.count()});
+  const Spread spread = spread_of(source, ChartKind::XbarR);
+  return spread.mean / spread.per_mean;
+}
+
+}  // namespace fitgauge::metrology

@@ -1,0 +1,40 @@
+#include "metrology/distributions.hpp"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace fitgauge::metrology {
+
+namespace bm = boost::math;
+
+long double normal_below(long double z) { return std::erfc(-z / std::sqrt(2.0L)) / 2; }
+
+long double normal_above(long double z) { return normal_below(-z); }
+
+long double normal_quantile(long double p) {
+  return bm::quantile(bm::normal_distribution<long double>(), p);
+}
+
+long double f_above(long double f, long double between, long double within) {
+  if (std::isinf(f)) return 0;
+  return bm::cdf(bm::complement(bm::fisher_f_distribution<long double>(between, within), f));
+}
+
+long double t_beyond(long double t, long double degrees_of_freedom) {
+  if (std::isinf(t)) return 0;
+  const bm::students_t_distribution<long double> distribution(degrees_of_freedom);
+  return 2 * bm::cdf(bm::complement(distribution, std::abs(t)));
+}
+
+long double t_quantile(long double p, long double degrees_of_freedom) {
+  return bm::quantile(bm::students_t_distribution<long double>(degrees_of_freedom), p);
+}
+
+long double chi_squared_quantile(long double p, long double degrees_of_freedom) {
+  return bm::quantile(bm::chi_squared_distribution<long double>(degrees_of_freedom), p);
+}
+
+}  // namespace fitgauge::metrology

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cmath>
+
+namespace fitgauge::metrology {
+
+// Distributions of Boost.Math, in `long double`. Degrees of freedom may be infinite for t.
+
+long double normal_below(long double z);
+inline double normal_below(double z) { return std::erfc(-z / std::sqrt(2.0)) / 2; }
+inline double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
+long double normal_above(long double z);
+/// The z with that probability below it.
+long double normal_quantile(long double p);
+
+/// The probability of a value above f; 0 for an infinite f.
+long double f_above(long double f, long double between, long double within);
+/// The probability of a value farther from 0 than t, on both sides.
+long double t_beyond(long double t, long double degrees_of_freedom);
+/// The t with that probability below it.
+long double t_quantile(long double p, long double degrees_of_freedom);
+long double chi_squared_quantile(long double p, long double degrees_of_freedom);
+
+}  // namespace fitgauge::metrology

@@ -1,0 +1,129 @@
+#include "metrology/process_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "metrology/anova.hpp"
+#include "metrology/distributions.hpp"
+
+namespace fitgauge::metrology {
+namespace {
+
+constexpr std::size_t kSizeOfValues = 5;
+constexpr std::size_t kFewestGroups = 5;
+
+struct Row {
+  std::string_view word;
+  std::string_view meaning;
+};
+constexpr std::array<Row, 8> kRows = {{
+    {"A1", "location and dispersion constant, normal"},
+    {"A2", "location and dispersion constant, not normal"},
+    {"B", "location constant, dispersion changes"},
+    {"C1", "location changes at random, all values together normal"},
+    {"C2", "location changes at random, all values together not normal"},
+    {"C3", "location has a trend, dispersion constant"},
+    {"C4", "location changes from batch to batch, dispersion constant"},
+    {"D", "location and dispersion change"},
+}};
+
+/// Whole subgroups, of a size of their own where the values come one by one.
+Groups in_groups(const Subgroups& data) {
+  const std::size_t size = data.size > 1 ? data.size : kSizeOfValues;
+  Groups groups;
+  const std::size_t count = data.values.size() / size;
+  const auto used = data.values.counts().first(count * size);
+  groups.values = Decimals({used.begin(), used.end()}, data.values.scale());
+  for (std::size_t i = 1; i <= count; ++i) groups.ends.push_back(i * size);
+  return groups;
+}
+
+/// Distances from the median of their group, doubled so that they stay whole numbers.
+Groups distances_from_medians(const Groups& groups) {
+  std::vector<Wide> distances;
+  std::vector<Wide> sorted;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    sorted.assign(groups[i].begin(), groups[i].end());
+    std::sort(sorted.begin(), sorted.end());
+    const Wide twice = sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2];
+    for (const Wide value : groups[i]) {
+      distances.push_back(2 * value > twice ? 2 * value - twice : twice - 2 * value);
+    }
+  }
+  return {Decimals(std::move(distances), groups.values.scale()), groups.ends};
+}
+
+/// Whether the means rise or fall with their index: the probability of so steep a slope by chance;
+/// and their r(1), which shows batches.
+struct Course {
+  long double trend = kUndefined;
+  double autocorrelation = 0;
+};
+Course course_of(const Groups& groups) {
+  const std::size_t n = groups.size();
+  std::vector<double> means;
+  for (std::size_t i = 0; i < n; ++i) {
+    means.push_back(static_cast<double>(nearest(moments(groups[i], groups.values.scale()).mean)));
+  }
+  const auto count = static_cast<double>(n);
+  double mean = 0;
+  for (const double value : means) mean += value / count;
+  const double middle = (count - 1) / 2;
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  double neighbours = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = static_cast<double>(i) - middle;
+    const double y = means[i] - mean;
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+    if (i > 0) neighbours += y * (means[i - 1] - mean);
+  }
+  if (yy == 0) return {};
+  const double unexplained = std::max(0.0, 1 - xy * xy / (xx * yy));
+  const double t = std::sqrt(xy * xy / (xx * yy) / unexplained * (count - 2));
+  return {.trend = t_beyond(t, count - 2), .autocorrelation = neighbours / yy};
+}
+
+}  // namespace
+
+std::string_view word(ProcessModel model) { return kRows[static_cast<std::size_t>(model)].word; }
+std::string_view meaning(ProcessModel model) {
+  return kRows[static_cast<std::size_t>(model)].meaning;
+}
+
+std::optional<ModelChoice> choose_model(const Subgroups& data, const NormalityTest& normality) {
+  const Groups groups = in_groups(data);
+  if (groups.size() < kFewestGroups) return std::nullopt;
+  ModelChoice choice;
+  const Course course = course_of(groups);
+  choice.tests = {.location = analyse_variance(groups).value().test.p,
+                  .dispersion = analyse_variance(distances_from_medians(groups)).value().test.p,
+                  .trend = course.trend,
+                  .subgroup_size = groups[0].size()};
+  // An undefined probability (no spread within) is not below the significance.
+  const bool moves = choice.tests.location < kModelSignificance;
+  const bool widens = choice.tests.dispersion < kModelSignificance;
+  const bool normal = normality.p >= kModelSignificance;
+  // Two standard errors of the r(1) of a random series.
+  const double random_bound = 2 / std::sqrt(static_cast<double>(groups.size()));
+  if (moves && widens) {
+    choice.model = ProcessModel::D;
+  } else if (widens) {
+    choice.model = ProcessModel::B;
+  } else if (!moves) {
+    choice.model = normal ? ProcessModel::A1 : ProcessModel::A2;
+  } else if (choice.tests.trend < kModelSignificance) {
+    choice.model = ProcessModel::C3;
+  } else if (course.autocorrelation > random_bound) {
+    choice.model = ProcessModel::C4;
+  } else {
+    choice.model = normal ? ProcessModel::C1 : ProcessModel::C2;
+  }
+  return choice;
+}
+
+}  // namespace fitgauge::metrology

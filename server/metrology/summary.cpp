@@ -1,0 +1,91 @@
+#include "metrology/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fitgauge::metrology {
+namespace {
+
+constexpr int kHundredThousand = 100'000;
+
+}  // namespace
+
+long double square_root(const Exact& value) {
+  if (value == 0) return 0;
+  // The root of top * bottom * 4^k, cut to a whole number of at least 130 bits, over bottom * 2^k:
+  // a relative error below 2^-129 before the one rounding.
+  const Integer& bottom = denominator(value);
+  Integer product = numerator(value) * bottom;
+  constexpr int kBits = 260;
+  const int missing = std::max(0, kBits - static_cast<int>(msb(product)));
+  const int k = (missing + 1) / 2;
+  product <<= 2 * k;
+  return nearest(Exact(sqrt(product), Integer(bottom << k)));
+}
+
+long double Moments::standard_deviation() const {
+  return count < 2 ? kUndefined : square_root(squares / whole(count - 1));
+}
+
+Moments moments(std::span<const Wide> counts, int scale) {
+  const Wide origin = counts.front();
+  ExactSum sum;
+  ExactSum squares;
+  for (const Wide count : counts) {
+    const Wide deviation = count - origin;
+    sum.add(deviation);
+    squares.add_product(deviation, deviation);
+  }
+  const Integer n(counts.size());
+  const Integer total = sum.value();
+  const Integer unit = power_of_ten(scale);
+  return {.count = counts.size(),
+          .mean = Exact(Integer(origin) * n + total, n * unit),
+          .squares = Exact(n * squares.value() - total * total, n * unit * unit)};
+}
+
+long double autocorrelation_lag_1(const Decimals& values, const Moments& of) {
+  if (of.squares == 0) return kUndefined;
+  const auto counts = values.counts();
+  const Wide origin = counts.front();
+  ExactSum products;
+  for (std::size_t i = 1; i < counts.size(); ++i) {
+    products.add_product(counts[i] - origin, counts[i - 1] - origin);
+  }
+  // With deviations d from the first value and their mean m, the sum of (d - m)(d' - m) over the
+  // n - 1 pairs of neighbours.
+  const Exact unit(power_of_ten(values.scale()));
+  const Exact m = (of.mean - values[0]) * unit;
+  const Exact n = whole(of.count);
+  const Exact last = Exact(Integer(counts.back() - origin));
+  const Exact covered = 2 * n * m - last;  // the first value deviates by nothing
+  const Exact sum = Exact(products.value()) - m * covered + (n - 1) * m * m;
+  return nearest(sum / (of.squares * unit * unit));
+}
+
+Exact quantile(std::span<const Wide> sorted, int scale, const Exact& p) {
+  const Exact place = p * whole(sorted.size() - 1);
+  const Integer below = numerator(place) / denominator(place);
+  const auto index = static_cast<std::size_t>(below);
+  const Exact share = place - Exact(below);
+  const Wide low = sorted[index];
+  const Wide high = sorted[std::min(index + 1, sorted.size() - 1)];
+  return (Exact(Integer(low)) + share * Exact(Integer(high - low))) / Exact(power_of_ten(scale));
+}
+
+Summary summarise(const Decimals& values) {
+  Summary summary;
+  summary.moments = moments(values);
+  summary.autocorrelation_lag_1 = autocorrelation_lag_1(values, summary.moments);
+  std::vector<Wide> sorted(values.counts().begin(), values.counts().end());
+  std::sort(sorted.begin(), sorted.end());
+  summary.min = values.exact(Integer(sorted.front()));
+  summary.max = values.exact(Integer(sorted.back()));
+  for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
+    const Exact p(Integer(kQuantiles[i]), Integer(kHundredThousand));
+    summary.quantiles[i] = {.p = nearest(p), .value = nearest(quantile(sorted, values.scale(), p))};
+  }
+  return summary;
+}
+
+}  // namespace fitgauge::metrology

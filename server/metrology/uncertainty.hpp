@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace fitgauge::metrology {
+
+/// The shapes of a contribution (JCGM 100, 4.3; JCGM 101, table 1). U-shaped is the arcsine.
+enum class Distribution : std::uint8_t { Normal, Rectangular, Triangular, UShaped, T };
+std::optional<Distribution> distribution_from_word(std::string_view text);
+
+/// The standard uncertainty of a half width; none for the shapes that have no width.
+std::optional<double> standard_uncertainty_of(Distribution distribution, double half_width);
+
+struct Contribution {
+  double standard_uncertainty = 0;
+  double sensitivity = 1;
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
+  Distribution distribution = Distribution::Normal;
+};
+
+struct Correlation {
+  std::size_t a = 0;  ///< indices of contributions
+  std::size_t b = 0;
+  double coefficient = 0;
+};
+
+struct Budget {
+  std::vector<Contribution> contributions{};
+  std::vector<Correlation> correlations{};
+  double probability = 0.95;
+};
+
+struct CombinedUncertainty {
+  double combined = 0;
+  double welch_satterthwaite = 0;  ///< may be infinite
+  double degrees_of_freedom = 0;   ///< the same, truncated to a whole number, at least 1
+  double coverage_factor = 0;      ///< of the t distribution
+  double expanded = 0;
+};
+
+/// The law of propagation (JCGM 100, 5.1.2 and 5.2.2) with the formula of Welch and Satterthwaite
+/// (G.4.1).
+/// @errors FieldInvalid: correlations that no quantities can have (the variance would be negative).
+Result<CombinedUncertainty> combine(const Budget& budget);
+
+struct MonteCarloResult {
+  double mean = 0;
+  double standard_deviation = 0;
+  double lower = 0;  ///< the interval with equal probability below and above it
+  double upper = 0;
+};
+inline constexpr std::uint64_t kMostDraws = 50'000'000;  ///< trials times contributions
+
+/// The propagation of distributions (JCGM 101), of deviations from the estimate. The same seed
+/// gives the same answer everywhere.
+/// @errors FieldInvalid: correlated contributions that are not normal, or correlations as above.
+Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, std::uint64_t seed);
+
+}  // namespace fitgauge::metrology

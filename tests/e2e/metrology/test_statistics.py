@@ -1,0 +1,209 @@
+"""The statistics over HTTP: published figures, and what is refused."""
+
+import random
+
+from support.daemon import ROOT, DaemonTest
+
+RINGS = [line.split() for line in (ROOT / "tests/reference/piston_rings.txt").read_text().splitlines()]
+STUDY = [{"part": part, "operator": who, "trial": trial, "value": value}
+         for who, trials in enumerate([[[0, 2], [4, 6]], [[2, 4], [2, 4]]])
+         for part, values in enumerate(trials) for trial, value in enumerate(values)]
+
+
+class Statistics(DaemonTest):
+    def send(self, name, body):
+        return self.daemon.post(f"/v1/statistics/{name}", body, {"Content-Type": "application/json"})
+
+    def compute(self, name, body):
+        answer = self.send(name, body)
+        self.assertEqual(answer.status, 200, answer)
+        return answer.json
+
+    def test_figures_have_seventeen_digits_of_the_exact_value(self):
+        answer = self.send("summary", b'{"values":[0.1,"0.2",0.7]}')
+        self.assertIn('"mean":0.33333333333333333,"standard_deviation":0.32145502536643183', answer.text)
+        summary = answer.json
+        self.assertEqual((summary["count"], summary["min"], summary["max"]), (3, 0.1, 0.7))
+        self.assertEqual(summary["quantiles"]["type"], 7)
+        one = self.compute("summary", {"values": ["25.003"]})
+        self.assertIsNone(one["standard_deviation"])
+        self.assertIsNone(one["autocorrelation_lag_1"])
+
+    def test_the_analysis_of_variance(self):
+        anova = self.compute("anova", {"groups": [[1, 2, 3], [2, 3, 4], [6, 7, 8]]})
+        self.assertEqual(anova["between"], {"degrees_of_freedom": 2, "sum_of_squares": 42, "mean_square": 21})
+        self.assertEqual(anova["within"], {"degrees_of_freedom": 6, "sum_of_squares": 6, "mean_square": 1})
+        self.assertEqual(anova["f"], 21)
+        self.assertEqual(anova["r_squared"], 0.875)
+        # The p of F(2, m) has a closed form: (1 + 2 F / m) ^ (-m / 2).
+        self.assertAlmostEqual(anova["p"], (1 + 2 * 21 / 6) ** -3, delta=1e-17)
+
+    def test_the_piston_rings(self):
+        body = {"subgroups": RINGS[:25], "lower": 73.95, "upper": "74.05"}
+        capability = self.compute("capability", body)
+        self.assertAlmostEqual(capability["cp"]["value"], 1.703, places=3)
+        self.assertAlmostEqual(capability["cpk"]["value"], 1.663, places=3)
+        self.assertTrue(capability["stable"])
+        chart = self.compute("chart", {"kind": "xbar_r", "subgroups": RINGS, "rules": [1, 2, 3, 4],
+                                       "phase1": {"from": 0, "to": 25}})
+        self.assertAlmostEqual(chart["average_run_length"], 91.75, places=2)
+        self.assertEqual([c["name"] for c in chart["charts"]], ["xbar", "r"])
+        self.assertIn({"chart": "xbar", "rule": 1, "index": 36}, chart["violations"])
+        self.assertIsNone(self.compute("chart", {"kind": "xbar_s", "subgroups": RINGS})["average_run_length"])
+
+    def test_a_capability_with_one_limit(self):
+        capability = self.compute("capability", {"values": [1, 2, 3, 2, 1], "upper": 5})
+        self.assertIsNone(capability["cp"])
+        self.assertIsNone(capability["cpl"])
+        self.assertEqual(capability["cpk"], capability["cpu"])
+
+    def test_gauge_studies(self):
+        study = self.compute("grr", {"method": "anova", "model": "interaction", "tolerance": 60,
+                                     "measurements": STUDY})
+        self.assertAlmostEqual(study["ev"] ** 2, 2, places=15)
+        self.assertAlmostEqual(study["interaction"] ** 2, 3, places=15)
+        self.assertAlmostEqual(study["contribution_percent"]["ev"], 40, places=12)
+        self.assertAlmostEqual(study["tolerance_percent"]["grr"], 10 * 5 ** 0.5, places=12)
+        self.assertEqual(list(study["anova"]), ["part", "operator", "interaction", "repeatability", "total"])
+        for method in ("average_range", "nested"):
+            self.assertGreater(self.compute("grr", {"method": method, "measurements": STUDY})["ev"], 0)
+        rows = [{"part": row["part"], "value": row["value"]} for row in STUDY]
+        self.assertIsNone(self.compute("grr", {"method": "type3", "measurements": rows})["av"])
+        linear = self.compute("grr", {"method": "linearity", "measurements": [
+            {"reference": x, "value": f"{1.1 * x + 0.05:.3f}"} for x in (1, 1, 2, 3)]})
+        self.assertAlmostEqual(linear["slope"]["value"], 0.1, places=15)
+        stable = self.compute("grr", {"method": "stability", "measurements": [
+            {"at": f"2026-11-{day:02}", "value": value} for day in range(1, 6) for value in (1, 2)]})
+        self.assertTrue(stable["stable"])
+        type1 = self.compute("type1", {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6})
+        self.assertAlmostEqual(type1["cg"], 1.2 / (6 * (0.04 / 3) ** 0.5), places=14)
+
+    def test_two_thousand_pairs(self):
+        source = random.Random(3)
+        holes = [f"{25 + source.random() / 100:.6f}" for _ in range(2000)]
+        shafts = [f"{25 - source.random() / 100:.6f}" for _ in range(2000)]
+        pairs = self.compute("pairing", {"holes": holes, "shafts": shafts, "target_clearance_um": 10})["pairs"]
+        self.assertEqual(sorted(p["hole"] for p in pairs), list(range(2000)))
+        self.assertEqual(sorted(p["shaft"] for p in pairs), list(range(2000)))
+        few = self.compute("pairing", {"holes_mm": [25.01], "shafts_mm": [24.99, 25.001], "target_clearance_um": 8})
+        self.assertEqual(few, {"pairs": [{"hole": 0, "shaft": 1, "clearance_um": 9}]})
+
+    def test_what_is_refused(self):
+        capability = {"values": [1, 2, 3], "lower": 0, "upper": 4}
+        for name, body, code in [
+                ("summary", {"values": []}, "statistics.too_few"),
+                ("summary", {}, "field.missing"),
+                ("summary", {"values": 3}, "field.type"),
+                ("summary", {"values": [1, None]}, "field.type"),
+                ("summary", {"values": ["NaN"]}, "number.malformed"),
+                ("summary", {"values": ["1,5"]}, "number.malformed"),
+                ("summary", b'{"values":[1e999]}', "number.out_of_range"),
+                ("summary", {"values": [1e20, 1e-20]}, "number.out_of_range"),
+                ("summary", {"values": [1], "what": 1}, "field.unknown"),
+                ("anova", {"groups": [[1, 2]]}, "statistics.too_few"),
+                ("anova", {"groups": [[1], [2]]}, "statistics.too_few"),
+                ("anova", {"groups": [[1], []]}, "statistics.too_few"),
+                ("anova", {"groups": [1, 2]}, "field.type"),
+                ("capability", {**capability, "values": [1]}, "statistics.too_few"),
+                ("capability", {**capability, "values": [1, 1, 1]}, "statistics.zero_spread"),
+                ("capability", {**capability, "lower": 5}, "limits.invalid"),
+                ("capability", {"values": [1, 2, 3]}, "field.missing"),
+                ("capability", {**capability, "confidence": 1}, "field.invalid"),
+                ("capability", {**capability, "subgroups": [[1, 2], [1, 2]]}, "field.conflict"),
+                ("capability", {"subgroups": [[1, 2], [1]], "upper": 4}, "statistics.unbalanced"),
+                ("capability", {"subgroups": [[1], [2]], "upper": 4}, "statistics.too_few"),
+                ("chart", {"values": [1, 2]}, "field.missing"),
+                ("chart", {"kind": "p", "values": [1, 2]}, "field.invalid"),
+                ("chart", {"kind": "i_mr", "values": [1, 2], "rules": [5]}, "field.invalid"),
+                ("chart", {"kind": "i_mr", "values": [1]}, "statistics.too_few"),
+                ("chart", {"kind": "xbar_r", "values": [1, 2]}, "statistics.too_few"),
+                ("chart", {"kind": "i_mr", "values": [1, 2], "phase1": {"from": 0, "to": 9}}, "field.invalid"),
+                ("chart", {"kind": "ewma", "values": [1, 2], "lambda": 0}, "field.invalid"),
+                ("type1", {"values": [1, 1], "reference": 1, "tolerance": 1}, "statistics.zero_spread"),
+                ("type1", {"values": [1, 2], "reference": 1, "tolerance": -1}, "limits.invalid"),
+                ("type1", {"values": [1, 2], "tolerance": 1}, "field.missing"),
+                ("grr", {"measurements": STUDY[:-1]}, "statistics.unbalanced"),
+                ("grr", {"measurements": [{"part": 1, "value": 1}]}, "field.missing"),
+                ("grr", {"measurements": [{**row, "value": 1} for row in STUDY]}, "statistics.zero_spread"),
+                ("grr", {"measurements": [{**row, "operator": 1, "trial": i} for i, row in enumerate(STUDY)]},
+                 "statistics.too_few"),
+                ("grr", {"measurements": STUDY + STUDY[:1]}, "field.conflict"),
+                ("grr", {"method": "guess", "measurements": STUDY}, "field.invalid"),
+                ("pairing", {"holes": [], "shafts": [1], "target_clearance_um": 0}, "statistics.too_few"),
+                ("pairing", {"holes": [1], "shafts": [1]}, "field.missing")]:
+            with self.subTest(name=name, body=body):
+                answer = self.send(name, body)
+                self.assert_problem(answer, 422, "request.invalid")
+                self.assertEqual(answer.json["errors"][0]["code"], code, answer)
+        self.assert_problem(self.send("summary", b'{"values":[NaN]}'), 400, "json.malformed")
+        ten_million = b'{"values":[' + b"1," * 9_999_999 + b"1]}"
+        self.assert_problem(self.send("summary", ten_million), 413, "request.body_too_large")
+
+
+class Uncertainty(DaemonTest):
+    def test_the_end_gauge_of_the_gum(self):
+        body = {"contributions": [
+            {"name": "standard", "standard_uncertainty": 25, "degrees_of_freedom": 18},
+            {"name": "comparator", "standard_uncertainty": 9.7, "degrees_of_freedom": 25.6},
+            {"name": "expansion", "standard_uncertainty": 2.9, "degrees_of_freedom": 50},
+            {"name": "temperature", "standard_uncertainty": 16.6, "degrees_of_freedom": 2}],
+            "probability": 0.99, "monte_carlo": {"trials": 20000, "seed": 3}}
+        answer = self.daemon.post("/v1/uncertainty", body).json
+        self.assertAlmostEqual(answer["combined_standard_uncertainty"], 31.7, delta=0.05)
+        self.assertEqual(answer["effective_degrees_of_freedom"], 16)
+        self.assertAlmostEqual(answer["expanded_uncertainty"], 93, delta=0.6)
+        self.assertLess(answer["monte_carlo"]["interval"]["lower"], 0)
+        self.assertEqual(answer, self.daemon.post("/v1/uncertainty", body).json)
+
+    def test_what_is_refused(self):
+        one = {"name": "a", "standard_uncertainty": 1}
+        for body, code in [
+                ({"contributions": []}, "field.invalid"),
+                ({"contributions": [{"name": "a"}]}, "field.missing"),
+                ({"contributions": [{"name": "a", "standard_uncertainty": -1}]}, "field.invalid"),
+                ({"contributions": [{"name": "a", "half_width": 1, "distribution": "normal"}]}, "field.invalid"),
+                ({"contributions": [{**one, "half_width": 1}]}, "field.conflict"),
+                ({"contributions": [{**one, "distribution": "odd"}]}, "field.invalid"),
+                ({"contributions": [{**one, "degrees_of_freedom": 0}]}, "field.invalid"),
+                ({"contributions": [one, one]}, "field.conflict"),
+                ({"contributions": [one], "probability": 1}, "field.invalid"),
+                ({"contributions": [one], "correlations": [{"between": ["a", "b"], "coefficient": 1}]},
+                 "field.invalid"),
+                ({"contributions": [one], "monte_carlo": {"trials": 10 ** 12}}, "field.invalid")]:
+            with self.subTest(body=body):
+                answer = self.daemon.post("/v1/uncertainty", body)
+                self.assert_problem(answer, 422, "request.invalid")
+                self.assertEqual(answer.json["errors"][0]["code"], code, answer)
+
+
+class Fits(DaemonTest):
+    def test_gauges(self):
+        gauge = self.daemon.get("/v1/gauges/25H7").json
+        self.assertEqual(gauge["scheme"], "ISO/R 1938:1971")
+        self.assertEqual(gauge["go"], {"upper_mm": 25.005, "lower_mm": 25.001, "wear_limit_mm": 24.997})
+        self.assertEqual(gauge["no_go"], {"upper_mm": 25.023, "lower_mm": 25.019})
+        for designation, status, code in [("501H7", 422, "size.out_of_range"),
+                                          ("25H17", 422, "class.undefined_for_size"),
+                                          ("25H19", 404, "class.unknown")]:
+            self.assert_problem(self.daemon.get(f"/v1/gauges/{designation}"), status, code)
+
+    def test_the_search(self):
+        path = "/v1/fits?nominal_mm=25&min_clearance_um=5&max_clearance_um=45"
+        found = self.daemon.get(path).json
+        self.assertTrue(found["fits"][0]["preferred"])
+        self.assertIn("25 H7/g6", [fit["designation"] for fit in found["fits"]])
+        self.assertEqual(len(self.daemon.get(path + "&limit=3").json["fits"]), 3)
+        fit = self.daemon.get("/v1/fits/25H7/k6").json
+        self.assertAlmostEqual(fit["statistical"]["uniform"]["probability_of_interference"], 8.5 / 21)
+        self.assert_problem(self.daemon.get("/v1/fits?nominal_mm=25"), 400, "query.missing")
+        self.assert_problem(self.daemon.get("/v1/fits?nominal_mm=25&min_clearance_um=9&max_clearance_um=5"), 400,
+                            "query.invalid")
+
+    def test_a_press_fit(self):
+        body = {"joint_diameter_mm": 50, "length_mm": 40, "max_interference_um": 40,
+                "hub": {"outer_diameter_mm": 100}, "shaft": {}}
+        pressed = self.daemon.post("/v1/press-fits", body).json
+        self.assertAlmostEqual(pressed["at_max_interference"]["pressure_mpa"], 63, places=9)
+        for change in ({"joint_diameter_mm": 0}, {"length_mm": "x"}, {"hub": {}}, {"shaft": {"inner_diameter_mm": 60}}):
+            with self.subTest(change):
+                self.assert_problem(self.daemon.post("/v1/press-fits", {**body, **change}), 422, "request.invalid")

@@ -1,0 +1,134 @@
+#include <cmath>
+
+#include "metrology/capability.hpp"
+#include "metrology/distributions.hpp"
+#include "support.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::metrology;
+using doctest::Approx;
+
+namespace {
+
+SpecificationLimits limits(const char* lower, const char* upper) {
+  SpecificationLimits made;
+  if (lower != nullptr) made.lower = parse_exact(lower).value().exact();
+  if (upper != nullptr) made.upper = parse_exact(upper).value().exact();
+  return made;
+}
+
+double value(const std::optional<CapabilityIndex>& index) {
+  return static_cast<double>(index.value().value);
+}
+
+}  // namespace
+
+TEST_CASE("the capability of the piston rings is qcc's, with its intervals") {
+  const Capability c = assess_capability(piston_rings(), limits("73.95", "74.05"), 0.95L).value();
+  CHECK(value(c.cp) == Approx(1.703).epsilon(0.0003));
+  CHECK(value(c.cpk) == Approx(1.663).epsilon(0.0003));
+  CHECK(value(c.cpl) == Approx(1.743).epsilon(0.0003));
+  CHECK(value(c.cpu) == Approx(1.663).epsilon(0.0003));
+  CHECK(static_cast<double>(c.cp->lower) == Approx(1.491).epsilon(0.0004));
+  CHECK(static_cast<double>(c.cp->upper) == Approx(1.915).epsilon(0.0004));
+  CHECK(static_cast<double>(c.cpk->lower) == Approx(1.448).epsilon(0.0004));
+  CHECK(static_cast<double>(c.cpk->upper) == Approx(1.878).epsilon(0.0004));
+  // With the overall standard deviation, by numpy and scipy 1.10.
+  CHECK(value(c.pp) == Approx(1.6550863376768896).epsilon(1e-10));
+  CHECK(value(c.cpm) == Approx(1.6439142488896417).epsilon(1e-10));
+  CHECK(static_cast<double>(c.pp->lower / c.pp->value) == Approx(0.8756108).epsilon(1e-7));
+  CHECK(static_cast<double>(c.pp->upper / c.pp->value) == Approx(1.12419901).epsilon(1e-7));
+  CHECK(value(c.cm) == value(c.pp));
+  CHECK(value(c.cmk) == value(c.ppk));
+  CHECK(c.stable);
+  CHECK(c.normality->statistic == Approx(0.19101938332570967).epsilon(1e-9));
+  CHECK(c.model->model == ProcessModel::A1);
+  CHECK(static_cast<double>(c.model->tests.location) == Approx(0.24453206012550643).epsilon(1e-8));
+  CHECK(static_cast<double>(c.model->tests.dispersion) == Approx(0.5166939144966884).epsilon(1e-8));
+  CHECK(static_cast<double>(c.model->tests.trend) == Approx(0.745461592390955).epsilon(1e-8));
+  CHECK_FALSE(c.percentile);
+}
+
+TEST_CASE("a process that moved is given its indices and is not called stable") {
+  const Capability c = assess_capability(piston_rings(40), limits("73.95", "74.05"), 0.95L).value();
+  CHECK_FALSE(c.stable);
+  CHECK_FALSE(c.violations.empty());
+  CHECK(c.cpk);
+  CHECK(c.model->model != ProcessModel::A1);
+}
+
+TEST_CASE("one limit leaves the indices of the other side without a value") {
+  const Subgroups data = piston_rings();
+  const Capability upper = assess_capability(data, limits(nullptr, "74.05"), 0.95L).value();
+  CHECK_FALSE(upper.cp);
+  CHECK_FALSE(upper.cpl);
+  CHECK_FALSE(upper.pp);
+  CHECK_FALSE(upper.cpm);
+  CHECK(value(upper.cpk) == value(upper.cpu));
+  const Capability lower = assess_capability(data, limits("73.95", nullptr), 0.95L).value();
+  CHECK_FALSE(lower.cpu);
+  CHECK(value(lower.cpk) == value(lower.cpl));
+}
+
+TEST_CASE("what has no capability is refused with its code") {
+  const auto code = [](const char* values, const SpecificationLimits& of) {
+    return assess_capability({.values = decimals(values)}, of, 0.95L).error().code;
+  };
+  CHECK(code("1 2 3", limits("2", "1")) == ErrorCode::LimitsInvalid);
+  CHECK(code("1 2 3", limits("1", "1")) == ErrorCode::LimitsInvalid);
+  CHECK(code("1 2 3", {}) == ErrorCode::LimitsInvalid);
+  CHECK(code("1", limits("0", "1")) == ErrorCode::StatisticsTooFew);
+  CHECK(code("1 1.0 1", limits("0", "2")) == ErrorCode::StatisticsZeroSpread);
+}
+
+TEST_CASE("Anderson-Darling is scipy's") {
+  const auto statistic = [](const char* name) {
+    std::ifstream file(std::string("tests/reference/nist/") + name + ".txt");
+    std::vector<double> values;
+    std::string line;
+    bool in_values = false;
+    while (std::getline(file, line)) {
+      if (in_values) values.push_back(std::stod(line));
+      in_values = in_values || line == "values";
+    }
+    std::sort(values.begin(), values.end());
+    double mean = 0;
+    for (const double x : values) mean += x / static_cast<double>(values.size());
+    double squares = 0;
+    for (const double x : values) squares += (x - mean) * (x - mean);
+    return test_normality(values, mean,
+                          std::sqrt(squares / static_cast<double>(values.size() - 1)));
+  };
+  CHECK(statistic("Michelso").statistic == Approx(0.46076385565196176).epsilon(1e-9));
+  CHECK(statistic("Lew").statistic == Approx(6.000646915775889).epsilon(1e-9));
+  CHECK(statistic("Lew").p < 1e-10);
+  // 0.752 is the 5 % point of the adjusted statistic (D'Agostino and Stephens, table 4.7).
+  CHECK(statistic("Michelso").p > 0.05);
+}
+
+TEST_CASE("the percentile method of a skewed sample, from its own quantiles") {
+  // 1,001 values k^2: the quantiles of type 7 are exactly at k = 1.35, 500 and 998.65.
+  std::string texts;
+  for (int k = 0; k <= 1000; ++k) texts += std::to_string(k * k) + ' ';
+  const Capability c =
+      assess_capability({.values = decimals(texts)}, limits("-1000000", "2000000"), 0.95L).value();
+  REQUIRE(c.percentile);
+  CHECK(static_cast<double>(c.percentile->x_0135) == Approx(1 + 0.35 * 3));
+  CHECK(static_cast<double>(c.percentile->x_50) == 250000);
+  CHECK(static_cast<double>(c.percentile->x_99865) == Approx(998 * 998 + 0.65 * 1997));
+  CHECK(static_cast<double>(*c.percentile->pp) ==
+        Approx(3000000 / (998 * 998 + 0.65 * 1997 - 2.05)));
+  CHECK(static_cast<double>(*c.percentile->ppk) ==
+        Approx(1750000 / (998 * 998 + 0.65 * 1997 - 250000)));
+  CHECK_FALSE(c.stable);
+}
+
+TEST_CASE("distributions give the values of the tables") {
+  CHECK(static_cast<double>(normal_quantile(0.975L)) == Approx(1.959963984540054).epsilon(1e-15));
+  CHECK(static_cast<double>(t_quantile(0.975L, 16)) == Approx(2.1199052992).epsilon(1e-10));
+  CHECK(static_cast<double>(chi_squared_quantile(0.95L, 10)) == Approx(18.3070380533));
+  // The F test of NIST's SiRstv, by mpmath with 30 digits.
+  CHECK(static_cast<double>(f_above(1.18046237440254775095L, 4, 20)) ==
+        Approx(0.349447493402193639589754687308).epsilon(1e-15));
+  CHECK(f_above(INFINITY, 1, 1) == 0);
+}
