@@ -42,6 +42,7 @@ void Frames::set_scaling(const Scaling& scaling) {
 
 void Frames::reset_transformations() {
   shift_ = {};
+  if (plane_) plane_->origin = {};
   mirror_ = {};
   rotation_ = {};
   scaling_ = {};

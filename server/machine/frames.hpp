@@ -59,7 +59,7 @@ class Frames {
   void set_rotation(const PlaneRotation& rotation);
   /// @pre no factor is 0.
   void set_scaling(const Scaling& scaling);
-  /// What cycle 247 resets: datum shift, mirror, rotation, scaling.
+  /// What cycle 247 resets: datum shift (that before tilting too), mirror, rotation, scaling.
   void reset_transformations();
 
   const PresetFrame& preset() const { return preset_; }

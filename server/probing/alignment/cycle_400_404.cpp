@@ -3,6 +3,7 @@
 
 #include "probing/alignment/basic_rotation.hpp"
 #include "probing/cycles.hpp"
+#include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
 #include "probing/touch/line_probing.hpp"
 
@@ -24,12 +25,16 @@ CycleResult<void> rotate(const CycleContext& context) {
       context.arguments.number(307);
   // Along the secondary axis: the reference line is that axis, whether Q307 says 90 or 0.
   if (edge->axis == 0) angle -= 90 * std::round(angle / 90);
-  return set_basic_rotation(context, angle, context.arguments.whole(305));
+  const Vec3 rotation =
+      turned_rotation(context.machine.state().frames, motion->plane().probe, angle);
+  return set_basic_rotation(context, rotation, context.arguments.whole(305));
 }
 
 CycleResult<void> set_rotation(const CycleContext& context) {
   if (auto motion = ProbingMotion::begin(context); !motion) return motion.error();
-  return set_basic_rotation(context, context.arguments.number(307), context.arguments.whole(305));
+  Vec3 rotation;
+  rotation[index(context.machine.state().tool_axis())] = to_angle(context.arguments.number(307));
+  return set_basic_rotation(context, rotation, context.arguments.whole(305));
 }
 
 constexpr std::array k404Parameters{

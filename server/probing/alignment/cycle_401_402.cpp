@@ -40,7 +40,10 @@ CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& pl
   if (direction == Vec3{}) return nc_error(1081, "both centres are the same");
   const double angle =
       workpiece_angle(context.machine.state().frames, plane, direction) - arguments.number(307);
-  if (arguments.whole(402) == 0) return set_basic_rotation(context, angle, arguments.whole(305));
+  if (arguments.whole(402) == 0) {
+    const Vec3 rotation = turned_rotation(context.machine.state().frames, plane.probe, angle);
+    return set_basic_rotation(context, rotation, arguments.whole(305));
+  }
   const machine::Axis table = rotary_axis_around(plane.probe);
   if (auto turned = align_rotary_axis(context, table, angle); !turned) return turned;
   if (arguments.whole(337) == 0) return {};

@@ -1,55 +1,65 @@
 #include "probing/preset/datum_transfer.hpp"
 
-#include "probing/measured_value.hpp"
+#include <cmath>
+
+#include "probing/alignment/basic_rotation.hpp"
 
 namespace fitgauge::probing {
 namespace {
 
 using machine::AxisWords;
 using machine::CoordinateSystem;
+using machine::Frames;
 using machine::Matrix3;
 using machine::Preset;
 using machine::PresetFrame;
 
-Vec3 rounded(const Vec3& point) {
-  return {to_length(point.x).to_mm(), to_length(point.y).to_mm(), to_length(point.z).to_mm()};
+/// Without the noise of the arithmetic: to 1e-9 mm. Whole nanometres would not do, since what a
+/// tilted axis reads adds up the rounding of three machine axes.
+Vec3 tidy(Vec3 point) {
+  constexpr double kPicometres = 1e9;  // in a mm
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    point[axis] = std::round(point[axis] * kPicometres) / kPicometres;
+  }
+  return point;
 }
 
-/// A DatumPoint by machine axes, its point relative to the machine zero of presets.
-struct MachineDatum {
+/// A DatumPoint by the names of the machine's axes, its point in the Basic coordinates of presets.
+struct Found {
   Vec3 point;
   std::array<bool, 3> axes{};
   Vec3 datum;
 };
 
-MachineDatum in_machine(const machine::Frames& frames, const WorkingPlane& plane,
-                        const DatumPoint& found) {
-  const PresetFrame& active = frames.preset();
-  const Vec3 workpiece = frames.from_machine(frames.to_machine(plane.to_input(found.point)),
-                                             CoordinateSystem::Workpiece);
-  MachineDatum made{
-      .point = active.origin + Matrix3::spatial(active.basic_rotation_deg) * workpiece,
-      .datum = plane.to_input(found.datum)};
+Found found_in(const Frames& frames, const WorkingPlane& plane, const DatumPoint& found) {
+  Found made{.point = frames.from_machine(frames.to_machine(plane.to_input(found.point)),
+                                          CoordinateSystem::Basic),
+             .datum = plane.to_input(found.datum)};
   made.axes[index(plane.main)] = found.axes[0];
   made.axes[index(plane.secondary)] = found.axes[1];
   made.axes[index(plane.probe)] = found.axes[2];
   return made;
 }
 
-/// Moves the zero of a preset so that the point reads `datum` in the named axes; the other axes
-/// keep their zero.
-void move_zero(PresetFrame& frame, const MachineDatum& found) {
-  const Matrix3 rotation = Matrix3::spatial(frame.basic_rotation_deg);
-  const Vec3 point = rotation.transposed() * found.point;
-  Vec3 zero = rotation.transposed() * frame.origin;
+/// The axes along which a datum is set: those of the workpiece with that basic rotation, or of the
+/// plane that is tilted in it (decision 25).
+Matrix3 axes_of(const Frames& frames, const PresetFrame& preset) {
+  return Matrix3::spatial(preset.basic_rotation_deg) * tilt_of(frames);
+}
+
+/// Moves the zero of a preset along `axes` until the point reads `datum` in the named ones: the
+/// activation of the row (247, Q305 = 0) leaves the tilt and nothing else.
+void move_zero(PresetFrame& preset, const Matrix3& axes, const Found& found) {
+  const Vec3 reading = axes.transposed() * (found.point - preset.origin);
+  Vec3 way;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (found.axes[axis]) zero[axis] = point[axis] - found.datum[axis];
+    if (found.axes[axis]) way[axis] = reading[axis] - found.datum[axis];
   }
-  frame.origin = rounded(rotation * zero);
+  preset.origin = tidy(preset.origin + axes * way);
 }
 
 CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& turned,
-                               std::span<const MachineDatum> points) {
+                               std::span<const Found> points) {
   const machine::MachineState& state = context.machine.state();
   const int number = context.arguments.whole(305);
   Preset row{.number = number, .comment = {}, .frame = turned};
@@ -60,18 +70,23 @@ CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& t
       row.frame.basic_rotation_deg = turned.basic_rotation_deg;
     }
   }
-  for (const MachineDatum& point : points) move_zero(row.frame, point);
+  const Matrix3 axes = axes_of(state.frames, row.frame);
+  for (const Found& point : points) move_zero(row.frame, axes, point);
   if (auto written = lift(context.machine.write_preset(row)); !written) return written;
   if (number != 0) return {};
   return lift(context.machine.activate_preset(0));
 }
 
 CycleResult<void> write_datum_table(const CycleContext& context, const PresetFrame& turned,
-                                    std::span<const MachineDatum> points) {
+                                    std::span<const Found> points) {
+  machine::Frames frames = context.machine.state().frames;
+  const Matrix3 inverse = axes_of(frames, turned).transposed();
+  // A shift of cycle 7 counts from where the plane was tilted.
+  const Vec3 tilted_at = frames.plane() ? frames.plane()->origin : Vec3{};
+  const Vec3 zero = turned.origin + Matrix3::spatial(turned.basic_rotation_deg) * tilted_at;
   AxisWords values;
-  const Matrix3 inverse = Matrix3::spatial(turned.basic_rotation_deg).transposed();
-  for (const MachineDatum& found : points) {
-    const Vec3 datum = rounded(inverse * (found.point - turned.origin) - found.datum);
+  for (const Found& found : points) {
+    const Vec3 datum = tidy(inverse * (found.point - zero) - found.datum);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (found.axes[axis]) values.values[axis] = datum[axis];
     }
@@ -79,7 +94,6 @@ CycleResult<void> write_datum_table(const CycleContext& context, const PresetFra
   if (auto written = context.host.write_datum(context.arguments.whole(305), values); !written) {
     return written;
   }
-  machine::Frames frames = context.machine.state().frames;
   if (turned == frames.preset()) return {};
   frames.set_preset(turned);
   return lift(context.machine.set_frames(frames));
@@ -101,10 +115,10 @@ CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane
                                  std::span<const DatumPoint> points,
                                  std::optional<double> turn_deg) {
   const machine::Frames& frames = context.machine.state().frames;
-  std::vector<MachineDatum> found;
-  for (const DatumPoint& point : points) found.push_back(in_machine(frames, plane, point));
+  std::vector<Found> found;
+  for (const DatumPoint& point : points) found.push_back(found_in(frames, plane, point));
   PresetFrame turned = frames.preset();
-  turned.basic_rotation_deg[index(plane.probe)] += to_angle(turn_deg.value_or(0));
+  if (turn_deg) turned.basic_rotation_deg = turned_rotation(frames, plane.probe, *turn_deg);
   const bool datum_table = context.arguments.whole(303) == 0 && context.arguments.whole(305) != 0;
   return datum_table ? write_datum_table(context, turned, found)
                      : write_preset(context, turned, found);
