@@ -139,9 +139,13 @@ std::optional<std::int64_t> MeasurementsStore::corrected_by(std::int64_t id) con
 std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& filter,
                                                     std::int64_t after, std::size_t limit,
                                                     const Visitor& visit, ListOrder order) const {
-  if (after == kLastId && order == ListOrder::OldestFirst) return std::nullopt;
-  IdSpan ids{.first = after + 1, .last = kLastId};
-  if (order == ListOrder::NewestFirst && after > 0) ids = {.first = 1, .last = after - 1};
+  IdSpan ids{.first = 1, .last = kLastId};
+  if (order == ListOrder::NewestFirst) {
+    if (after > 0) ids.last = after - 1;
+  } else {
+    if (after == kLastId) return std::nullopt;
+    ids.first = after + 1;
+  }
   std::int64_t last = after;
   std::size_t count = 0;
   bool more = false;
