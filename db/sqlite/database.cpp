@@ -66,6 +66,12 @@ Result<std::unique_ptr<Database>> Database::open(const OpenOptions& options, con
 
 Writer& Database::writer() { return parts_->writer; }
 ReadPool& Database::readers() { return parts_->readers; }
+/// The readers first: the last connection to close, the writer's, checkpoints.
+void Database::drain() {
+  parts_->reader_engine.stop();
+  parts_->writer_engine.stop();
+}
+
 Health Database::health() const { return parts_->monitor.health(); }
 const WriterCounters& Database::writer_counters() const { return parts_->writer_engine.counters(); }
 std::size_t Database::writer_queue() const { return parts_->writer_engine.queued(); }

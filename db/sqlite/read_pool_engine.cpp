@@ -12,9 +12,12 @@ ReadPool::Engine::Engine(const OpenOptions& options, const Clock& clock, HealthM
   for (unsigned i = 0; i < options.readers; ++i) threads_.emplace_back([this] { run(); });
 }
 
-ReadPool::Engine::~Engine() {
+ReadPool::Engine::~Engine() { stop(); }
+
+void ReadPool::Engine::stop() {
   queue_.close();
   for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
 }
 
 void ReadPool::Engine::run() {
@@ -29,13 +32,11 @@ void ReadPool::Engine::run() {
       error = Error{ErrorCode::Internal, std::string("a storage job failed: ") + bug.what()};
       if (options_.job_threw) options_.job_threw(*error);
     }
-    if (!error) {
-      job->deliver();
-      continue;
+    if (error) {
+      session.reset();
+      if (error->code == ErrorCode::StorageCorrupt) health_.damaged(error->message);
     }
-    session.reset();
-    if (error->code == ErrorCode::StorageCorrupt) health_.damaged(error->message);
-    job->refuse(*std::move(error));
+    tell(*job, std::move(error));
   }
 }
 

@@ -23,6 +23,9 @@ class ReadPool::Engine {
 
   void enqueue(std::unique_ptr<ReadJob> job) { queue_.push(std::move(job)); }
 
+  /// Runs what is queued and ends the threads; what comes later is refused.
+  void stop();
+
  private:
   void run();
   void read(std::optional<Session>& session, ReadJob& job);

@@ -27,9 +27,11 @@ Writer::Engine::Engine(const OpenOptions& options, const Clock& clock, HealthMon
   thread_ = std::thread([this] { run(); });
 }
 
-Writer::Engine::~Engine() {
+Writer::Engine::~Engine() { stop(); }
+
+void Writer::Engine::stop() {
   queue_.close();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 bool Writer::Engine::begin(const IdempotentRequest& request) {
@@ -73,13 +75,11 @@ void Writer::Engine::commit(Jobs& jobs) {
   std::move(jobs.begin() + static_cast<std::ptrdiff_t>(errors.size()), jobs.end(),
             std::back_inserter(rest));
   const auto tell_outcomes = [&] {
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      errors[i] ? jobs[i]->refuse(*std::move(errors[i])) : jobs[i]->deliver();
-    }
+    for (std::size_t i = 0; i < errors.size(); ++i) tell(*jobs[i], std::move(errors[i]));
   };
   options_.around_outcomes ? options_.around_outcomes(tell_outcomes) : tell_outcomes();
   jobs = std::move(rest);
-  if (!error && options_.committed) options_.committed();
+  if (!error && options_.committed) guarded("a listener of commits", options_.committed);
 }
 
 /// Runs jobs until the transaction has taken long enough: one at least, so that none waits for

@@ -37,6 +37,9 @@ class Writer::Engine {
   const WriterCounters& counters() const { return counters_; }
   std::size_t queued() const { return queue_.size(); }
 
+  /// Runs what is queued, checkpoints and closes; what comes later is refused.
+  void stop();
+
   /// @returns whether no request of the same scope and key is under way.
   bool begin(const IdempotentRequest& request);
   void end(const IdempotentRequest& request);

@@ -38,6 +38,10 @@ class Database {
   Writer& writer();
   ReadPool& readers();
 
+  /// Runs what is queued and ends the threads; what comes later is refused with ShuttingDown. After
+  /// it no completion is under way: what jobs refer to may go.
+  void drain();
+
   Health health() const;
 
   const WriterCounters& writer_counters() const;

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/guarded.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::store {
@@ -24,6 +25,15 @@ class Job {
   virtual void deliver() = 0;
   virtual void refuse(Error error) = 0;
 };
+
+/// Tells a job its outcome. What its completion throws is a bug in that completion alone.
+template <class Stores>
+void tell(Job<Stores>& job, std::optional<Error> error) noexcept {
+  guarded("a storage job's completion", [&] {
+    if (error) return job.refuse(*std::move(error));
+    job.deliver();
+  });
+}
 
 /// A job made of two callables: Result<T> work(Stores&) and void done(Result<T>).
 template <class Stores, class Work, class Done>
