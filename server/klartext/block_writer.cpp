@@ -13,7 +13,8 @@ namespace {
 /// Letters that a control shows without `+`.
 constexpr LetterSet kWithoutPlus(Letter::F, Letter::Fu, Letter::Fz, Letter::Ft, Letter::S,
                                  Letter::M, Letter::Mb, Letter::La, Letter::T, Letter::Row,
-                                 Letter::Label, Letter::Len, Letter::Cca, Letter::Chamfer);
+                                 Letter::Label, Letter::Len, Letter::Cca, Letter::Chamfer,
+                                 Letter::Num, Letter::NumX, Letter::NumY);
 
 bool reads_as_parameter(std::string_view path) {
   return path.size() > 2 && ascii_iequals(path.substr(0, 2), "QS") &&

@@ -41,10 +41,15 @@ bool contains_error(const std::vector<Diagnostic>& diagnostics) {
 }
 
 std::string render(const Diagnostic& diagnostic) {
-  return fmt::format(
+  std::string text = fmt::format(
       "{}:{}:{}: {}: {} [{}]\n{}{}", diagnostic.program, diagnostic.range.begin.line,
       diagnostic.range.begin.column, diagnostic.severity == Severity::Error ? "error" : "warning",
       diagnostic.message, id(diagnostic.code), diagnostic.source, caret_line(diagnostic));
+  for (const DiagnosticNote& note : diagnostic.notes) {
+    text += fmt::format("\n{}:{}:{}: note: {}", diagnostic.program, note.range.begin.line,
+                        note.range.begin.column, note.message);
+  }
+  return text;
 }
 
 }  // namespace fitgauge::klartext

@@ -25,6 +25,12 @@ enum class DiagnosticCode : std::uint8_t {
 /// The stable text of a code: `label.unknown`.
 std::string_view id(DiagnosticCode code);
 
+/// What belongs to a finding and stands elsewhere in the same text.
+struct DiagnosticNote {
+  std::string message{};
+  SourceRange range{};
+};
+
 /// One finding about a program or mask.
 struct Diagnostic {
   Severity severity = Severity::Error;
@@ -34,6 +40,8 @@ struct Diagnostic {
   SourceRange range{};                   ///< columns in characters; within one physical line
   std::optional<std::uint32_t> block{};  ///< its number as written
   std::string source{};                  ///< the physical line
+  bool is_unreadable = false;  ///< the line is no Klartext and is kept as an ERROR block
+  std::vector<DiagnosticNote> notes{};
 };
 
 /// One of them refuses the text.

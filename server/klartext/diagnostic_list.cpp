@@ -24,10 +24,12 @@ std::string_view shown(std::string_view line) {
 }  // namespace
 
 void DiagnosticList::add(Severity severity, DiagnosticCode code, Slice<char> place,
-                         std::string message, std::optional<std::uint32_t> block) {
+                         std::string message, std::optional<std::uint32_t> block,
+                         bool is_unreadable) {
   if (kept_.size() == kMostDiagnostics) {
     ++dropped_;
     worst_dropped_ = std::max(worst_dropped_, severity);
+    if (severity == Severity::Error && !is_unreadable) all_dropped_unreadable_ = false;
     return;
   }
   const SourcePosition begin = position_of(source_, line_starts_, place.first);
@@ -39,13 +41,15 @@ void DiagnosticList::add(Severity severity, DiagnosticCode code, Slice<char> pla
                    .program = program_,
                    .range = {begin, end},
                    .block = block,
-                   .source = std::string(shown(line_of(source_, line_starts_, begin.line)))});
+                   .source = std::string(shown(line_of(source_, line_starts_, begin.line))),
+                   .is_unreadable = is_unreadable});
 }
 
 std::vector<Diagnostic> DiagnosticList::take() {
   if (dropped_ > 0) {
     Diagnostic last = kept_.back();
     last.severity = worst_dropped_;
+    last.is_unreadable = all_dropped_unreadable_;
     last.code = DiagnosticCode::TooManyDiagnostics;
     last.message = std::to_string(dropped_) + " more findings are not shown; correct these first";
     kept_.push_back(std::move(last));

@@ -21,7 +21,7 @@ class DiagnosticList {
       : source_(source), line_starts_(line_starts), program_(std::move(program)) {}
 
   void add(Severity severity, DiagnosticCode code, Slice<char> place, std::string message,
-           std::optional<std::uint32_t> block = std::nullopt);
+           std::optional<std::uint32_t> block = std::nullopt, bool is_unreadable = false);
 
   /// The findings; when there were too many, the last says how many are missing, and is an error
   /// when one of those is.
@@ -34,6 +34,7 @@ class DiagnosticList {
   std::vector<Diagnostic> kept_;
   std::size_t dropped_ = 0;
   Severity worst_dropped_ = Severity::Warning;
+  bool all_dropped_unreadable_ = true;  ///< of the errors
 };
 
 }  // namespace fitgauge::klartext

@@ -264,10 +264,9 @@ std::string free_text(std::string_view code) { return without_tail(unwrapped(cod
 
 std::string comment_text(std::string_view comment) { return without_tail(joined(comment, "")); }
 
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t kShown = 40;
-  if (text.size() <= kShown) return std::string(text);
-  std::size_t size = kShown;
+std::string excerpt(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return std::string(text);
+  std::size_t size = longest;
   while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
   return std::string(text.substr(0, size)) + "...";
 }

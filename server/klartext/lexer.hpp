@@ -183,7 +183,7 @@ std::string free_text(std::string_view code);
 /// As free_text, for a comment: the control wraps it in the middle of words.
 std::string comment_text(std::string_view comment);
 
-/// An excerpt for a message.
-std::string excerpt(std::string_view text);
+/// An excerpt for a message, of at most so many bytes.
+std::string excerpt(std::string_view text, std::size_t longest = 40);
 
 }  // namespace fitgauge::klartext

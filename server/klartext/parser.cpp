@@ -115,7 +115,10 @@ void Parser::report_failure(Block& block, const char* body) {
   in_.drop_block();
   const std::string raw = free_text({body, static_cast<std::size_t>(in_.end() - body)});
   if (failure.kind == Failure::Kind::Faulty) {
-    diagnostics_.add(Severity::Error, failure.code, failure.place, failure.message, block.number);
+    std::string message = failure.message;
+    if (!begun_) message += "; a program begins with BEGIN PGM name MM, or INCH";
+    diagnostics_.add(Severity::Error, failure.code, failure.place, std::move(message), block.number,
+                     failure.code != DiagnosticCode::ContinuationMissing);
     block.statement = ErrorBlock{in_.add_text(raw)};
     return;
   }
@@ -167,6 +170,7 @@ void Parser::check_frame(const Block& block, bool failed) {
            "BEGIN PGM stands in the middle of the program: one file holds one program");
   }
   if (!begun_ && begin != nullptr) begin_ = *begin;
+  if (!begun_ && failed) return;  // BEGIN PGM may follow
   begun_ = true;
   if (const auto* end = std::get_if<EndProgram>(&block.statement)) {
     ended_ = true;

@@ -26,4 +26,8 @@ struct ParsedProgram {
 /// @param name the file's name, for diagnostics.
 ParsedProgram parse_program(std::string bytes, std::string name);
 
+/// The words that blocks begin with, those of features that are not available too; axes, `*` and
+/// parameters begin blocks as well.
+std::vector<std::string_view> block_keywords();
+
 }  // namespace fitgauge::klartext

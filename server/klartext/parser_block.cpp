@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "klartext/parser.hpp"
 #include "klartext/parser_rules.hpp"
+#include "klartext/spelling_hint.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -45,6 +47,7 @@ constexpr Keyword kBlockKeywords[] = {
     {"TRANS", parse_trans},
     {"PLANE", parse_plane},
     {"FUNCTION", parse_function},
+    {"PATTERN", parse_pattern},
     {"DECLARE", parse_declare},
     {"BLK", parse_blank_form},
     {"BEGIN", parse_begin},
@@ -66,7 +69,6 @@ constexpr Feature kFeatures[] = {
     {"FSELECT", "FK contour programming"},
     {"SQL", "SQL"},
     {"GLOBAL", "GLOBAL DEF"},
-    {"PATTERN", "PATTERN DEF"},
     {"CONTOUR", "CONTOUR DEF"},
     {"PRESET", "PRESET"},
     {"TABDATA", "TABDATA"},
@@ -100,6 +102,13 @@ bool at_c_axis(BlockReader& in, std::string_view name) {
          (in.peek() == '+' || in.peek() == '-' || in.at_number() || in.at_parameter());
 }
 
+/// "; did you mean CYCL?" for CYCLE, or nothing.
+std::string similar_keyword(std::string_view name) {
+  SpellingHint hint(name);
+  for (const Keyword& keyword : kBlockKeywords) hint.consider(keyword.name);
+  return hint.text();
+}
+
 }  // namespace
 
 void refuse_word(BlockReader& in, std::string_view first) {
@@ -111,6 +120,13 @@ void refuse_word(BlockReader& in, std::string_view first) {
   const char* begin = in.at();
   in.move_to(begin + word.size());
   in.refuse(begin, fmt::format("{} {}", first, excerpt(ascii_upper(word))));
+}
+
+std::vector<std::string_view> block_keywords() {
+  std::vector<std::string_view> words{"ERROR"};
+  for (const Keyword& keyword : kBlockKeywords) words.push_back(keyword.name);
+  for (const Feature& feature : kFeatures) words.push_back(feature.name);
+  return words;
 }
 
 Statement parse_statement(BlockReader& in) {
@@ -139,7 +155,7 @@ Statement parse_statement(BlockReader& in) {
     in.fail_expected("a block");
   } else {
     in.fail(DiagnosticCode::BlockUnknown, in.place(begin, begin + name.size()),
-            fmt::format("no block begins with '{}'", excerpt(name)));
+            fmt::format("no block begins with '{}'{}", excerpt(name), similar_keyword(name)));
   }
   return Empty{};
 }

@@ -1,15 +1,18 @@
 #include "klartext/printer.hpp"
 
+#include <optional>
+
 #include "klartext/statement_writer.hpp"
 
 namespace fitgauge::klartext {
 namespace {
 
-void print_block(BlockWriter& out, const Program& program, const Block& block) {
+void print_block(BlockWriter& out, const Program& program, const Block& block,
+                 std::optional<std::uint32_t> number) {
   std::string_view separator;
   if (block.skip) out.write("/");
-  if (block.has_number) {
-    out.write(std::to_string(block.number));
+  if (number) {
+    out.write(std::to_string(*number));
     separator = " ";
   }
   const std::string_view comment = program.text(block.comment);
@@ -36,7 +39,19 @@ std::string print_program(const Program& program) {
   text.reserve(program.source().size());
   BlockWriter out(program, text);
   for (const Block& block : program.blocks()) {
-    print_block(out, program, block);
+    print_block(out, program, block, block.has_number ? std::optional(block.number) : std::nullopt);
+    out.write("\n");
+  }
+  return text;
+}
+
+std::string format_program(const Program& program) {
+  std::string text;
+  text.reserve(program.source().size() + program.blocks().size() * 4);
+  BlockWriter out(program, text);
+  std::uint32_t number = 0;
+  for (const Block& block : program.blocks()) {
+    print_block(out, program, block, number++);
     out.write("\n");
   }
   return text;

@@ -10,6 +10,9 @@ namespace fitgauge::klartext {
 /// equal program. Numbers are printed with the fewest digits that give the same value.
 std::string print_program(const Program& program);
 
+/// As print_program, with every block numbered from 0: how a control lists it.
+std::string format_program(const Program& program);
+
 /// One block without its number, skip mark and comment, for traces and messages.
 std::string print_statement(const Program& program, const Block& block);
 

@@ -196,6 +196,15 @@ struct CycleCall {
   friend bool operator==(const CycleCall&, const CycleCall&) = default;
 };
 
+enum class PatternElement : std::uint8_t { Pos, Row, Pat, Frame, Circ, PitchCirc };
+
+/// `PATTERN DEF POS1( X+25 Y+33 Z+0 ) CIRC1( ... )`: the points of CYCL CALL PAT. Words: for each
+/// element an Element and its number, then its own.
+struct PatternDefinition {
+  Slice<Word> words{};
+  friend bool operator==(const PatternDefinition&, const PatternDefinition&) = default;
+};
+
 // --- labels, programs, jumps
 
 /// `LBL 5`, `LBL "NAME"`, or by the value of `LBL QS5`, `LBL Q0`. Names are kept as written and
@@ -383,12 +392,20 @@ struct FunctionTcpm {
   friend bool operator==(const FunctionTcpm&, const FunctionTcpm&) = default;
 };
 
+/// `FUNCTION DWELL TIME2`, `FUNCTION DWELL REV5`: seconds, or turns of the spindle.
+struct Dwell {
+  bool revolutions = false;
+  Expr value{};
+  friend bool operator==(const Dwell&, const Dwell&) = default;
+};
+
 using Statement =
     std::variant<Empty, BeginProgram, EndProgram, Structure, ErrorBlock, Unsupported, BlankForm,
                  ToolCall, ToolDefinition, Motion, MFunctions, Stop, Cycle, CyclePart, CycleCall,
                  LabelDefinition, LabelCall, ConditionalJump, CallProgram, SelectProgram,
                  CallSelectedProgram, SelectTable, Assignment, SetUndefined, CircleData, ErrorStop,
                  Print, FormattedPrint, SystemWrite, ExternalFunction, WaitFor, TableOpen,
-                 TableWrite, TableRead, Trans, Plane, FunctionMode, FunctionTcpm>;
+                 TableWrite, TableRead, Trans, Plane, FunctionMode, FunctionTcpm,
+                 PatternDefinition, Dwell>;
 
 }  // namespace fitgauge::klartext

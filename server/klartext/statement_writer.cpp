@@ -3,6 +3,7 @@
 #include <string>
 
 #include "klartext/path_names.hpp"
+#include "klartext/pattern_names.hpp"
 #include "klartext/transformation_names.hpp"
 
 /// Blocks other than cycles and functions: frame, tools, motion, flow, transformations.
@@ -164,6 +165,31 @@ void write_block(BlockWriter& out, const Plane& plane) {
     if (row.positioning == plane.positioning) mark.append(" ").append(row.name);
   }
   out.words(plane.words, mark, kBehind);
+}
+
+void write_block(BlockWriter& out, const PatternDefinition& pattern) {
+  out.write("PATTERN DEF");
+  std::string_view end;
+  const auto words = out.program().view(pattern.words);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].letter != Letter::Element) {
+      out.write(" ");
+      out.word(words[i]);
+      continue;
+    }
+    out.write(end);
+    out.write(" ~\n    ");
+    out.write(kPatternElements[static_cast<std::size_t>(std::get<double>(words[i].value))]);
+    out.value(words[++i].value);  // its number
+    out.write("(");
+    end = " )";
+  }
+  out.write(end);
+}
+
+void write_block(BlockWriter& out, const Dwell& dwell) {
+  out.write(dwell.revolutions ? "FUNCTION DWELL REV" : "FUNCTION DWELL TIME");
+  out.value(dwell.value);
 }
 
 void write_block(BlockWriter& out, const FunctionMode& mode) {

@@ -30,6 +30,8 @@ void write_block(BlockWriter& out, const Trans& trans);
 void write_block(BlockWriter& out, const Plane& plane);
 void write_block(BlockWriter& out, const FunctionMode& mode);
 void write_block(BlockWriter& out, const FunctionTcpm& tcpm);
+void write_block(BlockWriter& out, const PatternDefinition& pattern);
+void write_block(BlockWriter& out, const Dwell& dwell);
 
 // cycle_writer.cpp
 void write_block(BlockWriter& out, const Cycle& cycle);

@@ -96,7 +96,18 @@ enum class Letter : std::uint8_t {
   Seq,       ///< +1 or -1
   Sym,       ///< +1 or -1
   TableRot,  ///< no value
-  CoordRot   ///< no value
+  CoordRot,  ///< no value
+  // PATTERN DEF
+  Element,  ///< what the words after it define, as a PatternElement; its own number is a Value
+  Num,
+  NumX,
+  NumY,
+  Dx,
+  Dy,
+  RotX,
+  RotY,
+  Start,
+  Step
 };
 
 inline bool is_axis(Letter letter) { return letter <= Letter::W; }

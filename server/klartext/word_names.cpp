@@ -96,6 +96,16 @@ constexpr Row kRows[] = {
     {Letter::Sym, "SYM"},
     {Letter::TableRot, "TABLE ROT"},
     {Letter::CoordRot, "COORD ROT"},
+    {Letter::Element, ""},
+    {Letter::Num, "NUM"},
+    {Letter::NumX, "NUMX"},
+    {Letter::NumY, "NUMY"},
+    {Letter::Dx, "DX"},
+    {Letter::Dy, "DY"},
+    {Letter::RotX, "ROTX"},
+    {Letter::RotY, "ROTY"},
+    {Letter::Start, "START"},
+    {Letter::Step, "STEP"},
 };
 
 constexpr bool rows_follow_letters() {

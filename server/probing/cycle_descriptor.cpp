@@ -13,6 +13,7 @@ std::string_view word(CycleKind kind) {
     case CycleKind::Calibration: return "calibration";
     case CycleKind::Kinematics: return "kinematics";
     case CycleKind::Tool: return "tool";
+    case CycleKind::Machining: return "machining";
     case CycleKind::Other: return "other";
   }
   return {};

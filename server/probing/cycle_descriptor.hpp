@@ -20,6 +20,7 @@ enum class CycleKind : std::uint8_t {
   Calibration,  ///< 460 to 463: the probe
   Kinematics,   ///< 450 to 453: rotary axes
   Tool,         ///< 30 to 33, 480 to 484
+  Machining,    ///< CYCL DEF 1 to 5, 14 to 24, 200 to 267: motion without probing
   Other         ///< 441
 };
 

@@ -109,15 +109,30 @@ void list_files(const Services& services, const http::Request& request, http::Re
   });
 }
 
-void check_file(const Services& services, const http::Request& request, http::Responder responder) {
+Result<http::Response> act_on(app::RunService& runs, const interpreter::ControlPath& path,
+                              bool formats) {
+  if (formats) {
+    auto text = runs.format(path);
+    if (!text) return text.error();
+    return http::Response(200, "text/plain; charset=utf-8", *std::move(text));
+  }
+  auto found = runs.check(path);
+  if (!found) return found.error();
+  return http::Response(200, "application/json", diagnostics_json(*found));
+}
+
+/// `action=check` and `action=format`.
+void act_on_file(const Services& services, const http::Request& request,
+                 http::Responder responder) {
   const auto path = path_of(request);
   if (!path) return responder.fail(path.error());
+  const bool formats = request.text("action") == "format";
   const auto shared = share(std::move(responder));
   services.runs.prepare(
-      [&services, path = *path, shared] {
-        auto found = services.runs.check(path);
-        if (found) return shared->answer({200, "application/json", diagnostics_json(*found)});
-        Error error = std::move(found).error();
+      [&services, path = *path, formats, shared] {
+        auto done = act_on(services.runs, path, formats);
+        if (done) return shared->answer(*std::move(done));
+        Error error = std::move(done).error();
         // Here it is the request's path that names what is not there.
         if (error.code == ErrorCode::ProgramUnknown) error.code = ErrorCode::FileUnknown;
         shared->fail(std::move(error));
@@ -167,13 +182,15 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
   routes.push_back({
       .method = http::Method::Post,
       .pattern = "/v1/files/{path*}",
-      .handler = with(services, check_file),
-      .summary = "Check a program with those it calls, a mask or a table; nothing runs",
+      .handler = with(services, act_on_file),
+      .summary = "Check a program with those it calls, a mask or a table, or format a program; "
+                 "nothing runs and nothing is stored",
       .parameters = {kPath,
                      {.name = "action",
-                      .type = http::Words{{"check"}},
+                      .type = http::Words{{"check", "format"}},
                       .required = true,
-                      .description = "check"}},
+                      .description = "check: the findings; format: the program as text, one blank "
+                                     "between words, blocks numbered from 0"}},
       .access = "viewer",
   });
 }

@@ -72,6 +72,9 @@ void write_message(JsonWriter& json, const RunMessage& message) {
       .member("program", message.program)
       .member("line", message.line);
   write_optional(json, "block", message.block);
+  if (message.column != 0) {
+    json.member("column", message.column).member("source", message.source);
+  }
   json.end_object();
 }
 
@@ -258,7 +261,19 @@ void write_diagnostics(JsonWriter& json, const std::vector<klartext::Diagnostic>
         .member("line", found.range.begin.line)
         .member("column", found.range.begin.column);
     write_optional(json, "block", found.block);
-    json.member("source", found.source).end_object();
+    json.member("source", found.source);
+    if (!found.notes.empty()) {
+      json.key("notes").begin_array();
+      for (const klartext::DiagnosticNote& note : found.notes) {
+        json.begin_object()
+            .member("message", note.message)
+            .member("line", note.range.begin.line)
+            .member("column", note.range.begin.column)
+            .end_object();
+      }
+      json.end_array();
+    }
+    json.end_object();
   }
   json.end_array();
 }

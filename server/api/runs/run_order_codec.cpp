@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "api/runs/run_codec.hpp"
+#include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"
 #include "api/wire/field_reader.hpp"
 
@@ -100,6 +101,14 @@ void read_words(FieldReader& fields, interpreter::RunOptions& options) {
       fields.report(ErrorCode::FieldInvalid, "on_stop", "on_stop takes \"continue\" or \"end\"");
     }
   }
+  if (const auto unreadable = fields.optional_text("unreadable")) {
+    if (*unreadable == "error_block") {
+      options.keeps_unreadable = true;
+    } else if (*unreadable != "refuse") {
+      fields.report(ErrorCode::FieldInvalid, "unreadable",
+                    "unreadable takes \"refuse\" or \"error_block\"");
+    }
+  }
   if (const auto word = fields.optional_text("language")) {
     const auto found = std::find_if(kLanguages.begin(), kLanguages.end(),
                                     [&word](const Language& l) { return l.word == *word; });
@@ -147,6 +156,7 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
   const JsonValue* const given = fields.optional("setup");
   machine::Setup setup =
       decode_setup(given != nullptr ? *given : nothing, "/setup", tables, errors);
+  if (given != nullptr) decode_builder(*given, "/setup", options, errors);
   fields.refuse_unknown();
   if (auto error = errors.take()) return std::move(*error);
   std::string request;

@@ -117,7 +117,7 @@ void prepare(const SharedPosting& posting) {
     }
     return posting->responder.fail(std::move(error));
   }
-  if (interpreter::has_errors(*diagnostics)) {
+  if (interpreter::has_errors(*diagnostics, order->options.keeps_unreadable)) {
     return posting->responder.answer(
         invalid_program(posting->request, order->program.text(), *diagnostics));
   }

@@ -26,13 +26,17 @@ machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
   {
     SetupReader reader(body, pointer, errors);
     reader.object("machine", [&](SetupReader& machine) {
-      const FieldReader& fields = machine.fields();
+      FieldReader& fields = machine.fields();
+      for (const auto* name : {"m_functions", "cycles"}) fields.optional(name);  // decode_builder
       given = {fields.has("tools"), fields.has("probes"), fields.has("presets")};
       setup.machine = read_machine(machine);
     });
     reader.object("workpiece", [&setup](SetupReader& workpiece) {
       workpiece.array("features", setup.features, read_feature);
     });
+    for (const auto* name : {"m_functions", "cycles", "decimal_separator"}) {
+      reader.fields().optional(name);  // decode_builder
+    }
     setup.seed = static_cast<std::uint64_t>(
         reader.fields().integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/handlers.hpp"
+#include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"
 #include "api/wire/json_writer.hpp"
 #include "api/wire/request_facts.hpp"
@@ -38,6 +39,8 @@ void put_setup(const Services& services, const http::Request& request, http::Res
         if (!tables) return shared->fail(tables.error());
         FieldErrors errors;
         decode_setup(*body, "", **tables, errors);
+        interpreter::RunOptions options;
+        decode_builder(*body, "", options, errors);
         if (auto error = errors.take()) return shared->fail(std::move(*error));
         const auto caller = caller_name(request);
         services.setups.write(name, std::string(request.body()),

@@ -4,6 +4,7 @@
 
 #include "api/wire/json_writer.hpp"
 #include "probing/cycle_registry.hpp"
+#include "program/machining_cycles.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -96,22 +97,33 @@ http::Response list_cycles() {
   for (const probing::TouchProbeCycle* cycle : probing::cycles()) {
     write_cycle(json, cycle->descriptor);
   }
+  for (const interpreter::MachiningCycle& cycle : interpreter::machining_cycles()) {
+    write_cycle(json, cycle.descriptor);
+  }
   json.end_array().end_object();
   return {200, "application/json", std::move(body)};
+}
+
+const CycleDescriptor* find_descriptor(int number) {
+  for (const CycleFamily family : {CycleFamily::TchProbe, CycleFamily::CyclDef}) {
+    const probing::TouchProbeCycle* cycle = probing::find_cycle(family, number);
+    if (cycle != nullptr) return &cycle->descriptor;
+  }
+  const interpreter::MachiningCycle* machining = interpreter::machining_cycle(number);
+  return machining == nullptr ? nullptr : &machining->descriptor;
 }
 
 /// A number may mean two cycles; the one for probing goes first.
 Result<http::Response> find_cycle(const http::Request& request) {
   const int number = static_cast<int>(*request.integer("number"));
-  const probing::TouchProbeCycle* cycle = probing::find_cycle(CycleFamily::TchProbe, number);
-  if (cycle == nullptr) cycle = probing::find_cycle(CycleFamily::CyclDef, number);
+  const CycleDescriptor* cycle = find_descriptor(number);
   if (cycle == nullptr) {
     return Error{ErrorCode::CycleUnknown,
-                 "there is no probing cycle " + std::to_string(number) + "; /v1/cycles lists all"};
+                 "there is no cycle " + std::to_string(number) + "; /v1/cycles lists all"};
   }
   std::string body;
   JsonWriter json(body);
-  write_cycle(json, cycle->descriptor);
+  write_cycle(json, *cycle);
   return http::Response(200, "application/json", std::move(body));
 }
 
@@ -122,13 +134,13 @@ void add_cycles_routes(std::vector<http::Route>& routes) {
       .pattern = "/v1/cycles",
       .handler = [answer = http::prepare(list_cycles())](
                      const http::Request&) -> Result<http::Response> { return answer; },
-      .summary = "Every touch-probe cycle with its parameters and results",
+      .summary = "Every cycle with its parameters and results",
       .access = "open",
   });
   routes.push_back({
       .pattern = "/v1/cycles/{number}",
       .handler = find_cycle,
-      .summary = "One touch-probe cycle",
+      .summary = "One cycle; a number of both kinds is the touch-probe cycle",
       .parameters = {{.name = "number",
                       .place = http::ParameterPlace::Path,
                       .type = http::Integer{.min = 0, .max = 9999},

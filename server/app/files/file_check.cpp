@@ -6,6 +6,8 @@
 
 #include "base/text.hpp"
 #include "klartext/mask_file.hpp"
+#include "klartext/parser.hpp"
+#include "klartext/printer.hpp"
 #include "program/check.hpp"
 #include "tabfile/tab_reader.hpp"
 
@@ -45,6 +47,20 @@ Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlP
   if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
   if (is_mask) return klartext::parse_mask(*file->bytes, file->path.text()).diagnostics;
   return check_table(*file, allowance);
+}
+
+Result<std::string> format_file(const interpreter::ControlPath& path,
+                                const interpreter::ControlDisk& disk) {
+  const auto file = disk.find(path);
+  if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
+  const auto parsed = klartext::parse_program(*file->bytes, file->path.text());
+  for (const klartext::Diagnostic& found : parsed.diagnostics) {
+    if (found.severity != klartext::Severity::Error) continue;
+    return Error{ErrorCode::ProgramInvalid, "line " + std::to_string(found.range.begin.line) +
+                                                ": " + found.message +
+                                                "; action=check lists all that is wrong"};
+  }
+  return klartext::format_program(parsed.program);
 }
 
 }  // namespace fitgauge::app

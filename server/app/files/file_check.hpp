@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/allowance.hpp"
@@ -16,5 +17,10 @@ Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlP
                                                      const interpreter::ControlDisk& disk,
                                                      interpreter::ProgramCache& programs,
                                                      Allowance& allowance);
+
+/// A program as a control lists it: one blank between words, blocks numbered from 0.
+/// @errors ProgramUnknown; ProgramInvalid with the first line that cannot be read.
+Result<std::string> format_file(const interpreter::ControlPath& path,
+                                const interpreter::ControlDisk& disk);
 
 }  // namespace fitgauge::app

@@ -80,7 +80,8 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
             {}};
   }
   const auto main = load(surroundings, order.program);
-  if (main == nullptr || main->program == nullptr) {
+  const auto linked = main == nullptr ? nullptr : main->runnable(order.options.keeps_unreadable);
+  if (linked == nullptr) {
     return {unstarted(RunStatus::Failed, MessageKind::Error,
                       "the program was deleted or replaced by one with errors before the run began",
                       program),
@@ -95,7 +96,7 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
       simulated, {.block = [&follower] { return follower.place(); }, .longest = kLongestTrace});
   ExecutedRun executed;
   executed.result = interpreter::run(
-      main->program,
+      linked,
       {machine, surroundings.disk, surroundings.programs, surroundings.clock, follower, &allowance},
       order.options);
   executed.trace = {.moves = machine.moves(),

@@ -160,6 +160,12 @@ Result<RunService::Diagnostics> RunService::check_with(Check find_all,
   return failure.error();
 }
 
+Result<std::string> RunService::format(const interpreter::ControlPath& path) try {
+  return format_file(path, stored_);
+} catch (const store::StorageFailure& failure) {
+  return failure.error();
+}
+
 Result<std::shared_ptr<const ControlTables>> RunService::control_tables() try {
   Allowance allowance(kPreparingTime, kPreparingMemory, stopping_.get_token());
   return control_tables_.read(allowance);

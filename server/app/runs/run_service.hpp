@@ -77,6 +77,9 @@ class RunService {
   /// The same of a file that is to be run, whatever it is called.
   Result<Diagnostics> check_program(const interpreter::ControlPath& path);
 
+  /// A program, tidied and renumbered. @errors ProgramUnknown, ProgramInvalid, StorageUnavailable.
+  Result<std::string> format(const interpreter::ControlPath& path);
+
   /// The tool, probe and preset tables of the control's disk.
   /// @errors TableFileMalformed, StorageUnavailable.
   Result<std::shared_ptr<const ControlTables>> control_tables();

@@ -111,9 +111,10 @@ Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlD
   return walk.take();
 }
 
-bool has_errors(const std::vector<Diagnostic>& diagnostics) {
-  return std::any_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& diagnostic) {
-    return diagnostic.severity == Severity::Error;
+bool has_errors(const std::vector<Diagnostic>& diagnostics, bool keeps_unreadable) {
+  return std::any_of(diagnostics.begin(), diagnostics.end(), [=](const Diagnostic& diagnostic) {
+    return diagnostic.severity == Severity::Error &&
+           !(keeps_unreadable && diagnostic.is_unreadable);
   });
 }
 

@@ -18,6 +18,8 @@ namespace fitgauge::interpreter {
 Result<std::vector<klartext::Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
                                                 ProgramCache& programs, Allowance& allowance);
 
-bool has_errors(const std::vector<klartext::Diagnostic>& diagnostics);
+/// @param keeps_unreadable lines that are no Klartext are ERROR blocks and no errors (decision 32).
+bool has_errors(const std::vector<klartext::Diagnostic>& diagnostics,
+                bool keeps_unreadable = false);
 
 }  // namespace fitgauge::interpreter

@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "klartext/parser.hpp"
+#include "klartext/spelling_hint.hpp"
+#include "program/bound_cycle.hpp"
+#include "program/builder_hint.hpp"
 #include "program/cycle_arguments.hpp"
 #include "program/cycle_names.hpp"
 #include "program/diagnose.hpp"
@@ -57,12 +60,11 @@ class BlockCheck {
       : program_(program), block_(block), diagnostics_(diagnostics) {}
 
   void check_cycle(const klartext::Cycle& cycle) {
-    if (const auto* probing = probing_cycle(cycle.family, cycle.number);
-        probing != nullptr && !probing->descriptor.dotted) {
-      check_parameters(cycle, probing->descriptor);
-    } else if (const auto* drilling = drilling_cycle(cycle.number);
-               drilling != nullptr && cycle.family == klartext::CycleFamily::CyclDef) {
-      check_parameters(cycle, *drilling);
+    const BoundCycle bound = bind_cycle(program_, cycle);
+    if (bound.probing != nullptr) {
+      check_parameters(cycle, bound.probing->descriptor);
+    } else if (bound.machining != nullptr) {
+      check_parameters(cycle, bound.machining->descriptor);
     } else {
       warn_unavailable(cycle.family, cycle.number);
     }
@@ -72,14 +74,19 @@ class BlockCheck {
     if (!is_available(part.family, part.number, true)) warn_unavailable(part.family, part.number);
   }
 
+  void check_tcpm(const klartext::FunctionTcpm& tcpm) {
+    if (program_.text(tcpm.options).find("AXIS SPAT") == std::string_view::npos) return;
+    report(Severity::Warning, DiagnosticCode::FeatureUnsupported, block_.written,
+           "FUNCTION TCPM with AXIS SPAT is not available here: the program stops at this block");
+  }
+
   void check_words(klartext::Slice<klartext::Word> words) {
     for (const klartext::Word& word : program_.view(words)) {
       const auto* number = std::get_if<double>(&word.value);
       if (word.letter != klartext::Letter::M || number == nullptr) continue;
       if (is_m_function(static_cast<int>(*number))) continue;
-      report(
-          Severity::Warning, DiagnosticCode::MFunctionUnknown, block_.written,
-          fmt::format("M{} is not available: the run fails when it reaches this block", *number));
+      report(Severity::Warning, DiagnosticCode::MFunctionUnknown, block_.written,
+             m_function_hint(static_cast<int>(*number)));
     }
   }
 
@@ -91,25 +98,17 @@ class BlockCheck {
   }
 
   void warn_unavailable(klartext::CycleFamily family, int number) {
-    report(
-        Severity::Warning, DiagnosticCode::CycleUnknown, block_.written,
-        fmt::format("{} {} is not available: the run fails when it reaches this block",
-                    family == klartext::CycleFamily::TchProbe ? "TCH PROBE" : "CYCL DEF", number));
+    report(Severity::Warning, DiagnosticCode::CycleUnknown, block_.written,
+           cycle_hint(family == klartext::CycleFamily::TchProbe, number));
   }
 
-  void report_unknown(const klartext::CycleParameter& written, int cycle) {
+  void report_unknown(const klartext::CycleParameter& written,
+                      const probing::CycleDescriptor& cycle) {
+    klartext::SpellingHint hint(name(written.parameter));
+    for (const auto& parameter : cycle.parameters) hint.consider(name(parameter));
     report(Severity::Error, DiagnosticCode::CycleParameterUnknown, written.written,
-           fmt::format("cycle {} has no parameter {}", cycle, name(written.parameter)));
-  }
-
-  void check_parameters(const klartext::Cycle& cycle, const DrillingCycle& drilling) {
-    for (const auto& written : program_.view(cycle.parameters)) {
-      const auto& known = drilling.parameters;
-      if (written.parameter.space != klartext::QSpace::Q ||
-          std::find(known.begin(), known.end(), written.parameter.number) == known.end()) {
-        report_unknown(written, cycle.number);
-      }
-    }
+           fmt::format("cycle {} has no parameter {}{}", cycle.number, name(written.parameter),
+                       hint.text()));
   }
 
   void check_parameters(const klartext::Cycle& cycle, const probing::CycleDescriptor& descriptor) {
@@ -117,7 +116,7 @@ class BlockCheck {
     for (const auto& written : program_.view(cycle.parameters)) {
       const auto* parameter = find_parameter(descriptor, written.parameter);
       if (parameter == nullptr) {
-        report_unknown(written, cycle.number);
+        report_unknown(written, descriptor);
         continue;
       }
       given.push_back(parameter);
@@ -188,6 +187,8 @@ void check_block(const klartext::Program& program, std::uint32_t index,
     check.check_words(stop->words);
   } else if (const auto* call = std::get_if<klartext::CycleCall>(&block.statement)) {
     check.check_words(call->words);
+  } else if (const auto* tcpm = std::get_if<klartext::FunctionTcpm>(&block.statement)) {
+    check.check_tcpm(*tcpm);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "klartext/syntax.hpp"
+#include "program/bound_cycle.hpp"
 #include "program/code.hpp"
 #include "program/control_path.hpp"
 
@@ -22,6 +23,7 @@ struct LinkedParts {
   std::vector<Instruction> code;        ///< ends with Op::End
   std::vector<std::uint32_t> block_of;  ///< for each instruction the index of its block
   std::vector<double> constants;        ///< cells from kFirstConstant on
+  std::vector<BoundCycle> cycles;       ///< of the blocks of cycles in Q parameters, in their order
   std::uint32_t counters = 0;           ///< cells for the REP of label calls, after constants
   std::uint32_t temporaries = 0;        ///< cells after the counters
   std::unordered_map<std::string, std::uint32_t> named_labels;  ///< upper-case name, instruction
@@ -44,6 +46,7 @@ class LinkedProgram {
   const std::vector<Instruction>& code() const { return parts_.code; }
   const std::vector<double>& constants() const { return parts_.constants; }
   std::uint32_t counters() const { return parts_.counters; }
+  const BoundCycle& cycle(std::uint32_t index) const { return parts_.cycles[index]; }
 
   /// All cells a run of this program needs, those of other programs included.
   std::size_t cells() const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "klartext/spelling_hint.hpp"
 #include "program/arithmetic.hpp"
 #include "program/diagnose.hpp"
 #include "program/link_check.hpp"
@@ -105,11 +106,44 @@ class Linker {
             : parts_.named_labels
                   .try_emplace(ascii_upper(program_.text(std::get<Text>(label))), writer_.next())
                   .second;
-    if (!is_new) {
-      report(Severity::Error, DiagnosticCode::LabelDuplicate, block,
-             fmt::format("label {} is defined twice; each label stands once in a program",
-                         shown(label)));
+    if (is_new) return;
+    report(Severity::Error, DiagnosticCode::LabelDuplicate, block,
+           fmt::format("label {} is defined twice; each label stands once in a program",
+                       shown(label)));
+    if (const Block* first = first_definition(label)) {
+      const SourceRange range = program_.range(first->written);
+      file_.diagnostics.back().notes.push_back(
+          {fmt::format("label {} is also in line {}", shown(label), range.begin.line), range});
     }
+  }
+
+  bool is_same(const Label& a, const Label& b) const {
+    const auto* first = std::get_if<Text>(&a);
+    const auto* second = std::get_if<Text>(&b);
+    if (first == nullptr || second == nullptr) return a == b;
+    return ascii_iequals(program_.text(*first), program_.text(*second));
+  }
+
+  const Block* first_definition(const Label& label) const {
+    for (const Block& block : program_.blocks()) {
+      const auto* defined = std::get_if<klartext::LabelDefinition>(&block.statement);
+      if (defined != nullptr && is_same(defined->label, label)) return &block;
+    }
+    return nullptr;
+  }
+
+  /// "; did you mean "UP1"?" for a name, or nothing.
+  std::string similar_label(const Label& label) const {
+    const auto* name = std::get_if<Text>(&label);
+    if (name == nullptr) return {};
+    klartext::SpellingHint hint(program_.text(*name));
+    constexpr std::size_t kMostCompared = 1000;
+    std::size_t compared = 0;
+    for (const auto& [known, at] : parts_.named_labels) {
+      if (++compared > kMostCompared) break;
+      hint.consider(known);
+    }
+    return hint.text();
   }
 
   void lower(std::uint32_t index, const Block& block) {
@@ -126,6 +160,11 @@ class Linker {
       writer_.add({.op = Op::LabelEnd});
     } else if (std::holds_alternative<klartext::EndProgram>(statement)) {
       writer_.add({.op = Op::End});
+    } else if (const auto* cycle = std::get_if<klartext::Cycle>(&statement)) {
+      writer_.add({.op = Op::Statement,
+                   .a = index,
+                   .b = static_cast<std::uint32_t>(parts_.cycles.size())});
+      parts_.cycles.push_back(bind_cycle(program_, *cycle));
     } else {
       collect_reference(block);
       writer_.add({.op = Op::Statement, .a = index, .b = first_part(program_, index)});
@@ -194,7 +233,8 @@ class Linker {
       Instruction& instruction = writer_.at(jump.instruction);
       if (!target) {
         report(Severity::Error, DiagnosticCode::LabelUnknown, block,
-               fmt::format("label {} is not defined in this program", shown(jump.label)));
+               fmt::format("label {} is not defined in this program{}", shown(jump.label),
+                           similar_label(jump.label)));
         continue;
       }
       if (instruction.op == Op::Repeat && *target > jump.instruction) {  // decision 7
@@ -256,13 +296,17 @@ LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
   std::stable_sort(file.diagnostics.begin(), file.diagnostics.end(),
                    [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
   file.memory_bytes = memory_of(parsed.program, parts);
-  const bool failed =
-      std::any_of(file.diagnostics.begin(), file.diagnostics.end(),
-                  [](const auto& diagnostic) { return diagnostic.severity == Severity::Error; });
-  if (!failed) {
-    file.program =
-        std::make_shared<const LinkedProgram>(path, std::move(parsed.program), std::move(parts));
-  }
+  const auto has_error = [&](bool tolerant) {
+    return std::any_of(file.diagnostics.begin(), file.diagnostics.end(),
+                       [tolerant](const auto& diagnostic) {
+                         return diagnostic.severity == Severity::Error &&
+                                !(tolerant && diagnostic.is_unreadable);
+                       });
+  };
+  if (has_error(true)) return file;
+  file.with_error_blocks =
+      std::make_shared<const LinkedProgram>(path, std::move(parsed.program), std::move(parts));
+  if (!has_error(false)) file.program = file.with_error_blocks;
   return file;
 }
 

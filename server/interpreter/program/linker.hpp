@@ -21,7 +21,14 @@ struct FileReference {
 
 /// A program file, ready to run, with all that was found in it.
 struct LinkedFile {
-  std::shared_ptr<const LinkedProgram> program;   ///< null when a diagnostic is an error
+  const std::shared_ptr<const LinkedProgram>& runnable(bool keeps_unreadable) const {
+    return keeps_unreadable ? with_error_blocks : program;
+  }
+
+  std::shared_ptr<const LinkedProgram> program;  ///< null when a diagnostic is an error
+  /// The same; also there when the only errors are lines that are no Klartext, which are ERROR
+  /// blocks then (decision 32).
+  std::shared_ptr<const LinkedProgram> with_error_blocks;
   std::vector<klartext::Diagnostic> diagnostics;  ///< of the parser and the linker
   std::vector<FileReference> references;          ///< the first 1000
   std::size_t memory_bytes = 0;                   ///< about what it occupies

@@ -45,14 +45,15 @@ NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const Contr
   const auto linked = allowance.uncounted([&] { return environment.programs.get(*file); });
   allowance.share(linked->memory_bytes);
   if (auto checked = budget.check(); !checked) return checked.error();
-  if (linked->program == nullptr) {
+  const auto& program = linked->runnable(options.keeps_unreadable);
+  if (program == nullptr) {
     const auto first =
         std::find_if(linked->diagnostics.begin(), linked->diagnostics.end(),
                      [](const auto& found) { return found.severity == klartext::Severity::Error; });
     return nc_error(fmt::format("program {} has errors, the first in line {}: {}", path.text(),
                                 first->range.begin.line, first->message));
   }
-  return known = linked->program;
+  return known = program;
 }
 
 }  // namespace fitgauge::interpreter

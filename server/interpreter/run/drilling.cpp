@@ -1,105 +1,219 @@
-#include "run/drilling.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "run/channel.hpp"
+#include "run/machining.hpp"
 
+/// Cycles along the tool axis, as the control's manuals describe their steps.
 namespace fitgauge::interpreter {
 namespace {
 
-/// One hole. Heights are coordinates along the tool axis, in mm.
-class Hole {
- public:
-  Hole(Channel& channel, const DrillingDefinition& definition)
-      : channel_(channel),
-        definition_(definition),
-        axis_(channel.machine().state().tool_axis()),
-        surface_(definition.value(203)),
-        clearance_(surface_ + definition.value(200)),
-        bottom_(surface_ + depth()) {}
+using machine::Feed;
 
-  NcResult<void> run() {
-    if (bottom_ == surface_) return nc_error(1042, "Q201 is 0");
-    if (auto done = rapid(clearance_); !done) return done;
-    if (auto done = cut(); !done) return done;
-    if (auto done = dwell(211); !done) return done;
-    if (auto done = retract(); !done) return done;
-    const double second = surface_ + definition_.value(204);
-    return second > clearance_ ? rapid(second) : NcResult<void>();
+/// The infeeds of a hole: Q202 each, less by Q212 after each, not below Q205.
+class Infeed {
+ public:
+  explicit Infeed(const Machining& cycle)
+      : size_(std::abs(cycle.value(202))),
+        decrement_(cycle.value(212)),
+        least_(std::min(size_, cycle.value(205))) {}
+
+  double next() {
+    const double size = size_;
+    if (decrement_ > 0) size_ = std::max({size_ - decrement_, least_, 0.0});
+    return size > 0 ? size : std::max(least_, decrement_);
   }
 
  private:
-  /// Cycle 240 may give the diameter of the countersink instead.
-  double depth() const {
-    if (definition_.value(343) != 1) return definition_.value(201);
-    const machine::Tool* tool = channel_.machine().state().active_tool();
-    const double point = tool == nullptr ? 0 : tool->point_angle;
-    if (point <= 0 || point >= 180) return 0;
-    return -std::abs(definition_.value(344)) / 2 / std::tan(machine::radians(point / 2));
-  }
+  double size_;
+  double decrement_;
+  double least_;
+};
 
-  /// Q206; a thread is cut at its pitch Q239 times the speed.
-  machine::Feed feed() const {
-    if (definition_.cycle->taps && definition_.values.contains(239)) {
-      const double rpm = channel_.machine().state().modes.spindle_rpm;
-      return machine::Feed::at(std::abs(definition_.value(239)) * rpm);
+class Drilling {
+ public:
+  explicit Drilling(Machining& cycle)
+      : cycle_(cycle),
+        motion_(cycle.motion),
+        heights_(cycle.heights),
+        number_(cycle.definition.cycle->descriptor.number),
+        down_(heights_.bottom < heights_.surface ? -1 : 1),
+        begin_(heights_.surface + cycle.value(379)) {}
+
+  NcResult<void> run() {
+    if (auto done = cycle_.start(); !done) return done;
+    if (cycle_.value(379) != 0) {
+      const double above = begin_ - down_ * first_stop();
+      if (auto done = motion_.to_height(above, cycle_.feed(253)); !done) return done;
     }
-    return feed(definition_.value(206));
-  }
-  static machine::Feed feed(double rate) {
-    return std::isinf(rate) ? machine::Feed::rapid() : machine::Feed::at(rate);
+    if (auto done = cut(); !done) return done;
+    if (auto done = motion_.dwell(cycle_.value(211)); !done) return done;
+    if (auto done = motion_.to_height(heights_.clearance, cycle_.retraction()); !done) return done;
+    return cycle_.leave();
   }
 
-  NcResult<void> move(double height, const machine::Feed& at) {
-    if (auto allowed = channel_.budget.check(); !allowed) return allowed;
-    machine::AxisWords target;
-    target[axis_] = height;
-    return checked(channel_.machine().move({target, at}));
+ private:
+  bool is_pecking() const {
+    return number_ == 1 || number_ == 200 || number_ == 203 || number_ == 205 || number_ == 241;
   }
-  NcResult<void> rapid(double height) { return move(height, machine::Feed::rapid()); }
-
-  NcResult<void> dwell(int parameter) {
-    const double seconds = definition_.value(parameter);
-    return seconds > 0 ? checked(channel_.machine().dwell(seconds)) : NcResult<void>();
+  /// Where feed begins again above the depth that is reached: the clearance, in 205 its advanced
+  /// stop distance.
+  double first_stop() const { return number_ == 205 ? cycle_.value(258) : cycle_.value(200); }
+  double stop_above(double reached) const {
+    if (number_ == 1) return 0.6;  // the old cycle's own
+    if (number_ != 205) return cycle_.value(200);
+    const double part = (reached - begin_) / (heights_.bottom - begin_);
+    return cycle_.value(258) + (cycle_.value(259) - cycle_.value(258)) * part;
   }
 
   NcResult<void> cut() {
-    const double infeed = definition_.cycle->chips ? definition_.value(202) : 0;
-    if (infeed <= 0) return move(bottom_, feed());
-    const double direction = bottom_ < surface_ ? -1 : 1;
-    for (double reached = surface_; reached != bottom_;) {
-      const double next =
-          std::abs(bottom_ - reached) <= infeed ? bottom_ : reached + direction * infeed;
-      if (auto done = move(next, feed()); !done) return done;
-      if (next == bottom_ || next == reached) break;
+    Infeed infeed(cycle_);
+    double reached = begin_;
+    double breaks_left = cycle_.value(213);
+    while (reached != heights_.bottom) {
+      const double size = is_pecking() ? infeed.next() : 0;
+      const double left = std::abs(heights_.bottom - reached);
+      const double next = size <= 0 || left <= size ? heights_.bottom : reached + down_ * size;
+      if (next == reached) return nc_error(1011, "the plunging depth Q202 is too small");
+      if (auto done = plunge(reached, next); !done) return done;
       reached = next;
-      if (auto done = rapid(clearance_); !done) return done;
-      if (auto done = dwell(210); !done) return done;
-      if (auto done = rapid(reached); !done) return done;
+      if (reached == heights_.bottom) break;
+      if (number_ == 203 && breaks_left > 0) {
+        breaks_left -= 1;
+        if (auto done = break_chip(reached); !done) return done;
+        continue;
+      }
+      breaks_left = cycle_.value(213);
+      if (auto done = clear_chips(reached); !done) return done;
     }
     return {};
   }
 
-  NcResult<void> retract() {
-    if (definition_.cycle->taps) return move(clearance_, feed());
-    const double rate = definition_.value(208);
-    return rate > 0 ? move(clearance_, feed(rate)) : rapid(clearance_);
+  /// 205 breaks the chip each Q257.
+  NcResult<void> plunge(double from, double to) {
+    const double chip = number_ == 205 ? cycle_.value(257) : 0;
+    for (double at = from; chip > 0 && std::abs(to - at) > chip;) {
+      const double next = at + down_ * chip;
+      if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
+      at = next;
+      if (auto done = motion_.to_height(at, cycle_.feed(206)); !done) return done;
+      if (auto done = break_chip(at); !done) return done;
+    }
+    return motion_.to_height(to, cycle_.feed(206));
   }
 
-  Channel& channel_;
-  const DrillingDefinition& definition_;
-  const machine::Axis axis_;
-  const double surface_;
-  const double clearance_;
-  const double bottom_;
+  NcResult<void> break_chip(double reached) {
+    return motion_.to_height(reached - down_ * cycle_.value(256), cycle_.retraction());
+  }
+
+  /// Out to the clearance, and back to the stop above what is reached.
+  NcResult<void> clear_chips(double reached) {
+    if (auto done = motion_.to_height(heights_.clearance,
+                                      number_ == 203 ? cycle_.retraction() : Feed::rapid());
+        !done) {
+      return done;
+    }
+    if (auto done = motion_.dwell(cycle_.value(210)); !done) return done;
+    const double above = reached - down_ * stop_above(reached);
+    const bool is_below = (above - heights_.clearance) * down_ > 0;
+    return is_below ? motion_.to_height(above, Feed::rapid()) : NcResult<void>();
+  }
+
+  Machining& cycle_;
+  ToolMotion& motion_;
+  const Heights& heights_;
+  const int number_;
+  const double down_;
+  const double begin_;  ///< where the hole begins: the surface, or the deepened starting point
 };
+
+/// The feed of a thread: its pitch at the speed of the spindle.
+Feed thread_feed(const Machining& cycle, double factor = 1) {
+  if (cycle.value(239) == 0) return cycle.feed(206);
+  const double rpm = cycle.channel.machine().state().modes.spindle_rpm;
+  return Feed::at(std::abs(cycle.value(239)) * rpm * factor);
+}
+
+/// Q214: away from the wall, with the tool standing.
+Vec2 withdrawal(const Machining& cycle, double by) {
+  switch (static_cast<int>(cycle.value(214))) {
+    case 1: return {-by, 0};
+    case 2: return {0, -by};
+    case 3: return {by, 0};
+    case 4: return {0, by};
+    default: return {};
+  }
+}
 
 }  // namespace
 
-NcResult<void> drill(Channel& channel, const DrillingDefinition& definition) {
-  return Hole(channel, definition).run();
+NcResult<void> drill(Machining& cycle) { return Drilling(cycle).run(); }
+
+NcResult<void> tap(Machining& cycle) {
+  const Heights& heights = cycle.heights;
+  ToolMotion& motion = cycle.motion;
+  if (auto done = cycle.start(); !done) return done;
+  const double down = heights.bottom < heights.surface ? -1 : 1;
+  const double chip = cycle.value(257);
+  for (double at = heights.surface; chip > 0 && std::abs(heights.bottom - at) > chip;) {
+    const double next = at + down * chip;
+    if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
+    at = next;
+    if (auto done = motion.to_height(at, thread_feed(cycle)); !done) return done;
+    // Q256 = 0: out of the hole.
+    const double back = cycle.value(256) > 0 ? at - down * cycle.value(256) : heights.clearance;
+    if (auto done = motion.to_height(back, thread_feed(cycle)); !done) return done;
+  }
+  if (auto done = motion.to_height(heights.bottom, thread_feed(cycle)); !done) return done;
+  if (auto done = motion.dwell(cycle.value(211)); !done) return done;
+  const double faster = cycle.definition.gives(403) ? cycle.value(403) : 1;
+  if (auto done = motion.to_height(heights.clearance, thread_feed(cycle, faster)); !done) {
+    return done;
+  }
+  return cycle.leave();
+}
+
+NcResult<void> bore(Machining& cycle) {
+  constexpr double kWithdrawal = 0.2;  // mm, the control's own
+  const Heights& heights = cycle.heights;
+  ToolMotion& motion = cycle.motion;
+  if (auto done = cycle.start(); !done) return done;
+  if (auto done = motion.to_height(heights.bottom, cycle.feed(206)); !done) return done;
+  if (auto done = motion.dwell(cycle.value(211)); !done) return done;
+  const Vec2 centre = motion.point();
+  const Vec2 away = withdrawal(cycle, kWithdrawal);
+  const bool withdraws = norm(away) > 0;
+  if (withdraws) {
+    if (auto done = motion.to_point(centre + away, cycle.feed(206)); !done) return done;
+  }
+  if (auto done = motion.to_height(heights.clearance, cycle.retraction()); !done) return done;
+  if (auto done = cycle.leave(); !done || !withdraws) return done;
+  return motion.to_point(centre, Feed::rapid());
+}
+
+NcResult<void> bore_back(Machining& cycle) {
+  const Heights& heights = cycle.heights;
+  ToolMotion& motion = cycle.motion;
+  if (cycle.value(249) == 0) return nc_error(1042, "Q249 is 0");
+  const double lower_edge = heights.surface - cycle.value(250) - cycle.value(252);
+  const double below = lower_edge - cycle.value(200);
+  const Vec2 centre = motion.point();
+  const Vec2 beside = centre + withdrawal(cycle, cycle.value(251));
+  // The cutting edge enters the hole beside its centre and comes back up through the other side.
+  const auto through = [&](double height) -> NcResult<void> {
+    if (auto done = motion.to_point(beside, Feed::rapid()); !done) return done;
+    if (auto done = motion.to_height(height, cycle.feed(253)); !done) return done;
+    return motion.to_point(centre, Feed::rapid());
+  };
+  if (auto done = motion.to_height(heights.clearance, Feed::rapid()); !done) return done;
+  if (auto done = through(below); !done) return done;
+  if (auto done = motion.to_height(lower_edge + cycle.value(249), cycle.feed(254)); !done) {
+    return done;
+  }
+  if (auto done = motion.dwell(cycle.value(255)); !done) return done;
+  if (auto done = motion.to_height(below, cycle.feed(253)); !done) return done;
+  if (auto done = through(heights.clearance); !done) return done;
+  return cycle.leave();
 }
 
 }  // namespace fitgauge::interpreter

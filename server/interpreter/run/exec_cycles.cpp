@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include <limits>
-
-#include "program/cycle_arguments.hpp"
+#include "program/cycle_names.hpp"
 #include "run/channel.hpp"
 #include "run/channel_cycle_host.hpp"
 #include "run/dotted_arguments.hpp"
-#include "run/drilling.hpp"
 #include "run/m_functions.hpp"
+#include "run/machining.hpp"
+#include "run/machining_arguments.hpp"
 #include "run/motion_words.hpp"
 #include "run/statements.hpp"
 #include "run/transformation_cycles.hpp"
@@ -16,48 +15,7 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::CycleFamily;
 using klartext::CycleValue;
-using klartext::QRef;
-
-NcError unavailable(CycleFamily family, int number) {
-  return nc_error(fmt::format("cycle {} {} is not available",
-                              family == CycleFamily::TchProbe ? "TCH PROBE" : "CYCL DEF", number));
-}
-
-bool is_text(const klartext::Expr& expr) {
-  const auto* parameter = std::get_if<QRef>(&expr);
-  return std::holds_alternative<klartext::Text>(expr) ||
-         (parameter != nullptr && parameter->is_string());
-}
-
-/// The value of a cycle parameter that is a number; MAX is infinity, AUTO the feed of TOOL CALL.
-NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& written) {
-  const machine::Modes& modes = channel.machine().state().modes;
-  switch (written.kind) {
-    case CycleValue::Max: return std::numeric_limits<double>::infinity();
-    case CycleValue::Auto: return channel.contour.tool_feed;
-    case CycleValue::Fu: {
-      const auto value = number(channel, written.value);
-      return value ? NcResult<double>(*value * channel.length_unit() * modes.spindle_rpm) : value;
-    }
-    case CycleValue::Fz: return nc_error("a feed FZ is not available in cycles");
-    default: return number(channel, written.value);
-  }
-}
-
-NcResult<probing::ArgumentValue> argument(Channel& channel, const klartext::CycleParameter& written,
-                                          const probing::CycleParameter& parameter) {
-  if (auto value = literal(channel.program(), written, parameter)) return *std::move(value);
-  if (written.kind == CycleValue::Expression && is_text(written.value)) {
-    auto value = text(channel, written.value);
-    if (!value) return value.error();
-    return probing::ArgumentValue(*std::move(value));
-  }
-  const auto value = number_value(channel, written);
-  if (!value) return value.error();
-  return probing::ArgumentValue(*value * scale_of(parameter.unit, channel.linked().is_inch()));
-}
 
 /// Tells the observer which cycle commands the machine while this lives.
 class MovedByCycle {
@@ -80,8 +38,8 @@ NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arg
   const double clearance = probe->data.set_up + arguments.number(320);
   if (probe->data.distance >= clearance) return {};
   return channel.note(
-      fmt::format("DIST = {} mm ends before SET_UP + Q320 = {} mm: material in its nominal place "
-                  "is not touched",
+      fmt::format("DIST ({} mm) is shorter than SET_UP + Q320 ({} mm): the probe stops before the "
+                  "nominal surface",
                   probe->data.distance, clearance));
 }
 
@@ -98,89 +56,105 @@ NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cyc
   return {};
 }
 
-/// Cycle parameters that are lengths (1/10 inch a minute for feeds) in drilling cycles; others are
-/// times, angles and selections.
-probing::Unit unit_of_drilling(int parameter) {
-  switch (parameter) {
-    case 200:
-    case 201:
-    case 202:
-    case 203:
-    case 204:
-    case 205:
-    case 212:
-    case 213:
-    case 239:
-    case 256:
-    case 257:
-    case 258:
-    case 259:
-    case 344:
-    case 379: return probing::Unit::Length;
-    case 206:
-    case 207:
-    case 208:
-    case 253: return probing::Unit::Feed;
-    default: return probing::Unit::None;
+NcResult<void> run_probing(Channel& channel, const klartext::Cycle& cycle,
+                           const BoundCycle& bound) {
+  probing::Arguments arguments(bound.probing->descriptor);
+  const auto parameters = channel.program().view(cycle.parameters);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    auto value = cycle_argument(channel, parameters[i], *bound.parameters[i]);
+    if (!value) return value.error();
+    arguments.set(bound.parameters[i]->id, *std::move(value));
   }
+  return run_probing(channel, *bound.probing, std::move(arguments));
 }
 
-NcResult<void> define_drilling(Channel& channel, const klartext::Cycle& cycle,
-                               const DrillingCycle& drilling) {
-  DrillingDefinition definition{&drilling, {}};
-  for (const auto& written : channel.program().view(cycle.parameters)) {
-    const auto value = number_value(channel, written);
-    if (!value) return value.error();
-    const int parameter = written.parameter.number;
-    definition.values[parameter] =
-        *value * scale_of(unit_of_drilling(parameter), channel.linked().is_inch());
+/// Keeps the cycle for M99 and CYCL CALL, or runs it at once where it is DEF-active.
+NcResult<void> define(Channel& channel, MachiningDefinition definition) {
+  ActiveCycle& active = channel.active_cycle;
+  const MachiningShape shape = definition.cycle->shape;
+  if (shape == MachiningShape::ContourData) {
+    active.contour_data = std::move(definition);
+    return {};
   }
-  channel.active_cycle.definition = std::move(definition);
-  channel.active_cycle.number = cycle.number;
+  if (definition.cycle->runs_when_defined) {
+    const MovedByCycle moved(channel, definition.cycle->descriptor.number);
+    return run_pattern(channel, definition);
+  }
+  active.number = definition.cycle->descriptor.number;
+  active.definition = std::move(definition);
+  return {};
+}
+
+/// A cycle that only the builder of the machine knows.
+NcResult<Next> run_builders(Channel& channel, klartext::CycleFamily family, int number) {
+  const BuilderAction* action = channel.options.builder.cycle(number);
+  if (action == nullptr) {
+    return unknown_cycle(family == klartext::CycleFamily::TchProbe, number);
+  }
+  if (action->program) return call_program(channel, *action->program);
+  channel.active_cycle.definition = IgnoredCycle{};
+  return Next{};
+}
+
+/// Its parameters are Q parameters for the program that stands for it.
+NcResult<void> set_parameters(Channel& channel, const klartext::Cycle& cycle) {
+  for (const auto& written : channel.program().view(cycle.parameters)) {
+    if (written.kind != CycleValue::Expression || written.parameter.is_string()) continue;
+    const auto value = number(channel, written.value);
+    if (!value) return value.error();
+    if (auto set = channel.parameters.set(written.parameter, *value); !set) return set;
+  }
   return {};
 }
 
 }  // namespace
 
-NcResult<void> execute(Channel& channel, const klartext::Cycle& cycle) {
-  if (const auto* probing = probing_cycle(cycle.family, cycle.number);
-      probing != nullptr && !probing->descriptor.dotted) {
-    probing::Arguments arguments(probing->descriptor);
-    for (const auto& written : channel.program().view(cycle.parameters)) {
-      // Not null: the linker has refused parameters that the cycle does not have.
-      const auto& parameter = *find_parameter(probing->descriptor, written.parameter);
-      auto value = argument(channel, written, parameter);
-      if (!value) return value.error();
-      arguments.set(parameter.id, *std::move(value));
+NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound) {
+  NcResult<void> done;
+  if (bound.probing != nullptr) {
+    done = run_probing(channel, cycle, bound);
+  } else if (bound.machining != nullptr) {
+    auto definition = machining_arguments(channel, cycle, bound);
+    done = definition ? define(channel, *std::move(definition)) : definition.error();
+  } else {
+    if (channel.options.builder.cycle(cycle.number) != nullptr) {
+      if (auto set = set_parameters(channel, cycle); !set) return set.error();
     }
-    return run_probing(channel, *probing, std::move(arguments));
+    return run_builders(channel, cycle.family, cycle.number);
   }
-  const auto* drilling = drilling_cycle(cycle.number);
-  if (cycle.family == CycleFamily::CyclDef && drilling != nullptr) {
-    return define_drilling(channel, cycle, *drilling);
-  }
-  return unavailable(cycle.family, cycle.number);
+  if (!done) return done.error();
+  return Next{};
 }
 
-NcResult<void> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last) {
+NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last) {
   const auto blocks = channel.program().blocks();
   const auto& opening = std::get<klartext::CyclePart>(blocks[first].statement);
   if (!is_available(opening.family, opening.number, true)) {
-    return unavailable(opening.family, opening.number);
+    return run_builders(channel, opening.family, opening.number);
   }
+  NcResult<void> done;
   if (const auto* probing = probing_cycle(opening.family, opening.number)) {
     auto arguments = dotted_arguments(channel, *probing, first, last);
-    if (!arguments) return arguments.error();
-    return run_probing(channel, *probing, *std::move(arguments));
+    done = arguments ? run_probing(channel, *probing, *std::move(arguments)) : arguments.error();
+  } else if (opening.number == 14) {
+    auto labels = contour_labels(channel, first, last);
+    if (!labels) return labels.error();
+    channel.active_cycle.contours = *std::move(labels);
+  } else if (const auto* machining = machining_cycle(opening.number)) {
+    auto definition = machining_arguments(channel, *machining, first, last);
+    done = definition ? define(channel, *std::move(definition)) : definition.error();
+  } else {
+    std::vector<klartext::Word> words;
+    for (std::uint32_t i = first; i <= last; ++i) {
+      const auto* part = std::get_if<klartext::CyclePart>(&blocks[i].statement);
+      if (part == nullptr) continue;
+      const auto view = channel.program().view(part->words);
+      words.insert(words.end(), view.begin(), view.end());
+    }
+    done = execute_transformation(channel, opening.number, words);
   }
-  std::vector<klartext::Word> words;
-  for (std::uint32_t i = first; i <= last; ++i) {
-    const auto* part = std::get_if<klartext::CyclePart>(&blocks[i].statement);
-    if (part == nullptr) continue;
-    const auto view = channel.program().view(part->words);
-    words.insert(words.end(), view.begin(), view.end());
-  }
-  return execute_transformation(channel, opening.number, words);
+  if (!done) return done.error();
+  return Next{};
 }
 
 NcResult<Next> call_active_cycle(Channel& channel) {
@@ -188,18 +162,16 @@ NcResult<Next> call_active_cycle(Channel& channel) {
   if (const auto* program = std::get_if<ControlPath>(&definition)) {
     return call_program(channel, *program);
   }
-  const auto* drilling = std::get_if<DrillingDefinition>(&definition);
-  if (drilling == nullptr) return nc_error(1027);
+  if (std::holds_alternative<IgnoredCycle>(definition)) return Next{};
+  const auto* machining = std::get_if<MachiningDefinition>(&definition);
+  if (machining == nullptr) return nc_error(1027);
   if (auto done = channel.contour.finish(channel); !done) return done.error();
   const MovedByCycle moved(channel, channel.active_cycle.number);
-  if (auto done = drill(channel, *drilling); !done) return done.error();
+  if (auto done = machine_here(channel, *machining); !done) return done.error();
   return Next{};
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call) {
-  if (call.kind == klartext::CycleCallKind::Pattern) {
-    return nc_error("CYCL CALL PAT is not available: point patterns are not simulated");
-  }
   const auto words = read_words(channel, call.words);
   if (!words) return words.error();
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
@@ -213,6 +185,13 @@ NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call) {
     }
     const auto feed = words->feed.value_or(machine::Feed::rapid());
     if (auto moved = checked(channel.machine().move({target, feed})); !moved) return moved.error();
+  }
+  if (call.kind == klartext::CycleCallKind::Pattern) {
+    {
+      const MovedByCycle moved(channel, channel.active_cycle.number);
+      if (auto done = run_points(channel); !done) return done.error();
+    }
+    return end_m_functions(channel, *words);
   }
   auto next = call_active_cycle(channel);
   if (!next || next->kind != Next::Kind::Block) return next;

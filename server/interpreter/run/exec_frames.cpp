@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <string_view>
 
 #include "run/channel.hpp"
 #include "run/frame_commands.hpp"
@@ -207,6 +208,17 @@ NcResult<void> execute(Channel& channel, const klartext::FunctionMode& mode) {
 }
 
 NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
+  const std::string_view options = channel.program().text(tcpm.options);
+  const auto says = [&](std::string_view words) { return options.find(words) != options.npos; };
+  if (says("AXIS SPAT")) {
+    return nc_error("FUNCTION TCPM with AXIS SPAT is not available: rotary words would be spatial "
+                    "angles; write AXIS POS, or tilt with PLANE SPATIAL");
+  }
+  if (says("PATHCTRL VECTOR")) {
+    auto noted = channel.note("PATHCTRL VECTOR: the rotary axes move evenly, as with PATHCTRL AXIS; "
+                              "only the ends of a block are the same");
+    if (!noted) return noted;
+  }
   machine::Modes modes = channel.machine().state().modes;
   modes.tcpm = tcpm.active;
   return checked(channel.machine().set_modes(modes));

@@ -346,12 +346,40 @@ class Positioning {
   const Vec2 start_;
 };
 
+/// What the control takes into account and the simulated machine does not.
+NcResult<void> note_what_has_no_effect(Channel& channel, const Motion& motion,
+                                       const MotionWords& words) {
+  if (words.has_m(92)) {
+    auto noted = channel.note("M92 counts from the machine datum, as M91: the setup has no second");
+    if (!noted) return noted;
+  }
+  if (motion.path != Path::Ln) return {};
+  const auto view = channel.program().view(motion.words);
+  const auto names = [&](klartext::Letter first, klartext::Letter last) {
+    return std::any_of(view.begin(), view.end(), [=](const klartext::Word& word) {
+      return word.letter >= first && word.letter <= last;
+    });
+  };
+  if (names(klartext::Letter::Tx, klartext::Letter::Tz)) {
+    auto noted = channel.note(
+        "LN: the tool vector TX TY TZ does not turn the tool; write the positions of the rotary "
+        "axes, or tilt with PLANE VECTOR");
+    if (!noted) return noted;
+  }
+  const machine::Tool* tool = channel.machine().state().active_tool();
+  const double oversize =
+      channel.machine().state().tool.dr + (tool == nullptr ? 0 : tool->dr);
+  if (oversize == 0 || !names(klartext::Letter::Nx, klartext::Letter::Nz)) return {};
+  return channel.note("LN: DR does not move the path along the normal NX NY NZ");
+}
+
 }  // namespace
 
 NcResult<Next> execute(Channel& channel, const Motion& motion) {
   const auto words = read_words(channel, motion.words);
   if (!words) return words.error();
   channel.contour.compensate(motion.compensation);
+  if (auto noted = note_what_has_no_effect(channel, motion, *words); !noted) return noted.error();
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
   if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
   return end_m_functions(channel, *words);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "run/channel.hpp"
 #include "run/statements.hpp"
 #include "run/string_functions.hpp"
@@ -20,7 +22,13 @@ NcResult<std::string> printed(Channel& channel, const klartext::Expr& item) {
   }
   const auto value = number(channel, item);
   if (!value) return value.error();
-  return (*value < 0 ? "" : "+") + to_char(*value, -1);
+  // Four decimals without trailing zeros, as controls print them.
+  constexpr int kDecimals = 4;
+  std::string text = to_char(*value, kDecimals);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  if (channel.options.decimal_comma) std::replace(text.begin(), text.end(), '.', ',');
+  return (text.front() == '-' ? "" : "+") + text;
 }
 
 }  // namespace

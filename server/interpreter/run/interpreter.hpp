@@ -12,6 +12,7 @@
 #include "program/control_disk.hpp"
 #include "program/parameter.hpp"
 #include "program/program_cache.hpp"
+#include "run/machine_builder.hpp"
 #include "run/run_limits.hpp"
 #include "run/run_observer.hpp"
 #include "run/run_result.hpp"
@@ -26,6 +27,11 @@ struct RunOptions {
   RunLimits limits;
   OnStop on_stop = OnStop::Continue;
   bool block_skip = false;  ///< blocks that begin with `/` are passed over
+  MachineBuilder builder;   ///< M functions and cycles that the control does not know
+  /// Lines that are no Klartext are ERROR blocks, which fail when they are reached (decision 32);
+  /// otherwise they refuse the program.
+  bool keeps_unreadable = false;
+  bool decimal_comma = true;  ///< of FN 15
   klartext::MaskLanguage language = klartext::MaskLanguage::English;  ///< of the control's dialog
 };
 

@@ -122,6 +122,15 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
     const char* reason = words.has_m(0) ? "programmed stop M0" : "optional stop M1";
     if (auto done = channel.programmed_stop(reason); !done) return done.error();
   }
+  for (const MCall& call : words.m) {
+    if (call.program == nullptr) continue;
+    if (ends || calls_cycle) {
+      return nc_error(fmt::format("M{} calls a program and stands alone with it: M2, M30, M89 and "
+                                  "M99 go into a block of their own",
+                                  call.number));
+    }
+    return call_program(channel, *call.program);
+  }
   if (ends) return Next{.kind = Next::Kind::EndRun};
   return Next{};
 }

@@ -64,8 +64,14 @@ NcResult<void> read_number(Channel& channel, const Word& word, double unit,
 NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& calls) {
   const auto value = whole(channel, word.value);
   if (!value) return value.error();
-  if (!is_m_function(*value)) return nc_error(fmt::format("M{} is not available", *value));
-  calls.push_back({.number = *value});
+  const int called = *value;
+  if (is_m_function(called)) {
+    calls.push_back({.number = called});
+    return {};
+  }
+  const BuilderAction* action = channel.options.builder.m_function(called);
+  if (action == nullptr) return unknown_m_function(called);
+  if (action->program) calls.push_back({.number = called, .program = &*action->program});
   return {};
 }
 

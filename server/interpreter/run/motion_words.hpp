@@ -6,6 +6,7 @@
 
 #include "klartext/syntax.hpp"
 #include "machine/machine.hpp"
+#include "program/control_path.hpp"
 #include "run/nc_error.hpp"
 
 namespace fitgauge::interpreter {
@@ -24,6 +25,7 @@ struct MCall {
   std::optional<double> length{};       ///< MB, mm
   bool to_limit = false;                ///< MB MAX
   std::optional<machine::Feed> feed{};  ///< of M140
+  const ControlPath* program = nullptr;  ///< that stands for it in the setup
 };
 
 /// The words of a positioning block as numbers, in mm, degrees and mm/min.

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "klartext/lexer.hpp"
+
 namespace fitgauge::interpreter {
 
 std::string_view word(RunStatus status) {
@@ -69,8 +73,12 @@ void RunLog::finish(const NcError& error, const Place& place) {
 }
 
 void RunLog::add(MessageKind kind, int number, std::string text, const Place& place) {
-  messages_.push_back(
-      {kind, number, std::move(text), std::string(place.path()), place.line(), place.block()});
+  constexpr std::size_t kLongestSource = 200;
+  const std::string_view line = place.program->program().line(place.line());
+  const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
+  messages_.push_back({kind, number, std::move(text), std::string(place.path()), place.line(),
+                       place.block(), static_cast<std::uint32_t>(first + 1),
+                       klartext::excerpt(line, kLongestSource)});
   observer_.reported(messages_.back());
 }
 

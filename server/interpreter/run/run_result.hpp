@@ -38,6 +38,8 @@ struct RunMessage {
   std::string program;                 ///< TNC:\...
   std::uint32_t line = 0;              ///< from 1, of the block's first physical line
   std::optional<std::uint32_t> block;  ///< its number, as written or counted
+  std::uint32_t column = 0;            ///< from 1, of the block in that line; 0: no line is meant
+  std::string source{};                ///< the physical line, cut where it is long
 
   friend bool operator==(const RunMessage&, const RunMessage&) = default;
 };

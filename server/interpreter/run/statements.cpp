@@ -16,6 +16,9 @@ class Dispatcher {
   NcResult<Next> operator()(const klartext::LabelCall& call) const {
     return execute(channel_, call, instruction_.b);
   }
+  NcResult<Next> operator()(const klartext::Cycle& cycle) const {
+    return execute(channel_, cycle, channel_.linked().cycle(instruction_.b));
+  }
   NcResult<Next> operator()(const klartext::CyclePart&) const {
     return wrap(execute_parts(channel_, instruction_.b, instruction_.a));
   }

@@ -62,11 +62,15 @@ NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions);
 NcResult<Next> execute(Channel& channel, const klartext::Stop& stop);
 
 // exec_cycles.cpp
-NcResult<void> execute(Channel& channel, const klartext::Cycle& cycle);
-NcResult<void> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last);
+NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound);
+NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last);
 NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call);
 /// What M99, M89 and CYCL CALL run at the current position.
 NcResult<Next> call_active_cycle(Channel& channel);
+
+// exec_pattern.cpp
+NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& pattern);
+NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell);
 
 // exec_frames.cpp
 NcResult<void> execute(Channel& channel, const klartext::Trans& trans);

@@ -61,9 +61,9 @@ Answer program_data(const Channel& channel, const Address& address) {
     case 3: return channel.active_cycle.number;
     case 6: return channel.active_cycle.last_probing;
     case 103: {  // whether the active cycle's block gives the parameter Q IDX
-      const auto* drilling = std::get_if<DrillingDefinition>(&channel.active_cycle.definition);
-      if (drilling == nullptr || !address.index) return std::nullopt;
-      return drilling->values.contains(*address.index) ? 1 : 0;
+      const auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
+      if (machining == nullptr || !address.index) return std::nullopt;
+      return machining->gives(*address.index) ? 1 : 0;
     }
     case 8: {
       const LinkedProgram* caller = channel.calls.caller();

@@ -98,7 +98,7 @@ TEST_CASE("What only real controls can do is kept as a block that fails when it 
   for (const std::string_view line :
        {"FL X+10 Y+5", "FC DR- R15", "FPOL X+0 Y+0", "SQL BIND Q881 \"TAB.COL\"",
         "QS1 = CFGREAD( KEY_QS11 TAG_QS12 ATR_QS13 )", "FUNCTION PARAXCOMP DISPLAY X",
-        "PATTERN DEF POS1( X+25 Y+33 Z+0 )", "SEL PATTERN \"A\"", "FN 25: PRESET = X/+5"}) {
+        "SEL PATTERN \"A\"", "FN 25: PRESET = X/+5"}) {
     CAPTURE(line);
     const ParsedProgram parsed = parse_lines(line);
     REQUIRE(parsed.diagnostics.size() == 1);

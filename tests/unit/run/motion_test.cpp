@@ -87,7 +87,7 @@ TEST_CASE("a DIST that ends before the nominal contact is noted") {
   const RunResult result = measure("+1.05");
   CHECK(outcome(result) == "completed");
   REQUIRE(result.messages.size() == 1);
-  CHECK(result.messages[0].text.starts_with("DIST = 3 mm ends before SET_UP + Q320 = 3.05 mm"));
+  CHECK(result.messages[0].text.starts_with("DIST (3 mm) is shorter than SET_UP + Q320 (3.05 mm)"));
 }
 
 TEST_CASE("an INCH program moves in millimetres") {

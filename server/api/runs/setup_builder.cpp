@@ -1,0 +1,108 @@
+#include "api/runs/setup_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <map>
+#include <optional>
+
+#include "program/cycle_names.hpp"
+#include "program/known_m_functions.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using interpreter::BuilderAction;
+using Kind = JsonValue::Kind;
+
+constexpr int kLargestNumber = 9999;
+constexpr std::size_t kMostActions = 1000;
+
+std::optional<int> number_of(std::string_view name) {
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  const auto read = std::from_chars(name.data(), end, number);
+  const bool valid = read.ec == std::errc() && read.ptr == end && number >= 0;
+  return valid && number <= kLargestNumber ? std::optional(number) : std::nullopt;
+}
+
+/// `"ignore"` or `{"call":"TNC:\\oem\\m25.h"}`.
+std::optional<BuilderAction> read_action(const JsonValue& value, const std::string& pointer,
+                                         FieldErrors& errors) {
+  if (value.is(Kind::String) && value.text == "ignore") return BuilderAction{};
+  const JsonValue* call = value.is(Kind::Object) ? value.find("call") : nullptr;
+  if (call == nullptr || !call->is(Kind::String) || value.members.size() != 1) {
+    errors.add(ErrorCode::FieldInvalid, pointer,
+               R"(takes "ignore" or {"call":"TNC:\\oem\\name.h"}, the program that stands for it)");
+    return std::nullopt;
+  }
+  auto path = interpreter::ControlPath::parse(call->text);
+  if (!path) {
+    errors.add(path.error().code, pointer_to(pointer, "call"), path.error().message);
+    return std::nullopt;
+  }
+  return BuilderAction{*std::move(path)};
+}
+
+/// @param is_known which numbers are the control's own, and stay so.
+template <class IsKnown>
+void read_actions(const JsonValue& parent, const std::string& parent_pointer,
+                  std::string_view member, const IsKnown& is_known,
+                  std::map<int, BuilderAction>& actions, FieldErrors& errors) {
+  const JsonValue* object = parent.find(member);
+  if (object == nullptr) return;
+  const std::string pointer = pointer_to(parent_pointer, member);
+  if (!object->is(Kind::Object) || object->members.size() > kMostActions) {
+    errors.add(ErrorCode::FieldType, pointer,
+               fmt::format("takes an object of at most {} numbers", kMostActions));
+    return;
+  }
+  for (const auto& [name, value] : object->members) {
+    const std::string where = pointer_to(pointer, name);
+    const auto number = number_of(name);
+    if (!number) {
+      errors.add(ErrorCode::FieldInvalid, where,
+                 fmt::format("is named by a number from 0 to {}", kLargestNumber));
+    } else if (is_known(*number)) {
+      errors.add(ErrorCode::FieldInvalid, where,
+                 fmt::format("{} is the control's own and cannot be replaced", *number));
+    } else if (auto action = read_action(value, where, errors)) {
+      actions.insert_or_assign(*number, *std::move(action));
+    }
+  }
+}
+
+bool is_known_cycle(int number) {
+  for (const auto family : {klartext::CycleFamily::CyclDef, klartext::CycleFamily::TchProbe}) {
+    for (const bool dotted : {false, true}) {
+      if (interpreter::is_available(family, number, dotted)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void decode_builder(const JsonValue& setup, const std::string& pointer,
+                    interpreter::RunOptions& options, FieldErrors& errors) {
+  if (!setup.is(Kind::Object)) return;
+  const auto read = [&](const JsonValue& parent, const std::string& where) {
+    read_actions(parent, where, "m_functions", interpreter::is_m_function,
+                 options.builder.m_functions, errors);
+    read_actions(parent, where, "cycles", is_known_cycle, options.builder.cycles, errors);
+  };
+  if (const JsonValue* machine = setup.find("machine"); machine != nullptr) {
+    if (machine->is(Kind::Object)) read(*machine, pointer_to(pointer, "machine"));
+  }
+  read(setup, pointer);
+  const JsonValue* separator = setup.find("decimal_separator");
+  if (separator == nullptr) return;
+  if (separator->is(Kind::String) && (separator->text == "comma" || separator->text == "point")) {
+    options.decimal_comma = separator->text == "comma";
+  } else {
+    errors.add(ErrorCode::FieldInvalid, pointer_to(pointer, "decimal_separator"),
+               "takes \"comma\" or \"point\"");
+  }
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "klartext/syntax.hpp"
+#include "probing/touch_probe_cycle.hpp"
+#include "program/machining_cycles.hpp"
+
+namespace fitgauge::interpreter {
+
+/// A cycle block in Q parameters with its cycle and parameters found, so that a run looks nothing
+/// up by name. At most one of both cycles; none: it is not available.
+struct BoundCycle {
+  const probing::TouchProbeCycle* probing = nullptr;
+  const MachiningCycle* machining = nullptr;
+  /// One for each parameter of the block; not null, since the linker refuses unknown ones.
+  std::vector<const probing::CycleParameter*> parameters{};
+};
+
+BoundCycle bind_cycle(const klartext::Program& program, const klartext::Cycle& cycle);
+
+}  // namespace fitgauge::interpreter
