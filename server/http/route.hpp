@@ -74,6 +74,16 @@ struct BodyRules {
   /// Lower case, without parameters; empty takes any or none. Charset may only be UTF-8.
   std::vector<std::string> media_types{};
   std::size_t limit = std::size_t{1} << 20;  ///< bytes, after decompression
+  std::string schema{};                      ///< of its JSON form, by name
+};
+
+/// A success of a route, for the API's description.
+struct Outcome {
+  int status = 200;
+  std::string meaning{};
+  std::string schema{};  ///< of its JSON form, by name
+  /// Empty: those of the route where there is a schema or the status is 200, else no body.
+  std::vector<std::string> media_types{};
 };
 
 /// An expected failure is returned; the error formatter makes the answer of it.
@@ -98,6 +108,12 @@ struct Route {
   /// For Accept: the first is the default; none of them acceptable is 406. Empty skips the check.
   std::vector<std::string> response_types{"application/json"};
   std::string access{};  ///< what the guard asks for; the engine does not read it
+  // For the API's description alone:
+  std::string operation{};          ///< the operation's name in generated clients: `getLimits`
+  std::string tag{};                ///< the group of operations it stands in
+  std::vector<Outcome> outcomes{};  ///< every success
+  /// Refusals beside those that follow from parameters, body and access: 404, 409, 412, 422.
+  std::vector<int> refusals{};
 };
 
 /// The routes and their index. Immutable after construction; read by every I/O thread.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.hpp"
 #include "klartext/source_text.hpp"
 
 namespace fitgauge::klartext {
@@ -15,10 +16,7 @@ constexpr std::size_t kMostDiagnostics = 200;
 constexpr std::size_t kLongestShownLine = 1000;
 
 std::string_view shown(std::string_view line) {
-  if (line.size() <= kLongestShownLine) return line;
-  std::size_t size = kLongestShownLine;
-  while (size > 0 && (static_cast<unsigned char>(line[size]) & 0xC0) == 0x80) --size;
-  return line.substr(0, size);
+  return first_characters(line, kLongestShownLine);
 }
 
 }  // namespace

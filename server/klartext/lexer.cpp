@@ -266,9 +266,7 @@ std::string comment_text(std::string_view comment) { return without_tail(joined(
 
 std::string excerpt(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
-  std::size_t size = longest;
-  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
-  return std::string(text.substr(0, size)) + "...";
+  return std::string(first_characters(text, longest)) + "...";
 }
 
 }  // namespace fitgauge::klartext

@@ -14,6 +14,13 @@ inline bool is_utf8(std::string_view text) {
   return find_invalid_utf8(text) == std::string_view::npos;
 }
 
+/// The first characters of `text` in at most `most` bytes; what is not UTF-8 ends them. A message
+/// that cut a character in two could not be sent as JSON.
+inline std::string_view first_characters(std::string_view text, std::size_t most) {
+  text = text.substr(0, most);
+  return text.substr(0, find_invalid_utf8(text));
+}
+
 /// Windows-1252 as UTF-8; the five bytes it does not define become the C1 controls of the same
 /// number.
 std::string utf8_from_windows1252(std::string_view bytes);

@@ -153,6 +153,9 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .summary = "The files of the control's disk",
       .parameters = {{.name = "prefix", .description = "Only paths that begin so: nc_prog/8255/"}},
       .access = "viewer",
+      .operation = "listFiles",
+      .tag = "files",
+      .outcomes = {{.meaning = "The files", .schema = "Files"}},
   });
   routes.push_back({
       .pattern = "/v1/files/{path*}",
@@ -161,6 +164,10 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .parameters = {kPath},
       .response_types = {},
       .access = "viewer",
+      .operation = "getFile",
+      .tag = "files",
+      .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
+      .refusals = {404},
   });
   routes.push_back({
       .method = http::Method::Put,
@@ -170,6 +177,10 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .parameters = {kPath},
       .body = {.use = http::BodyUse::Required, .limit = kBodyLimit},
       .access = "admin",
+      .operation = "putFile",
+      .tag = "files",
+      .outcomes = {{.meaning = "It is replaced"}, {.status = 201, .meaning = "It is new"}},
+      .refusals = {412, 422},
   });
   routes.push_back({
       .method = http::Method::Delete,
@@ -178,6 +189,10 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .summary = "Delete a file",
       .parameters = {kPath},
       .access = "admin",
+      .operation = "deleteFile",
+      .tag = "files",
+      .outcomes = {{.status = 204, .meaning = "It is gone"}},
+      .refusals = {404, 412},
   });
   routes.push_back({
       .method = http::Method::Post,
@@ -192,6 +207,12 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
                       .description = "check: the findings; format: the program as text, one blank "
                                      "between words, blocks numbered from 0"}},
       .access = "viewer",
+      .operation = "checkFile",
+      .tag = "files",
+      .outcomes = {{.meaning = "What was found, or the program",
+                    .schema = "Diagnostics",
+                    .media_types = {"application/json", "text/plain"}}},
+      .refusals = {404, 422},
   });
 }
 

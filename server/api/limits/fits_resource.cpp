@@ -123,6 +123,10 @@ void add_fits_routes(std::vector<http::Route>& routes,
                       .place = http::ParameterPlace::Path,
                       .description = "Class of the shaft: g6"}},
       .access = "open",
+      .operation = "getFit",
+      .tag = "limits",
+      .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
+      .refusals = {404, 422},
   });
   routes.push_back({
       .pattern = "/v1/fits/{fit}",
@@ -133,6 +137,10 @@ void add_fits_routes(std::vector<http::Route>& routes,
                       .place = http::ParameterPlace::Path,
                       .description = "25H7/g6, the stroke percent-encoded"}},
       .access = "open",
+      .operation = "getFitAsOne",
+      .tag = "limits",
+      .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
+      .refusals = {404, 422},
   });
   routes.push_back({
       .pattern = "/v1/fits",
@@ -156,6 +164,10 @@ void add_fits_routes(std::vector<http::Route>& routes,
                       .type = http::Integer{.min = 1, .max = 1000},
                       .description = "Most fits in the answer, 1 to 1000; 100 when absent"}},
       .access = "open",
+      .operation = "findFits",
+      .tag = "limits",
+      .outcomes = {{.meaning = "The fits found", .schema = "FoundFits"}},
+      .refusals = {422},
   });
 }
 

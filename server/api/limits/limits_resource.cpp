@@ -48,6 +48,10 @@ void add_limits_routes(std::vector<http::Route>& routes,
                       .description =
                           "Size and class: 25H7, 25 H7, Ø25H7; a comma may mark decimals"}},
       .access = "open",
+      .operation = "getLimits",
+      .tag = "limits",
+      .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
+      .refusals = {404, 422},
   });
   routes.push_back({
       .pattern = "/v1/limits",
@@ -61,6 +65,10 @@ void add_limits_routes(std::vector<http::Route>& routes,
                       .required = true,
                       .description = "H7, g6 or a column of the shop's own"}},
       .access = "open",
+      .operation = "findLimits",
+      .tag = "limits",
+      .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
+      .refusals = {404, 422},
   });
 }
 

@@ -67,6 +67,10 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                       .type = http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
                       .description = "k; 2 when absent"}},
       .access = "open",
+      .operation = "getVerdict",
+      .tag = "limits",
+      .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}},
+      .refusals = {404, 422},
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -37,8 +38,12 @@ struct RowField {
     Count,
   };
 
+  enum class Kind : std::uint8_t { Length, Decimal, Text, Time, Feature, Rule };
+
   std::string_view name;
-  std::size_t longest = 0;  ///< of a text, in bytes
+  Kind kind;
+  std::size_t longest;  ///< of a text, in bytes
+  std::string_view meaning;
   /// The text that is kept as it is; null where the reader makes something of it.
   std::optional<std::string_view> app::MeasurementTexts::*text = nullptr;
 };
@@ -46,30 +51,42 @@ struct RowField {
 inline constexpr std::size_t kLongestIdentifier = 200;
 inline constexpr std::size_t kLongestComment = 2000;
 
-/// By RowField::Index.
+/// By RowField::Index: what the readers take and what /openapi.json says of it.
 inline constexpr std::array<RowField, RowField::Count> kRowFields = {{
-    {"measured_mm"},
-    {"nominal_mm"},
-    {"tolerance_class", 64},
-    {"designation", 64},
-    {"feature", 16},
-    {"upper_um"},
-    {"lower_um"},
-    {"part_id", kLongestIdentifier, &app::MeasurementTexts::part_id},
-    {"characteristic", kLongestIdentifier, &app::MeasurementTexts::characteristic},
-    {"order", kLongestIdentifier, &app::MeasurementTexts::order},
-    {"operation", kLongestIdentifier, &app::MeasurementTexts::operation},
-    {"machine", kLongestIdentifier, &app::MeasurementTexts::machine},
-    {"operator", kLongestIdentifier, &app::MeasurementTexts::operator_id},
-    {"gauge", kLongestIdentifier, &app::MeasurementTexts::gauge},
-    {"unit", kLongestIdentifier, &app::MeasurementTexts::unit},
-    {"comment", kLongestComment, &app::MeasurementTexts::comment},
-    {"subgroup", kLongestIdentifier, &app::MeasurementTexts::subgroup},
-    {"measured_at", 64},
-    {"uncertainty_um"},
-    {"coverage_factor"},
-    {"rule", 16},
-    {"temperature_c"},
+    {"measured_mm", RowField::Kind::Length, 0,
+     "Measured value, above 0 to 100000000; rounded to 1 nm"},
+    {"nominal_mm", RowField::Kind::Length, 0, "Nominal size"},
+    {"tolerance_class", RowField::Kind::Text, 64, "H7, g6 or a column of the shop's own"},
+    {"designation", RowField::Kind::Text, 64, "Size and class: 25 H7; a comma may mark decimals"},
+    {"feature", RowField::Kind::Feature, 16, "Of a drawing's own limits"},
+    {"upper_um", RowField::Kind::Length, 0, "Upper deviation of a drawing's own limits"},
+    {"lower_um", RowField::Kind::Length, 0, "Lower deviation of a drawing's own limits"},
+    {"part_id", RowField::Kind::Text, kLongestIdentifier, "The part: a serial number",
+     &app::MeasurementTexts::part_id},
+    {"characteristic", RowField::Kind::Text, kLongestIdentifier, "What was measured at the part",
+     &app::MeasurementTexts::characteristic},
+    {"order", RowField::Kind::Text, kLongestIdentifier, "Work order",
+     &app::MeasurementTexts::order},
+    {"operation", RowField::Kind::Text, kLongestIdentifier, "Step of the routing",
+     &app::MeasurementTexts::operation},
+    {"machine", RowField::Kind::Text, kLongestIdentifier, "Where it was made",
+     &app::MeasurementTexts::machine},
+    {"operator", RowField::Kind::Text, kLongestIdentifier, "Who measured",
+     &app::MeasurementTexts::operator_id},
+    {"gauge", RowField::Kind::Text, kLongestIdentifier, "What it was measured with",
+     &app::MeasurementTexts::gauge},
+    {"unit", RowField::Kind::Text, kLongestIdentifier, "Line, cell or plant",
+     &app::MeasurementTexts::unit},
+    {"comment", RowField::Kind::Text, kLongestComment, "Anything else",
+     &app::MeasurementTexts::comment},
+    {"subgroup", RowField::Kind::Text, kLongestIdentifier, "Parts that were made together",
+     &app::MeasurementTexts::subgroup},
+    {"measured_at", RowField::Kind::Time, 64,
+     "With an offset or Z, kept in UTC; when it was received, if absent"},
+    {"uncertainty_um", RowField::Kind::Length, 0, "Standard uncertainty u, from 0"},
+    {"coverage_factor", RowField::Kind::Decimal, 0, "k, above 0 to 100; 2 when absent"},
+    {"rule", RowField::Kind::Rule, 16, "Decision rule; simple when absent"},
+    {"temperature_c", RowField::Kind::Decimal, 0, "Of the part, -273.15 to 10000"},
 }};
 
 }  // namespace fitgauge::api

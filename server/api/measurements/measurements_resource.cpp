@@ -97,8 +97,16 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .parameters = posting_parameters(),
       .body = {.use = http::BodyUse::Required,
                .media_types = {"application/json", "application/x-ndjson", "text/csv"},
-               .limit = kBodyLimit},
+               .limit = kBodyLimit,
+               .schema = "NewMeasurements"},
       .access = "operator",
+      .operation = "postMeasurements",
+      .tag = "measurements",
+      .outcomes = {{.status = 201,
+                    .meaning = "Stored for good: the record of one, a count of several, or all "
+                               "records with return=representation; no body with return=minimal",
+                    .schema = "Recorded"}},
+      .refusals = {404, 409},
   });
   routes.push_back({
       .method = http::Method::Post,
@@ -110,8 +118,14 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .parameters = posting_parameters({{.name = "id",
                                          .place = http::ParameterPlace::Path,
                                          .description = "The measurement to correct"}}),
-      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json"},
+               .schema = "Correction"},
       .access = "operator",
+      .operation = "correctMeasurement",
+      .tag = "measurements",
+      .outcomes = {{.status = 201, .meaning = "The new record", .schema = "Recorded"}},
+      .refusals = {404, 409},
   });
   routes.push_back({
       .pattern = "/v1/measurements",
@@ -122,6 +136,9 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .parameters = list_parameters(),
       .response_types = {"application/json", "application/x-ndjson", "text/csv"},
       .access = "viewer",
+      .operation = "listMeasurements",
+      .tag = "measurements",
+      .outcomes = {{.meaning = "A page, or a stream of all", .schema = "MeasurementList"}},
   });
   routes.push_back({
       .pattern = "/v1/measurements/summary",
@@ -129,6 +146,9 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .summary = "Counts and statistics by group",
       .parameters = summary_parameters(),
       .access = "viewer",
+      .operation = "summariseMeasurements",
+      .tag = "measurements",
+      .outcomes = {{.meaning = "The groups", .schema = "Summary"}},
   });
   routes.push_back({
       .pattern = "/v1/measurements/{id}",
@@ -138,6 +158,10 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
                       .place = http::ParameterPlace::Path,
                       .description = "As the record names it"}},
       .access = "viewer",
+      .operation = "getMeasurement",
+      .tag = "measurements",
+      .outcomes = {{.meaning = "The record", .schema = "Measurement"}},
+      .refusals = {404},
   });
 }
 

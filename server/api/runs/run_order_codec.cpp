@@ -16,9 +16,6 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-constexpr std::int64_t kMostBlocks = 100'000'000;
-constexpr double kMostSeconds = 60;
-
 struct Language {
   std::string_view word;
   klartext::MaskLanguage language;

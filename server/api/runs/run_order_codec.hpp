@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -9,6 +10,9 @@
 #include "app/runs/setup_service.hpp"
 
 namespace fitgauge::api {
+
+inline constexpr std::int64_t kMostBlocks = 100'000'000;
+inline constexpr double kMostSeconds = 60;
 
 /// Finds a named setup; may wait.
 using FindSetup = std::function<Result<app::NamedSetup>(const std::string& name)>;

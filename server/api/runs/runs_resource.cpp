@@ -176,6 +176,9 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
                       .description = "Most runs of a page; 100 when absent"},
                      {.name = "after", .description = "The cursor `next` of the page before"}},
       .access = "viewer",
+      .operation = "listRuns",
+      .tag = "runs",
+      .outcomes = {{.meaning = "A page", .schema = "RunList"}},
   });
   routes.push_back({
       .pattern = "/v1/runs/{id}",
@@ -183,6 +186,10 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .summary = "One run with all its results",
       .parameters = {kId},
       .access = "viewer",
+      .operation = "getRun",
+      .tag = "runs",
+      .outcomes = {{.meaning = "The run", .schema = "Run"}},
+      .refusals = {404},
   });
   routes.push_back({
       .pattern = "/v1/runs/{id}/parameters",
@@ -190,6 +197,10 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .summary = "The parameters that are defined at the end",
       .parameters = {kId},
       .access = "viewer",
+      .operation = "getRunParameters",
+      .tag = "runs",
+      .outcomes = {{.meaning = "By name", .schema = "RunParameters"}},
+      .refusals = {404},
   });
   routes.push_back({
       .pattern = "/v1/runs/{id}/request",
@@ -197,6 +208,10 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .summary = "What was ordered, with the setup in place: it can be posted again",
       .parameters = {kId},
       .access = "viewer",
+      .operation = "getRunRequest",
+      .tag = "runs",
+      .outcomes = {{.meaning = "The order", .schema = "RunOrder"}},
+      .refusals = {404},
   });
   routes.push_back({
       .pattern = "/v1/runs/{id}/trace",
@@ -205,6 +220,10 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .parameters = {kId},
       .response_types = {"application/json", "text/csv"},
       .access = "viewer",
+      .operation = "getRunTrace",
+      .tag = "runs",
+      .outcomes = {{.meaning = "The moves", .schema = "Trace"}},
+      .refusals = {404, 409},
   });
   routes.push_back({
       .pattern = "/v1/runs/{id}/files/{name}",
@@ -216,6 +235,10 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
                       .description = "TCHPR421.TXT, without regard to case"}},
       .response_types = {},
       .access = "viewer",
+      .operation = "getRunFile",
+      .tag = "runs",
+      .outcomes = {{.meaning = "Its bytes", .media_types = {"text/plain", "text/html"}}},
+      .refusals = {404, 409},
   });
   routes.push_back({
       .pattern = "/v1/runs/{id}/events",
@@ -224,6 +247,11 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .parameters = {kId},
       .response_types = {"text/event-stream"},
       .access = "viewer",
+      .operation = "followRun",
+      .tag = "runs",
+      .outcomes = {{.meaning = "output, progress, end", .schema = "RunEvent"},
+                   {.status = 204, .meaning = "It is over and all was read"}},
+      .refusals = {404},
   });
 }
 
@@ -244,8 +272,15 @@ void add_runs_routes(std::vector<http::Route>& routes, const Services& services)
                      {.name = "Prefer",
                       .place = http::ParameterPlace::Header,
                       .description = "respond-async"}},
-      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json"},
+               .schema = "RunOrder"},
       .access = "operator",
+      .operation = "postRun",
+      .tag = "runs",
+      .outcomes = {{.status = 201, .meaning = "It is over", .schema = "Run"},
+                   {.status = 202, .meaning = "It is queued", .schema = "Run"}},
+      .refusals = {409},
   });
   routes.push_back({
       .method = http::Method::Delete,
@@ -254,6 +289,10 @@ void add_runs_routes(std::vector<http::Route>& routes, const Services& services)
       .summary = "Cancel a run that is queued or under way",
       .parameters = {kId},
       .access = "operator",
+      .operation = "cancelRun",
+      .tag = "runs",
+      .outcomes = {{.status = 204, .meaning = "It is cancelled"}},
+      .refusals = {404, 409},
   });
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "api/wire/schema.hpp"
 #include "program/cycle_names.hpp"
 #include "program/known_m_functions.hpp"
 
@@ -81,7 +82,27 @@ bool is_known_cycle(int number) {
   return false;
 }
 
+std::string actions_schema() {
+  const std::string call = schema::object(
+      {{"call", schema::text(), "The program that stands for it"}}, schema::Others::Refused);
+  return schema::map(schema::one_of({schema::words({"ignore"}), call}));
+}
+
+std::string separator_schema() { return schema::words({"comma", "point"}); }
+
 }  // namespace
+
+void name_builder_actions(SetupFields& fields) {
+  fields.elsewhere({"m_functions",
+                    "Of the machine's builder, by number: `ignore`, or an object "
+                    "whose `call` is the program that stands for it"},
+                   actions_schema);
+  fields.elsewhere({"cycles", "Of the machine's builder, likewise"}, actions_schema);
+}
+
+void name_decimal_separator(SetupFields& fields) {
+  fields.elsewhere({"decimal_separator", "Of FN 15; comma when absent"}, separator_schema);
+}
 
 void decode_builder(const JsonValue& setup, const std::string& pointer,
                     interpreter::RunOptions& options, FieldErrors& errors) {

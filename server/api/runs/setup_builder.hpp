@@ -2,10 +2,16 @@
 
 #include <string>
 
+#include "api/runs/setup_fields.hpp"
 #include "api/wire/field_reader.hpp"
 #include "run/interpreter.hpp"
 
 namespace fitgauge::api {
+
+/// Names `m_functions` and `cycles`, which decode_builder reads.
+void name_builder_actions(SetupFields& fields);
+/// Names `decimal_separator`, which decode_builder reads.
+void name_decimal_separator(SetupFields& fields);
 
 /// What of a setup belongs to the run and not to the machine: `m_functions` and `cycles` of the
 /// machine builder, and the `decimal_separator` of FN 15. The tables stand in the setup, or below

@@ -1,7 +1,6 @@
 #include "api/runs/setup_codec.hpp"
 
-#include <limits>
-
+#include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_reader.hpp"
 
 namespace fitgauge::api {
@@ -19,28 +18,35 @@ void check(const machine::Setup& setup, const std::string& pointer, FieldErrors&
 
 }  // namespace
 
+void read_setup(SetupFields& fields, machine::Setup& setup) {
+  fields.object({"machine", "Axes, tools, touch probes and presets"}, "Machine",
+                [&setup](SetupFields& machine) {
+                  read_machine(machine, setup.machine);
+                  name_builder_actions(machine);
+                });
+  fields.object({"workpiece", "What lies on the table; nothing when absent"}, "Workpiece",
+                [&setup](SetupFields& workpiece) {
+                  workpiece.array({"features", "Joined in this order"}, "Feature", setup.features,
+                                  read_feature);
+                });
+  name_builder_actions(fields);
+  name_decimal_separator(fields);
+  fields.seed({"seed", "Of the random parts of a contact: the same seed, the same run"},
+              setup.seed);
+}
+
 machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
                             const app::ControlTables& tables, FieldErrors& errors) {
   machine::Setup setup;
-  app::GivenTables given;
   {
     SetupReader reader(body, pointer, errors);
-    reader.object("machine", [&](SetupReader& machine) {
-      FieldReader& fields = machine.fields();
-      for (const auto* name : {"m_functions", "cycles"}) fields.optional(name);  // decode_builder
-      given = {fields.has("tools"), fields.has("probes"), fields.has("presets")};
-      setup.machine = read_machine(machine);
-    });
-    reader.object("workpiece", [&setup](SetupReader& workpiece) {
-      workpiece.array("features", setup.features, read_feature);
-    });
-    for (const auto* name : {"m_functions", "cycles", "decimal_separator"}) {
-      reader.fields().optional(name);  // decode_builder
-    }
-    setup.seed = static_cast<std::uint64_t>(
-        reader.fields().integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+    read_setup(reader, setup);
   }
-  app::add_rows(tables, given, setup.machine);
+  const JsonValue* const machine = body.find("machine");
+  const auto has = [machine](std::string_view name) {
+    return machine != nullptr && machine->find(name) != nullptr;
+  };
+  app::add_rows(tables, {has("tools"), has("probes"), has("presets")}, setup.machine);
   check(setup, pointer, errors);
   return setup;
 }

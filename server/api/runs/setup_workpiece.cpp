@@ -1,84 +1,82 @@
-#include <algorithm>
-
-#include "api/runs/setup_reader.hpp"
+#include "api/runs/setup_fields.hpp"
 
 namespace fitgauge::api {
 namespace {
 
-machine::Feature read_block(SetupReader& reader) {
+machine::Feature read_block(SetupFields& fields) {
   machine::Block block;
-  reader.required_mm("min_mm", block.min);
-  reader.required_mm("max_mm", block.max);
+  fields.required_mm({"min_mm", "The corner with the smallest coordinates"}, block.min);
+  fields.required_mm({"max_mm", "The corner with the largest coordinates"}, block.max);
   return block;
 }
 
-machine::Feature read_bore(SetupReader& reader) {
+machine::Feature read_bore(SetupFields& fields) {
   machine::Bore bore;
   bore.depth = 30;
-  reader.required_mm("center_mm", bore.centre);
-  reader.mm("top_mm", bore.top);
-  reader.mm("depth_mm", bore.depth);
-  reader.required_mm("diameter_mm", bore.diameter);
-  reader.integer("lobes", bore.lobes, 0, 1000);
-  reader.um("lobe_amplitude_um", bore.lobe_amplitude_um);
-  reader.number("lobe_phase_deg", bore.lobe_phase_deg);
-  reader.number("taper_um_per_mm", bore.taper_um_per_mm);
-  reader.numbers("tilt_deg", bore.tilt_deg);
+  fields.required_mm({"center_mm", "X and Y of the opening's centre"}, bore.centre);
+  fields.mm({"top_mm", "Z of the opening"}, bore.top);
+  fields.mm({"depth_mm", "From the opening to the flat bottom"}, bore.depth);
+  fields.required_mm({"diameter_mm", "At the opening"}, bore.diameter);
+  fields.integer({"lobes", "n of r = R + a cos(n (angle - phase)); 0: round"}, bore.lobes, 0, 1000);
+  fields.um({"lobe_amplitude_um", "a of the lobes"}, bore.lobe_amplitude_um);
+  fields.number({"lobe_phase_deg", "Angle of the first lobe's top"}, bore.lobe_phase_deg);
+  fields.number({"taper_um_per_mm", "Change of the diameter for each millimetre of depth"},
+                bore.taper_um_per_mm);
+  fields.numbers({"tilt_deg", "Of the bore's axis around X, then around Y, at the opening"},
+                 bore.tilt_deg);
   return bore;
 }
 
-machine::Feature read_boss(SetupReader& reader) {
+machine::Feature read_boss(SetupFields& fields) {
   machine::Boss boss;
   boss.top = 10;
   boss.height = 10;
-  read_cylinder(reader, boss);
+  read_cylinder(fields, boss);
   return boss;
 }
 
-machine::Feature read_plane(SetupReader& reader) {
+machine::Feature read_plane(SetupFields& fields) {
   machine::Plane plane;
-  reader.mm("point_mm", plane.point);
-  reader.numbers("normal", plane.normal);
+  fields.mm({"point_mm", "A point of the plane"}, plane.point);
+  fields.numbers({"normal", "Away from the material, any length"}, plane.normal);
   return plane;
 }
 
-machine::Feature read_sphere(SetupReader& reader) {
+machine::Feature read_sphere(SetupFields& fields) {
   machine::Sphere sphere;
-  reader.required_mm("center_mm", sphere.centre);
-  reader.required_mm("diameter_mm", sphere.diameter);
+  fields.required_mm({"center_mm", "Its centre"}, sphere.centre);
+  fields.required_mm({"diameter_mm", "Its diameter"}, sphere.diameter);
   return sphere;
 }
 
-machine::Feature read_surface(SetupReader& reader) {
+machine::Feature read_surface(SetupFields& fields) {
   machine::Surface surface;
-  reader.required_mm("points_mm", surface.points);
+  fields.required_mm({"points_mm",
+                      "X, Y and Z of measured points; material below, piecewise "
+                      "linear between them, nothing outside their hull"},
+                     surface.points);
   return surface;
 }
 
-struct FeatureKind {
-  std::string_view type;
-  machine::Feature (*read)(SetupReader&);
-};
-constexpr std::array<FeatureKind, 6> kFeatures{{{"block", read_block},
-                                                {"bore", read_bore},
-                                                {"boss", read_boss},
-                                                {"plane", read_plane},
-                                                {"sphere", read_sphere},
-                                                {"surface", read_surface}}};
+constexpr std::array<SetupFields::Kind, 6> kKinds{{
+    {"block", "Block", "Material between two corners"},
+    {"bore", "Bore", "Removes material: a hole that is open upwards"},
+    {"boss", "Boss", "Material: an upright cylinder"},
+    {"plane", "Plane", "Material everywhere behind a plane"},
+    {"sphere", "Sphere", "Material: a ball"},
+    {"surface", "Surface", "Material below a measured surface"},
+}};
+constexpr std::array<machine::Feature (*)(SetupFields&), kKinds.size()> kReaders{
+    read_block, read_bore, read_boss, read_plane, read_sphere, read_surface};
 
 }  // namespace
 
-machine::Feature read_feature(SetupReader& reader) {
-  const auto type = reader.fields().text("type");
-  const auto kind = std::find_if(kFeatures.begin(), kFeatures.end(),
-                                 [&type](const FeatureKind& k) { return type && k.type == *type; });
-  if (kind != kFeatures.end()) return kind->read(reader);
-  if (type) {
-    reader.fields().report(ErrorCode::FieldInvalid, "type",
-                           "type takes block, bore, boss, plane, sphere or surface");
-  }
-  reader.fields().accept_all();  // what else it may have depends on its type
-  return machine::Plane{};
+machine::Feature read_feature(SetupFields& fields) {
+  machine::Feature feature = machine::Plane{};
+  fields.one_of({"type", ""}, kKinds, [&feature](std::size_t kind, SetupFields& members) {
+    feature = kReaders.at(kind)(members);
+  });
+  return feature;
 }
 
 }  // namespace fitgauge::api

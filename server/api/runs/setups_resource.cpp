@@ -98,6 +98,9 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .handler = with(services, list_setups),
       .summary = "The named setups",
       .access = "viewer",
+      .operation = "listSetups",
+      .tag = "setups",
+      .outcomes = {{.meaning = "The setups", .schema = "Setups"}},
   });
   routes.push_back({
       .pattern = "/v1/setups/{name}",
@@ -105,6 +108,10 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .summary = "A setup as it was stored",
       .parameters = {name},
       .access = "viewer",
+      .operation = "getSetup",
+      .tag = "setups",
+      .outcomes = {{.meaning = "The setup", .schema = "Setup"}},
+      .refusals = {404},
   });
   routes.push_back({
       .method = http::Method::Put,
@@ -112,8 +119,14 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .handler = with(services, put_setup),
       .summary = "Store a machine, its tools and the workpiece on its table",
       .parameters = {name},
-      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json"},
+               .schema = "Setup"},
       .access = "admin",
+      .operation = "putSetup",
+      .tag = "setups",
+      .outcomes = {{.meaning = "It is replaced"}, {.status = 201, .meaning = "It is new"}},
+      .refusals = {412},
   });
   routes.push_back({
       .method = http::Method::Delete,
@@ -122,6 +135,10 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .summary = "Delete a setup",
       .parameters = {name},
       .access = "admin",
+      .operation = "deleteSetup",
+      .tag = "setups",
+      .outcomes = {{.status = 204, .meaning = "It is gone"}},
+      .refusals = {404, 412},
   });
 }
 

@@ -136,6 +136,9 @@ void add_cycles_routes(std::vector<http::Route>& routes) {
                      const http::Request&) -> Result<http::Response> { return answer; },
       .summary = "Every cycle with its parameters and results",
       .access = "open",
+      .operation = "listCycles",
+      .tag = "cycles",
+      .outcomes = {{.meaning = "All of them", .schema = "Cycles"}},
   });
   routes.push_back({
       .pattern = "/v1/cycles/{number}",
@@ -146,6 +149,10 @@ void add_cycles_routes(std::vector<http::Route>& routes) {
                       .type = http::Integer{.min = 0, .max = 9999},
                       .description = "421"}},
       .access = "open",
+      .operation = "getCycle",
+      .tag = "cycles",
+      .outcomes = {{.meaning = "The cycle", .schema = "Cycle"}},
+      .refusals = {404},
   });
 }
 

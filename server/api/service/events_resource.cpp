@@ -51,6 +51,9 @@ void add_events_routes(std::vector<http::Route>& routes, const Services& service
                       .description = "The id of the last event that was read"}},
       .response_types = {std::string(kEventStreamType)},
       .access = "viewer",
+      .operation = "followEvents",
+      .tag = "service",
+      .outcomes = {{.meaning = "Events without an end", .schema = "Event"}},
   });
 }
 

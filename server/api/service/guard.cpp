@@ -57,8 +57,9 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   if (is_write(request.method())) {
     const auto origin = request.header("Origin");
     if (origin && !ascii_iequals(*origin, request.own_origin())) {
-      return Error{ErrorCode::OriginRefused,
-                   "a page of " + std::string(origin->substr(0, 200)) + " may not write here"};
+      return Error{
+          ErrorCode::OriginRefused,
+          "a page of " + std::string(first_characters(*origin, 200)) + " may not write here"};
     }
   }
 

@@ -1,7 +1,13 @@
 #include "api/service/openapi.hpp"
 
+#include <algorithm>
+#include <array>
 #include <map>
+#include <set>
+#include <utility>
 
+#include "api/runs/setup_schema.hpp"
+#include "api/schemas.hpp"
 #include "api/service/version.hpp"
 #include "api/wire/json_writer.hpp"
 #include "base/decimal.hpp"
@@ -58,12 +64,16 @@ std::string_view place(http::ParameterPlace place) {
   return "";
 }
 
-void write_content(JsonWriter& json, const std::vector<std::string>& media_types) {
+/// The JSON form has the named schema, as has the data of each event; any other is text or bytes.
+void write_content(JsonWriter& json, const std::vector<std::string>& media_types,
+                   const std::string& schema) {
   json.key("content").begin_object();
   for (const std::string& type : media_types) {
-    json.key(type).begin_object().key("schema").begin_object();
-    if (type != "application/json") json.member("type", "string");
-    json.end_object().end_object();
+    const bool described =
+        !schema.empty() && (type == "application/json" || type == "text/event-stream");
+    json.key(type).begin_object().key("schema").raw(described ? schema::ref(schema)
+                                                              : schema::text());
+    json.end_object();
   }
   json.end_object();
 }
@@ -72,26 +82,73 @@ void write_request_body(JsonWriter& json, const http::BodyRules& body) {
   if (body.use == http::BodyUse::None) return;
   const std::vector<std::string> any{"application/octet-stream"};
   json.key("requestBody").begin_object().member("required", body.use == http::BodyUse::Required);
-  write_content(json, body.media_types.empty() ? any : body.media_types);
+  write_content(json, body.media_types.empty() ? any : body.media_types, body.schema);
+  json.end_object();
+}
+
+bool has_json_body(const http::Route& route) {
+  const auto& types = route.body.media_types;
+  return std::find(types.begin(), types.end(), "application/json") != types.end();
+}
+
+/// The refusals the route names, and those that every route of its kind has.
+std::set<int> refusals_of(const http::Route& route) {
+  std::set<int> found(route.refusals.begin(), route.refusals.end());
+  const bool takes_body = route.body.use != http::BodyUse::None;
+  if (!route.parameters.empty() || takes_body) found.insert(400);
+  if (route.access != "public") found.insert({401, 403});
+  if (!route.response_types.empty()) found.insert(406);
+  if (takes_body) found.insert({411, 413});
+  if (!route.body.media_types.empty()) found.insert(415);
+  if (has_json_body(route)) found.insert(422);
+  if (route.pattern.starts_with("/v1/") || route.pattern == "/readyz") found.insert(503);
+  return found;
+}
+
+void write_outcome(JsonWriter& json, const http::Route& route, const http::Outcome& outcome) {
+  json.key(std::to_string(outcome.status)).begin_object().member("description", outcome.meaning);
+  const auto& types = outcome.media_types.empty() ? route.response_types : outcome.media_types;
+  const bool has_body = !outcome.schema.empty() || !outcome.media_types.empty() ||
+                        (outcome.status == 200 && types.front() != "application/json");
+  if (has_body) write_content(json, types, outcome.schema);
   json.end_object();
 }
 
 void write_responses(JsonWriter& json, const http::Route& route) {
-  json.key("responses").begin_object().key("2XX").begin_object().member("description", "Success");
-  if (!route.response_types.empty() && route.method != http::Method::Delete) {
-    write_content(json, route.response_types);
+  json.key("responses").begin_object();
+  for (const http::Outcome& outcome : route.outcomes) write_outcome(json, route, outcome);
+  for (const int status : refusals_of(route)) {
+    json.key(std::to_string(status))
+        .begin_object()
+        .member("$ref", "#/components/responses/Problem")
+        .end_object();
   }
-  json.end_object()
-      .key("default")
-      .begin_object()
-      .member("$ref", "#/components/responses/Problem")
-      .end_object()
-      .end_object();
+  json.key("default").begin_object().member("$ref", "#/components/responses/Problem");
+  json.end_object().end_object();
+}
+
+/// The role a key needs; `open` asks for one only where everything asks for one.
+void write_security(JsonWriter& json, const std::string& access) {
+  json.key("security").begin_array();
+  const bool needs_none = access == "public" || access == "open";
+  if (needs_none) json.begin_object().end_object();
+  if (access != "public") {
+    json.begin_object().key("key").begin_array();
+    json.value(needs_none ? "viewer" : access).end_array().end_object();
+  }
+  json.end_array();
 }
 
 void write_operation(JsonWriter& json, const http::Route& route) {
-  json.key(ascii_lower(http::name(route.method))).begin_object().member("summary", route.summary);
-  if (!route.description.empty()) json.member("description", route.description);
+  json.key(ascii_lower(http::name(route.method)))
+      .begin_object()
+      .member("operationId", route.operation)
+      .key("tags")
+      .begin_array()
+      .value(route.tag)
+      .end_array()
+      .member("summary", route.summary);
+  json.member("description", route.description.empty() ? route.summary : route.description);
   if (!route.parameters.empty()) {
     json.key("parameters").begin_array();
     for (const http::Parameter& parameter : route.parameters) {
@@ -107,10 +164,8 @@ void write_operation(JsonWriter& json, const http::Route& route) {
   }
   write_request_body(json, route.body);
   write_responses(json, route);
-  json.key("security").begin_array();
-  if (route.access == "public" || route.access == "open") json.begin_object().end_object();
-  json.begin_object().key("key").begin_array().end_array().end_object();
-  json.end_array().end_object();
+  write_security(json, route.access);
+  json.end_object();
 }
 
 /// `{path*}` takes the rest of the path, which OpenAPI cannot say: it stands as `{path}`.
@@ -120,46 +175,80 @@ std::string openapi_path(std::string pattern) {
   return pattern;
 }
 
-constexpr std::string_view kComponents = R"json({
-"securitySchemes": {"key": {"type": "http", "scheme": "bearer"}},
-"responses": {"Problem": {
-  "description": "What is wrong (RFC 9457)",
-  "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}}}},
-"schemas": {"Problem": {
-  "type": "object",
-  "required": ["type", "title", "status", "detail", "code"],
-  "properties": {
-    "type": {"type": "string"}, "title": {"type": "string"}, "status": {"type": "integer"},
-    "detail": {"type": "string"}, "instance": {"type": "string"}, "code": {"type": "string"},
-    "errors": {"type": "array", "items": {"type": "object", "properties": {
-      "pointer": {"type": "string"}, "line": {"type": "integer"},
-      "code": {"type": "string"}, "detail": {"type": "string"}}}}}}}})json";
+constexpr std::string_view kSecurity =
+    R"({"key":{"type":"http","scheme":"bearer","description":"A key of fitgauged key create"}})";
+constexpr std::string_view kResponses = R"({"Problem":{"description":"What is wrong, RFC 9457",
+                           "content" : {"application/problem+json":)"
+                                        R"({"schema":{"$ref":"#/components/schemas/Problem"}}}}})";
+
+/// The groups of operations, in the order of a first reading.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kTags = {{
+    {"limits", "Limits of size, fits and verdicts (ISO 286-1)"},
+    {"tables", "The tolerance tables and a shop's own columns"},
+    {"measurements", "Judged measurements, stored for good"},
+    {"files", "The control's disk: programs, masks and tables"},
+    {"setups", "Machines with what lies on their tables"},
+    {"runs", "Programs on a simulated machine"},
+    {"cycles", "The touch-probe cycles"},
+    {"service", "Health, events, metrics, this description and the page"},
+}};
+
+void write_info(JsonWriter& json) {
+  json.key("info").begin_object();
+  json.member("title", "fitgauge").member("version", kVersion);
+  json.member("description",
+              "ISO 286 limits and fits, verdicts on measured diameters, Klartext probe programs on "
+              "a simulated machine. Lengths are exact decimals.");
+  json.key("contact").begin_object().member("name", "fitgauge").end_object();
+  json.key("license").begin_object().member("name", "Apache License 2.0");
+  json.member("identifier", "Apache-2.0").end_object().end_object();
+  json.key("servers").begin_array().begin_object().member("url", "/");
+  json.member("description", "The service that answered this").end_object().end_array();
+  json.key("tags").begin_array();
+  for (const auto& [name, description] : kTags) {
+    json.begin_object().member("name", name).member("description", description).end_object();
+  }
+  json.end_array();
+}
+
+void write_components(JsonWriter& json) {
+  json.key("components").begin_object().key("securitySchemes").raw(kSecurity);
+  json.key("responses").raw(kResponses).key("schemas").begin_object();
+  for (const NamedSchema& schema : make_schemas()) json.key(schema.name).raw(schema.json);
+  json.end_object().end_object();
+}
 
 }  // namespace
+
+Schemas make_schemas() {
+  Schemas schemas;
+  add_limits_schemas(schemas);
+  add_table_schemas(schemas);
+  add_measurement_schemas(schemas);
+  add_file_schemas(schemas);
+  add_setup_schemas(schemas);
+  add_run_schemas(schemas);
+  add_cycle_schemas(schemas);
+  add_service_schemas(schemas);
+  return schemas;
+}
 
 std::string openapi_json(const std::vector<http::Route>& routes) {
   std::map<std::string, std::vector<const http::Route*>> paths;
   for (const http::Route& route : routes) paths[openapi_path(route.pattern)].push_back(&route);
   std::string out;
   JsonWriter json(out);
-  json.begin_object()
-      .member("openapi", "3.1.0")
-      .key("info")
-      .begin_object()
-      .member("title", "fitgauge")
-      .member("version", kVersion)
-      .member("description",
-              "ISO 286 limits and fits, verdicts on measured diameters, Klartext probe programs on "
-              "a simulated machine. Lengths are exact decimals.")
-      .end_object()
-      .key("paths")
-      .begin_object();
+  json.begin_object().member("openapi", "3.1.0");
+  write_info(json);
+  json.key("paths").begin_object();
   for (const auto& [path, operations] : paths) {
     json.key(path).begin_object();
     for (const http::Route* route : operations) write_operation(json, *route);
     json.end_object();
   }
-  json.end_object().key("components").raw(kComponents).end_object();
+  json.end_object();
+  write_components(json);
+  json.end_object();
   return out;
 }
 
@@ -167,7 +256,10 @@ void add_openapi_route(std::vector<http::Route>& routes) {
   routes.push_back({.pattern = "/openapi.json",
                     .handler = http::SyncHandler{},
                     .summary = "This description",
-                    .access = "open"});
+                    .access = "open",
+                    .operation = "getOpenapi",
+                    .tag = "service",
+                    .outcomes = {{.meaning = "OpenAPI 3.1", .media_types = {"application/json"}}}});
   const auto document = http::prepare({200, "application/json", openapi_json(routes)});
   routes.back().handler = [document](const http::Request&) -> Result<http::Response> {
     return http::Response(document);

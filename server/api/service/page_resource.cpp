@@ -71,6 +71,9 @@ void add_page_routes(std::vector<http::Route>& routes) {
       .summary = "The page",
       .response_types = {"text/html"},
       .access = "open",
+      .operation = "getPage",
+      .tag = "service",
+      .outcomes = {{.meaning = "HTML"}},
   });
   routes.push_back({
       .pattern = "/web/{path*}",
@@ -83,6 +86,10 @@ void add_page_routes(std::vector<http::Route>& routes) {
                       .description = "app.js"}},
       .response_types = {},
       .access = "open",
+      .operation = "getPageFile",
+      .tag = "service",
+      .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
+      .refusals = {404},
   });
 }
 

@@ -49,12 +49,18 @@ void add_service_routes(std::vector<http::Route>& routes, const Services& servic
       .handler = [](const http::Request&) -> Result<http::Response> { return live(); },
       .summary = "The process answers",
       .access = "public",
+      .operation = "live",
+      .tag = "service",
+      .outcomes = {{.meaning = "It answers", .schema = "Live"}},
   });
   routes.push_back({
       .pattern = "/readyz",
       .handler = [&services](const http::Request&) { return ready(services); },
       .summary = "The service may be used: database, schema and tables are in order",
       .access = "public",
+      .operation = "ready",
+      .tag = "service",
+      .outcomes = {{.meaning = "All is in order", .schema = "Ready"}},
   });
   routes.push_back({
       .pattern = "/metrics",
@@ -62,6 +68,9 @@ void add_service_routes(std::vector<http::Route>& routes, const Services& servic
       .summary = "Counters for Prometheus",
       .response_types = {},
       .access = "open",
+      .operation = "getMetrics",
+      .tag = "service",
+      .outcomes = {{.meaning = "Prometheus text", .media_types = {"text/plain"}}},
   });
 }
 

@@ -129,6 +129,7 @@ http::AsyncHandler with(const Services& services, Feature feature,
 void add_feature_routes(std::vector<http::Route>& routes, const Services& services,
                         const std::shared_ptr<ResponseCache>& cache, Feature feature) {
   const std::string path = "/v1/tables/" + std::string(word(feature));
+  const std::string table = feature == Feature::Hole ? "HoleTable" : "ShaftTable";
   routes.push_back({
       .pattern = path,
       .handler = table_handler(services, cache, feature),
@@ -140,6 +141,10 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
                      {.name = "revision", .description = "Answers from an older revision"}},
       .response_types = {"application/json", "text/csv"},
       .access = "open",
+      .operation = "get" + table,
+      .tag = "tables",
+      .outcomes = {{.meaning = "The table", .schema = "Table"}},
+      .refusals = {404},
   });
   routes.push_back({
       .pattern = path + ".tab",
@@ -151,6 +156,9 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .summary = "The table as the control's freely definable table, as program 8255 reads it",
       .response_types = {"text/plain"},
       .access = "open",
+      .operation = "get" + table + "Tab",
+      .tag = "tables",
+      .outcomes = {{.meaning = "The file"}},
   });
   const http::Parameter name{.name = "name",
                              .place = http::ParameterPlace::Path,
@@ -164,8 +172,15 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .handler = with(services, feature, put_column),
       .summary = "Store a column of the shop's own as a new revision",
       .parameters = {name, if_match},
-      .body = {.use = http::BodyUse::Required, .media_types = {"application/json"}},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json"},
+               .schema = "Column"},
       .access = "admin",
+      .operation = "put" + table + "Column",
+      .tag = "tables",
+      .outcomes = {{.meaning = "The column is replaced", .schema = "Revision"},
+                   {.status = 201, .meaning = "The column is new", .schema = "Revision"}},
+      .refusals = {404, 412},
   });
   routes.push_back({
       .method = http::Method::Delete,
@@ -174,6 +189,10 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .summary = "Back to the standard",
       .parameters = {name, if_match},
       .access = "admin",
+      .operation = "delete" + table + "Column",
+      .tag = "tables",
+      .outcomes = {{.status = 204, .meaning = "It is gone"}},
+      .refusals = {404, 412},
   });
 }
 
@@ -186,6 +205,9 @@ void add_tables_routes(std::vector<http::Route>& routes, const Services& service
       .handler = ResponseCache::cached(cache, index_response),
       .summary = "The tables in use and their classes",
       .access = "open",
+      .operation = "listTables",
+      .tag = "tables",
+      .outcomes = {{.meaning = "The tables", .schema = "TableIndex"}},
   });
   for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
     add_feature_routes(routes, services, cache, feature);

@@ -76,7 +76,7 @@ class Builder final : public nlohmann::json_sax<WideJson> {
     }
     const std::string where = place(text_, position == 0 ? 0 : position - 1);
     error_ = Error{ErrorCode::JsonMalformed,
-                   fmt::format("at {}: {}", where, reason.substr(0, kLongestReason)), where};
+                   fmt::format("at {}: {}", where, first_characters(reason, kLongestReason)), where};
     return false;
   }
 

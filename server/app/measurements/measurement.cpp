@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "base/text.hpp"
+
 namespace fitgauge::app {
 namespace {
 
@@ -83,12 +85,12 @@ std::string run_id_text(std::int64_t id) { return id_text(kRunPrefix, id); }
 Result<std::int64_t> parse_measurement_id(std::string_view text) {
   if (const auto id = parse_id(kMeasurementPrefix, text)) return *id;
   return Error{ErrorCode::MeasurementUnknown,
-               "there is no measurement '" + std::string(text.substr(0, 40)) + "'"};
+               "there is no measurement '" + std::string(first_characters(text, 40)) + "'"};
 }
 
 Result<std::int64_t> parse_run_id(std::string_view text) {
   if (const auto id = parse_id(kRunPrefix, text)) return *id;
-  return Error{ErrorCode::RunUnknown, "there is no run '" + std::string(text.substr(0, 40)) + "'"};
+  return Error{ErrorCode::RunUnknown, "there is no run '" + std::string(first_characters(text, 40)) + "'"};
 }
 
 }  // namespace fitgauge::app

@@ -13,7 +13,7 @@ constexpr std::size_t kLongestPath = 255;
 
 Error path_error(std::string_view text, std::string_view what) {
   constexpr std::size_t kShown = 80;
-  std::string shown(text.substr(0, kShown));
+  std::string shown(first_characters(text, kShown));
   if (text.size() > kShown) shown += "...";
   return {ErrorCode::FilePathInvalid, "path '" + shown + "' " + std::string(what)};
 }

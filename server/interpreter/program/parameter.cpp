@@ -29,7 +29,7 @@ Result<klartext::QRef> parse_parameter_name(std::string_view text) {
   const auto malformed = [&] {
     return Error{
         ErrorCode::FieldInvalid,
-        "'" + std::string(text.substr(0, 40)) +
+        "'" + std::string(first_characters(text, 40)) +
             "' is not a parameter: Q0 to Q1999, QL0 to QL499, QR0 to QR499, QS0 to QS1999"};
   };
   const std::string upper = ascii_upper(text);

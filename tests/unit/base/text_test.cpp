@@ -19,6 +19,13 @@ TEST_CASE("Windows-1252 becomes UTF-8") {
   CHECK(utf8_from_windows1252("\xD8 5\xB5m \x80") == "\xC3\x98 5\xC2\xB5m \xE2\x82\xAC");
 }
 
+TEST_CASE("a text is cut between characters") {
+  CHECK(first_characters("øøø", 6) == "øøø");
+  CHECK(first_characters("øøø", 5) == "øø");
+  CHECK(first_characters("a\xC3\x28", 3) == "a");
+  CHECK(first_characters("", 3) == "");
+}
+
 TEST_CASE("names compare without regard to ASCII case") {
   CHECK(ascii_iequals("TNC:\\Nc_Prog", "tnc:\\nc_prog"));
   CHECK_FALSE(ascii_iequals("a", "ab"));

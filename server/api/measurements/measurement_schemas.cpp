@@ -1,0 +1,153 @@
+#include "api/measurements/measurement_row_fields.hpp"
+#include "api/schemas.hpp"
+#include "app/measurements/measurement_service.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using schema::Others;
+
+constexpr std::string_view kRecord =
+    R"({"id":"m1","source":"gauge","measured_at":"2026-11-20T07:00:00Z",)"
+    R"("received_at":"2026-11-20T07:00:01.25Z","designation":"25 H7","nominal_mm":25,)"
+    R"("tolerance_class":"H7","feature":"hole","upper_deviation_um":21,"lower_deviation_um":0,)"
+    R"("upper_limit_mm":25.021,"lower_limit_mm":25,"tolerance_um":21,)"
+    R"("size_range_mm":{"over":18,"up_to":30},"basis":"iso286","table_revision":"1-f0a85b3a",)"
+    R"("measured_mm":25.013,"deviation_um":13,"verdict":"good","excess_um":0,)"
+    R"("part_id":"SN-0001","characteristic":"bore-A","rule":"simple"})";
+
+std::string given_json(const RowField& field) {
+  switch (field.kind) {
+    case RowField::Kind::Length:
+    case RowField::Kind::Decimal: return schema::exact();
+    case RowField::Kind::Text: return schema::text(field.longest);
+    case RowField::Kind::Time: return schema::time();
+    case RowField::Kind::Feature: return feature_words();
+    case RowField::Kind::Rule: return rule_words();
+  }
+  return {};
+}
+
+std::string stored_json(const RowField& field) {
+  const bool is_number =
+      field.kind == RowField::Kind::Length || field.kind == RowField::Kind::Decimal;
+  return is_number ? schema::number() : given_json(field);
+}
+
+schema::Fields given_fields() {
+  schema::Fields fields;
+  for (const RowField& field : kRowFields) {
+    const bool required = &field == &kRowFields[RowField::Measured];
+    fields.push_back(
+        {std::string(field.name), given_json(field), std::string(field.meaning), required});
+  }
+  return fields;
+}
+
+/// What a caller said beside the value and its limits comes back as it was stored.
+schema::Fields echoed_fields() {
+  schema::Fields fields;
+  for (std::size_t i = RowField::PartId; i < RowField::Count; ++i) {
+    const RowField& field = kRowFields.at(i);
+    if (i == RowField::MeasuredAt) continue;
+    fields.push_back({std::string(field.name), stored_json(field), std::string(field.meaning),
+                      i == RowField::Rule});
+  }
+  return fields;
+}
+
+schema::Fields record_fields() {
+  const schema::Fields origin = {
+      {"id", schema::text(), "Opaque; sorts nowhere"},
+      {"source", source_words(), "A gauge at a part, or a run on the simulated machine"},
+      {"measured_at", schema::time(), "In UTC"},
+      {"received_at", schema::time(), "In UTC"},
+  };
+  const schema::Fields links = schema::optional({
+      {"caller", schema::text(), "The name of the key that stored it"},
+      {"run_id", schema::text(), "Of a simulation: the run"},
+      {"cycle", schema::count(), "Of a simulation: the measuring cycle"},
+      {"correction_of", schema::text(), "The id of the record it corrects"},
+      {"reason", schema::text(), "Why it was corrected"},
+      {"corrected_by", schema::text(),
+       "The id of its correction; shown where one record is asked for"},
+  });
+  return origin + limits_fields() + verdict_fields() + echoed_fields() + links;
+}
+
+std::string verdict_counts() {
+  return schema::object({{"good", schema::count(), ""},
+                         {"rework", schema::count(), ""},
+                         {"reject", schema::count(), ""},
+                         {"indeterminate", schema::count(), ""}});
+}
+
+/// The field the groups are of comes first, by its own name.
+schema::Fields group_fields() {
+  schema::Fields fields;
+  for (const std::string_view name : app::kTextFilters) {
+    fields.push_back({std::string(name), schema::null_or(schema::text()),
+                      "The value of the group, with group_by of this name; null: without", false});
+  }
+  return fields + schema::Fields{
+                      {"count", schema::count(), "Values of the group"},
+                      {"verdicts", schema::ref("VerdictCounts"), ""},
+                      {"mean_mm", schema::number(), "To 1e-12 mm"},
+                      {"standard_deviation_mm", schema::null_or(schema::number()),
+                       "With n - 1; null for one value"},
+                      {"min_mm", schema::number(), ""},
+                      {"max_mm", schema::number(), ""},
+                  };
+}
+
+void add_request_schemas(Schemas& schemas) {
+  constexpr std::string_view kNew =
+      R"({"designation":"25 H7","measured_mm":25.013,"part_id":"SN-0001","characteristic":"bore-A",)"
+      R"("measured_at":"2026-11-20T08:00:00+01:00"})";
+  schemas.push_back({"NewMeasurement", schema::object(given_fields(), Others::Refused, kNew)});
+  schemas.push_back(
+      {"NewMeasurements", schema::one_of({schema::ref("NewMeasurement"),
+                                          schema::array(schema::ref("NewMeasurement"))})});
+  const schema::Fields reason = {{"reason", schema::text(kLongestComment), "Why it is corrected"}};
+  schemas.push_back({"Correction", schema::object(reason + given_fields(), Others::Refused,
+                                                  R"({"measured_mm":25.012,"reason":"misread"})")});
+}
+
+}  // namespace
+
+void add_measurement_schemas(Schemas& schemas) {
+  add_request_schemas(schemas);
+  schemas.push_back({"Measurement", schema::object(record_fields(), Others::Allowed, kRecord)});
+  schemas.push_back({"VerdictCounts", verdict_counts()});
+  schemas.push_back(
+      {"Accepted",
+       schema::object({{"accepted", schema::count(), "How many were stored"},
+                       {"first_id", schema::text(), ""},
+                       {"last_id", schema::text(), ""},
+                       {"verdicts", schema::ref("VerdictCounts"), ""}},
+                      Others::Allowed,
+                      R"({"accepted":3,"first_id":"m2","last_id":"m4",)"
+                      R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0}})")});
+  schemas.push_back(
+      {"Measurements",
+       schema::object({{"measurements", schema::array(schema::ref("Measurement")), ""}})});
+  schemas.push_back(
+      {"Recorded", schema::one_of({schema::ref("Measurement"), schema::ref("Accepted"),
+                                   schema::ref("Measurements")})});
+  schemas.push_back(
+      {"MeasurementList",
+       schema::object(
+           {{"measurements", schema::array(schema::ref("Measurement")), ""},
+            {"next", schema::null_or(schema::text()), "For `after`; null on the last page"}})});
+  schemas.push_back({"SummaryGroup", schema::object(group_fields())});
+  schemas.push_back(
+      {"Summary", schema::object({{"groups", schema::array(schema::ref("SummaryGroup")),
+                                   "By the value of the field that group_by names"}},
+                                 Others::Allowed,
+                                 R"({"groups":[{"characteristic":"bore-A","count":3,)"
+                                 R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0},)"
+                                 R"("mean_mm":25.0151,"standard_deviation_mm":0.005551576,)"
+                                 R"("min_mm":25.0108,"max_mm":25.0215}]})")});
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "api/wire/schema.hpp"
+
+namespace fitgauge::api {
+
+// The components of /openapi.json: each room describes the bodies it reads and the answers it
+// gives. Setups describe themselves (runs/setup_schema.hpp).
+
+void add_limits_schemas(Schemas& schemas);
+void add_measurement_schemas(Schemas& schemas);
+void add_table_schemas(Schemas& schemas);
+void add_file_schemas(Schemas& schemas);
+void add_run_schemas(Schemas& schemas);
+void add_cycle_schemas(Schemas& schemas);
+void add_service_schemas(Schemas& schemas);
+
+Schemas make_schemas();
+
+// What several rooms say in the same words.
+
+/// What a class of the tables gives, with the limits of a drawing what is not of the tables absent.
+schema::Fields limits_fields();
+/// Beside the limits: the measured value and what follows from it.
+schema::Fields verdict_fields();
+
+inline std::string verdict_words() {
+  return schema::words({"good", "rework", "reject", "indeterminate"});
+}
+inline std::string feature_words() { return schema::words({"hole", "shaft"}); }
+inline std::string rule_words() { return schema::words({"simple", "guard_band"}); }
+inline std::string source_words() { return schema::words({"gauge", "simulation"}); }
+
+}  // namespace fitgauge::api

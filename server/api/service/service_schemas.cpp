@@ -1,0 +1,80 @@
+#include "api/schemas.hpp"
+
+namespace fitgauge::api {
+
+using schema::Others;
+
+void add_cycle_schemas(Schemas& schemas) {
+  const std::string number_or_null = schema::null_or(schema::number());
+  const std::string range =
+      schema::object({{"min", number_or_null, ""}, {"max", number_or_null, "null: no end"}});
+  const std::string parameter = schema::object({
+      {"name", schema::text(), "Q261, or its place in a cycle without names"},
+      {"meaning", schema::text(), ""},
+      {"unit", schema::text(), ""},
+      {"kind", schema::words({"number", "whole", "number or MAX", "text", "number or text"}), ""},
+      {"required", schema::boolean(), ""},
+      {"range", range, "Of a number", false},
+      {"default", R"({"type":["number","string"]})", "A number, or MAX", false},
+  });
+  const std::string result = schema::object({
+      {"name", schema::text(), "Q153"},
+      {"meaning", schema::text(), ""},
+      {"unit", schema::text(), ""},
+  });
+  schemas.push_back(
+      {"Cycle", schema::object({
+                    {"number", schema::count(), ""},
+                    {"name", schema::text(), "As the control calls it"},
+                    {"family", schema::words({"TCH PROBE", "CYCL DEF"}), ""},
+                    {"kind", schema::text(), "What it is for"},
+                    {"parameters", schema::array(parameter), ""},
+                    {"results", schema::array(result), "What it leaves in Q parameters"},
+                    {"simulated", schema::text(), "What it does here"},
+                    {"not_simulated", schema::text(), "What has no effect here"},
+                })});
+  schemas.push_back(
+      {"Cycles", schema::object({{"cycles", schema::array(schema::ref("Cycle")), ""}})});
+}
+
+void add_service_schemas(Schemas& schemas) {
+  schemas.push_back(
+      {"Resync", schema::object({{"detail", schema::text(), "Read the lists again"}})});
+  schemas.push_back({"Event", schema::one_of({schema::ref("Measurement"),
+                                              schema::ref("RunFinished"), schema::ref("Resync")})});
+  schemas.push_back({"Live", schema::object({{"status", schema::words({"live"}), ""}},
+                                            Others::Allowed, R"({"status":"live"})")});
+  schemas.push_back({"Ready", schema::object({
+                                  {"status", schema::words({"ready"}), ""},
+                                  {"version", schema::text(), ""},
+                                  {"database", schema::text(), ""},
+                                  {"table_revision", schema::text(), ""},
+                              })});
+  const std::string entry = schema::object({
+      {"pointer", schema::text(), "The place in the body (RFC 6901); rows count from 0"},
+      {"line", schema::count(), "Of CSV and NDJSON, from 1", false},
+      {"code", schema::text(), "Stable"},
+      {"detail", schema::text(), "What is wrong and what to do"},
+  });
+  schemas.push_back(
+      {"Problem",
+       schema::object(
+           {
+               {"type", schema::text(), "urn:fitgauge:problem: and the code"},
+               {"title", schema::text(), "The same for every problem of the code"},
+               {"status", schema::integer(400, 599), "As in the status line"},
+               {"detail", schema::text(), "What is wrong and what to do"},
+               {"instance", schema::text(), "This request, as the log names it"},
+               {"code", schema::text(), "Stable; reference/errors.md lists all"},
+               {"where", schema::text(), "The parameter or the place, where it is one", false},
+               {"errors", schema::array(entry), "Every field that cannot be accepted", false},
+               {"diagnostics", schema::array(schema::ref("Diagnostic")),
+                "Of program.invalid: every finding", false},
+           },
+           Others::Allowed,
+           R"({"type":"urn:fitgauge:problem:class.unknown","title":"Unknown tolerance class",)"
+           R"("status":404,"detail":"H19 is not a tolerance class of the tables",)"
+           R"("instance":"urn:fitgauge:request:1","code":"class.unknown"})")});
+}
+
+}  // namespace fitgauge::api

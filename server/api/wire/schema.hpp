@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fitgauge::api {
+
+/// A component of /openapi.json: an object or a union that routes and other schemas name.
+struct NamedSchema {
+  std::string name;  ///< `Limits`; unique
+  std::string json;  ///< JSON Schema 2020-12
+};
+using Schemas = std::vector<NamedSchema>;
+
+/// JSON Schema as text, made of small pieces. Every function answers a complete JSON object.
+namespace schema {
+
+struct Field {
+  std::string name;
+  std::string json;  ///< the schema of its value
+  std::string meaning;
+  bool required = true;
+};
+using Fields = std::vector<Field>;
+enum class Others : std::uint8_t { Allowed, Refused };
+
+std::string boolean();
+std::string number();
+std::string number(double least, double most);
+std::string integer(std::int64_t least, std::int64_t most);
+std::string count();  ///< a whole number from 0
+std::string text();
+std::string text(std::size_t longest_bytes);
+std::string time();  ///< RFC 3339
+std::string words(std::initializer_list<std::string_view> words);
+/// A number in a request, which may also come as a string, so that no double comes between.
+std::string exact();
+std::string null_or(const std::string& json);
+std::string array(const std::string& item);
+std::string array(const std::string& item, std::size_t size);
+/// Any names, values of one kind.
+std::string map(const std::string& value);
+std::string object(const Fields& fields, Others others = Others::Allowed,
+                   std::string_view example = {});
+std::string one_of(const std::vector<std::string>& schemas);
+std::string ref(std::string_view name);
+/// The same with a default, which is JSON.
+std::string with_default(std::string json, std::string_view value);
+/// Fields that may be left out.
+Fields optional(Fields fields);
+Fields operator+(Fields left, const Fields& right);
+
+}  // namespace schema
+}  // namespace fitgauge::api

@@ -1,0 +1,282 @@
+"""/openapi.json is the contract: every operation is described, and what it answers is what it says."""
+
+import http.client
+import json
+import os
+import unittest
+import urllib.parse
+
+import jsonschema
+
+from support.contract import Contract, Drawing, refuse_others, spoil
+from support.daemon import ROOT, Answer, DaemonTest
+
+PROGRAM = b"""BEGIN PGM HOLE MM
+TOOL CALL 30 Z
+L Z+50 R0 FMAX
+TCH PROBE 421 MEASURE HOLE ~
+Q273=+50 ~
+Q274=+40 ~
+Q262=25 ~
+Q325=+0 ~
+Q247=+90 ~
+Q261=-5 ~
+Q320=0 ~
+Q260=+20 ~
+Q301=0 ~
+Q275=25.021 ~
+Q276=25 ~
+Q279=0 ~
+Q280=0 ~
+Q281=0 ~
+Q309=0 ~
+Q330=0 ~
+Q423=4 ~
+Q365=1
+FN 16: F-PRINT TNC:\\nc_prog\\m.a / SCREEN:
+END PGM HOLE MM
+"""
+SETUP = {"machine": {"axes": {"C": {"on": "table"}}}, "workpiece": {"features": [
+    {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]},
+    {"type": "bore", "center_mm": [50, 40], "diameter_mm": 25.013}]}}
+HINTS = {
+    "designation": ["25H7", "25 g6", "10,5 h6", "3150 H7", "0.5 t6", "7H"], "hole": ["25H7", "H7"],
+    "shaft": ["g6", "s6", "H7"], "fit": ["25H7/g6", "25H7"], "tolerance_class": ["H7", "js6", "H19"],
+    "nominal_mm": [25, "25", 10.5, 3151], "measured_mm": [25.01, "25.013"], "name": ["H7", "g6x", "SHOP", "m3"],
+    "id": ["m1", "m2", "r1", "m999999", "x"], "number": [421, 400, 9999], "path": ["nc_prog/hole.h", "nc_prog/no.h", "a b.h"],
+    "program": ["TNC:\\nc_prog\\hole.h", "TNC:\\nc_prog\\no.h"], "setup": ["m3", SETUP], "action": ["check"],
+    "If-Match": ['"x"', "*"], "Idempotency-Key": ["k1", "k2"], "Prefer": ["return=minimal", "respond-async"],
+    "seconds": [1], "after": ["m1", "x"], "revision": ["1-x"]}
+ENDLESS = {"followEvents", "followRun"}
+
+
+class ContractTest(DaemonTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.contract = Contract(cls.daemon.get("/openapi.json").json)
+        cls.daemon.request("PUT", "/v1/files/nc_prog/hole.h", PROGRAM)
+        cls.daemon.request("PUT", "/v1/files/nc_prog/m.a", b'"DONE";\n')
+        cls.daemon.request("PUT", "/v1/setups/m3", SETUP)
+
+    def expect(self, operation_id, status, body=None, headers=None, **arguments):
+        """One call of an operation; its answer is as the contract says."""
+        path, method, operation = self.contract.operation(operation_id)
+        query = {}
+        for key, value in arguments.items():
+            if "{" + key + "}" in path:
+                path = path.replace("{" + key + "}", urllib.parse.quote(str(value), safe="/"))
+            else:
+                query[key] = value
+        path += "?" + urllib.parse.urlencode(query) if query else ""
+        answer = self.daemon.request(method.upper(), path, body, headers)
+        self.assertEqual(answer.status, status, f"{operation_id}: {answer}")
+        self.assertIsNone(self.contract.check(operation, answer), f"{operation_id}: {answer}")
+        return answer
+
+
+class Description(ContractTest):
+    def test_every_operation_has_a_name_a_tag_and_its_successes(self):
+        names = set()
+        tags = {tag["name"] for tag in self.contract.document["tags"]}
+        for path, method, operation in self.contract.operations():
+            with self.subTest(f"{method} {path}"):
+                self.assertRegex(operation["operationId"], r"^[a-z][A-Za-z]+$")
+                self.assertNotIn(operation["operationId"], names)
+                names.add(operation["operationId"])
+                self.assertLessEqual(set(operation["tags"]), tags)
+                self.assertTrue(operation["tags"])
+                self.assertTrue([status for status in operation["responses"] if status.startswith("2")])
+
+    def test_every_json_body_has_a_schema(self):
+        for path, method, operation in self.contract.operations():
+            if path == "/openapi.json":
+                continue
+            contents = [operation.get("requestBody", {}).get("content", {})]
+            contents += [response.get("content", {}) for response in operation["responses"].values()]
+            for content in contents:
+                if "application/json" in content:
+                    with self.subTest(f"{method} {path}"):
+                        self.assertIn("$ref", content["application/json"]["schema"])
+            # What answers JSON says so: only an answer without a body may leave its content out.
+            if method == "get":
+                self.assertTrue(operation["responses"]["200"].get("content"), path)
+
+    def test_every_schema_is_one_and_its_example_is_valid(self):
+        for name, schema in self.contract.document["components"]["schemas"].items():
+            with self.subTest(name):
+                jsonschema.Draft202012Validator.check_schema(schema)
+                for example in schema.get("examples", []):
+                    self.contract.validate(example, {"$ref": "#/components/schemas/" + name})
+
+    def test_a_schema_refuses_what_it_does_not_name(self):
+        with self.assertRaises(jsonschema.ValidationError):
+            self.contract.validate({"status": "live", "more": 1}, {"$ref": "#/components/schemas/Live"})
+        self.assertEqual(refuse_others({"type": "object", "properties": {}})["additionalProperties"], False)
+
+
+class Answers(ContractTest):
+    def test_every_operation_answers_as_its_schema_says(self):
+        self.expect("getLimits", 200, designation="25H7")
+        self.expect("findLimits", 200, nominal_mm=25, tolerance_class="g6")
+        self.expect("getFit", 200, hole="25H7", shaft="g6")
+        self.expect("getFitAsOne", 200, fit="25H7/g6")
+        self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="guard_band", uncertainty_um=1)
+        self.expect("listTables", 200)
+        column = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": "-3"}]}
+        for table, name in (("Hole", "SHOP"), ("Shaft", "shop")):
+            self.expect(f"put{table}TableColumn", 201, column, name=name)
+            self.expect(f"put{table}TableColumn", 200, column, name=name)
+            self.expect(f"get{table}Table", 200, classes=name)
+            self.expect(f"get{table}Table", 200, format="csv")
+            self.expect(f"get{table}TableTab", 200)
+            self.expect(f"delete{table}TableColumn", 204, name=name)
+        self.measurements()
+        self.runs()
+        self.expect("listCycles", 200)
+        self.expect("getCycle", 200, number=421)
+        for name in ("live", "ready", "getMetrics", "getOpenapi", "getPage"):
+            self.expect(name, 200)
+        self.expect("getPageFile", 200, path="app.js")
+        self.assert_seen("Limits", "Fit", "Verdict", "Measurement", "MeasurementList", "SummaryGroup", "Accepted",
+                         "RunOrder", "Diagnostic", "Cycle", "Trace", without={"RunOrder": {"block_skip", "language"}})
+
+    def measurements(self):
+        full = {"designation": "25 H7", "measured_mm": 25.013, "uncertainty_um": 0.8, "coverage_factor": 2,
+                "temperature_c": 20.4, "measured_at": "2026-11-20T08:00:00+01:00"}
+        texts = [name for name, member in self.contract.document["components"]["schemas"]["NewMeasurement"][
+            "properties"].items() if member.get("maxLength", 0) >= 200]
+        full |= {name: name for name in texts}
+        first = self.expect("postMeasurements", 201, full).json["id"]
+        drawn = {"nominal_mm": 8, "feature": "shaft", "upper_um": 0, "lower_um": -9, "measured_mm": "7.9955"}
+        self.expect("postMeasurements", 201, [full, drawn])
+        self.expect("postMeasurements", 201, [full, drawn], {"Prefer": "return=representation"})
+        self.expect("postMeasurements", 201, full, {"Prefer": "return=minimal"})
+        self.expect("correctMeasurement", 201, {"measured_mm": 25.012, "reason": "misread"}, id=first)
+        self.expect("correctMeasurement", 409, {"measured_mm": 25.012, "reason": "misread"}, id=first)
+        self.expect("getMeasurement", 200, id=first)
+        self.expect("listMeasurements", 200, history="all", limit=2)
+        self.expect("listMeasurements", 200, headers={"Accept": "text/csv"})
+        parameters = self.contract.operation("summariseMeasurements")[2]["parameters"]
+        for field in next(p for p in parameters if p["name"] == "group_by")["schema"]["enum"]:
+            self.expect("summariseMeasurements", 200, group_by=field)
+
+    def runs(self):
+        self.expect("putFile", 201, b"BEGIN PGM BAD MM\nCALL LBL 5\nEND PGM BAD MM\n", path="nc_prog/bad.h")
+        self.expect("putFile", 200, b"BEGIN PGM BAD MM\nCALL LBL 5\nEND PGM BAD MM\n", path="nc_prog/bad.h")
+        self.expect("checkFile", 200, path="nc_prog/bad.h", action="check")
+        self.expect("listFiles", 200, prefix="nc_prog/")
+        self.expect("getFile", 200, path="nc_prog/hole.h")
+        self.expect("putSetup", 200, SETUP, name="m3")
+        self.expect("putSetup", 201, SETUP, name="m4")
+        self.expect("getSetup", 200, name="m4")
+        self.expect("listSetups", 200)
+        self.expect("deleteSetup", 204, name="m4")
+        order = {"program": "TNC:\\nc_prog\\hole.h", "setup": SETUP, "parameters": {"Q1": 25, "QS1": "H7"},
+                 "limits": {"blocks": 1000, "seconds": 5}, "on_stop": "end"}
+        run = self.expect("postRun", 201, order).json
+        self.assertEqual(run["status"], "completed", run)
+        self.expect("postRun", 202, order, {"Prefer": "respond-async"})
+        self.expect("postRun", 422, {"program": "TNC:\\nc_prog\\bad.h"})
+        self.expect("getRun", 200, id=run["id"])
+        self.expect("getRunParameters", 200, id=run["id"])
+        self.expect("getRunRequest", 200, id=run["id"])
+        self.expect("getRunTrace", 200, id=run["id"])
+        self.expect("getRunTrace", 200, id=run["id"], headers={"Accept": "text/csv"})
+        self.expect("getRunFile", 200, id=run["id"], name="TCHPR421.TXT")
+        self.expect("followRun", 200, id=run["id"])
+        self.expect("cancelRun", 409, id=run["id"])
+        self.expect("listRuns", 200)
+        self.expect("listMeasurements", 200, source="simulation")
+        self.expect("deleteFile", 204, path="nc_prog/bad.h")
+
+    def assert_seen(self, *names, without):
+        """Every member that a schema names came in some answer: none is described that is not there."""
+        for name in names:
+            with self.subTest(name):
+                properties = self.contract.document["components"]["schemas"][name]["properties"]
+                self.assertEqual(set(properties) - self.contract.seen[name], without.get(name, set()))
+
+
+class Drawn(ContractTest):
+    """Requests drawn from the schemas, every second one spoiled: no answer but what the contract says.
+
+    FITGAUGE_DRAWN is how many for each operation, FITGAUGE_SEED which."""
+
+    def test_a_path_that_is_cut_in_a_message_stays_utf_8(self):
+        for path in ("/v1/files/", "/v1/runs/", "/v1/measurements/", "/v1/setups/"):
+            answer = self.daemon.get(path + "a" + "%C3%B8" * 300)
+            self.assertIn(answer.json["code"], ("file.path_invalid", "run.unknown", "measurement.unknown", "setup.unknown",
+                                                "path.malformed"), answer)
+        answer = self.daemon.post("/v1/measurements", {}, {"Origin": "http://a" + "\xc3\xb8" * 150})
+        self.assertEqual(answer.json["code"], "origin.refused")
+
+    def test_no_request_is_answered_but_as_documented(self):
+        count = int(os.environ.get("FITGAUGE_DRAWN", "10"))
+        seed = int(os.environ.get("FITGAUGE_SEED", "1"))
+        drawing = Drawing(self.contract, seed, HINTS)
+        connection = self.daemon.connect()
+        self.addCleanup(connection.close)
+        statuses = set()
+        for path, method, operation in self.contract.operations():
+            if operation["operationId"] in ENDLESS:
+                continue
+            for number in range(count):
+                spoiled = number % 2 == 1
+                request, body = self.draw(drawing, path, method, operation, spoiled)
+                with self.subTest(operation["operationId"], seed=seed, number=number):
+                    answer = self.send(connection, *request)
+                    statuses.add(answer.status)
+                    self.assertIsNone(self.contract.check(operation, answer), f"{request} {answer}")
+                    if answer.status == 422 and not spoiled and body is not None:
+                        codes = {entry["code"] for entry in answer.json.get("errors", [])}
+                        self.assertFalse(codes & {"field.unknown", "field.type", "field.too_long"},
+                                         f"the schema allows what is refused: {request} {answer}")
+        self.assertLessEqual({200, 201, 204, 400, 404, 422}, statuses)
+
+    def draw(self, drawing, path, method, operation, spoiled):
+        chance = drawing.random
+        query, headers = {}, {}
+        for parameter in operation.get("parameters", []):
+            name = parameter["name"]
+            if not parameter["required"] and chance.random() < 0.6:
+                continue
+            value = drawing.value(parameter["schema"], name)
+            if spoiled and chance.random() < 0.2:
+                value = chance.choice(["", "x", "-1", "%", "ø" * 300, "1e9", "25,5"])
+            if parameter["in"] == "path":
+                path = path.replace("{" + name + "}", urllib.parse.quote(str(value) or "x", safe=""))
+            elif parameter["in"] == "query":
+                query[name] = value
+            else:
+                headers[name] = str(value)
+        if spoiled and chance.random() < 0.1:
+            query["no_such"] = "1"
+        if query:
+            path += "?" + urllib.parse.urlencode(query)
+        content = operation.get("requestBody", {}).get("content", {})
+        body = None
+        if "application/json" in content:
+            body = drawing.value(content["application/json"]["schema"])
+            if spoiled:
+                body = spoil(body, chance)
+            headers["Content-Type"] = "application/json"
+            if spoiled and chance.random() < 0.1:
+                headers["Content-Type"] = "text/plain"
+        elif content:
+            body = drawing.value({"type": "string"})
+        return (method.upper(), path, body, headers), body
+
+    def send(self, connection, method, path, body, headers):
+        data = None if body is None else body.encode() if isinstance(body, str) and "Content-Type" not in headers \
+            else json.dumps(body).encode()
+        try:
+            connection.request(method, path, data, {k: v.encode("utf-8") for k, v in headers.items()})
+            answer = Answer(connection.getresponse())
+        except (http.client.HTTPException, OSError) as error:
+            raise AssertionError(f"{method} {path}: {error!r}") from error
+        return answer
+
+
+if __name__ == "__main__":
+    unittest.main()
