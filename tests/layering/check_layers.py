@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Compares every include of the sources with the edges docs/ARCHITECTURE.md allows.
+"""Compares every include of the sources with the edges docs/ARCHITECTURE.md allows, and the tree it prints
+with the folders.
 
 Fails on an edge that is not listed, on a cycle between files, on a library below or above its
-border (SQLite, Beast, JSON), and when it finds nothing to check.
+border (SQLite, Beast, JSON), on a name of the tree that is not there and a room the tree lacks, and when it
+finds nothing to check.
 """
 
 import re
@@ -46,9 +48,41 @@ BORDERS = {
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 
 
+def rooms(folder: Path) -> set[str]:
+    """The folders below it that hold sources."""
+    sources = {".hpp", ".cpp", ".js", ".py"}
+    return {path.name + "/" for path in folder.iterdir()
+            if path.is_dir() and path.name != "__pycache__" and any(file.suffix in sources for file in path.rglob("*"))}
+
+
+def tree_findings(architecture: str, root: Path) -> list[str]:
+    """Section 2: `folder  name name room/ -- words`. Every name is there; every room is named."""
+    block = re.search(r"## 2\. The tree\n```\n(.*?)```", architecture, re.DOTALL)
+    if block is None:
+        return ["docs/ARCHITECTURE.md has no tree in section 2"]
+    found: list[str] = []
+    listed = set()
+    for line in block.group(1).splitlines():
+        folder, *names = line.split(" -- ")[0].split()
+        listed.add(folder)
+        if not (root / folder).is_dir():
+            found.append(f"the tree names {folder}, which is no folder")
+        for name in names:
+            there = (root / folder / name).is_dir() if name.endswith("/") else any((root / folder).glob(name + "*"))
+            if not there:
+                found.append(f"the tree names {name} in {folder}, which is not there")
+        if folder.startswith(("server/", "clients/")) and (root / folder).is_dir():
+            found += [f"the tree lacks {room} in {folder}" for room in sorted(rooms(root / folder) - set(names))]
+    for layer in FOLDERS.values():
+        if not any(name == layer or name.startswith(layer + "/") for name in listed):
+            found.append(f"the tree lacks {layer}")
+    return found
+
+
 def main(root: Path) -> int:
-    allowed = allowed_edges((root / "docs/ARCHITECTURE.md").read_text(encoding="utf-8"))
-    findings: list[str] = []
+    architecture = (root / "docs/ARCHITECTURE.md").read_text(encoding="utf-8")
+    allowed = allowed_edges(architecture)
+    findings = tree_findings(architecture, root)
     edges: dict[str, set[str]] = {}
     seen = 0
     for layer, folder in FOLDERS.items():

@@ -8,7 +8,8 @@ import unittest
 from support.daemon import FITGAUGED, ROOT, DaemonTest
 from support.documents import Reader, agrees, blocks
 
-DOCUMENTS = [ROOT / "README.md", ROOT / "clients/python/README.md", *sorted((ROOT / "docs").glob("guide/*.md"))]
+DOCUMENTS = [ROOT / "README.md", ROOT / "clients/python/README.md", *sorted((ROOT / "docs").glob("tutorial/*.md")),
+             *sorted((ROOT / "docs").glob("guide/*.md")), *sorted((ROOT / "docs").glob("explanation/*.md"))]
 LANGUAGES = {"sh", "console", "python", "json", "nginx", ""}
 
 
