@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/bash_completion.hpp"
+#include "cli/completion_scripts.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/limits_commands.hpp"
 #include "cli/measure_command.hpp"
@@ -165,9 +166,8 @@ void add_records(CLI::App& app, Action& chosen) {
   summary->add_option("--group-by", query->group_by, "Field of the groups, else characteristic");
 
   const auto options = std::make_shared<CorrectOptions>();
-  CLI::App* correct =
-      add_command(app, "correct", "Correct a record: fitgauge correct m17 25.0131",
-                  chosen, options, run_correct);
+  CLI::App* correct = add_command(app, "correct", "Correct a record: fitgauge correct m17 25.0131",
+                                  chosen, options, run_correct);
   correct->add_option("id", options->id, "The record")->required();
   correct->add_option("measured", options->measured, "Right value in mm")->required();
   correct->add_option("--reason", options->reason, "Why it is corrected")->required();
@@ -264,10 +264,14 @@ void add_about(CLI::App& app, Action& chosen) {
   });
   const auto shell = std::make_shared<std::string>();
   CLI::App* completion = app.add_subcommand("completion", "Print the completion script");
-  completion->add_option("shell", *shell, "bash")->required()->check(CLI::IsMember({"bash"}));
-  completion->callback([&chosen, shell] {  // the option writes to it
-    chosen = [](const Context& context) -> Outcome<ExitCode> {
-      context.print("{}", kBashCompletion);
+  completion->add_option("shell", *shell, "bash, fish or zsh")
+      ->required()
+      ->check(CLI::IsMember({"bash", "fish", "zsh"}));
+  completion->callback([&app, &chosen, shell] {
+    chosen = [&app, shell](const Context& context) -> Outcome<ExitCode> {
+      context.print("{}", *shell == "fish"  ? fish_completion(app)
+                          : *shell == "zsh" ? zsh_completion(app)
+                                            : std::string(kBashCompletion));
       return ExitCode::Good;
     };
   });

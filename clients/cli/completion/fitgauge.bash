@@ -60,7 +60,7 @@ _fitgauge() {
         ls) options='--status --program --limit --after' ;;
       esac ;;
     watch) options='--source --after --count' ;;
-    completion) ((${#words[@]} > 1)) || options=bash ;;
+    completion) ((${#words[@]} > 1)) || options='bash fish zsh' ;;
     tables)
       case ${words[1]-} in
         '') options=export ;;

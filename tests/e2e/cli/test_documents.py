@@ -91,8 +91,30 @@ class Completion(unittest.TestCase):
         self.assertEqual(completions("tables", "export", "hole", "--format", ""), {"csv", "json", "tab"})
         self.assertEqual(completions("export", "--format", ""), {"csv", "ndjson"})
         self.assertEqual(completions("watch", "--source", "s"), {"simulation"})
-        self.assertEqual(completions("completion", ""), {"bash"})
+        self.assertEqual(completions("completion", ""), {"bash", "fish", "zsh"})
         self.assertEqual(completions("gauge", "25H7", "--part-id", ""), set())
+
+    def test_fish_and_zsh_know_every_command_and_option(self):
+        for shell in ("fish", "zsh"):
+            script = subprocess.run([FITGAUGE, "completion", shell], capture_output=True, text=True, check=True).stdout
+            dashes = "-l " if shell == "fish" else "--"
+            for command in SUBCOMMANDS:
+                with self.subTest(shell, command=command):
+                    self.assertRegex(script, rf"\b{command[-1]}\b")
+                    for option in own_options(*command):
+                        self.assertRegex(script, rf"{dashes}{option[2:]}\b")
+            if shutil.which(shell):
+                subprocess.run([shell, "-n", "/dev/stdin"], input=script, text=True, check=True, timeout=60)
+
+    @unittest.skipUnless(shutil.which("fish"), "needs fish")
+    def test_what_fish_offers(self):
+        def offered(line):
+            script = f"{FITGAUGE} completion fish | source; complete -C {line!r}"
+            done = subprocess.run(["fish", "--no-config", "-c", script], capture_output=True, text=True, check=True, timeout=60)
+            return {entry.split("\t")[0] for entry in done.stdout.splitlines()}
+        self.assertEqual(offered("fitgauge me"), {"measure"})
+        self.assertEqual(offered("fitgauge nc "), {"ls", "put", "get", "check", "run"})
+        self.assertLessEqual({"--setup", "--on-stop"}, offered("fitgauge nc run --"))
 
     def test_files_are_offered_where_a_file_is_wanted(self):
         folder = str(ROOT / "docs/man") + "/"
