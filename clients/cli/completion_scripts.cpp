@@ -24,7 +24,7 @@ bool takes_file(const CLI::Option& option) {
 }
 
 /// Text between single quotes of a shell.
-std::string quoted(std::string_view text) {
+std::string shell_text(std::string_view text) {
   std::string out = "'";
   for (const char c : text) {
     if (c == '\'') {
@@ -51,20 +51,20 @@ void add_fish(std::string& out, const CLI::App& app, const std::string& inside) 
                                ? "__fish_use_subcommand"
                                : inside + "; and not __fish_seen_subcommand_from" + names;
   for (const CLI::App* command : commands_of(app)) {
-    out += fmt::format("complete -c fitgauge -n {} -a {} -d {}\n", quoted(here),
-                       command->get_name(), quoted(command->get_description()));
+    out += fmt::format("complete -c fitgauge -n {} -a {} -d {}\n", shell_text(here),
+                       command->get_name(), shell_text(command->get_description()));
     add_fish(out, *command,
              (inside.empty() ? "" : inside + "; and ") + "__fish_seen_subcommand_from " +
                  command->get_name());
   }
-  const std::string condition = inside.empty() ? "" : " -n " + quoted(inside);
+  const std::string condition = inside.empty() ? "" : " -n " + shell_text(inside);
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_lnames().empty()) {
       if (takes_file(*option)) out += fmt::format("complete -c fitgauge{} -F\n", condition);
       continue;
     }
     out += fmt::format("complete -c fitgauge{} -l {} -d {}{}\n", condition,
-                       option->get_lnames().front(), quoted(option->get_description()),
+                       option->get_lnames().front(), shell_text(option->get_description()),
                        is_flag(*option)      ? ""
                        : takes_file(*option) ? " -r -F"
                                              : " -x");
@@ -81,8 +81,8 @@ std::string zsh_arguments(const CLI::App& app) {
       const std::string value = is_flag(*option)      ? ""
                                 : takes_file(*option) ? ":file:_files"
                                                       : ":value:";
-      out += " \\\n    " +
-             quoted(fmt::format("--{}[{}]{}", name, zsh_help(option->get_description()), value));
+      out += " \\\n    " + shell_text(fmt::format("--{}[{}]{}", name,
+                                                  zsh_help(option->get_description()), value));
     }
   }
   return files ? out + " \\\n    '*:file:_files'" : out;
@@ -100,7 +100,8 @@ void add_zsh(std::string& out, const CLI::App& app, const std::string& function)
   }
   out += "  local state\n  local -a commands=(\n";
   for (const CLI::App* command : commands) {
-    out += "    " + quoted(command->get_name() + ":" + zsh_help(command->get_description())) + "\n";
+    out += "    " + shell_text(command->get_name() + ":" + zsh_help(command->get_description())) +
+           "\n";
   }
   out += "  )\n  _arguments -C" + zsh_arguments(app) +
          " \\\n    '1:command:->command' '*::rest:->rest'\n  case $state in\n"

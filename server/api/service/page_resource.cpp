@@ -88,7 +88,8 @@ void add_page_routes(std::vector<http::Route>& routes) {
       .access = "open",
       .operation = "getPageFile",
       .tag = "service",
-      .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
+      .outcomes = {{.meaning = "Its bytes",
+                    .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml"}}},
       .refusals = {404},
   });
 }

@@ -28,7 +28,7 @@ Q275=25.021 ~
 Q276=25 ~
 Q279=0 ~
 Q280=0 ~
-Q281=0 ~
+Q281=1 ~
 Q309=0 ~
 Q330=0 ~
 Q423=4 ~
@@ -139,7 +139,7 @@ class Answers(ContractTest):
             self.expect(name, 200)
         self.expect("getPageFile", 200, path="app.js")
         self.assert_seen("Limits", "Fit", "Verdict", "Measurement", "MeasurementList", "SummaryGroup", "Accepted",
-                         "RunOrder", "Diagnostic", "Cycle", "Trace", without={"RunOrder": {"block_skip", "language"}})
+                         "RunOrder", "Diagnostic", "Cycle", "Trace", without={"RunOrder": {"block_skip", "language"}, "Measurement": {"caller"}})
 
     def measurements(self):
         full = {"designation": "25 H7", "measured_mm": 25.013, "uncertainty_um": 0.8, "coverage_factor": 2,
