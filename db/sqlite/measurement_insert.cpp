@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostRowsPerStatement = 32;
 constexpr std::uint64_t kAllFields = ~std::uint64_t{0};
-/// Statements kept; clients that fill ever other fields get the one with all columns.
+/// Cached statements, one for each combination of fields; beyond that, the one with all columns.
 constexpr std::size_t kMostStatements = 64;
 
 template <class T>

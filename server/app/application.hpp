@@ -84,7 +84,7 @@ class Application {
  private:
   Application();
 
-  // In the order of their making: what comes later uses what comes before.
+  // Declared in the order of construction: each member uses only those above it.
   CommitSignal committed_;
   std::unique_ptr<store::Database> database_;
   std::unique_ptr<TableCatalog> tables_;

@@ -110,7 +110,7 @@ class Server {
 
   ServerCounters counters() const;
 
-  /// Reads the certificate files again; connections that stand keep theirs.
+  /// Reads the certificate files again; open connections keep theirs.
   /// @errors ConfigInvalid: the old ones stay in use.
   Result<void> reload_tls();
 

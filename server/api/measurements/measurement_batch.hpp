@@ -19,8 +19,8 @@ struct MeasurementBatch {
   bool single = false;                  ///< the body was one object, not a list
   std::shared_ptr<const void> texts{};  ///< keeps what had to be copied out of the body
   bool is_begun = false;                ///< BatchContext::take has rows before these
-  /// Rows were taken before it showed that only the whole body tells what it holds, as JSON with an
-  /// escape or an error does: they are not to be used, and it is to be decoded without `take`.
+  /// The fast reader had delivered rows before it met an escape or an error. The caller discards
+  /// them and decodes the whole body without `take`.
   bool wants_whole = false;
 };
 

@@ -61,7 +61,7 @@ void judge_while_recording(const SharedPosting& posting) {
   };
   auto answer =
       posting->services.measurements.record_while_reading(read, posting->scope, rendering);
-  // The writer went on with others; it need not wait for the exact reader.
+  // The exact reader runs outside the job, so the writer is free for other requests meanwhile.
   if (batch.wants_whole) return judge_and_record(posting);
   if (!answer) return posting->responder.fail(answer.error());
   posting->responder.answer(response_of(*std::move(answer), wanted));

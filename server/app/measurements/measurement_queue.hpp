@@ -12,8 +12,9 @@
 namespace fitgauge::app {
 
 /// Where small requests wait for the writer. All that come before its job begins are stored by that
-/// one job: their rows fill the same statements, and one savepoint serves them all. Thread-safe;
-/// lives until its last job is done, of which the database sees to the end.
+/// one job: their rows fill the same statements, and one savepoint serves them all. Thread-safe.
+/// Each job owns a reference to the queue, so the queue outlives them; the database drains its jobs
+/// when it closes.
 class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
  public:
   /// @param most_waiting requests; one more is StorageBusy.
