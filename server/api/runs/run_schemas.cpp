@@ -150,6 +150,16 @@ void add_trace_schema(Schemas& schemas) {
       {"feed_mm_min", schema::number(), ""},
       {"seconds", schema::number(), ""},
       {"contact_mm", null_or(position), "Where the stylus touched"},
+      {"cycle", null_or(schema::count()), "That moved, by its number"},
+      {"machine_start_mm", position, "In machine coordinates"},
+      {"machine_end_mm", position, "In machine coordinates"},
+      {"center_mm", position, "Of an arc", false},
+      {"sweep_deg", schema::number(), "Of an arc, counter-clockwise positive", false},
+      {"axis", schema::text(), "Of an arc: the one it turns about", false},
+      {"machine_center_mm", position, "Of an arc, in machine coordinates", false},
+      {"machine_axis", position, "Of an arc: direction in machine coordinates", false},
+      {"machine_contact_mm", position, "Of a contact, in machine coordinates", false},
+      {"machine_contact_normal", null_or(position), "Of a contact: away from the material", false},
   });
   schemas.push_back(
       {"Trace", schema::object({{"moves", schema::array(move), "In order"},
