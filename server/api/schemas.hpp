@@ -8,6 +8,7 @@ namespace fitgauge::api {
 // gives. Setups describe themselves (runs/setup_schema.hpp).
 
 void add_limits_schemas(Schemas& schemas);
+void add_statistics_schemas(Schemas& schemas);
 void add_measurement_schemas(Schemas& schemas);
 void add_table_schemas(Schemas& schemas);
 void add_file_schemas(Schemas& schemas);

@@ -135,15 +135,21 @@ void add_gauges_routes(std::vector<http::Route>& routes,
                       .place = http::ParameterPlace::Path,
                       .description = "Size and class: 25H7"}},
       .access = "open",
+      .operation = "getLimitGauge",
+      .tag = "limits",
+      .outcomes = {{.meaning = "The gauges", .schema = "LimitGauge"}},
+      .refusals = {404, 422},
   });
 }
 
 void add_press_fits_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back(computation(
-      services, "/v1/press-fits", press_fit, "Pressure, stress and slip of a press fit",
-      "Body: joint_diameter_mm, length_mm, friction (0.12), min_interference_um, "
-      "max_interference_um, hub {outer_diameter_mm}, shaft {inner_diameter_mm}, both with "
-      "youngs_modulus_mpa (210000), poisson_ratio (0.3), rz_um (0)."));
+  routes.push_back(route_of(services, {.pattern = "/v1/press-fits",
+                                       .compute = press_fit,
+                                       .summary = "Pressure, stress and slip of a press fit",
+                                       .operation = "computePressFit",
+                                       .tag = "limits",
+                                       .reads = "PressFitOrder",
+                                       .answers = "PressFit"}));
 }
 
 }  // namespace fitgauge::api

@@ -36,6 +36,77 @@ schema::Fields verdict_fields() {
   };
 }
 
+namespace {
+
+void add_found_fits(Schemas& schemas) {
+  const std::string fit = schema::object({
+      {"designation", schema::text(), "25 H7/g6; GET it for the limits"},
+      {"hole_class", schema::text(), ""},
+      {"shaft_class", schema::text(), ""},
+      {"preferred", schema::boolean(), "By ISO 286-1, figure B.2"},
+      {"max_clearance_um", schema::number(), "Interference is negative"},
+      {"min_clearance_um", schema::number(), "Interference is negative"},
+  });
+  schemas.push_back({"FoundFits", schema::object({{"fits", schema::array(fit), "The first"},
+                                                  {"total", schema::count(), "All there are"}})});
+}
+
+void add_limit_gauge(Schemas& schemas) {
+  const schema::Fields sizes = {{"upper_mm", schema::number(), "New"},
+                                {"lower_mm", schema::number(), "New"}};
+  const schema::Fields wear = {{"wear_limit_mm", schema::number(), "Worn out"}};
+  schemas.push_back({"LimitGauge", schema::object({
+                                       {"designation", schema::text(), ""},
+                                       {"scheme", schema::text(), "The standard of the values"},
+                                       {"note", schema::text(), "On other editions"},
+                                       {"kind", schema::words({"plug", "ring or snap"}), ""},
+                                       {"upper_limit_mm", schema::number(), "Of the workpiece"},
+                                       {"lower_limit_mm", schema::number(), "Of the workpiece"},
+                                       {"go", schema::object(sizes + wear), ""},
+                                       {"no_go", schema::object(sizes), ""},
+                                   })});
+}
+
+void add_press_fit(Schemas& schemas) {
+  constexpr double kMost = 1e9;
+  const std::string positive = schema::number(0, kMost);
+  const schema::Fields material = schema::optional({
+      {"youngs_modulus_mpa", schema::with_default(positive, "210000"), ""},
+      {"poisson_ratio", schema::with_default(schema::number(0, 0.5), "0.3"), ""},
+      {"rz_um", schema::with_default(positive, "0"), "Roughness, pressed flat in part"},
+  });
+  const schema::Fields outer = {{"outer_diameter_mm", positive, ""}};
+  const schema::Fields inner = {
+      {"inner_diameter_mm", schema::with_default(positive, "0"), "0: solid", false}};
+  schemas.push_back(
+      {"PressFitOrder",
+       schema::object(
+           {
+               {"joint_diameter_mm", positive, ""},
+               {"length_mm", positive, ""},
+               {"friction", schema::with_default(positive, "0.12"), "Along the joint", false},
+               {"hub", schema::object(outer + material, Others::Refused), ""},
+               {"shaft", schema::object(inner + material, Others::Refused), ""},
+               {"min_interference_um", schema::with_default(positive, "0"), "", false},
+               {"max_interference_um", positive, ""},
+           },
+           Others::Refused)});
+  const std::string pressed = schema::object({
+      {"interference_um", schema::number(), ""},
+      {"effective_interference_um", schema::number(), "Less what the roughness takes"},
+      {"pressure_mpa", schema::number(), "In the joint"},
+      {"hub_stress_mpa", schema::number(), "Equivalent stress in the bore (von Mises)"},
+      {"shaft_stress_mpa", schema::number(), "Likewise"},
+      {"axial_force_n", schema::number(), "At which it slips"},
+      {"torque_nm", schema::number(), "At which it slips"},
+  });
+  schemas.push_back({"PressFit", schema::object({{"method", schema::text(), ""},
+                                                 {"at_min_interference", pressed, ""},
+                                                 {"at_max_interference", pressed, ""}})});
+}
+
+}  // namespace
+
 void add_limits_schemas(Schemas& schemas) {
   constexpr std::string_view kLimits =
       R"({"designation":"25 H7","nominal_mm":25,"tolerance_class":"H7","feature":"hole",)"
@@ -49,6 +120,10 @@ void add_limits_schemas(Schemas& schemas) {
       R"("table_revision":"1-f0a85b3a","measured_mm":25.0215,"deviation_um":21.5,)"
       R"("verdict":"reject","excess_um":0.5})";
   schemas.push_back({"Limits", schema::object(limits_fields(), Others::Allowed, kLimits)});
+  const std::string likely =
+      schema::object({{"probability_of_interference", schema::number(), ""}});
+  const std::string statistical =
+      schema::object({{"normal", likely, "Six standard deviations wide"}, {"uniform", likely, ""}});
   schemas.push_back(
       {"Fit", schema::object({
                   {"designation", schema::text(), "25 H7/g6"},
@@ -57,7 +132,11 @@ void add_limits_schemas(Schemas& schemas) {
                   {"type", schema::words({"clearance", "transition", "interference"}), ""},
                   {"max_clearance_um", schema::number(), "ES - ei; negative: interference"},
                   {"min_clearance_um", schema::number(), "EI - es; negative: interference"},
+                  {"statistical", statistical, "Sizes independent and centred"},
               })});
+  add_found_fits(schemas);
+  add_limit_gauge(schemas);
+  add_press_fit(schemas);
   const schema::Fields rule = schema::optional({
       {"rule", rule_words(), "Where it is not simple"},
       {"uncertainty_um", schema::number(), "Standard uncertainty u of the rule"},

@@ -182,8 +182,9 @@ constexpr std::string_view kResponses = R"({"Problem":{"description":"What is wr
                                         R"({"schema":{"$ref":"#/components/schemas/Problem"}}}}})";
 
 /// The groups of operations, in the order of a first reading.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kTags = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kTags = {{
     {"limits", "Limits of size, fits and verdicts (ISO 286-1)"},
+    {"statistics", "The figures of a quality engineer, each with its source"},
     {"tables", "The tolerance tables and a shop's own columns"},
     {"measurements", "Judged measurements, stored for good"},
     {"files", "The control's disk: programs, masks and tables"},
@@ -223,6 +224,7 @@ void write_components(JsonWriter& json) {
 Schemas make_schemas() {
   Schemas schemas;
   add_limits_schemas(schemas);
+  add_statistics_schemas(schemas);
   add_table_schemas(schemas);
   add_measurement_schemas(schemas);
   add_file_schemas(schemas);

@@ -5,13 +5,12 @@
 
 namespace fitgauge::api {
 
-http::Route computation(const Services& services, std::string pattern,
-                        Result<std::string> (*compute)(const JsonValue& body), std::string summary,
-                        std::string description) {
+http::Route route_of(const Services& services, Computation computation) {
   http::Route route;
   route.method = http::Method::Post;
-  route.pattern = std::move(pattern);
-  route.handler = [&services, compute](const http::Request& request, http::Responder responder) {
+  route.pattern = std::move(computation.pattern);
+  route.handler = [&services, compute = computation.compute](const http::Request& request,
+                                                             http::Responder responder) {
     const auto shared = share(std::move(responder));
     services.runs.prepare(
         [compute, &request, shared] {
@@ -23,11 +22,15 @@ http::Route computation(const Services& services, std::string pattern,
         },
         [shared](Error error) { shared->fail(std::move(error)); });
   };
-  route.summary = std::move(summary);
-  route.description = std::move(description);
+  route.summary = std::move(computation.summary);
+  route.description = std::move(computation.description);
   route.body = {.use = http::BodyUse::Required,
                 .media_types = {"application/json"},
-                .limit = kLargestValuesBody};
+                .limit = kLargestValuesBody,
+                .schema = std::move(computation.reads)};
+  route.operation = std::move(computation.operation);
+  route.tag = std::move(computation.tag);
+  route.outcomes = {{.meaning = "What was computed", .schema = std::move(computation.answers)}};
   route.access = "viewer";
   return route;
 }

@@ -9,12 +9,20 @@
 
 namespace fitgauge::api {
 
-/// The route of a figure that is computed from a JSON body and nothing else. It is computed where
-/// it may take long, not on an I/O thread.
-/// @param compute gives the JSON of the answer
-http::Route computation(const Services& services, std::string pattern,
-                        Result<std::string> (*compute)(const JsonValue& body), std::string summary,
-                        std::string description);
+/// A figure that is computed from a JSON body and nothing else.
+struct Computation {
+  std::string pattern;
+  Result<std::string> (*compute)(const JsonValue& body);  ///< gives the JSON of the answer
+  std::string summary;
+  std::string description{};
+  std::string operation;
+  std::string tag = "statistics";
+  std::string reads;    ///< the schema of the body, by name
+  std::string answers;  ///< the schema of the answer, by name
+};
+
+/// Its route. It is computed where it may take long, not on an I/O thread.
+http::Route route_of(const Services& services, Computation computation);
 
 /// Bodies of values are as large as those of measurements.
 inline constexpr std::size_t kLargestValuesBody = std::size_t{32} << 20;

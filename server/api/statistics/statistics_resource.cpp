@@ -242,30 +242,57 @@ Result<std::string> pairing(const JsonValue& body) {
 }  // namespace
 
 void add_statistics_routes(std::vector<http::Route>& routes, const Services& services) {
-  const auto add = [&](std::string name, Result<std::string> (*compute)(const JsonValue&),
-                       std::string title, std::string description) {
-    routes.push_back(computation(services, "/v1/statistics/" + std::move(name), compute,
-                                 std::move(title), std::move(description)));
+  const std::initializer_list<Computation> computations = {
+      {.pattern = "/v1/statistics/summary",
+       .compute = summary,
+       .summary = "Count, mean, standard deviation, r(1), extremes and quantiles",
+       .description = "Exact sums of decimals, rounded once to 17 digits.",
+       .operation = "computeSummary",
+       .reads = "Values",
+       .answers = "ValueSummary"},
+      {.pattern = "/v1/statistics/anova",
+       .compute = anova,
+       .summary = "One-way analysis of variance",
+       .operation = "analyseVariance",
+       .reads = "Groups",
+       .answers = "Anova"},
+      {.pattern = "/v1/statistics/capability",
+       .compute = capability,
+       .summary = "Capability and performance indices with their intervals",
+       .operation = "assessCapability",
+       .reads = "CapabilityOrder",
+       .answers = "Capability"},
+      {.pattern = "/v1/statistics/chart",
+       .compute = chart,
+       .summary = "Control chart with the violations of its rules and their price",
+       .operation = "makeControlChart",
+       .reads = "ChartOrder",
+       .answers = "ControlChart"},
+      {.pattern = "/v1/statistics/type1",
+       .compute = type1,
+       .summary = "Repeatability and bias of a gauge on one master: Cg, Cgk",
+       .operation = "studyGaugeOnMaster",
+       .reads = "Type1Order",
+       .answers = "Type1Study"},
+      {.pattern = "/v1/statistics/grr",
+       .compute = gauge_study,
+       .summary = "Gauge study: repeatability, reproducibility, parts",
+       .description = "Or its linearity, or its stability, by method.",
+       .operation = "studyGauge",
+       .reads = "GaugeStudyOrder",
+       .answers = "GaugeStudy"},
+      {.pattern = "/v1/statistics/pairing",
+       .compute = pairing,
+       .summary = "Measured holes and shafts paired for a clearance",
+       .description = "The least sum of squares of all assignments. The sizes may also be called "
+                      "holes_mm and shafts_mm.",
+       .operation = "pairParts",
+       .reads = "PairingOrder",
+       .answers = "Pairing"},
   };
-  add("summary", summary, "Count, mean, standard deviation, r(1), extremes and quantiles",
-      "Exact sums of decimals, rounded once to 17 digits. Body: `{\"values\":[…]}`.");
-  add("anova", anova, "One-way analysis of variance",
-      "Body: `{\"groups\":[[…],…]}`; groups may differ in size.");
-  add("capability", capability, "Capability and performance indices with their intervals",
-      "Body: values or subgroups, lower, upper, target, confidence (0.95).");
-  add("chart", chart, "Control chart with the violations of its rules and their price",
-      "Body: kind (i_mr, xbar_r, xbar_s, ewma, cusum), values or subgroups, rules, phase1 "
-      "(from <= index < to), centre, standard_deviation, lambda, reference_value, "
-      "decision_interval.");
-  add("type1", type1, "Repeatability and bias of a gauge on one master: Cg, Cgk",
-      "Body: values, reference, tolerance.");
-  add("grr", gauge_study, "Gauge study: repeatability, reproducibility, parts",
-      "Body: measurements with part, operator, trial and value; method (anova, average_range, "
-      "type3, nested; linearity with reference, stability with at), model (auto, interaction, "
-      "pooled), tolerance.");
-  add("pairing", pairing, "Measured holes and shafts paired for a clearance",
-      "Body: holes, shafts (mm), target_clearance_um; the least sum of squares of all "
-      "assignments.");
+  for (const Computation& computation : computations) {
+    routes.push_back(route_of(services, computation));
+  }
 }
 
 }  // namespace fitgauge::api

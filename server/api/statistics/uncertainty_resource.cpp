@@ -209,11 +209,14 @@ Result<std::string> uncertainty(const JsonValue& body) {
 }  // namespace
 
 void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back(computation(
-      services, "/v1/uncertainty", uncertainty, "Uncertainty budget: u_c, degrees of freedom, k, U",
-      "Body: contributions with name, standard_uncertainty or half_width and distribution (normal, "
-      "rectangular, triangular, u_shaped, t), sensitivity, degrees_of_freedom; correlations; "
-      "probability (0.95); monte_carlo with trials and seed."));
+  routes.push_back(route_of(
+      services, {.pattern = "/v1/uncertainty",
+                 .compute = uncertainty,
+                 .summary = "Uncertainty budget: u_c, degrees of freedom, k, U",
+                 .description = "By propagation, and by Monte Carlo where it is asked for.",
+                 .operation = "combineUncertainties",
+                 .reads = "UncertaintyBudget",
+                 .answers = "Uncertainty"}));
 }
 
 }  // namespace fitgauge::api

@@ -132,6 +132,8 @@ class Answers(ContractTest):
             self.expect(f"get{table}TableTab", 200)
             self.expect(f"delete{table}TableColumn", 204, name=name)
         self.measurements()
+        self.fits()
+        self.statistics()
         self.runs()
         self.expect("listCycles", 200)
         self.expect("getCycle", 200, number=421)
@@ -139,7 +141,8 @@ class Answers(ContractTest):
             self.expect(name, 200)
         self.expect("getPageFile", 200, path="app.js")
         self.assert_seen("Limits", "Fit", "Verdict", "Measurement", "MeasurementList", "SummaryGroup", "Accepted",
-                         "RunOrder", "Diagnostic", "Cycle", "Trace", without={"RunOrder": {"block_skip", "language"}, "Measurement": {"caller"}})
+                         "RunOrder", "Diagnostic", "Cycle", "Trace",
+                         without={"RunOrder": {"block_skip", "language"}, "Measurement": {"caller"}})
 
     def measurements(self):
         full = {"designation": "25 H7", "measured_mm": 25.013, "uncertainty_um": 0.8, "coverage_factor": 2,
@@ -161,10 +164,53 @@ class Answers(ContractTest):
         for field in next(p for p in parameters if p["name"] == "group_by")["schema"]["enum"]:
             self.expect("summariseMeasurements", 200, group_by=field)
 
+    def fits(self):
+        self.expect("findFits", 200, nominal_mm=25, min_clearance_um=5, max_clearance_um=45, limit=3)
+        self.expect("getLimitGauge", 200, designation="25H7")
+        material = {"youngs_modulus_mpa": 70000, "poisson_ratio": 0.33, "rz_um": 4}
+        self.expect("computePressFit", 200, {
+            "joint_diameter_mm": 50, "length_mm": 40, "friction": 0.1, "min_interference_um": 20,
+            "max_interference_um": 40, "hub": {"outer_diameter_mm": 100, **material},
+            "shaft": {"inner_diameter_mm": 10, **material}})
+        self.assert_seen("FoundFits", "LimitGauge", "PressFit", without={})
+
+    def statistics(self):
+        lot = [25 + (i * 7919 % 1000) / 1e6 for i in range(750)]
+        groups = [lot[i:i + 5] for i in range(0, 50, 5)]
+        self.expect("computeSummary", 200, {"values": ["1.5", 2, 4]})
+        self.expect("analyseVariance", 200, {"groups": [[1, 2], [2, 4, 5]]})
+        self.expect("assessCapability", 200, {"values": lot, "lower": 24.9, "upper": "25.1", "target": 25, "confidence": 0.9})
+        self.expect("assessCapability", 200, {"values": [1, 2, 3], "upper": 5})
+        for kind in ("i_mr", "xbar_r", "xbar_s", "ewma", "cusum"):
+            data = {"values": lot[:30]} if kind == "i_mr" else {"subgroups": groups}
+            self.expect("makeControlChart", 200, {"kind": kind, **data, "rules": [1, 2, 3, 4] if kind[0] in "ix" else [1],
+                                                  "phase1": {"from": 0, "to": 5}})
+        self.expect("studyGaugeOnMaster", 200, {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6})
+        rows = [{"part": part, "operator": who, "trial": trial, "value": value}
+                for who, trials in enumerate([[[0, 2], [4, 6]], [[2, 4], [2, 4]]])
+                for part, values in enumerate(trials) for trial, value in enumerate(values)]
+        for method in ("anova", "average_range", "type3", "nested"):
+            self.expect("studyGauge", 200, {"method": method, "model": "auto", "tolerance": 60, "measurements": rows})
+        self.expect("studyGauge", 200, {"measurements": rows})
+        self.expect("studyGauge", 200, {"method": "linearity", "measurements": [
+            {"reference": x, "value": y} for x, y in ((1, 1.1), (1, 1.2), (2, 2.1), (3, 3.3))]})
+        self.expect("studyGauge", 200, {"method": "stability", "measurements": [
+            {"at": day, "value": value} for day in range(5) for value in (1, 2)]})
+        self.expect("pairParts", 200, {"holes": [25.01], "shafts": ["24.99", 25.001], "target_clearance_um": 8})
+        self.expect("combineUncertainties", 200, {"contributions": [
+            {"name": "a", "standard_uncertainty": 2, "degrees_of_freedom": 9, "sensitivity": 1},
+            {"name": "b", "half_width": 3, "distribution": "triangular"}], "probability": 0.99,
+            "correlations": [], "monte_carlo": {"trials": 1000, "seed": 3}})
+        self.assert_seen("ValueSummary", "Anova", "Capability", "CapabilityIndex", "ControlChart", "Type1Study", "VariationStudy",
+                         "LinearityStudy", "StabilityStudy", "Pairing", "Uncertainty", without={})
+
     def runs(self):
-        self.expect("putFile", 201, b"BEGIN PGM BAD MM\nCALL LBL 5\nEND PGM BAD MM\n", path="nc_prog/bad.h")
-        self.expect("putFile", 200, b"BEGIN PGM BAD MM\nCALL LBL 5\nEND PGM BAD MM\n", path="nc_prog/bad.h")
+        bad = b"BEGIN PGM BAD MM\nLBL 5\nLBL 5\nCALL LBL 6\nEND PGM BAD MM\n"
+        self.expect("putFile", 201, bad, path="nc_prog/bad.h")
+        self.expect("putFile", 200, bad, path="nc_prog/bad.h")
         self.expect("checkFile", 200, path="nc_prog/bad.h", action="check")
+        self.expect("checkFile", 200, path="nc_prog/hole.h", action="format")
+        self.expect("checkFile", 422, path="nc_prog/m.a", action="format")
         self.expect("listFiles", 200, prefix="nc_prog/")
         self.expect("getFile", 200, path="nc_prog/hole.h")
         self.expect("putSetup", 200, SETUP, name="m3")
@@ -173,7 +219,7 @@ class Answers(ContractTest):
         self.expect("listSetups", 200)
         self.expect("deleteSetup", 204, name="m4")
         order = {"program": "TNC:\\nc_prog\\hole.h", "setup": SETUP, "parameters": {"Q1": 25, "QS1": "H7"},
-                 "limits": {"blocks": 1000, "seconds": 5}, "on_stop": "end"}
+                 "limits": {"blocks": 1000, "seconds": 5}, "on_stop": "end", "unreadable": "refuse"}
         run = self.expect("postRun", 201, order).json
         self.assertEqual(run["status"], "completed", run)
         self.expect("postRun", 202, order, {"Prefer": "respond-async"})
