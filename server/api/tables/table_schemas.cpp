@@ -8,6 +8,7 @@ void add_table_schemas(Schemas& schemas) {
   const std::string range = schema::object({
       {"feature", feature_words(), ""},
       {"classes", schema::array(schema::text()), "Of the standard, then those of the shop's own"},
+      {"own", schema::array(schema::text()), "Classes of the shop's own"},
       {"size_ranges", schema::count(), ""},
   });
   schemas.push_back({"TableIndex", schema::object({{"revision", schema::text(), "Of all tables"},

@@ -95,9 +95,9 @@ class Drawing:
         self.hints = hints
 
     def value(self, schema, name=None, depth=0):
-        if name in self.hints and self.random.random() < 0.7:
-            return self.random.choice(self.hints[name])
         schema = self.contract.resolve(schema)
+        if name in self.hints and schema.get("type") != "object" and self.random.random() < 0.7:
+            return self.random.choice(self.hints[name])
         if "const" in schema:
             return schema["const"]
         if "enum" in schema:
