@@ -181,6 +181,10 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return complain({ExitCode::Usage, usage_text(app, error)}, false);
   } catch (const std::exception& defect) {
+    // fmt throws where the stream takes no more.
+    if (std::ferror(stdout) != 0) {
+      return complain({ExitCode::LocalFile, "standard output cannot be written"}, false);
+    }
     return complain({ExitCode::Defect, std::string("internal error: ") + defect.what()}, false);
   }
 }

@@ -682,6 +682,11 @@ class Client:
             headers["Prefer"] = prefer
         return loads(self._perform(_Request("POST", path, body, headers, timeout=timeout)).body)
 
+    def _compute(self, path: str, body: Mapping[str, Any]) -> Any:
+        """Sends what is computed with; nothing is stored, so it may be repeated."""
+        headers = {"Content-Type": "application/json"}
+        return loads(self._perform(_Request("POST", path, dumps(body).encode(), headers, repeatable=True)).body)
+
     def _pages(self, path: str, name: str, parameters: Mapping[str, Parameter]) -> Iterator[Any]:
         after: str | None = None
         while True:
@@ -704,6 +709,28 @@ class Client:
     def fit(self, designation: str) -> Fit:
         """The fit `25 H7/g6`."""
         return self._get(_path("fits", designation))
+
+    def fits(self, nominal_mm: Size, *, min_clearance_um: Size | None = None, max_clearance_um: Size | None = None,
+             limit: int | None = None) -> dict[str, Any]:
+        """The fits of a size whose clearances lie within bounds (interference is negative), the preferred first."""
+        return self._get("/v1/fits", {"nominal_mm": nominal_mm, "min_clearance_um": min_clearance_um,
+                                      "max_clearance_um": max_clearance_um, "limit": limit})
+
+    def limit_gauges(self, designation: str) -> dict[str, Any]:
+        """The sizes of the GO and the NO-GO gauge of `25 H7`."""
+        return self._get(_path("gauges", designation))
+
+    def press_fit(self, body: Mapping[str, Any]) -> dict[str, Any]:
+        """Pressure and stresses of an interference fit (Lame)."""
+        return self._compute("/v1/press-fits", body)
+
+    def statistics(self, kind: str, body: Mapping[str, Any]) -> dict[str, Any]:
+        """`summary`, `anova`, `capability`, `chart`, `type1`, `grr` or `pairing` of the values sent."""
+        return self._compute(_path("statistics", kind), body)
+
+    def uncertainty(self, body: Mapping[str, Any]) -> dict[str, Any]:
+        """The combined and expanded uncertainty of a budget."""
+        return self._compute("/v1/uncertainty", body)
 
     def verdict(self, designation: str, measured_mm: Size, *, rule: RuleWord | None = None,
                 uncertainty_um: Size | None = None, coverage_factor: Size | None = None) -> Verdict:

@@ -50,6 +50,28 @@ class EveryRoute(ControlTest):
         self.assertEqual(limits["upper_limit_mm"], Decimal("25.021"))
         self.assertIsInstance(limits["nominal_mm"], Decimal)
         self.assertIsInstance(limits["size_range_mm"]["over"], Decimal)
+        found = client.fits(25, min_clearance_um=5, max_clearance_um=45, limit=3)
+        self.assertEqual(len(found["fits"]), 3)
+        self.assertEqual(client.limit_gauges("25 H7")["scheme"], "ISO/R 1938:1971")
+        # Worked out by hand: 1, 2, 3 have the mean 2, and groups 1, 2 and 3, 4 an F of 8.
+        self.assertEqual(client.statistics("summary", {"values": [1, 2, 3]})["mean"], 2)
+        self.assertEqual(client.statistics("anova", {"groups": [[1, 2], [3, 4]]})["f"], 8)
+        values = [Decimal("25.010"), Decimal("25.012"), Decimal("25.009"), Decimal("25.011"), Decimal("25.010")]
+        self.assertIn("cp", client.statistics("capability", {"values": values, "lower": 25, "upper": Decimal("25.021")}))
+        self.assertEqual(client.statistics("chart", {"kind": "i_mr", "values": values})["violations"], [])
+        self.assertIn("cg", client.statistics("type1", {"values": values, "reference": Decimal("25.01"),
+                                                        "tolerance": Decimal("0.021")}))
+        study = [{"part": str(part), "operator": operator, "trial": trial, "value": part + trial * Decimal("0.01")}
+                 for part in range(3) for operator in "AB" for trial in range(2)]
+        self.assertIn("ndc", client.statistics("grr", {"method": "anova", "tolerance": 5, "measurements": study}))
+        pairs = client.statistics("pairing", {"holes": [25, Decimal("25.01")], "shafts": [Decimal("24.99"), Decimal("24.98")],
+                                              "target_clearance_um": 20})["pairs"]
+        self.assertEqual(len(pairs), 2)
+        self.assertEqual(client.uncertainty({"contributions": [
+            {"name": "a", "standard_uncertainty": 3}, {"name": "b", "standard_uncertainty": 4}]})["combined_standard_uncertainty"], 5)
+        pressed = client.press_fit({"joint_diameter_mm": 50, "length_mm": 40, "max_interference_um": 40,
+                                    "hub": {"outer_diameter_mm": 100}, "shaft": {}})
+        self.assertAlmostEqual(float(pressed["at_max_interference"]["pressure_mpa"]), 63, places=9)
         fit = client.fit("25 H7/g6")
         self.assertEqual((fit["type"], fit["max_clearance_um"]), ("clearance", 41))
         verdict = client.verdict("25H7", Decimal("25.0194"), rule="guard_band", uncertainty_um="0.8",

@@ -220,6 +220,7 @@ class CountingDisk final : public interpreter::ControlDisk {
 TEST_CASE("the control's tables are read again only when one of them has changed") {
   CountingDisk disk;
   disk.files.write("TNC:\\table\\tool.t", kToolTable);
+  disk.files.write("TNC:\\table\\tchprobe.tp", kProbeTable);
   ControlTablesCache cache(disk);
   Allowance unlimited;
   CHECK(cache.read(unlimited).value()->tools.size() == 2);
