@@ -23,6 +23,12 @@ inline SharedResponder share(http::Responder responder) {
   return std::make_shared<http::Responder>(std::move(responder));
 }
 
+/// A GET whose If-Match names another state than the current one.
+inline Error other_state() {
+  return {ErrorCode::PreconditionFailed,
+          "the current state has another tag than those of If-Match: read it again without"};
+}
+
 /// Bytes that came from outside, so that a browser neither guesses their type nor runs them.
 inline http::Response foreign_bytes(std::string content_type, std::string bytes) {
   return http::Response(200, std::move(content_type), std::move(bytes))

@@ -47,7 +47,13 @@ std::optional<std::string> check_verdict(const store::MeasurementRow& row) {
 }  // namespace
 
 Application::Application() = default;
-Application::~Application() = default;
+
+/// Who calls the services goes before them: the runs, the listeners of commits, the storage jobs.
+Application::~Application() {
+  if (runs_) runs_->stop();
+  committed_.stop();
+  if (database_) database_->drain();
+}
 
 Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions& options,
                                                        const Clock& clock) {

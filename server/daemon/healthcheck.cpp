@@ -6,7 +6,10 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
+#include <fstream>
 #include <memory>
+
+#include "http/server.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -17,12 +20,19 @@ constexpr std::string_view kRequest =
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free_all)>;
 using SslContext = std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>;
 
-/// The loopback address of the port the service listens on: it may listen on every address.
-std::string own_address(const std::string& listen) {
-  const std::size_t colon = listen.rfind(':');
-  const std::string host = listen.substr(0, colon);
-  const bool any = host.empty() || host == "0.0.0.0" || host == "[::]" || host == "*";
-  return (any ? "127.0.0.1" : host) + listen.substr(colon);
+/// Where to ask: beside a listener that wants client certificates, which this has none of, at the
+/// plain one for health checks.
+Result<std::string> address_of(const Config& config) {
+  if (config.tls_client_ca.empty()) {
+    const auto listen = http::parse_listen_address(config.listen.front());
+    if (!listen) return listen.error();
+    return listen->own_address();
+  }
+  std::ifstream file(health_port_file(config));
+  std::string port;
+  if (file >> port) return "127.0.0.1:" + port;
+  return Error{ErrorCode::NotReady, "no service runs on " + config.data + ": it holds no " +
+                                        health_port_file(config).filename().string()};
 }
 
 void limit_waiting(BIO* connection) {
@@ -34,12 +44,18 @@ void limit_waiting(BIO* connection) {
 
 }  // namespace
 
+std::filesystem::path health_port_file(const Config& config) {
+  return std::filesystem::path(config.data) / "health.port";
+}
+
 Result<void> healthcheck(const Config& config) {
   const auto failed = [](std::string what) { return Error{ErrorCode::NotReady, std::move(what)}; };
-  const std::string address = own_address(config.listen.front());
+  const auto asked = address_of(config);
+  if (!asked) return asked.error();
+  const std::string& address = *asked;
 
   const SslContext context(SSL_CTX_new(TLS_client_method()), &SSL_CTX_free);
-  const bool tls = !config.tls_cert.empty();
+  const bool tls = !config.tls_cert.empty() && config.tls_client_ca.empty();
   // The certificate is the service's own and names the address of the outside: it is not verified.
   const Bio connection(tls ? BIO_new_ssl_connect(context.get()) : BIO_new(BIO_s_connect()),
                        &BIO_free_all);

@@ -16,9 +16,11 @@
 #include "api/service/verdict_counts.hpp"
 #include "api/wire/problem.hpp"
 #include "base/forward_clock.hpp"
+#include "base/guarded.hpp"
 #include "daemon/admin_key.hpp"
 #include "daemon/application_options.hpp"
 #include "daemon/file_limit.hpp"
+#include "daemon/healthcheck.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
 #include "daemon/service_metrics.hpp"
@@ -57,6 +59,9 @@ http::ServerOptions server_options(const Config& config, std::vector<http::Liste
                                    std::int64_t connections) {
   http::ServerOptions options;
   options.listen = std::move(addresses);
+  if (!config.tls_client_ca.empty()) {
+    options.listen.push_back({.host = "127.0.0.1", .port = 0, .health_only = true});
+  }
   options.io_threads = static_cast<unsigned>(config.io_threads);
   options.max_connections = static_cast<std::size_t>(connections);
   options.tls = tls_options(config);
@@ -145,6 +150,9 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   const auto addresses = listen_addresses(config);
   if (!addresses) return addresses.error();
   prepare_signals();
+  report_bugs_to([](std::string_view place, std::string_view what) {
+    log_error("bug", fmt::format("{}: {}", place, what));
+  });
 
   const SystemClock machine_clock;
   ForwardClock clock(machine_clock,
@@ -192,12 +200,18 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .readiness = [&app] { return app.readiness(); }};
   // Beyond these a client gets 503 rather than no answer.
   const std::int64_t connections = allow_connections(config.max_connections);
-  auto started =
-      http::Server::start(server_options(config, *addresses, connections),
-                          api::make_routes(services), hooks(api::Guard(app.keys(), mode), metrics));
+  auto started = http::Server::start(
+      server_options(config, *addresses, connections), api::make_routes(services),
+      hooks(api::Guard(app.keys(), mode,
+                       [](std::string_view what) { log_warning("proxy_suspected", what); }),
+            metrics));
   if (!started) return started.error();
   http::Server& server = **started;
   metrics.add([&server](api::Exposition& out) { write_server_metrics(server, out); });
+  if (!config.tls_client_ca.empty()) {
+    const auto written = write_port_file(health_port_file(config), server.ports().back());
+    if (!written) return written.error();
+  }
   if (!port_file.empty()) {
     if (const auto written = write_port_file(port_file, server.ports().front()); !written) {
       return written.error();

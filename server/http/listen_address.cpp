@@ -14,6 +14,16 @@ bool ListenAddress::is_loopback() const {
   return !error && address.is_loopback();
 }
 
+std::string ListenAddress::own_address() const {
+  error_code error;
+  const auto address = asio::ip::make_address(host, error);
+  if (error) return fmt::format("{}:{}", host, port);
+  const std::string loopback = address.is_v6() ? "::1" : "127.0.0.1";
+  const std::string& here = address.is_unspecified() ? loopback : host;
+  if (address.is_v6()) return fmt::format("[{}]:{}", here, port);
+  return fmt::format("{}:{}", here, port);
+}
+
 Result<ListenAddress> parse_listen_address(std::string_view text) {
   const Error malformed{
       ErrorCode::ConfigInvalid,

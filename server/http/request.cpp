@@ -42,25 +42,32 @@ std::optional<std::int64_t> Request::integer(std::string_view name) const {
 std::optional<Length> Request::length(std::string_view name) const {
   return argument_as<Length>(name);
 }
-std::optional<bool> Request::boolean(std::string_view name) const {
-  return argument_as<bool>(name);
-}
 std::optional<Timestamp> Request::time(std::string_view name) const {
   return argument_as<Timestamp>(name);
 }
 
 std::string Request::id_text() const { return fmt::format("{:016x}", id_); }
 
-bool Request::is_local() const {
-  if (!peer_->loopback) return false;
-  for (const HeaderField& field : head_->fields) {
-    constexpr std::string_view kPrefix = "x-forwarded-";
-    if (ascii_iequals(field.name, "forwarded") ||
-        ascii_iequals(field.name.substr(0, kPrefix.size()), kPrefix)) {
-      return false;
+bool Request::is_local() const { return peer_->loopback && !head_->is_forwarded; }
+
+bool Request::is_http_1_0() const { return head_->http_1_0; }
+
+void Request::append_identity(std::string& out) const {
+  const auto append_bytes = [&out](const auto& value) {
+    out.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  append_bytes(route_);
+  for (const std::optional<ArgumentValue>& argument : arguments_) {
+    out += static_cast<char>(argument ? argument->index() : ArgumentValue().index() - 1);
+    if (!argument) continue;
+    if (const auto* text = std::get_if<std::string_view>(&*argument)) {
+      append_bytes(text->size());
+      out += *text;
+    } else {
+      std::visit([&](const auto& value) { append_bytes(value); }, *argument);
     }
   }
-  return true;
+  out += response_type_;
 }
 
 std::string Request::own_origin() const {

@@ -20,14 +20,14 @@ struct Route;
 /// The other end of a connection.
 struct Peer {
   std::string address;  ///< `127.0.0.1`, `::1`
-  std::string client_certificate{};
   bool loopback = false;
   bool tls = false;
+  bool health_only = false;  ///< came by the listener for the service's own health check
 };
 
 /// The value of a parameter after parsing: text and words as text, decimals as the integer
 /// value times 10^scale.
-using ArgumentValue = std::variant<std::string_view, std::int64_t, Length, bool, Timestamp>;
+using ArgumentValue = std::variant<std::string_view, std::int64_t, Length, Timestamp>;
 
 /// One request whose route is found and whose parameters are checked. The views stay valid until it
 /// is answered: for an asynchronous handler, as long as its Responder. Filled in by the engine;
@@ -51,7 +51,6 @@ class Request {
   std::optional<std::string_view> text(std::string_view name) const;
   std::optional<std::int64_t> integer(std::string_view name) const;  ///< Integer and Decimal
   std::optional<Length> length(std::string_view name) const;
-  std::optional<bool> boolean(std::string_view name) const;
   std::optional<Timestamp> time(std::string_view name) const;
 
   /// The decoded body; empty when there is none. kBodyPadding bytes after its end are readable.
@@ -62,16 +61,21 @@ class Request {
   /// The one of the route's response media types that the client prefers.
   std::string_view response_type() const { return response_type_; }
 
+  /// Appends what names the answer of a route that depends on nothing else: the route, its
+  /// arguments as they were read (whatever their spelling), and the media type.
+  void append_identity(std::string& out) const;
+
   /// Unique in this process and unlikely elsewhere; 16 hexadecimal digits as text.
   std::uint64_t id() const { return id_; }
   std::string id_text() const;
 
   std::string_view peer_address() const { return peer_->address; }  ///< `127.0.0.1`, `::1`
-  /// From this machine itself: a loopback peer and no proxy's field (Forwarded, X-Forwarded-*).
+  /// From this machine itself: a loopback peer and no proxy's field (Forwarded, X-Forwarded-*, Via,
+  /// X-Real-IP, True-Client-IP, CF-Connecting-IP).
   bool is_local() const;
-  bool is_tls() const { return peer_->tls; }
-  /// The subject of the client's certificate (RFC 2253), verified against the client CA; or empty.
-  std::string_view client_certificate() const { return peer_->client_certificate; }
+  bool is_http_1_0() const;
+  /// Came by the listener for the service's own health check: see ListenAddress::health_only.
+  bool is_health_only() const { return peer_->health_only; }
   /// `https://host:port` or `http://…` as the client addressed it, for comparing Origin. A proxy
   /// that ends TLS says so in X-Forwarded-Proto, which a page of another site cannot send unasked.
   std::string own_origin() const;

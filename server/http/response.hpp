@@ -67,4 +67,7 @@ struct Response {
 /// @pre the body is not a stream.
 std::shared_ptr<const PreparedResponse> prepare(const Response& response);
 
+/// Bytes that a prepared answer takes, for those who keep many.
+std::size_t size_in_memory(const PreparedResponse& answer);
+
 }  // namespace fitgauge::http

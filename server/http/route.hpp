@@ -46,12 +46,10 @@ struct LengthIn {
 struct Words {
   std::vector<std::string> words;
 };
-/// `true`, `false`, `1` or `0`.
-struct Boolean {};
 /// RFC 3339.
 struct Time {};
 
-using ParameterType = std::variant<Text, Integer, Decimal, LengthIn, Words, Boolean, Time>;
+using ParameterType = std::variant<Text, Integer, Decimal, LengthIn, Words, Time>;
 
 enum class ParameterPlace : std::uint8_t { Path, Query, Header };
 
@@ -97,7 +95,8 @@ using Handler = std::variant<SyncHandler, AsyncHandler>;
 struct Route {
   Method method = Method::Get;
   /// `/v1/fits/{hole}/{shaft}`; the last segment may be `{path*}`: the rest of the path, at least
-  /// one character. A literal segment goes before a parameter.
+  /// one character, in which an encoded slash is a slash like any other. A literal segment goes
+  /// before a parameter.
   std::string pattern;
   Handler handler;
   std::string summary{};

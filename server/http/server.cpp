@@ -18,8 +18,6 @@ namespace fitgauge::http {
 
 namespace {
 
-constexpr auto kDrainStep = std::chrono::milliseconds(5);
-
 using TlsContext = std::shared_ptr<asio::ssl::context>;
 
 }  // namespace
@@ -39,8 +37,6 @@ class Server::Impl {
  private:
   void take(IoThread& thread, Socket socket, Peer peer);
   void turn_away(Socket socket, const Peer& peer);
-  void stop_threads();
-  bool wait_for_connections(std::chrono::milliseconds timeout) const;
 
   ServerShared shared_;
   std::vector<std::unique_ptr<IoThread>> threads_;
@@ -52,10 +48,7 @@ class Server::Impl {
   std::atomic<std::uint64_t> refused_{0};
 };
 
-Server::Impl::~Impl() {
-  stop();
-  for (const auto& thread : threads_) thread->join();
-}
+Server::Impl::~Impl() { stop(); }
 
 Result<void> Server::Impl::open() {
   if (shared_.options.tls) {
@@ -86,12 +79,12 @@ Result<void> Server::Impl::open() {
 
 void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
   accepted_.fetch_add(1, std::memory_order_relaxed);
-  if (shared_.connections_open.load(std::memory_order_relaxed) >= shared_.options.max_connections) {
+  if (shared_.connections.inside() >= shared_.options.max_connections) {
     refused_.fetch_add(1, std::memory_order_relaxed);
     return turn_away(std::move(socket), peer);
   }
   TlsContext tls;
-  if (shared_.options.tls) {
+  if (shared_.options.tls && !peer.health_only) {
     peer.tls = true;
     const std::lock_guard lock(tls_mutex_);
     tls = tls_;
@@ -143,38 +136,31 @@ Result<void> Server::Impl::reload_tls() {
 }
 
 ServerCounters Server::Impl::counters() const {
-  ServerCounters counters{
-      .connections_accepted = accepted_.load(std::memory_order_relaxed),
-      .connections_open = shared_.connections_open.load(std::memory_order_relaxed),
-      .connections_refused = refused_.load(std::memory_order_relaxed),
-      .body_bytes_in_flight = shared_.budget.used()};
+  ServerCounters counters{.connections_accepted = accepted_.load(std::memory_order_relaxed),
+                          .connections_open = shared_.connections.inside(),
+                          .connections_refused = refused_.load(std::memory_order_relaxed),
+                          .body_bytes_in_flight = shared_.budget.used()};
   for (const auto& thread : threads_) counters.requests += thread->requests();
   return counters;
 }
 
-bool Server::Impl::wait_for_connections(std::chrono::milliseconds timeout) const {
-  const auto deadline = std::chrono::steady_clock::now() + timeout;
-  while (shared_.connections_open.load(std::memory_order_relaxed) > 0) {
-    if (std::chrono::steady_clock::now() >= deadline) return false;
-    std::this_thread::sleep_for(kDrainStep);
-  }
-  return true;
-}
-
+/// When it returns, no I/O thread calls a handler, a hook or a stream any more.
 void Server::Impl::stop() {
   if (shared_.stopping.exchange(true) || threads_.empty()) return;
+  // Each thread is inside the gate until it has told its connections.
+  for (std::size_t i = 0; i < threads_.size(); ++i) shared_.connections.enter();
   threads_.front()->post([this] {
     for (const auto& listener : listeners_) listener->close();
     // Sockets accepted before are dealt already: what is posted now comes after them.
     for (const auto& thread : threads_) {
-      thread->post([&each = *thread] { each.drain(); });
+      thread->post([&each = *thread] {
+        each.drain();
+        each.shared().connections.leave();
+      });
     }
   });
-  if (wait_for_connections(shared_.options.drain_timeout)) return;
-  for (const auto& thread : threads_) {
-    thread->post([&each = *thread] { each.close_all(); });
-  }
-  wait_for_connections(shared_.options.drain_timeout);
+  shared_.connections.wait_until_empty(shared_.options.drain_timeout);
+  for (const auto& thread : threads_) thread->join();
 }
 
 Result<void> check_tls(const TlsOptions& options) {

@@ -20,8 +20,13 @@ namespace fitgauge::http {
 struct ListenAddress {
   std::string host;  ///< a numeric address: `127.0.0.1`, `::1`, `0.0.0.0`
   std::uint16_t port = 0;
+  /// Without TLS, for the service's own health check on this machine: the guard lets nothing but
+  /// the health routes pass (Request::is_health_only).
+  bool health_only = false;
 
   bool is_loopback() const;
+  /// As one asks for it on this machine: `127.0.0.1:8286` for 0.0.0.0, `[::1]:8286` for ::.
+  std::string own_address() const;
 };
 
 /// Reads `127.0.0.1:8286`, `[::1]:8286` or `localhost:8286` (127.0.0.1).
@@ -56,7 +61,7 @@ struct ServerOptions {
   std::chrono::milliseconds idle_timeout = std::chrono::seconds(30);
   std::chrono::milliseconds write_timeout = std::chrono::seconds(30);  ///< a reader takes nothing
   /// How long stop() waits for requests in flight.
-  std::chrono::milliseconds drain_timeout = std::chrono::seconds(10);
+  std::chrono::milliseconds drain_timeout = std::chrono::seconds(7);
   std::optional<TlsOptions> tls{};
 };
 
@@ -115,7 +120,8 @@ class Server {
   Result<void> reload_tls();
 
   /// Stops accepting, closes idle connections, waits for requests in flight (at most
-  /// drain_timeout; streams are cut), closes the rest. Answers that come later are dropped.
+  /// drain_timeout; streams are cut), closes the rest and ends the I/O threads: when it returns,
+  /// nothing calls a handler, a hook or a stream any more. Answers that come later are dropped.
   void stop();
 
  private:

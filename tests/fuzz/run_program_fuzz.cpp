@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const app::RunFormat format = api::run_format();
   const std::string trace = format.trace(executed.trace);
   expect(api::parse_json(trace).has_value(), "the trace is no JSON", trace);
-  api::trace_csv(trace);
+  expect(api::trace_csv(trace).has_value(), "the trace gives no CSV", trace);
   const app::RunReport report{
       .id = 1, .program = path.text(), .result = std::move(executed.result), .seed = 1};
   const std::string answer = format.report(report);

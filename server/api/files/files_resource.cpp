@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/wire/json_writer.hpp"
@@ -16,7 +17,6 @@ namespace {
 using interpreter::ControlPath;
 
 constexpr std::size_t kBodyLimit = std::size_t{8} << 20;
-constexpr std::string_view kDrive = "TNC:\\";
 
 /// `nc_prog/8255/8255.h` is TNC:\nc_prog\8255\8255.h.
 Result<ControlPath> path_of(const http::Request& request) {
@@ -25,7 +25,7 @@ Result<ControlPath> path_of(const http::Request& request) {
 
 /// The same the other way round, as a path of this service.
 std::string href(std::string_view path) {
-  std::string out = "/v1/files/";
+  std::string out(kFiles);
   for (const char c : path.substr(kDrive.size())) {
     constexpr std::string_view kPlain = "-._~!$&'()*+,;=:@";
     const bool plain = is_ascii_alphanumeric(c) || kPlain.find(c) != std::string_view::npos;
@@ -44,6 +44,15 @@ std::string href(std::string_view path) {
 
 std::string etag(std::int64_t revision) { return '"' + std::to_string(revision) + '"'; }
 
+app::FileService::Precondition precondition_of(const http::Request& request) {
+  Preconditions conditions = preconditions_of(request);
+  if (!conditions.any()) return {};
+  return [conditions = std::move(conditions)](std::optional<std::int64_t> revision) {
+    if (!revision) return conditions.hold(std::nullopt);
+    return conditions.hold(etag(*revision));
+  };
+}
+
 std::optional<std::string> caller_of(const http::Request& request) {
   const auto name = caller_name(request);
   return name ? std::optional<std::string>(*name) : std::nullopt;
@@ -54,7 +63,7 @@ void put_file(const Services& services, const http::Request& request, http::Resp
   if (!path) return responder.fail(path.error());
   const std::string location = href(path->text());
   services.files.write(
-      *std::move(path), request.body(), caller_of(request),
+      *std::move(path), request.body(), caller_of(request), precondition_of(request),
       [location, shared = share(std::move(responder))](Result<app::FileService::Written> written) {
         if (!written) return shared->fail(written.error());
         http::Response response(written->created ? 201 : 200);
@@ -67,10 +76,13 @@ void get_file(const Services& services, const http::Request& request, http::Resp
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
   services.files.read(
-      *std::move(path), [shared = share(std::move(responder))](Result<app::DiskFile> file) {
+      *std::move(path), [if_match = preconditions_of(request).if_match,
+                         shared = share(std::move(responder))](Result<app::DiskFile> file) {
         if (!file) return shared->fail(file.error());
+        const std::string tag = etag(file->revision);
+        if (!Preconditions{.if_match = if_match}.hold(tag)) return shared->fail(other_state());
         http::Response response = foreign_bytes("application/octet-stream", std::move(file->bytes));
-        response.etag = etag(file->revision);
+        response.etag = tag;
         shared->answer(std::move(response));
       });
 }
@@ -79,7 +91,7 @@ void delete_file(const Services& services, const http::Request& request,
                  http::Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
-  services.files.remove(*std::move(path), caller_of(request),
+  services.files.remove(*std::move(path), caller_of(request), precondition_of(request),
                         [shared = share(std::move(responder))](const Result<bool>& removed) {
                           if (!removed) return shared->fail(removed.error());
                           shared->answer(http::Response(204));
@@ -169,6 +181,7 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
       .refusals = {404},
   });
+  add_precondition_parameters(routes.back().parameters);
   routes.push_back({
       .method = http::Method::Put,
       .pattern = "/v1/files/{path*}",
@@ -182,6 +195,7 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .outcomes = {{.meaning = "It is replaced"}, {.status = 201, .meaning = "It is new"}},
       .refusals = {412, 422},
   });
+  add_precondition_parameters(routes.back().parameters);
   routes.push_back({
       .method = http::Method::Delete,
       .pattern = "/v1/files/{path*}",
@@ -194,6 +208,7 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .outcomes = {{.status = 204, .meaning = "It is gone"}},
       .refusals = {404, 412},
   });
+  add_precondition_parameters(routes.back().parameters);
   routes.push_back({
       .method = http::Method::Post,
       .pattern = "/v1/files/{path*}",

@@ -1,7 +1,5 @@
 #include "api/runs/run_codec.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 
 #include "api/runs/trace_codec.hpp"
@@ -15,9 +13,9 @@ using interpreter::RunMessage;
 
 /// Fifteen digits: every decimal a program can write comes back as it was, and not with the last
 /// bit of a sum (25 + 21/1000 is 25.021).
-void write_double(JsonWriter& json, double value) {
-  json.raw(fmt::format("{:.15g}", value == 0 ? 0.0 : value));
-}
+constexpr int kDigits = 15;
+
+void write_double(JsonWriter& json, double value) { json.significant(value, kDigits); }
 
 void write_optional(JsonWriter& json, std::string_view name,
                     const std::optional<std::uint32_t>& n) {

@@ -1,42 +1,45 @@
 #include "api/runs/run_events.hpp"
 
+#include <charconv>
 #include <mutex>
 
+#include "api/wire/event_text.hpp"
 #include "api/wire/json_value.hpp"
 #include "api/wire/json_writer.hpp"
-#include "http/body_stream.hpp"
 
 namespace fitgauge::api {
 namespace {
 
-/// @param data one line of JSON
-void append_event(std::string& out, std::string_view name, std::string_view data) {
-  out += "event: ";
-  out += name;
-  out += "\ndata: ";
-  out += data;
-  out += "\n\n";
-}
+constexpr std::string_view kEnd = "end";
 
-void append_line(std::string& out, std::string_view line) {
+void append_line(std::string& out, std::string_view line, std::size_t number) {
   std::string data;
   JsonWriter json(data);
   json.begin_object().member("line", line).end_object();
-  append_event(out, "output", data);
+  append_event(out, "output", std::to_string(number), data);
 }
 
-void append_progress(std::string& out, app::RunState state, std::uint64_t blocks) {
+void append_progress(std::string& out, app::RunState state, std::uint64_t blocks,
+                     std::size_t lines) {
   std::string data;
   JsonWriter json(data);
   json.begin_object().member("status", word(state)).member("blocks_executed", blocks).end_object();
-  append_event(out, "progress", data);
+  append_event(out, "progress", std::to_string(lines), data);
+}
+
+/// How many lines a reader has had; an id that is none begins from the start.
+std::size_t lines_had(std::optional<std::string_view> last) {
+  std::size_t lines = 0;
+  if (last) std::from_chars(last->data(), last->data() + last->size(), lines);
+  return lines;
 }
 
 /// Follows one run; a slow reader gets what has happened meanwhile in one piece.
 class RunEventStream final : public http::BodyStream,
                              public std::enable_shared_from_this<RunEventStream> {
  public:
-  explicit RunEventStream(std::shared_ptr<app::ActiveRun> run) : run_(std::move(run)) {}
+  RunEventStream(std::shared_ptr<app::ActiveRun> run, std::size_t seen_lines)
+      : run_(std::move(run)), seen_lines_(seen_lines) {}
 
   void next(http::ChunkSink sink) override {
     {
@@ -62,44 +65,48 @@ class RunEventStream final : public http::BodyStream,
     if (sink == nullptr) return;
     const auto news = run_->news(seen_lines_);
     seen_version_ = news.version;
-    seen_lines_ += news.lines.size();
     std::string piece;
-    for (const std::string& line : news.lines) append_line(piece, line);
+    for (const std::string& line : news.lines) append_line(piece, line, ++seen_lines_);
     if (!news.end) {
-      append_progress(piece, news.state, news.blocks);
+      append_progress(piece, news.state, news.blocks, seen_lines_);
       return sink->put(std::move(piece));
     }
     if (!*news.end) return sink->fail();
-    append_event(piece, "end", (*news.end)->report);
+    append_event(piece, kEnd, kEnd, (*news.end)->report);
     sink->finish(std::move(piece));
   }
 
   const std::shared_ptr<app::ActiveRun> run_;
   std::uint64_t seen_version_ = 0;
-  std::size_t seen_lines_ = 0;
+  std::size_t seen_lines_;
   app::ActiveRun::Ticket ticket_ = 0;
   std::mutex mutex_;  // the connection may go while the run wakes the stream
   std::unique_ptr<http::ChunkSink> sink_;
 };
 
-constexpr const char* kEventStream = "text/event-stream";
-
 }  // namespace
 
-http::Response run_events(std::shared_ptr<app::ActiveRun> run) {
-  return http::Response(
-             200, kEventStream,
-             http::StreamedBody{.source = std::make_shared<RunEventStream>(std::move(run)),
-                                .heartbeat = ": alive\n\n"})
-      .with("Cache-Control", "no-store");
+http::Response run_events(std::shared_ptr<app::ActiveRun> run,
+                          std::optional<std::string_view> last) {
+  if (last == kEnd) return http::Response(204);
+  return event_response(std::make_shared<RunEventStream>(std::move(run), lines_had(last)));
 }
 
-http::Response finished_run_events(const std::string& report) {
+Result<http::Response> finished_run_events(const std::string& report,
+                                           std::optional<std::string_view> last) {
+  if (last == kEnd) return http::Response(204);
+  const Result<JsonValue> run = parse_stored_json(report, "report of a run");
+  if (!run) return run.error();
   std::string body;
-  const JsonValue run = parse_json(report).value();
-  for (const JsonValue& line : run.find("screen")->items) append_line(body, line.text);
-  append_event(body, "end", report);
-  return http::Response(200, kEventStream, std::move(body)).with("Cache-Control", "no-store");
+  std::size_t number = 0;
+  const std::size_t had = lines_had(last);
+  if (const JsonValue* screen = run->find("screen")) {
+    for (const JsonValue& line : screen->items) {
+      if (++number > had) append_line(body, line.text, number);
+    }
+  }
+  append_event(body, kEnd, kEnd, report);
+  return event_response(std::move(body));
 }
 
 }  // namespace fitgauge::api

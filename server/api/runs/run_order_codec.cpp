@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "api/files/file_path.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"
@@ -28,7 +29,7 @@ constexpr std::array<Language, 4> kLanguages{{{"english", klartext::MaskLanguage
 std::optional<interpreter::ControlPath> read_program(FieldReader& fields) {
   const auto text = fields.text("program");
   if (!text) return std::nullopt;
-  auto path = interpreter::ControlPath::parse(*text);
+  auto path = parse_file_path(*text);
   if (path) return *std::move(path);
   fields.report(path.error().code, "program", path.error().message);
   return std::nullopt;
@@ -125,7 +126,9 @@ Result<void> put_setup_in_place(JsonValue& body, const FindSetup& find_setup, Fi
   if (member == body.members.end() || !member->second.is(Kind::String)) return {};
   const auto found = find_setup(member->second.text);
   if (found) {
-    member->second = parse_json(found->text).value();
+    auto setup = parse_stored_json(found->text, "setup " + found->name);
+    if (!setup) return setup.error();
+    member->second = *std::move(setup);
     return {};
   }
   if (found.error().code != ErrorCode::SetupUnknown) return found.error();

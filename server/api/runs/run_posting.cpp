@@ -55,9 +55,14 @@ void replay(const SharedPosting& posting, app::Answer kept) {
     return posting->responder.answer(
         response_of(std::move(kept)).with("Idempotency-Replayed", "true"));
   }
-  const auto id = app::parse_run_id(std::string_view(kept.location).substr(kRuns.size()));
-  posting->services.runs.find(id.value(), [posting, kept = std::move(kept)](
-                                              Result<app::StoredRun> run) mutable {
+  const std::string_view location = kept.location;
+  const auto id = app::parse_run_id(location.substr(std::min(kRuns.size(), location.size())));
+  if (!id) {
+    return posting->responder.fail(
+        {ErrorCode::StorageCorrupt, "the answer kept under this Idempotency-Key names no run"});
+  }
+  posting->services.runs.find(*id, [posting,
+                                    kept = std::move(kept)](Result<app::StoredRun> run) mutable {
     if (!run) return posting->responder.fail(run.error());
     if (run->report.empty()) {
       return posting->responder.fail({ErrorCode::IdempotencyInProgress,

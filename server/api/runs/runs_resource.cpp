@@ -1,10 +1,12 @@
 #include "api/runs/runs_resource.hpp"
 
+#include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/runs/run_events.hpp"
 #include "api/runs/run_posting.hpp"
 #include "api/runs/trace_codec.hpp"
+#include "api/wire/event_text.hpp"
 #include "app/measurements/measurement.hpp"
 #include "app/runs/run_service.hpp"
 #include "base/text.hpp"
@@ -18,22 +20,27 @@ Result<std::int64_t> id_of(const http::Request& request) {
   return app::parse_run_id(*request.text("id"));
 }
 
-/// Calls `answer(run object as JSON)` for a run in whatever state.
+void answer(http::Responder& responder, Result<http::Response> response) {
+  if (!response) return responder.fail(std::move(response).error());
+  responder.answer(*std::move(response));
+}
+
+/// Answers with `answer_of(run object as JSON)`, a Result<Response>, for a run in whatever state.
 template <class Answer>
 void with_run_json(const Services& services, const http::Request& request,
-                   http::Responder responder, const Answer& answer) {
+                   http::Responder responder, const Answer& answer_of) {
   const auto id = id_of(request);
   if (!id) return responder.fail(id.error());
   if (const auto active = services.runs.active(*id)) {
     const auto end = active->news(0).end;
-    if (!end) return responder.answer(answer(unfinished_run_json(*active)));
-    if (*end) return responder.answer(answer((*end)->report));
+    if (!end) return answer(responder, answer_of(unfinished_run_json(*active)));
+    if (*end) return answer(responder, answer_of((*end)->report));
   }
   services.runs.find(
-      *id, [answer, shared = share(std::move(responder))](Result<app::StoredRun> run) {
+      *id, [answer_of, shared = share(std::move(responder))](Result<app::StoredRun> run) {
         if (!run) return shared->fail(run.error());
-        shared->answer(
-            answer(run->report.empty() ? unfinished_run_json(*run) : std::move(run->report)));
+        answer(*shared,
+               answer_of(run->report.empty() ? unfinished_run_json(*run) : std::move(run->report)));
       });
 }
 
@@ -47,12 +54,18 @@ void get_run(const Services& services, const http::Request& request, http::Respo
 
 void get_parameters(const Services& services, const http::Request& request,
                     http::Responder responder) {
-  with_run_json(services, request, std::move(responder), [](const std::string& run) {
-    std::string body;
-    JsonWriter json(body);
-    write_json(json, *parse_json(run).value().find("parameters"));
-    return json_response(std::move(body));
-  });
+  with_run_json(services, request, std::move(responder),
+                [](const std::string& report) -> Result<http::Response> {
+                  const auto run = parse_stored_json(report, "report of a run");
+                  if (!run) return run.error();
+                  const JsonValue* parameters = run->find("parameters");
+                  std::string body;
+                  JsonWriter json(body);
+                  write_json(json, parameters != nullptr
+                                       ? *parameters
+                                       : JsonValue{.kind = JsonValue::Kind::Object});
+                  return json_response(std::move(body));
+                });
 }
 
 void get_request(const Services& services, const http::Request& request,
@@ -89,23 +102,24 @@ void get_trace(const Services& services, const http::Request& request, http::Res
   const bool csv = request.response_type() == "text/csv";
   services.runs.trace(*id, [csv, shared = share(std::move(responder))](Result<std::string> trace) {
     if (!trace) return shared->fail(trace.error());
-    http::Response response =
-        csv ? http::Response(200, "text/csv; charset=utf-8; header=present", trace_csv(*trace))
-            : json_response(*std::move(trace));
-    shared->answer(std::move(response).with("Vary", "Accept"));
+    Result<std::string> body = csv ? trace_csv(*trace) : std::move(trace);
+    if (!body) return shared->fail(body.error());
+    const char* const type = csv ? "text/csv; charset=utf-8; header=present" : "application/json";
+    shared->answer(http::Response(200, type, *std::move(body)).with("Vary", "Accept"));
   });
 }
 
 void get_events(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = id_of(request);
   if (!id) return responder.fail(id.error());
+  const auto last = last_event_id(request);
   if (auto active = services.runs.active(*id)) {
-    return responder.answer(run_events(std::move(active)));
+    return responder.answer(run_events(std::move(active), last));
   }
-  services.runs.find(*id, [shared = share(std::move(responder))](Result<app::StoredRun> run) {
+  services.runs.find(*id, [last, shared = share(std::move(responder))](Result<app::StoredRun> run) {
     if (!run) return shared->fail(run.error());
     const std::string& report = run->report;
-    shared->answer(finished_run_events(report.empty() ? unfinished_run_json(*run) : report));
+    answer(*shared, finished_run_events(report.empty() ? unfinished_run_json(*run) : report, last));
   });
 }
 
@@ -137,7 +151,7 @@ void list_runs(const Services& services, const http::Request& request, http::Res
   app::RunQuery query;
   if (const auto status = request.text("status")) query.state = app::run_state_from_word(*status);
   if (const auto program = request.text("program")) {
-    const auto path = interpreter::ControlPath::parse(*program);
+    const auto path = parse_file_path(*program);
     if (!path) return responder.fail(path.error());
     query.program = path->text();
   }
@@ -170,7 +184,8 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
                       .type = http::Words{{"queued", "running", "completed", "stopped", "failed",
                                            "limit_exceeded", "cancelled"}},
                       .description = "Only this status"},
-                     {.name = "program", .description = "Only this program: TNC:\\nc_prog\\8255.h"},
+                     {.name = "program",
+                      .description = "Only this program: TNC:\\nc_prog\\8255.h, or nc_prog/8255.h"},
                      {.name = "limit",
                       .type = http::Integer{.min = 1, .max = 1000},
                       .description = "Most runs of a page; 100 when absent"},
@@ -244,8 +259,10 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .pattern = "/v1/runs/{id}/events",
       .handler = with(services, get_events),
       .summary = "Server-Sent Events: progress, output, end",
+      .description = "The id of an event is the number of lines told so far, or `end`: a reader "
+                     "that comes back gets what follows, and 204 after `end`.",
       .parameters = {kId},
-      .response_types = {"text/event-stream"},
+      .response_types = {std::string(kEventStreamType)},
       .access = "viewer",
       .operation = "followRun",
       .tag = "runs",
@@ -253,6 +270,7 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
                    {.status = 204, .meaning = "It is over and all was read"}},
       .refusals = {404},
   });
+  add_last_event_id(routes.back().parameters);
 }
 
 }  // namespace

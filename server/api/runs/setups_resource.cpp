@@ -9,6 +9,7 @@
 #include "api/wire/request_facts.hpp"
 #include "app/runs/run_service.hpp"
 #include "app/runs/setup_service.hpp"
+#include "base/digest.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -24,6 +25,21 @@ Result<std::string> name_of(const http::Request& request) {
   if (!name.empty() && name.size() <= kLongestName && printable) return std::string(name);
   return Error{ErrorCode::PathMalformed,
                "the name of a setup has 1 to 100 bytes without / and \\ and control characters"};
+}
+
+/// Strong: texts that differ in a byte have different tags.
+std::string etag(std::string_view text) {
+  constexpr std::size_t kTagDigits = 32;
+  return '"' + to_hex(sha256(text)).substr(0, kTagDigits) + '"';
+}
+
+app::SetupService::Precondition precondition_of(const http::Request& request) {
+  Preconditions conditions = preconditions_of(request);
+  if (!conditions.any()) return {};
+  return [conditions = std::move(conditions)](std::optional<std::string_view> text) {
+    if (!text) return conditions.hold(std::nullopt);
+    return conditions.hold(etag(*text));
+  };
 }
 
 /// Decoding may take long (a surface of many points), so it is not done on an I/O thread.
@@ -43,27 +59,34 @@ void put_setup(const Services& services, const http::Request& request, http::Res
         decode_builder(*body, "", options, errors);
         if (auto error = errors.take()) return shared->fail(std::move(*error));
         const auto caller = caller_name(request);
-        services.setups.write(name, std::string(request.body()),
-                              caller ? std::optional<std::string>(*caller) : std::nullopt,
-                              [shared](Result<bool> created) {
-                                if (!created) return shared->fail(created.error());
-                                shared->answer(http::Response(*created ? 201 : 200));
-                              });
+        services.setups.write(
+            name, std::string(request.body()),
+            caller ? std::optional<std::string>(*caller) : std::nullopt, precondition_of(request),
+            [shared, tag = etag(request.body())](Result<bool> created) {
+              if (!created) return shared->fail(created.error());
+              shared->answer(http::Response(*created ? 201 : 200).with("ETag", tag));
+            });
       },
       [shared](Error error) { shared->fail(std::move(error)); });
 }
 
 void get_setup(const Services& services, const http::Request& request, http::Responder responder) {
   services.setups.read(std::string(*request.text("name")),
-                       [shared = share(std::move(responder))](Result<app::NamedSetup> setup) {
+                       [if_match = preconditions_of(request).if_match,
+                        shared = share(std::move(responder))](Result<app::NamedSetup> setup) {
                          if (!setup) return shared->fail(setup.error());
-                         shared->answer({200, "application/json", std::move(setup->text)});
+                         const std::string tag = etag(setup->text);
+                         if (!Preconditions{.if_match = if_match}.hold(tag))
+                           return shared->fail(other_state());
+                         http::Response response(200, "application/json", std::move(setup->text));
+                         response.etag = tag;
+                         shared->answer(std::move(response));
                        });
 }
 
 void delete_setup(const Services& services, const http::Request& request,
                   http::Responder responder) {
-  services.setups.remove(std::string(*request.text("name")),
+  services.setups.remove(std::string(*request.text("name")), precondition_of(request),
                          [shared = share(std::move(responder))](const Result<bool>& removed) {
                            if (!removed) return shared->fail(removed.error());
                            shared->answer(http::Response(204));
@@ -113,6 +136,7 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .outcomes = {{.meaning = "The setup", .schema = "Setup"}},
       .refusals = {404},
   });
+  add_precondition_parameters(routes.back().parameters);
   routes.push_back({
       .method = http::Method::Put,
       .pattern = "/v1/setups/{name}",
@@ -128,6 +152,7 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .outcomes = {{.meaning = "It is replaced"}, {.status = 201, .meaning = "It is new"}},
       .refusals = {412},
   });
+  add_precondition_parameters(routes.back().parameters);
   routes.push_back({
       .method = http::Method::Delete,
       .pattern = "/v1/setups/{name}",
@@ -140,6 +165,7 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .outcomes = {{.status = 204, .meaning = "It is gone"}},
       .refusals = {404, 412},
   });
+  add_precondition_parameters(routes.back().parameters);
 }
 
 }  // namespace fitgauge::api

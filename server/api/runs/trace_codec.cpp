@@ -19,20 +19,15 @@ using machine::Axis;
 constexpr std::size_t kLinearAxes = 3;
 constexpr std::string_view kHead = "{\"moves\":[\n";
 
-/// Ten decimals without trailing zeros: what the arithmetic of a path adds beyond is noise.
-std::string number(double value) {
-  std::string digits = fmt::format("{:.10f}", value);
-  digits.erase(digits.find_last_not_of('0') + 1);
-  if (digits.back() == '.') digits.pop_back();
-  return digits == "-0" ? "0" : digits;
-}
+/// What the arithmetic of a path adds beyond is noise.
+constexpr int kDecimals = 10;
 
 void write_position(JsonWriter& json, std::string_view which, const machine::Position& position,
                     const std::vector<Axis>& axes) {
   json.key(std::string(which) + "_mm").begin_object();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (i == kLinearAxes) json.end_object().key(std::string(which) + "_deg").begin_object();
-    json.key(name(axes[i])).raw(number(position[axes[i]]));
+    json.key(name(axes[i])).fixed(position[axes[i]], kDecimals);
   }
   json.end_object();
 }
@@ -40,14 +35,14 @@ void write_position(JsonWriter& json, std::string_view which, const machine::Pos
 void write_point(JsonWriter& json, std::string_view key, const machine::Vec3& point) {
   json.key(key).begin_object();
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
-    json.key(name(axis)).raw(number(point[index(axis)]));
+    json.key(name(axis)).fixed(point[index(axis)], kDecimals);
   }
   json.end_object();
 }
 
 void write_arc(JsonWriter& json, const machine::TracedArc& arc) {
   write_point(json, "center_mm", arc.centre);
-  json.key("sweep_deg").raw(number(arc.sweep_deg)).member("axis", name(arc.axis));
+  json.key("sweep_deg").fixed(arc.sweep_deg, kDecimals).member("axis", name(arc.axis));
   write_point(json, "machine_center_mm", arc.machine_centre);
   write_point(json, "machine_axis", arc.machine_axis);
 }
@@ -72,7 +67,10 @@ void write_move(JsonWriter& json, const machine::TracedMove& move, const app::Ru
   json.member("line", place.line).member("program", place.program);
   write_position(json, "start", move.start, trace.axes);
   write_position(json, "end", move.end, trace.axes);
-  json.key("feed_mm_min").raw(number(move.feed_mm_min)).key("seconds").raw(number(move.seconds));
+  json.key("feed_mm_min")
+      .fixed(move.feed_mm_min, kDecimals)
+      .key("seconds")
+      .fixed(move.seconds, kDecimals);
   if (move.contact) {
     write_point(json, "contact_mm", move.contact->surface);
   } else {
@@ -171,7 +169,7 @@ std::string trace_json(const app::RunTrace& trace) {
   return out;
 }
 
-std::string trace_csv(std::string_view json) {
+Result<std::string> trace_csv(std::string_view json) {
   std::string out;
   std::vector<Column> columns;
   json.remove_prefix(std::min(kHead.size(), json.size()));
@@ -180,7 +178,9 @@ std::string trace_csv(std::string_view json) {
     std::string_view line = json.substr(0, end);
     json.remove_prefix(std::min(end + 1, json.size()));
     if (line.ends_with(',')) line.remove_suffix(1);
-    const JsonValue move = parse_json(line).value();
+    const Result<JsonValue> parsed = parse_stored_json(line, "trace of a run");
+    if (!parsed) return parsed.error();
+    const JsonValue& move = *parsed;
     if (columns.empty()) {
       columns = columns_of(move);
       append_row(out, columns, [&out](const Column& column) { out += column.title(); });

@@ -6,11 +6,9 @@
 namespace fitgauge::api {
 namespace {
 
-/// The header a browser sends when it connects again goes before the query it first sent.
 EventStream::Start start_of(const http::Request& request) {
-  auto named = request.text("Last-Event-ID");
-  if (!named) named = request.text("last_event_id");
-  if (!named || named->empty()) return {};
+  const auto named = last_event_id(request);
+  if (!named) return {};
   const auto position = app::parse_event_id(*named);
   return {.after = position, .gap = !position};
 }
@@ -18,14 +16,9 @@ EventStream::Start start_of(const http::Request& request) {
 http::Response stream_events(const Services& services, const http::Request& request) {
   const auto source = request.text("source");
   // `all` is no source, so that the filter is off.
-  auto stream = std::make_shared<EventStream>(
+  return event_response(std::make_shared<EventStream>(
       services.events, start_of(request),
-      source ? app::source_from_word(*source) : std::optional(app::Source::Gauge));
-  http::Response response(
-      200, std::string(kEventStreamType),
-      http::StreamedBody{.source = std::move(stream), .heartbeat = std::string(kEventHeartbeat)});
-  response.with("Cache-Control", "no-store").with("X-Accel-Buffering", "no");
-  return response;
+      source ? app::source_from_word(*source) : std::optional(app::Source::Gauge)));
 }
 
 }  // namespace
@@ -43,18 +36,14 @@ void add_events_routes(std::vector<http::Route>& routes, const Services& service
           "that some are gone.",
       .parameters = {{.name = "source",
                       .type = http::Words{{"gauge", "simulation", "all"}},
-                      .description = "Of the measurements; gauge when absent"},
-                     {.name = "last_event_id",
-                      .description = "The id of the last event, where the header cannot be set"},
-                     {.name = "Last-Event-ID",
-                      .place = http::ParameterPlace::Header,
-                      .description = "The id of the last event that was read"}},
+                      .description = "Of the measurements; gauge when absent"}},
       .response_types = {std::string(kEventStreamType)},
       .access = "viewer",
       .operation = "followEvents",
       .tag = "service",
       .outcomes = {{.meaning = "Events without an end", .schema = "Event"}},
   });
+  add_last_event_id(routes.back().parameters);
 }
 
 }  // namespace fitgauge::api

@@ -7,6 +7,8 @@
 namespace fitgauge::api {
 namespace {
 
+constexpr std::string_view kTokenPrefix = "fg_";
+
 /// What a route asks for, in rising order: `public` (health, even in keys mode), `open`, and roles.
 enum class Access { Public, Open, Viewer, Operator, Admin };
 
@@ -24,6 +26,7 @@ bool is_write(http::Method method) {
 }
 
 /// `Authorization: Bearer fg_…`, or `X-API-Key: fg_…` for clients that cannot set the former.
+/// Empty for credentials of another scheme.
 std::optional<std::string_view> token_of(const http::Request& request) {
   constexpr std::string_view kScheme = "bearer ";
   if (const auto header = request.header("Authorization")) {
@@ -35,6 +38,10 @@ std::optional<std::string_view> token_of(const http::Request& request) {
   }
   if (const auto header = request.header("X-API-Key")) return trim(*header);
   return std::nullopt;
+}
+
+Error invalid_key() {
+  return {ErrorCode::KeyInvalid, "this key is not valid: it is unknown or was revoked"};
 }
 
 /// A page of another site whose name was made to resolve to this machine addresses it by that name,
@@ -52,6 +59,19 @@ bool may_be_rebound(const http::Request& request) {
 
 }  // namespace
 
+/// HTTP/1.0 with `Connection: close` is what nginx sends by default: behind it everybody would be
+/// of this machine.
+void Guard::warn_of_proxy(const http::Request& request) const {
+  if (!request.is_http_1_0() || !proxy_seen_) return;
+  const auto connection = request.header("Connection");
+  if (!connection || !ascii_iequals(trim(*connection), "close")) return;
+  if (warned_->exchange(true)) return;
+  proxy_seen_(
+      "a request came as a proxy sends it (HTTP/1.0, Connection: close) and says nothing of "
+      "its client: whoever reaches that proxy may write. Start with --auth read-open, or "
+      "let the proxy set X-Forwarded-For");
+}
+
 Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
                                                         const http::Route& route) const {
   if (is_write(request.method())) {
@@ -63,22 +83,26 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
     }
   }
 
+  const Access access = access_of(route);
+  if (access == Access::Public) return std::optional<http::Response>();
+  if (request.is_health_only()) {
+    return Error{ErrorCode::Forbidden, "this port answers /livez and /readyz alone"};
+  }
+  const auto token = token_of(request);
   std::optional<app::KnownCaller> caller;
-  if (const auto token = token_of(request)) {
+  if (token && !token->empty()) {
     caller = keys_.find(*token);
-    if (!caller) {
-      return Error{ErrorCode::KeyInvalid, "this key is not valid: it is unknown or was revoked"};
-    }
-    request.set_caller(Caller{caller->name});
+    // What does not look like a key is of a proxy or another service: no business of ours.
+    if (!caller && token->starts_with(kTokenPrefix)) return invalid_key();
+    if (caller) request.set_caller(Caller{caller->name});
   }
   if (mode_ == AuthMode::Open && request.is_local() && !may_be_rebound(request)) {
+    warn_of_proxy(request);
     return std::optional<http::Response>();
   }
-  const Access access = access_of(route);
-  if (access == Access::Public || (mode_ != AuthMode::Keys && access == Access::Open)) {
-    return std::optional<http::Response>();
-  }
+  if (mode_ != AuthMode::Keys && access == Access::Open) return std::optional<http::Response>();
   if (!caller) {
+    if (token) return invalid_key();
     return Error{ErrorCode::Unauthenticated,
                  "send a key: `Authorization: Bearer fg_…`; an administrator makes one with "
                  "`fitgauged key create`"};

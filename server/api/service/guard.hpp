@@ -1,6 +1,11 @@
 #pragma once
 
+#include <atomic>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "api/service/caller.hpp"
 #include "app/service/key_service.hpp"
@@ -19,15 +24,23 @@ enum class AuthMode {
 /// with one that is not enough or for a write that another site's page sent.
 class Guard {
  public:
-  Guard(const app::KeyService& keys, AuthMode mode) : keys_(keys), mode_(mode) {}
+  /// @param proxy_seen is told once of a proxy that hides its clients, where that opens the service
+  ///   to all of them.
+  Guard(const app::KeyService& keys, AuthMode mode,
+        std::function<void(std::string_view)> proxy_seen = {})
+      : keys_(keys), mode_(mode), proxy_seen_(std::move(proxy_seen)) {}
 
   /// The hook of http::ServerHooks; sets the request's caller.
   Result<std::optional<http::Response>> operator()(http::Request& request,
                                                    const http::Route& route) const;
 
  private:
+  void warn_of_proxy(const http::Request& request) const;
+
   const app::KeyService& keys_;
   AuthMode mode_;
+  std::function<void(std::string_view)> proxy_seen_;
+  std::shared_ptr<std::atomic<bool>> warned_ = std::make_shared<std::atomic<bool>>(false);
 };
 
 }  // namespace fitgauge::api

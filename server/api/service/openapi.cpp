@@ -48,7 +48,6 @@ void write_schema(JsonWriter& json, const http::ParameterType& type) {
             for (const std::string& word : words.words) json.value(word);
             json.end_array();
           },
-          [&](const http::Boolean&) { json.member("type", "boolean"); },
           [&](const http::Time&) { json.member("type", "string").member("format", "date-time"); },
       },
       type);

@@ -1,11 +1,20 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "http/body_stream.hpp"
+#include "http/request.hpp"
+#include "http/response.hpp"
+#include "http/route.hpp"
 
 namespace fitgauge::api {
 
-// The text of Server-Sent Events (WHATWG HTML, 9.2).
+// Server-Sent Events (WHATWG HTML, 9.2), the same for all that follow something.
 
 inline constexpr std::string_view kEventStreamType = "text/event-stream";
 
@@ -22,6 +31,35 @@ inline void append_event(std::string& out, std::string_view type, std::string_vi
 /// No event, but the id a reader names when it comes back before there was one.
 inline void append_event_id(std::string& out, std::string_view id) {
   out.append("id: ").append(id).append("\n\n");
+}
+
+/// The answer that carries events: kept by no cache, held back by no proxy.
+inline http::Response event_response(http::Body events) {
+  return http::Response(200, std::string(kEventStreamType), std::move(events))
+      .with("Cache-Control", "no-store")
+      .with("X-Accel-Buffering", "no");
+}
+inline http::Response event_response(std::shared_ptr<http::BodyStream> source) {
+  return event_response(
+      http::StreamedBody{.source = std::move(source), .heartbeat = std::string(kEventHeartbeat)});
+}
+
+/// The parameters by which a reader that comes back names the last event it had.
+inline void add_last_event_id(std::vector<http::Parameter>& parameters) {
+  parameters.push_back({.name = "last_event_id",
+                        .description = "The id of the last event, where the header cannot be set"});
+  parameters.push_back({.name = "Last-Event-ID",
+                        .place = http::ParameterPlace::Header,
+                        .description = "The id of the last event that was read"});
+}
+
+/// What they say, if anything. The header, which a browser sends when it connects again, goes
+/// before the query it first sent.
+inline std::optional<std::string_view> last_event_id(const http::Request& request) {
+  auto named = request.text("Last-Event-ID");
+  if (!named) named = request.text("last_event_id");
+  if (named && named->empty()) return std::nullopt;
+  return named;
 }
 
 }  // namespace fitgauge::api

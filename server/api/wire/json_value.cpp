@@ -165,6 +165,14 @@ Result<JsonValue> parse_json(std::string_view text) {
   return builder.take();
 }
 
+Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what) {
+  auto value = parse_json(text);
+  if (value) return value;
+  return Error{ErrorCode::StorageCorrupt,
+               fmt::format("the stored {} cannot be read ({}); restore a backup or delete it", what,
+                           value.error().message)};
+}
+
 std::string pointer_to(std::string_view pointer, std::string_view token) {
   std::string out(pointer);
   out += '/';

@@ -34,6 +34,10 @@ std::string_view name_of(JsonValue::Kind kind);
 ///   values).
 Result<JsonValue> parse_json(std::string_view text);
 
+/// The same of a text the service has stored itself. @param what names it in the message.
+/// @errors StorageCorrupt.
+Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what);
+
 /// `pointer` with one more token, escaped as RFC 6901 has it.
 std::string pointer_to(std::string_view pointer, std::string_view token);
 std::string pointer_to(std::string_view pointer, std::size_t index);

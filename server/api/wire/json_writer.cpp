@@ -1,5 +1,7 @@
 #include "api/wire/json_writer.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -73,6 +75,26 @@ JsonWriter& JsonWriter::figure(long double value) {
       std::to_chars(std::begin(digits), std::end(digits), value, std::chars_format::general, 17)
           .ptr;
   out_.append(std::begin(digits), end);
+  return *this;
+}
+
+JsonWriter& JsonWriter::significant(double value, int digits) {
+  if (!std::isfinite(value)) return null();
+  separate();
+  fmt::format_to(std::back_inserter(out_), "{:.{}g}", value == 0 ? 0.0 : value, digits);
+  return *this;
+}
+
+JsonWriter& JsonWriter::fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return null();
+  separate();
+  const std::size_t start = out_.size();
+  fmt::format_to(std::back_inserter(out_), "{:.{}f}", value, decimals);
+  if (decimals > 0) {
+    out_.erase(out_.find_last_not_of('0') + 1);
+    if (out_.back() == '.') out_.pop_back();
+  }
+  if (std::string_view(out_).substr(start) == "-0") out_.replace(start, std::string::npos, "0");
   return *this;
 }
 

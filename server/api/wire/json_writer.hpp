@@ -30,6 +30,10 @@ class JsonWriter {
   JsonWriter& value(double value);
   /// 17 significant digits, the nearest to the value; null when it is not finite.
   JsonWriter& figure(long double value);
+  /// At most so many significant digits; null when it is not finite.
+  JsonWriter& significant(double value, int digits);
+  /// At most so many decimals, without trailing zeros; null when it is not finite.
+  JsonWriter& fixed(double value, int decimals);
   JsonWriter& value(std::string_view text);
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
   JsonWriter& value(const char* text) { return value(std::string_view(text)); }
@@ -37,7 +41,7 @@ class JsonWriter {
   JsonWriter& um(Length length);
   /// value / 10^scale, exactly.
   JsonWriter& decimal(std::int64_t value, int scale);
-  /// Appends a complete JSON value that is already text.
+  /// Appends a complete JSON value that is already text; numbers have functions of their own.
   JsonWriter& raw(std::string_view json);
 
   template <class T>

@@ -4,61 +4,52 @@
 
 #include "api/service/caller.hpp"
 #include "base/text.hpp"
+#include "http/field_list.hpp"
 
 namespace fitgauge::api {
 namespace {
 
-std::vector<std::string_view> list_items(std::string_view text, std::string_view separators) {
-  std::vector<std::string_view> items;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of(separators), text.size());
-    if (const auto item = trim(text.substr(0, end)); !item.empty()) items.push_back(item);
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return items;
+using http::list_items;
+using http::NameValue;
+using http::split_parameter;
+using http::take_part;
+
+/// Calls `visit(NameValue)` for each preference, without its parameters (RFC 7240, 2).
+template <class Visit>
+void for_each_preference(const http::Request& request, const Visit& visit) {
+  const auto header = request.header_list("Prefer");
+  if (!header) return;
+  for (std::string_view item : list_items(*header)) visit(split_parameter(take_part(item, ';')));
 }
 
 }  // namespace
 
 Preference preference_of(const http::Request& request) {
-  const auto header = request.header_list("Prefer");
-  if (!header) return Preference::None;
-  // The first of several counts (RFC 7240, 2).
-  for (const std::string_view preference : list_items(*header, ",;")) {
-    const std::size_t equals = preference.find('=');
-    if (equals == std::string_view::npos ||
-        !ascii_iequals(trim(preference.substr(0, equals)), "return")) {
-      continue;
-    }
-    std::string_view value = trim(preference.substr(equals + 1));
-    if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
-      value = value.substr(1, value.size() - 2);
-    }
-    if (value == "minimal") return Preference::Minimal;
-    if (value == "representation") return Preference::Representation;
-  }
-  return Preference::None;
+  Preference found = Preference::None;
+  for_each_preference(request, [&](const NameValue& preference) {
+    // The first of several counts.
+    if (found != Preference::None || !ascii_iequals(preference.name, "return")) return;
+    if (preference.value == "minimal") found = Preference::Minimal;
+    if (preference.value == "representation") found = Preference::Representation;
+  });
+  return found;
 }
 
 bool prefers_async(const http::Request& request) {
-  const auto header = request.header_list("Prefer");
-  if (!header) return false;
-  const auto preferences = list_items(*header, ",;");
-  return std::any_of(preferences.begin(), preferences.end(),
-                     [](std::string_view item) { return ascii_iequals(item, "respond-async"); });
+  bool found = false;
+  for_each_preference(request, [&](const NameValue& preference) {
+    found |= ascii_iequals(preference.name, "respond-async");
+  });
+  return found;
 }
 
 bool accepts_gzip(const http::Request& request) {
   const auto header = request.header_list("Accept-Encoding");
   if (!header) return false;
-  const auto is_taken = [](std::string_view coding) {
-    const auto parts = list_items(coding, ";");
-    if (parts.empty() || !ascii_iequals(parts.front(), "gzip")) return false;
-    const std::string_view weight = parts.size() > 1 ? parts[1] : "q=1";
-    return weight.find_first_of("123456789") != std::string_view::npos;
-  };
-  const auto codings = list_items(*header, ",");
-  return std::any_of(codings.begin(), codings.end(), is_taken);
+  const auto items = list_items(*header);
+  return std::any_of(items.begin(), items.end(), [](std::string_view item) {
+    return ascii_iequals(take_part(item, ';'), "gzip") && http::quality(item) > 0;
+  });
 }
 
 Result<std::optional<std::string>> idempotency_key(const http::Request& request) {
@@ -85,13 +76,38 @@ std::optional<std::vector<std::string>> revisions_to_match(const http::Request& 
   const auto header = request.header_list("If-Match");
   if (!header || trim(*header) == "*") return std::nullopt;
   std::vector<std::string> revisions;
-  for (std::string_view tag : list_items(*header, ",")) {
+  for (std::string_view tag : list_items(*header)) {
     // If-Match compares strongly: a weak tag never matches (RFC 9110, 13.1.1).
     if (tag.size() < 2 || tag.front() != '"' || tag.back() != '"') continue;
     tag = tag.substr(1, tag.size() - 2);
     revisions.emplace_back(tag.substr(0, tag.find('.')));
   }
   return revisions;
+}
+
+Preconditions preconditions_of(const http::Request& request) {
+  return {.if_match = request.header_list("If-Match"),
+          .if_none_match = request.header_list("If-None-Match")};
+}
+
+bool Preconditions::hold(std::optional<std::string_view> etag) const {
+  if (if_match && !(etag && http::names_etag_strongly(*if_match, *etag))) return false;
+  return !(if_none_match && etag && http::names_etag_weakly(*if_none_match, *etag));
+}
+
+/// As much as a header section holds.
+constexpr std::size_t kLongestTags = std::size_t{32} << 10;
+
+void add_precondition_parameters(std::vector<http::Parameter>& parameters) {
+  parameters.push_back({.name = "If-Match",
+                        .place = http::ParameterPlace::Header,
+                        .type = http::Text{.max_length = kLongestTags},
+                        .description = "Tags of which one must be the current one, or * for any"});
+  parameters.push_back(
+      {.name = "If-None-Match",
+       .place = http::ParameterPlace::Header,
+       .type = http::Text{.max_length = kLongestTags},
+       .description = "Tags of which none may be the current one, or * for none at all"});
 }
 
 std::optional<std::string_view> caller_name(const http::Request& request) {

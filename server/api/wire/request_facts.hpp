@@ -7,6 +7,7 @@
 
 #include "base/result.hpp"
 #include "http/request.hpp"
+#include "http/route.hpp"
 
 namespace fitgauge::api {
 
@@ -25,6 +26,20 @@ Result<std::optional<std::string>> idempotency_key(const http::Request& request)
 
 /// The revisions an If-Match names, from their entity tags; none without the header or with `*`.
 std::optional<std::vector<std::string>> revisions_to_match(const http::Request& request);
+
+/// What must be true of the current representation before a request is carried out (RFC 9110,
+/// section 13): evaluated in the transaction that does it.
+struct Preconditions {
+  std::optional<std::string> if_match{};
+  std::optional<std::string> if_none_match{};
+
+  bool any() const { return if_match || if_none_match; }
+  /// @param etag of the current representation; none where there is none.
+  bool hold(std::optional<std::string_view> etag) const;
+};
+Preconditions preconditions_of(const http::Request& request);
+/// The header parameters of the routes that honour them.
+void add_precondition_parameters(std::vector<http::Parameter>& parameters);
 
 /// The name of the key that sent the request, if one did.
 std::optional<std::string_view> caller_name(const http::Request& request);

@@ -3,18 +3,11 @@
 namespace fitgauge::api {
 namespace {
 
-/// A target is at most 8 KiB: long ones are not worth a place.
-constexpr std::size_t kLongestKey = 256;
-constexpr std::size_t kMostAnswers = 4096;
-
-/// The path, the query and the form together name an answer.
-void make_key(const http::Request& request, std::string& key) {
-  key.assign(request.path());
-  key += '?';
-  key += request.query();
-  key += ' ';
-  key += request.response_type();
-}
+constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+/// A longer answer is sent from where it lies, and a few of them would take all the room.
+constexpr std::size_t kLongestAnswer = std::size_t{64} << 10;
+/// Of an entry beside its texts.
+constexpr std::size_t kOverhead = 256;
 
 }  // namespace
 
@@ -36,20 +29,26 @@ ResponseCache::Prepared ResponseCache::find(const http::Request& request,
                                             const app::TableState* state) {
   const std::lock_guard lock(mutex_);
   if (state_.get() != state) return nullptr;
-  make_key(request, key_);
+  key_.clear();
+  request.append_identity(key_);
   const auto found = answers_.find(key_);
   return found == answers_.end() ? nullptr : found->second;
 }
 
 void ResponseCache::keep(const http::Request& request, std::shared_ptr<const app::TableState> state,
                          Prepared response) {
+  const std::size_t size = http::size_in_memory(*response);
+  if (size > kLongestAnswer) return;
   const std::lock_guard lock(mutex_);
-  if (state_ != state || answers_.size() >= kMostAnswers) {
+  key_.clear();
+  request.append_identity(key_);
+  const std::size_t cost = size + key_.size() + kOverhead;
+  if (state_ != state || bytes_ + cost > kMostBytes) {
     answers_.clear();
+    bytes_ = 0;
     state_ = std::move(state);
   }
-  make_key(request, key_);
-  if (key_.size() <= kLongestKey) answers_.insert_or_assign(key_, std::move(response));
+  if (answers_.insert_or_assign(key_, std::move(response)).second) bytes_ += cost;
 }
 
 }  // namespace fitgauge::api

@@ -11,8 +11,9 @@
 
 namespace fitgauge::api {
 
-/// Answers made from the tables, serialised once per target and form; dropped when the tables
-/// change. Bounded, thread-safe, shared by the routes that are given it.
+/// Answers made from the tables, serialised once per route, arguments and form, however these are
+/// spelt; dropped when the tables change. At most 4 MiB, no answer over 64 KiB. Thread-safe, shared
+/// by the routes that are given it.
 class ResponseCache {
  public:
   explicit ResponseCache(const app::TableCatalog& tables) : tables_(tables) {}
@@ -36,6 +37,7 @@ class ResponseCache {
   std::mutex mutex_;
   std::shared_ptr<const app::TableState> state_;  // the tables the answers were made from
   std::unordered_map<std::string, Prepared> answers_;
+  std::size_t bytes_ = 0;
   std::string key_;  // reused, so that a hit allocates nothing
 };
 

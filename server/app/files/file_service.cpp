@@ -9,6 +9,18 @@ Error unknown(const interpreter::ControlPath& path) {
   return {ErrorCode::FileUnknown, "there is no file " + path.text() + " on the control's disk"};
 }
 
+Error changed(const interpreter::ControlPath& path) {
+  return {
+      ErrorCode::PreconditionFailed,
+      path.text() + " is not in the state that the request's precondition names: read it again"};
+}
+
+std::optional<std::int64_t> revision_of(const store::Stores& stores,
+                                        const interpreter::ControlPath& path) {
+  const auto file = stores.files.stat(path.text());
+  return file ? std::optional(file->revision) : std::nullopt;
+}
+
 DiskFile disk_file(store::FileEntry entry) {
   return {.path = std::move(entry.path),
           .revision = entry.revision,
@@ -19,10 +31,13 @@ DiskFile disk_file(store::FileEntry entry) {
 }  // namespace
 
 void FileService::write(interpreter::ControlPath path, std::string_view bytes,
-                        std::optional<std::string> caller, Done<Written> done) {
+                        std::optional<std::string> caller, Precondition precondition,
+                        Done<Written> done) {
   database_.writer().submit(
       [path = std::move(path), bytes, caller = std::move(caller),
+       precondition = std::move(precondition),
        now = clock_.now()](store::Stores& stores) -> Result<Written> {
+        if (precondition && !precondition(revision_of(stores, path))) return changed(path);
         const auto put = stores.files.put({.path = path.text(),
                                            .content = bytes,
                                            .modified_at_ns = now.nanoseconds,
@@ -45,10 +60,13 @@ void FileService::read(interpreter::ControlPath path, Done<DiskFile> done) {
 }
 
 void FileService::remove(interpreter::ControlPath path, std::optional<std::string> caller,
-                         Done<bool> done) {
+                         Precondition precondition, Done<bool> done) {
   database_.writer().submit(
-      [path = std::move(path), caller = std::move(caller),
+      [path = std::move(path), caller = std::move(caller), precondition = std::move(precondition),
        now = clock_.now()](store::Stores& stores) -> Result<bool> {
+        const auto revision = revision_of(stores, path);
+        if (!revision) return unknown(path);
+        if (precondition && !precondition(revision)) return changed(path);
         if (!stores.files.remove(path.text(), now.nanoseconds, caller)) return unknown(path);
         return true;
       },

@@ -39,16 +39,21 @@ class FileService {
     bool created = false;  ///< false: an existing file was replaced
     std::int64_t revision = 0;
   };
+  /// Decides on the current revision, none where there is no file, whether a change is made; called
+  /// in the transaction that makes it. An empty one allows every change.
+  using Precondition = std::function<bool(std::optional<std::int64_t> revision)>;
+
   /// @param bytes stays alive until `done`.
-  /// @errors StorageUnavailable, StorageBusy.
+  /// @errors PreconditionFailed, StorageUnavailable, StorageBusy.
   void write(interpreter::ControlPath path, std::string_view bytes,
-             std::optional<std::string> caller, Done<Written> done);
+             std::optional<std::string> caller, Precondition precondition, Done<Written> done);
 
   /// @errors FileUnknown, StorageUnavailable.
   void read(interpreter::ControlPath path, Done<DiskFile> done);
 
-  /// @errors FileUnknown, StorageUnavailable, StorageBusy.
-  void remove(interpreter::ControlPath path, std::optional<std::string> caller, Done<bool> done);
+  /// @errors FileUnknown, PreconditionFailed, StorageUnavailable, StorageBusy.
+  void remove(interpreter::ControlPath path, std::optional<std::string> caller,
+              Precondition precondition, Done<bool> done);
 
   /// Every file whose path begins so, by path.
   void list(std::string prefix, Done<std::vector<DiskFile>> done);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/measurements/measurement_storage.hpp"
+#include "base/guarded.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -58,15 +59,17 @@ void MeasurementQueue::close(const std::shared_ptr<Load>& load) {
 void MeasurementQueue::finish(Load& load, const Result<bool>& stored) {
   const bool again = !stored && stored.error().code == ErrorCode::Internal && load.size() > 1;
   for (Request& request : load) {
-    if (again) {
-      const auto alone = std::make_shared<Load>();
-      alone->push_back(std::move(request));
-      submit(alone);
-    } else if (stored) {
-      request.done(std::move(request.answer));
-    } else {
-      request.done(stored.error());
-    }
+    guarded("the end of a measurement's request", [&] {
+      if (again) {
+        const auto alone = std::make_shared<Load>();
+        alone->push_back(std::move(request));
+        submit(alone);
+      } else if (stored) {
+        request.done(std::move(request.answer));
+      } else {
+        request.done(stored.error());
+      }
+    });
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/guarded.hpp"
+
 namespace fitgauge::app {
 
 RunState ActiveRun::state() const {
@@ -57,7 +59,7 @@ void ActiveRun::change(const Change& change) {
     ++version_;
     woken.swap(waiting_);
   }
-  for (const auto& [ticket, wake] : woken) wake();
+  for (const auto& [ticket, wake] : woken) guarded("a run's follower", wake);
 }
 
 void ActiveRun::started() {
@@ -79,7 +81,9 @@ void ActiveRun::finished(Result<FinishedRun> end) {
     end_ = std::move(end);
     at_end.swap(at_end_);
   });
-  for (const auto& done : at_end) done(*end_);
+  for (const auto& done : at_end) {
+    guarded("a run's end", [&] { done(*end_); });
+  }
 }
 
 }  // namespace fitgauge::app

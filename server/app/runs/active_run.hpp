@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -23,7 +22,8 @@ struct FinishedRun {
 };
 
 /// A run that is queued or under way: what it has printed so far, who follows it, and the way to
-/// cancel it. Thread-safe. Callbacks come on the run's thread, without a lock held.
+/// cancel it. Thread-safe. Callbacks come on the run's thread, without a lock held;
+/// what one throws is reported and stops neither the run nor the others.
 class ActiveRun {
  public:
   ActiveRun(std::int64_t id, std::shared_ptr<const RunOrder> order, Timestamp created_at)
@@ -65,8 +65,6 @@ class ActiveRun {
 
   // For the thread that runs or ends it.
 
-  /// True for the first who asks: that one ends the run, and nobody else touches it.
-  bool claim() { return !claimed_.exchange(true); }
   void started();
   void progressed(std::uint64_t blocks);
   void printed(std::string_view line);
@@ -80,7 +78,6 @@ class ActiveRun {
   const std::shared_ptr<const RunOrder> order_;
   const Timestamp created_at_;
   std::stop_source stop_;
-  std::atomic<bool> claimed_{false};
 
   mutable std::mutex mutex_;
   std::uint64_t version_ = 1;

@@ -6,6 +6,7 @@
 #include "app/measurements/mapping.hpp"
 #include "app/runs/run_executor.hpp"
 #include "app/runs/run_measurements.hpp"
+#include "base/guarded.hpp"
 #include "program/check.hpp"
 #include "store/database.hpp"
 #include "store/storage_failure.hpp"
@@ -124,21 +125,18 @@ void RunService::stop() {
   preparing_.stop();
   {
     const std::lock_guard lock(mutex_);
-    for (const auto& [id, run] : active_) run->cancel();
+    for (const auto& [id, entry] : active_) entry.run->cancel();
   }
   running_.stop();
 }
 
 void RunService::prepare(std::function<void()> work, const std::function<void(Error)>& refused) {
-  auto guarded = [this, work = std::move(work), refused] {
+  // Work that throws drops what it had to answer, and that answers for itself.
+  auto unless_stopping = [this, work = std::move(work), refused] {
     if (stopping_.stop_requested()) return refused(stopping());
-    try {
-      work();
-    } catch (const std::exception&) {
-      // A bug: the work dropped what it had to answer, and that answers for itself.
-    }
+    work();
   };
-  if (preparing_.submit(std::move(guarded))) return;
+  if (preparing_.submit(std::move(unless_stopping))) return;
   if (stopping_.stop_requested()) return refused(stopping());
   refused({ErrorCode::Overloaded, "too many runs and checks wait already; try again soon"});
 }
@@ -213,16 +211,23 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
     return Error{ErrorCode::IdempotencyInProgress,
                  "another request with this Idempotency-Key came first; try again"};
   }
+  bool is_queued = false;
   {
     const std::lock_guard lock(mutex_);
-    active_.emplace(active->id(), active);
+    const auto ticket = running_.submit([this, active] { run(*active); });
+    active_.emplace(active->id(), Entry{active, ticket.value_or(0)});
+    is_queued = ticket.has_value();
   }
-  running_.submit([this, active] { run(*active); });
+  if (!is_queued) {
+    end(*active,
+        unstarted(RunStatus::Failed, MessageKind::Error,
+                  "the service takes no more runs: it is shutting down", active->program()),
+        {});
+  }
   return active;
 }
 
 void RunService::run(ActiveRun& active) {
-  if (!active.claim()) return;  // cancelled while it was queued
   active.started();
   // Not waited for: the writer keeps the order of its jobs.
   database_.writer().submit(
@@ -240,7 +245,9 @@ void RunService::end(ActiveRun& active, interpreter::RunResult result, const Run
                          .seed = active.order().setup.seed,
                          .created_at = active.created_at(),
                          .finished_at = clock_.now()};
-  active.finished(keep(report, trace, active.order().caller));
+  Result<FinishedRun> kept = Error{ErrorCode::Internal, "the end of the run could not be stored"};
+  guarded("the end of a run", [&] { kept = keep(report, trace, active.order().caller); });
+  guarded("the end of a run", [&] { active.finished(std::move(kept)); });
   const std::lock_guard lock(mutex_);
   ++ended_[static_cast<std::size_t>(state_of(report.result.status))];
   active_.erase(report.id);
@@ -248,14 +255,21 @@ void RunService::end(ActiveRun& active, interpreter::RunResult result, const Run
 
 void RunService::cancel(const std::shared_ptr<ActiveRun>& active) {
   active->cancel();
-  // Where this finds no room, the worker whose turn it is ends the run.
-  preparing_.submit([this, active] {
-    if (!active->claim()) return;
+  const auto ticket = preparing_.submit([this, active] {
+    if (!withdraw(active->id())) return;
     end(*active,
         unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
                   "the run was cancelled before its first block", active->program()),
         {});
   });
+  static_cast<void>(ticket);  // where there is no room, the worker whose turn it is ends the run
+}
+
+/// @returns whether the run was queued; now no worker will begin it.
+bool RunService::withdraw(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  const auto found = active_.find(id);
+  return found != active_.end() && running_.withdraw(found->second.ticket);
 }
 
 /// A bug or broken storage ends the run, not the service.
@@ -314,8 +328,8 @@ Result<FinishedRun> RunService::keep(const RunReport& report, const RunTrace& tr
 RunService::Counts RunService::counts() const {
   const std::lock_guard lock(mutex_);
   Counts counts = ended_;
-  for (const auto& [id, run] : active_) {
-    const RunState state = run->state();
+  for (const auto& [id, entry] : active_) {
+    const RunState state = entry.run->state();
     if (state <= RunState::Running) ++counts[static_cast<std::size_t>(state)];
   }
   return counts;
@@ -324,7 +338,7 @@ RunService::Counts RunService::counts() const {
 std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {
   const std::lock_guard lock(mutex_);
   const auto found = active_.find(id);
-  return found == active_.end() ? nullptr : found->second;
+  return found == active_.end() ? nullptr : found->second.run;
 }
 
 void RunService::find(std::int64_t id, Done<StoredRun> done) {

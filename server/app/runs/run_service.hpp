@@ -131,6 +131,7 @@ class RunService {
                                         Allowance&);
   Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path);
   void run(ActiveRun& active);
+  bool withdraw(std::int64_t id);
   void end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace);
   interpreter::RunResult execute_guarded(ActiveRun& active, RunTrace& trace);
   Result<FinishedRun> keep(const RunReport& report, const RunTrace& trace,
@@ -147,7 +148,11 @@ class RunService {
   RunFormat format_;
   std::stop_source stopping_;
   mutable std::mutex mutex_;
-  std::map<std::int64_t, std::shared_ptr<ActiveRun>> active_;
+  struct Entry {
+    std::shared_ptr<ActiveRun> run;
+    WorkerPool::Ticket ticket;
+  };
+  std::map<std::int64_t, Entry> active_;  ///< queued or under way: the one count of runs
   Counts ended_{};
   // The workers end before what they use.
   WorkerPool preparing_;

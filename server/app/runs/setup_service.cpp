@@ -9,6 +9,19 @@ Error unknown(const std::string& name) {
   return {ErrorCode::SetupUnknown, "there is no setup '" + name + "'"};
 }
 
+Error changed(const std::string& name) {
+  return {ErrorCode::PreconditionFailed,
+          "setup '" + name +
+              "' is not in the state that the request's precondition names: read it again"};
+}
+
+bool holds(const SetupService::Precondition& precondition, const store::Stores& stores,
+           const std::string& name) {
+  if (!precondition) return true;
+  const auto setup = stores.setups.find(name);
+  return precondition(setup ? std::optional<std::string_view>(setup->text) : std::nullopt);
+}
+
 NamedSetup named_setup(store::Setup setup) {
   return {.name = std::move(setup.name),
           .text = std::move(setup.text),
@@ -24,13 +37,15 @@ Result<NamedSetup> find(const store::Stores& stores, const std::string& name) {
 }  // namespace
 
 void SetupService::write(std::string name, std::string text, std::optional<std::string> caller,
-                         Done<bool> done) {
+                         Precondition precondition, Done<bool> done) {
   store::Setup setup{.name = std::move(name),
                      .text = std::move(text),
                      .modified_at_ns = clock_.now().nanoseconds,
                      .caller = std::move(caller)};
   database_.writer().submit(
-      [setup = std::move(setup)](store::Stores& stores) -> Result<bool> {
+      [setup = std::move(setup),
+       precondition = std::move(precondition)](store::Stores& stores) -> Result<bool> {
+        if (!holds(precondition, stores, setup.name)) return changed(setup.name);
         return stores.setups.put(setup);
       },
       std::move(done));
@@ -42,10 +57,13 @@ void SetupService::read(std::string name, Done<NamedSetup> done) {
       std::move(done));
 }
 
-void SetupService::remove(std::string name, Done<bool> done) {
+void SetupService::remove(std::string name, Precondition precondition, Done<bool> done) {
   database_.writer().submit(
-      [name = std::move(name)](store::Stores& stores) -> Result<bool> {
-        if (!stores.setups.remove(name)) return unknown(name);
+      [name = std::move(name),
+       precondition = std::move(precondition)](store::Stores& stores) -> Result<bool> {
+        if (!stores.setups.find(name)) return unknown(name);
+        if (!holds(precondition, stores, name)) return changed(name);
+        stores.setups.remove(name);
         return true;
       },
       std::move(done));

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/clock.hpp"
@@ -31,13 +32,17 @@ class SetupService {
   SetupService(store::Database& database, const Clock& clock)
       : database_(database), clock_(clock) {}
 
-  /// Gives whether the name is new. @errors StorageUnavailable, StorageBusy.
+  /// Decides on the current text, none where there is no setup, whether a change is made; called in
+  /// the transaction that makes it. An empty one allows every change.
+  using Precondition = std::function<bool(std::optional<std::string_view> text)>;
+
+  /// Gives whether the name is new. @errors PreconditionFailed, StorageUnavailable, StorageBusy.
   void write(std::string name, std::string text, std::optional<std::string> caller,
-             Done<bool> done);
+             Precondition precondition, Done<bool> done);
   /// @errors SetupUnknown, StorageUnavailable.
   void read(std::string name, Done<NamedSetup> done);
-  /// @errors SetupUnknown, StorageUnavailable, StorageBusy.
-  void remove(std::string name, Done<bool> done);
+  /// @errors SetupUnknown, PreconditionFailed, StorageUnavailable, StorageBusy.
+  void remove(std::string name, Precondition precondition, Done<bool> done);
   void list(Done<std::vector<NamedSetup>> done);  ///< by name
 
   /// As read, for threads that may wait.

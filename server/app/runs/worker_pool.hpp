@@ -2,38 +2,52 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
 namespace fitgauge::app {
 
 /// A few threads that work off one bounded queue, for what may take long. Owns its threads.
-/// Thread-safe. A job must not throw.
+/// Thread-safe. What a job throws is a bug: it is reported and ends that job alone.
 class WorkerPool {
  public:
   using Job = std::function<void()>;
+  using Ticket = std::uint64_t;
 
+  /// @param queue most jobs that wait; those being run do not count.
   WorkerPool(unsigned threads, std::size_t queue);
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
   ~WorkerPool();
 
-  /// @returns false when the queue is full or the pool is stopping; the job is then not run.
-  bool submit(Job job);
+  /// Queues a job. @returns nothing when the queue is full or the pool is stopping; the job is then
+  /// not run.
+  [[nodiscard]] std::optional<Ticket> submit(Job job);
+
+  /// Takes a job back that no thread has begun. @returns false when it has begun, or is over.
+  [[nodiscard]] bool withdraw(Ticket ticket);
 
   /// Takes no more jobs, finishes those queued and ends the threads. Not for the pool's own.
   void stop();
 
  private:
+  struct Queued {
+    Ticket ticket;
+    Job job;
+  };
+
   void run();
 
   const std::size_t capacity_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job> jobs_;
+  std::deque<Queued> jobs_;
+  Ticket next_ticket_ = 1;
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 };

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <vector>
 
+#include "base/guarded.hpp"
+
 namespace fitgauge::app {
 namespace {
 
@@ -14,6 +16,11 @@ constexpr std::chrono::milliseconds kRest{5};
 
 CommitSignal::CommitSignal() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
 CommitSignal::~CommitSignal() = default;
+
+void CommitSignal::stop() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+}
 
 void CommitSignal::raise() {
   const std::lock_guard lock(mutex_);
@@ -43,7 +50,9 @@ void CommitSignal::run(const std::stop_token& stop) {
     raised_ = false;
     std::vector<std::shared_ptr<CommitListener>> listeners(listeners_.begin(), listeners_.end());
     lock.unlock();
-    for (const auto& listener : listeners) listener->committed();
+    for (const auto& listener : listeners) {
+      guarded("a listener of commits", [&] { listener->committed(); });
+    }
     listeners.clear();
     lock.lock();
     wake_.wait_for(lock, stop, kRest, [] { return false; });

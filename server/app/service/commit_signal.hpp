@@ -30,6 +30,9 @@ class CommitSignal {
 
   void raise();
 
+  /// Ends the thread: no listener is called any more. Not for the listeners.
+  void stop();
+
   void add(std::shared_ptr<CommitListener> listener);
   /// A call that is under way may still come to its end afterwards.
   void remove(const std::shared_ptr<CommitListener>& listener);

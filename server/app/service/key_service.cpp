@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "base/guarded.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -44,7 +45,7 @@ Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database,
     while (!raw->wake_.wait_for(lock, stop, kReloadInterval, [] { return false; }) &&
            !stop.stop_requested()) {
       // Storage that fails for a while leaves the keys that were loaded last in force.
-      static_cast<void>(raw->reload());
+      guarded("the loader of keys", [raw] { static_cast<void>(raw->reload()); });
     }
   });
   return service;

@@ -11,26 +11,20 @@
 
 #include "base/text.hpp"
 #include "http/body_stream.hpp"
-#include "http/engine/media_type.hpp"
 #include "http/engine/prepared_response.hpp"
+#include "http/field_list.hpp"
 
 namespace fitgauge::http {
 
 namespace {
 
 std::string_view reason(int status) {
-  constexpr std::array<std::pair<int, std::string_view>, 33> kReasons{{
+  constexpr std::array<std::pair<int, std::string_view>, 23> kReasons{{
       {200, "OK"},
       {201, "Created"},
       {202, "Accepted"},
       {204, "No Content"},
-      {206, "Partial Content"},
-      {301, "Moved Permanently"},
-      {302, "Found"},
-      {303, "See Other"},
       {304, "Not Modified"},
-      {307, "Temporary Redirect"},
-      {308, "Permanent Redirect"},
       {400, "Bad Request"},
       {401, "Unauthorized"},
       {403, "Forbidden"},
@@ -39,17 +33,13 @@ std::string_view reason(int status) {
       {406, "Not Acceptable"},
       {408, "Request Timeout"},
       {409, "Conflict"},
-      {410, "Gone"},
       {411, "Length Required"},
       {412, "Precondition Failed"},
       {413, "Content Too Large"},
       {414, "URI Too Long"},
       {415, "Unsupported Media Type"},
-      {416, "Range Not Satisfiable"},
       {417, "Expectation Failed"},
       {422, "Unprocessable Content"},
-      {428, "Precondition Required"},
-      {429, "Too Many Requests"},
       {431, "Request Header Fields Too Large"},
       {500, "Internal Server Error"},
       {503, "Service Unavailable"},
@@ -92,7 +82,7 @@ SentAnswer append_prepared(OutputQueue& out, const std::shared_ptr<const Prepare
     std::copy(date.begin(), date.end(), text.begin() + static_cast<std::ptrdiff_t>(start + offset));
   };
   if (form.conditional && !answer->etag().empty() &&
-      names_etag(form.if_none_match, answer->etag())) {
+      names_etag_weakly(form.if_none_match, answer->etag())) {
     text.append(answer->not_modified_head());
     put_date(answer->not_modified_date_offset());
     append_connection(text, form);
@@ -170,7 +160,7 @@ SentAnswer append_answer(OutputQueue& out, Response& response, const AnswerForm&
   AnswerForm used = form;
   std::string& text = out.text();
   if (form.conditional && response.status == 200 && !response.etag.empty() &&
-      names_etag(form.if_none_match, response.etag)) {
+      names_etag_weakly(form.if_none_match, response.etag)) {
     sent.status = 304;
     append_status(text, 304, date);
     append_not_modified_fields(text, response);

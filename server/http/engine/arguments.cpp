@@ -108,12 +108,6 @@ struct Reader {
     return ArgumentValue(std::string_view(*found));
   }
 
-  Result<ArgumentValue> operator()(const Boolean&) const {
-    if (text == "true" || text == "1") return ArgumentValue(true);
-    if (text == "false" || text == "0") return ArgumentValue(false);
-    return refuse("true or false");
-  }
-
   Result<ArgumentValue> operator()(const Time&) const {
     auto time = parse_time(text);
     if (!time && parameter.place == ParameterPlace::Query) {

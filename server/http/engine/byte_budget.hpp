@@ -24,7 +24,6 @@ class ByteBudget {
   void end_wait() { waiting_.fetch_sub(1, std::memory_order_relaxed); }
 
   std::size_t used() const { return used_.load(std::memory_order_relaxed); }
-  std::size_t limit() const { return limit_; }
   /// Somebody waits: a sender that has stopped must give way.
   bool is_short() const { return waiting_.load(std::memory_order_relaxed) > 0; }
 

@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "base/guarded.hpp"
+
 namespace fitgauge::http {
 
 namespace {
@@ -167,6 +169,7 @@ bool Connection::begin_body() {
     return true;
   }
   input_.pin_head();
+  parser_->limit_body(plan.limit);
   body_.start(plan);
   phase_ = Phase::ReadingBody;
   last_body_byte_ = thread_.now();
@@ -358,10 +361,12 @@ void Connection::close() noexcept {
   const bool in_handler = phase_ == Phase::InHandler;
   phase_ = Phase::Closed;
   close_socket();
-  thread_.remove(*this);
   if (!in_handler) body_.clear();  // a handler has the request until its Responder is gone
   output_.discard();
-  if (const auto stream = std::exchange(stream_, std::nullopt)) stream->source->cancelled();
+  if (const auto stream = std::exchange(stream_, std::nullopt)) {
+    fitgauge::guarded("a stream that ends early", [&] { stream->source->cancelled(); });
+  }
+  thread_.remove(*this);
 }
 
 void Connection::drain() {

@@ -86,9 +86,6 @@ std::optional<Response> Exchange::dispatch() {
         {405, ErrorCode::MethodNotAllowed, fmt::format("The methods here are {}.", allow)});
     return with_allow(std::move(refused), std::move(allow));
   }
-  if (match.resource->takes_rest && segments.encoded_slash) {
-    return error_response({400, ErrorCode::PathMalformed, "The path holds an encoded slash."});
-  }
   const auto route_index = static_cast<std::size_t>(index);
   request_.route_ = &routes_.routes()[route_index];
   if (hooks_.guard) {

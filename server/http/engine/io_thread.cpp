@@ -51,14 +51,14 @@ void IoThread::join() {
 void IoThread::add(std::shared_ptr<Connection> connection) {
   connection->index = connections_.size();
   connections_.push_back(std::move(connection));
-  shared_.connections_open.fetch_add(1, std::memory_order_relaxed);
+  shared_.connections.enter();
 }
 
 void IoThread::remove(Connection& connection) {
   connections_.back()->index = connection.index;
   std::swap(connections_[connection.index], connections_.back());
   connections_.pop_back();
-  shared_.connections_open.fetch_sub(1, std::memory_order_relaxed);
+  shared_.connections.leave();
 }
 
 template <class Function>
@@ -82,8 +82,8 @@ void IoThread::schedule_sweep() {
   timer_.expires_after(interval_);
   timer_.async_wait([this](const error_code& error) {
     if (error) return;
+    schedule_sweep();  // first: what the sweep throws must not be the end of all deadlines
     sweep();
-    schedule_sweep();
   });
 }
 

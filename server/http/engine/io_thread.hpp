@@ -13,6 +13,7 @@
 #include "base/clock.hpp"
 #include "http/engine/asio.hpp"
 #include "http/engine/byte_budget.hpp"
+#include "http/engine/gate.hpp"
 #include "http/engine/http_date.hpp"
 #include "http/route.hpp"
 #include "http/server.hpp"
@@ -35,7 +36,7 @@ struct ServerShared {
   const RouteTable routes;
   const ServerHooks hooks;
   ByteBudget budget;
-  std::atomic<std::uint64_t> connections_open{0};
+  Gate connections;
   std::atomic<bool> stopping{false};
 };
 

@@ -50,6 +50,7 @@ Result<void> check_listen(const ListenAddress& address) {
 Result<std::unique_ptr<Listener>> Listener::open(const ListenAddress& address,
                                                  std::vector<IoThread*> threads, Deliver deliver) {
   std::unique_ptr<Listener> listener(new Listener(std::move(threads), std::move(deliver)));
+  listener->health_only_ = address.health_only;
   Acceptor& acceptor = listener->acceptor_;
   error_code error = bind(acceptor, address);
   if (!error) acceptor.listen(Acceptor::max_listen_connections, error);
@@ -92,7 +93,9 @@ void Listener::deal() {
   socket_->non_blocking(true, gone);
   const asio::ip::address address = socket_->remote_endpoint(gone).address();
   deliver_(thread, std::move(*socket_),
-           {.address = address.to_string(), .loopback = address.is_loopback()});
+           {.address = address.to_string(),
+            .loopback = address.is_loopback(),
+            .health_only = health_only_});
 }
 
 }  // namespace fitgauge::http

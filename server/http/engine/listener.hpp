@@ -41,6 +41,7 @@ class Listener {
   Timer retry_;
   std::uint16_t port_ = 0;
   std::size_t next_ = 0;
+  bool health_only_ = false;
 };
 
 }  // namespace fitgauge::http

@@ -20,7 +20,4 @@ std::optional<MediaType> parse_media_type(std::string_view text);
 /// first. Null when none is acceptable. A malformed part of the value is skipped.
 const std::string* preferred_type(std::string_view accept, const std::vector<std::string>& offered);
 
-/// Whether an If-None-Match value names `etag` (weak comparison, RFC 9110 section 13.1.2).
-bool names_etag(std::string_view if_none_match, std::string_view etag);
-
 }  // namespace fitgauge::http

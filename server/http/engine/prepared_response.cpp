@@ -37,6 +37,10 @@ PreparedResponse::PreparedResponse(const Response& response)
   }
 }
 
+std::size_t size_in_memory(const PreparedResponse& answer) {
+  return sizeof answer + answer.bytes().size() + answer.not_modified_head().size();
+}
+
 std::shared_ptr<const PreparedResponse> prepare(const Response& response) {
   if (response.prepared) return response.prepared;
   return std::make_shared<const PreparedResponse>(response);

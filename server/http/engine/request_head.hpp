@@ -35,6 +35,7 @@ struct RequestHead {
   bool has_accept = false;
   bool has_expect = false;
   bool has_if_none_match = false;
+  bool is_forwarded = false;  ///< a proxy has added its field
   std::vector<HeaderField> fields;
 
   /// The value of the first field of that name.

@@ -1,5 +1,6 @@
 #include "http/engine/request_parser.hpp"
 
+#include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/error.hpp>
 #include <exception>
@@ -34,6 +35,14 @@ bool is_digits(std::string_view text) {
   return !text.empty();
 }
 
+/// A field without a name in Beast's list by which a proxy says for whom it speaks.
+bool is_of_proxy(std::string_view name) {
+  constexpr std::string_view kPrefix = "X-Forwarded-";
+  return ascii_iequals(name.substr(0, kPrefix.size()), kPrefix) ||
+         ascii_iequals(name, "X-Real-IP") || ascii_iequals(name, "True-Client-IP") ||
+         ascii_iequals(name, "CF-Connecting-IP");
+}
+
 /// Of lines that were not yet read; the parser would wait for their CR.
 bool has_bare_line_feed(std::string_view lines) {
   for (std::size_t at = lines.find('\n'); at != std::string_view::npos;
@@ -41,6 +50,17 @@ bool has_bare_line_feed(std::string_view lines) {
     if (at == 0 || lines[at - 1] != '\r') return true;
   }
   return false;
+}
+
+/// Whether the chunk line at the front of `lines`, perhaps behind the end of the chunk before,
+/// begins with a size of more than 64 bits.
+bool has_endless_size(std::string_view lines) {
+  constexpr std::string_view kHexDigits = "0123456789abcdefABCDEF";
+  if (lines.starts_with("\r\n")) lines.remove_prefix(2);
+  lines.remove_prefix(std::min(lines.find_first_not_of('0'), lines.size()));
+  const std::size_t digits = std::min(lines.find_first_not_of(kHexDigits), lines.size());
+  const std::string_view rest = lines.substr(digits);
+  return digits > 16 && (rest.starts_with("\r\n") || rest.starts_with(';'));
 }
 
 const char* describe(const beast::error_code& code) {
@@ -100,6 +120,9 @@ RequestParser::Step RequestParser::parse(std::string_view input, std::size_t& us
   if (error == beast::http::error::header_limit) {
     return refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
   }
+  if (error == beast::http::error::bad_chunk && has_endless_size(input.substr(n))) {
+    return refuse_body();
+  }
   if (error) return refuse(400, ErrorCode::RequestMalformed, describe(error));
 
   if (!had_head) return check_head() ? Step::Head : Step::Refused;
@@ -124,6 +147,21 @@ RequestParser::Step RequestParser::need_more(std::string_view pending) {
     return refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
   }
   return Step::NeedMore;
+}
+
+RequestParser::Step RequestParser::refuse_body() {
+  return refuse(413, ErrorCode::BodyTooLarge,
+                "The chunks announce a larger body than this route takes.");
+}
+
+void RequestParser::on_chunk_header_impl(std::uint64_t size, beast::string_view,
+                                         ErrorCodeOut& error) {
+  if (size > body_left_) {
+    refuse_body();
+    error = beast::http::error::body_limit;
+  } else {
+    body_left_ -= size;
+  }
 }
 
 RequestParser::Step RequestParser::refuse(int status, ErrorCode code, const char* message) {
@@ -178,6 +216,9 @@ void RequestParser::on_field_impl(beast::http::field field, beast::string_view n
       case beast::http::field::accept: head_.has_accept = true; break;
       case beast::http::field::expect: head_.has_expect = true; break;
       case beast::http::field::if_none_match: head_.has_if_none_match = true; break;
+      case beast::http::field::forwarded:
+      case beast::http::field::via: head_.is_forwarded = true; break;
+      case beast::http::field::unknown: head_.is_forwarded |= is_of_proxy(name); break;
       default: break;
     }
     head_.fields.push_back({name, value});

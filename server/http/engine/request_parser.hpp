@@ -3,6 +3,8 @@
 #include <boost/beast/http/basic_parser.hpp>
 #include <boost/system/error_code.hpp>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "http/engine/request_head.hpp"
@@ -33,6 +35,10 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
   /// Parses on from `input` and adds the number of bytes used to `used`.
   Step put(std::string_view input, std::size_t& used);
 
+  /// A chunk that announces more than this, with those before it, is refused as soon as its size is
+  /// read. Unlimited until it is called.
+  void limit_body(std::uint64_t bytes) { body_left_ = bytes; }
+
   std::string_view piece() const { return piece_; }
   const Refusal& refusal() const { return refusal_; }
 
@@ -41,6 +47,7 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
 
   Step parse(std::string_view input, std::size_t& used);
   Step refuse(int status, ErrorCode code, const char* message);
+  Step refuse_body();
   Step need_more(std::string_view pending);
   bool check_head();
 
@@ -54,7 +61,8 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
   std::size_t on_body_impl(boost::beast::string_view body, ErrorCodeOut&) override {
     return body.size();
   }
-  void on_chunk_header_impl(std::uint64_t, boost::beast::string_view, ErrorCodeOut&) override {}
+  void on_chunk_header_impl(std::uint64_t size, boost::beast::string_view,
+                            ErrorCodeOut& error) override;
   std::size_t on_chunk_body_impl(std::uint64_t, boost::beast::string_view body,
                                  ErrorCodeOut&) override {
     piece_ = {body.data(), body.size()};
@@ -65,6 +73,7 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
   RequestHead& head_;
   Refusal refusal_{};
   std::string_view piece_;
+  std::uint64_t body_left_ = std::numeric_limits<std::uint64_t>::max();
   std::size_t head_bytes_ = 0;   ///< header section consumed so far
   std::size_t framing_run_ = 0;  ///< bytes since the last byte of the body
   bool head_done_ = false;

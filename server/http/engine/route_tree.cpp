@@ -24,7 +24,6 @@ bool split_path(std::string_view path, std::string& decoded, PathSegments& out) 
       const std::size_t start = decoded.size();
       if (!append_percent_decoded(decoded, segment, false)) return false;
       segment = std::string_view(decoded).substr(start);
-      out.encoded_slash |= segment.find('/') != std::string_view::npos;
     }
     if (out.count < kMaxSegments) {
       out.segments[out.count++] = segment;
@@ -105,7 +104,6 @@ void RouteTree::add(Route& route, std::int16_t index) {
       next = &found->second;
     }
     if (!*next) *next = std::make_unique<Node>();
-    (*next)->resource.takes_rest = next == &node->rest;
     node = next->get();
   }
 

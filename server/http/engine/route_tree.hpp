@@ -18,10 +18,9 @@ inline constexpr std::size_t kMaxSegments = 16;
 /// A request's path, split at its slashes and then decoded.
 struct PathSegments {
   std::array<std::string_view, kMaxSegments> segments{};
-  std::size_t count = 0;       ///< at most kMaxSegments
-  bool longer = false;         ///< there are more, which only a `{rest*}` reaches
-  bool encoded_slash = false;  ///< a segment holds a decoded `/`, which has no place in a rest
-  const char* end = nullptr;   ///< of the decoded path
+  std::size_t count = 0;      ///< at most kMaxSegments
+  bool longer = false;        ///< there are more, which only a `{rest*}` reaches
+  const char* end = nullptr;  ///< of the decoded path
 
   /// Everything from segment `index` on.
   std::string_view rest(std::size_t index) const {
@@ -39,7 +38,6 @@ struct Resource {
   static constexpr std::int16_t kNone = -1;
 
   std::array<std::int16_t, 7> routes{kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-  bool takes_rest = false;
 
   /// The index of the route for a method, GET's for HEAD, or kNone.
   std::int16_t route(Method method) const;

@@ -1,9 +1,7 @@
 #include "http/engine/tls_connection.hpp"
 
 #include <fmt/format.h>
-#include <openssl/bio.h>
 #include <openssl/ssl.h>
-#include <openssl/x509.h>
 
 #include <string>
 #include <utility>
@@ -13,22 +11,6 @@ namespace fitgauge::http {
 namespace {
 
 namespace ssl = asio::ssl;
-
-/// The subject of the verified client certificate as RFC 2253 writes it, or empty.
-std::string subject_of_client(SSL* session) {
-  const std::unique_ptr<X509, decltype(&X509_free)> certificate(SSL_get1_peer_certificate(session),
-                                                                &X509_free);
-  if (!certificate || SSL_get_verify_result(session) != X509_V_OK) return {};
-  const std::unique_ptr<BIO, decltype(&BIO_free)> text(BIO_new(BIO_s_mem()), &BIO_free);
-  if (!text || X509_NAME_print_ex(text.get(), X509_get_subject_name(certificate.get()), 0,
-                                  XN_FLAG_RFC2253) < 0) {
-    return {};
-  }
-  std::string subject(BIO_ctrl_pending(text.get()), '\0');
-  const int size = BIO_read(text.get(), subject.data(), static_cast<int>(subject.size()));
-  subject.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-  return subject;
-}
 
 }  // namespace
 
@@ -66,7 +48,6 @@ void TlsConnection::start() {
   stream_.async_handshake(ssl::stream_base::server,
                           [this, self = shared_from_this()](const error_code& error) {
                             if (error) return close();
-                            peer().client_certificate = subject_of_client(stream_.native_handle());
                             begin();
                           });
 }

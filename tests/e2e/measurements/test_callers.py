@@ -1,5 +1,6 @@
 """Who may do what: keys, roles, the modes of --auth, proxies, foreign pages."""
 
+import socket
 import time
 
 from support.daemon import Daemon, DaemonTest
@@ -35,11 +36,32 @@ class Open(Callers):
         self.assertEqual(self.daemon.measure(PART).status, 201)
 
     def test_through_a_proxy_everybody_is_remote(self):
-        for field in ("Forwarded", "X-Forwarded-For", "X-Forwarded-Proto", "X-Forwarded-Host"):
+        for field in ("Forwarded", "X-Forwarded-For", "X-Forwarded-Proto", "X-Forwarded-Host", "Via", "X-Real-IP",
+                      "x-real-ip", "True-Client-IP", "CF-Connecting-IP"):
             with self.subTest(field):
                 self.assert_needs_a_key(self.daemon.measure(PART, {field: "for=10.0.0.9"}))
                 self.assertEqual(
                     self.daemon.request("GET", "/v1/limits/25H7", headers={field: "x"}).status, 200)
+
+    def test_a_proxy_that_says_nothing_is_told_of_once(self):
+        def ask(field):
+            with socket.create_connection(("127.0.0.1", self.daemon.port), timeout=10) as client:
+                client.sendall(b"GET /v1/limits/25H7 HTTP/1.0\r\nHost: h\r\n" + field + b"\r\n")
+                while client.recv(4096):
+                    pass
+
+        warned = lambda: self.daemon.log.count("proxy_suspected")
+        ask(b"")
+        self.assertEqual(warned(), 0, "HTTP/1.0 alone is an old client")
+        for _ in range(3):
+            ask(b"Connection: close\r\n")
+        self.wait_for(lambda: warned() == 1)
+
+    def test_foreign_credentials_count_as_none_where_none_are_needed(self):
+        for value in ("Basic dXNlcjpwYXNz", "Bearer of-another-service", "Negotiate x", ""):
+            self.assertEqual(self.daemon.measure(PART, {"Authorization": value}).status, 201, value)
+        answer = self.daemon.measure(PART, {"Authorization": "Bearer fg_" + "0" * 40})
+        self.assert_problem(answer, 401, "auth.invalid")
 
     def test_a_page_of_another_site_cannot_write(self):
         before = len(self.daemon.stored())
@@ -111,6 +133,8 @@ class Keys(Callers):
     def test_everything_but_health_needs_a_key(self):
         for path in HEALTH:
             self.assertEqual(self.daemon.get(path).status, 200, path)
+            self.assertEqual(self.daemon.get(path, Authorization="Basic dXNlcjpwYXNz").status, 200, path)
+            self.assertEqual(self.daemon.get(path, Authorization="Bearer fg_" + "0" * 40).status, 200, path)
         for path in OPEN_READS[:-1]:
             self.assert_needs_a_key(self.daemon.get(path))
 

@@ -1,5 +1,6 @@
 """TLS: the service speaks it, takes new certificates on SIGHUP, asks for those of clients."""
 
+import http.client
 import shutil
 import signal
 import ssl
@@ -73,6 +74,36 @@ class Tls(unittest.TestCase):
         self.daemon.tls = trust(self.certificate)
         self.daemon.tls.load_cert_chain(authority, authority_key)
         self.assertEqual(self.daemon.get("/livez").status, 200)
+        self.check_health_port()
+
+    def check_health_port(self):
+        """The health check has no certificate: it asks at a plain port, which answers nothing else."""
+        check = lambda: self.daemon.command("--healthcheck", *self.daemon.flags)
+        self.assertEqual(check().returncode, 0, check().stderr)
+        port = int((self.daemon.data / "health.port").read_text())
+        with self.assertRaises(OSError):
+            http.client.HTTPConnection("127.0.0.2", port, timeout=5).request("GET", "/livez")
+        statuses = {}
+        for path in ("/livez", "/readyz", "/v1/limits/25H7", "/v1/measurements", "/", "/metrics"):
+            connection = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
+            connection.request("GET", path)
+            statuses[path] = connection.getresponse().status
+            connection.close()
+        self.assertEqual(statuses, {"/livez": 200, "/readyz": 200, "/v1/limits/25H7": 403, "/v1/measurements": 403,
+                                    "/": 403, "/metrics": 403})
+        self.assertEqual(self.daemon.stop(), 0)
+        self.assertNotEqual(check().returncode, 0)
+
+    def test_the_health_check_is_right_on_every_address(self):
+        for listen in ("127.0.0.1", "0.0.0.0", "[::]", "[::1]"):
+            daemon = Daemon(listen=f"{listen}:0")
+            self.addCleanup(daemon.cleanup)
+            daemon.start()
+            here = ("--listen", f"{listen}:{daemon.port}")
+            with self.subTest(listen):
+                self.assertEqual(daemon.command("--healthcheck", *here).returncode, 0)
+                self.assertEqual(daemon.stop(), 0)
+                self.assertNotEqual(daemon.command("--healthcheck", *here).returncode, 0)
 
     def test_unusable_certificates_end_the_start_in_one_line(self):
         self.certificate.write_text("nonsense")

@@ -4,6 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
+#include "api/runs/run_events.hpp"
+#include "api/runs/trace_codec.hpp"
 #include "api/wire/json_value.hpp"
 
 using namespace fitgauge;
@@ -55,6 +59,54 @@ TEST_CASE("a run is written with the fields of the contract") {
   CHECK(message.find("line")->text == "31");
   CHECK(message.find("block")->text == "29");
   CHECK(run.find("presets")->items.at(0).find("x_mm")->text == "0.5");
+}
+
+TEST_CASE("a number that is none is null in every document of a run") {
+  const double infinite = std::numeric_limits<double>::infinity();
+  app::RunReport odd = report();
+  odd.result.machining_time_s = infinite;
+  odd.result.presets[0].frame.origin.y = -infinite;
+  odd.result.parameters[0].value = std::numeric_limits<double>::quiet_NaN();
+  const auto run = parse_json(run_format().report(odd));
+  REQUIRE(run.has_value());
+  CHECK(run->find("machining_time_s")->is(JsonValue::Kind::Null));
+  CHECK(run->find("presets")->items.at(0).find("y_mm")->is(JsonValue::Kind::Null));
+  CHECK(run->find("parameters")->members.at(0).second.is(JsonValue::Kind::Null));
+
+  app::RunTrace trace;
+  trace.axes = {machine::Axis::X};
+  trace.places.resize(1);
+  machine::TracedMove& move = trace.moves.emplace_back();
+  move.seconds = infinite;
+  move.end[machine::Axis::X] = std::numeric_limits<double>::quiet_NaN();
+  const std::string json = trace_json(trace);
+  REQUIRE(parse_json(json).has_value());
+  CHECK(json.find("\"seconds\":null") != std::string::npos);
+  CHECK(json.find("\"end_mm\":{\"X\":null}") != std::string::npos);
+  CHECK(trace_csv(json).value().find("inf") == std::string::npos);
+}
+
+TEST_CASE("stored text that cannot be read is an error and not an exception") {
+  const std::string spoiled = "{\"machining_time_s\":inf}";
+  CHECK(finished_run_events(spoiled, {}).error().code == ErrorCode::StorageCorrupt);
+  CHECK(trace_csv("{\"moves\":[\n" + spoiled + "\n]}").error().code == ErrorCode::StorageCorrupt);
+  CHECK(finished_run_events("{}", {}).has_value());  // an older form, without the screen
+  CHECK(finished_run_events("7", {}).has_value());
+}
+
+TEST_CASE("events of a run that is over carry ids, and a reader goes on behind the one it had") {
+  const std::string report = R"({"screen":["one","two"]})";
+  const auto events = [&](std::optional<std::string_view> last) {
+    return std::get<std::string>(finished_run_events(report, last).value().body);
+  };
+  const std::string end = "event: end\nid: end\ndata: " + report + "\n\n";
+  const std::string two = "event: output\nid: 2\ndata: {\"line\":\"two\"}\n\n";
+  CHECK(events({}) == "event: output\nid: 1\ndata: {\"line\":\"one\"}\n\n" + two + end);
+  CHECK(events("0") == events({}));
+  CHECK(events("no id of ours") == events({}));
+  CHECK(events("1") == two + end);
+  CHECK(events("2") == end);
+  CHECK(finished_run_events(report, "end").value().status == 204);
 }
 
 TEST_CASE("a block without a number is null") {
@@ -126,7 +178,7 @@ TEST_CASE("an arc and a contact bring what draws them, and columns in every CSV"
   CHECK(touched.find("contact_mm")->find("X")->text == "4");
   CHECK(touched.find("machine_contact_mm")->find("X")->text == "7");
   CHECK(touched.find("machine_contact_normal")->is(JsonValue::Kind::Null));
-  const std::string csv = trace_csv(json);
+  const std::string csv = trace_csv(json).value();
   CHECK(csv.find("center_x_mm,center_y_mm,center_z_mm,sweep_deg,axis,machine_center_x_mm") !=
         std::string::npos);
   CHECK(csv.find("1,2,3,-90,Y,") != std::string::npos);

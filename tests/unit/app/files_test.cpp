@@ -12,7 +12,7 @@ TEST_CASE("a file is written, replaced, read and removed, whatever the case of i
   FileService& files = service->files();
   const auto write = [&](std::string_view name, std::string_view bytes) {
     return wait_for<FileService::Written>(
-               [&](auto done) { files.write(path(name), bytes, {}, std::move(done)); })
+               [&](auto done) { files.write(path(name), bytes, {}, {}, std::move(done)); })
         .value();
   };
   const auto read = [&](std::string_view name) {
@@ -33,11 +33,36 @@ TEST_CASE("a file is written, replaced, read and removed, whatever the case of i
 
   const auto remove = [&] {
     return wait_for<bool>(
-        [&](auto done) { files.remove(path("TNC:\\dir\\FILE.h"), {}, std::move(done)); });
+        [&](auto done) { files.remove(path("TNC:\\dir\\FILE.h"), {}, {}, std::move(done)); });
   };
   CHECK(remove().has_value());
   CHECK(remove().error().code == ErrorCode::FileUnknown);
   CHECK(read("TNC:\\dir\\file.h").error().code == ErrorCode::FileUnknown);
+}
+
+TEST_CASE("a precondition is asked with the state that a change would replace") {
+  Service service;
+  FileService& files = service->files();
+  const auto write = [&](const FileService::Precondition& allowed) {
+    return wait_for<FileService::Written>(
+        [&](auto done) { files.write(path("TNC:\\a.h"), "x", {}, allowed, std::move(done)); });
+  };
+  const auto is_new = [](std::optional<std::int64_t> revision) { return !revision; };
+  const auto first = write(is_new);
+  REQUIRE(first.has_value());
+  CHECK(write(is_new).error().code == ErrorCode::PreconditionFailed);
+  const auto is_first = [&](std::optional<std::int64_t> revision) {
+    return revision == first->revision;
+  };
+  CHECK(write(is_first).has_value());
+  CHECK(write(is_first).error().code == ErrorCode::PreconditionFailed);
+  const auto remove = [&](const FileService::Precondition& allowed) {
+    return wait_for<bool>(
+        [&](auto done) { files.remove(path("TNC:\\a.h"), {}, allowed, std::move(done)); });
+  };
+  CHECK(remove(is_first).error().code == ErrorCode::PreconditionFailed);
+  CHECK(remove({}).has_value());
+  CHECK(remove(is_first).error().code == ErrorCode::FileUnknown);
 }
 
 TEST_CASE("a file is checked as what its extension says: program, mask or table") {
@@ -67,7 +92,7 @@ TEST_CASE("a named setup is kept as it was written") {
   SetupService& setups = service->setups();
   const auto write = [&](std::string text) {
     return wait_for<bool>(
-        [&](auto done) { setups.write("mill", std::move(text), {}, std::move(done)); });
+        [&](auto done) { setups.write("mill", std::move(text), {}, {}, std::move(done)); });
   };
   CHECK(write("{}").value());
   CHECK_FALSE(write("{\"seed\": 7}").value());
@@ -76,7 +101,7 @@ TEST_CASE("a named setup is kept as it was written") {
       wait_for<std::vector<NamedSetup>>([&](auto done) { setups.list(std::move(done)); });
   REQUIRE(listed->size() == 1);
   CHECK((*listed)[0].name == "mill");
-  CHECK(wait_for<bool>([&](auto done) { setups.remove("mill", std::move(done)); }).has_value());
+  CHECK(wait_for<bool>([&](auto done) { setups.remove("mill", {}, std::move(done)); }).has_value());
   CHECK(setups.wait_for("mill").error().code == ErrorCode::SetupUnknown);
 }
 

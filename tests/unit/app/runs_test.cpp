@@ -1,4 +1,6 @@
 #include <array>
+#include <stdexcept>
+#include <thread>
 
 #include "app/runs/run_measurements.hpp"
 #include "service_fixture.hpp"
@@ -125,6 +127,43 @@ TEST_CASE("what is beyond the queue is refused, and a stopping service takes not
     CHECK(service.report_of(*run).result.status == RunStatus::Cancelled);
   }
   CHECK(service.start(endless()).error().code == ErrorCode::ShuttingDown);
+}
+
+TEST_CASE("runs that are accepted run, however many were cancelled before") {
+  Service service;
+  service.program(kForever);
+  service.upload("TNC:\\short.h", "BEGIN PGM short MM\nQ1 = 1\nEND PGM short MM\n");
+  const auto first = service.start(endless()).value();
+  for (int round = 0; round < 3; ++round) {
+    std::vector<std::shared_ptr<ActiveRun>> cancelled;
+    for (int i = 0; i < 64; ++i) cancelled.push_back(service.start(endless()).value());
+    CHECK(service.start(endless()).error().code == ErrorCode::Overloaded);
+    for (const auto& run : cancelled) service->runs().cancel(run);
+    for (const auto& run : cancelled) {
+      CHECK(service.report_of(*run).result.status == RunStatus::Cancelled);
+    }
+  }
+  std::vector<std::shared_ptr<ActiveRun>> accepted;
+  for (int i = 0; i < 6; ++i) {
+    accepted.push_back(service.start(Service::order("TNC:\\short.h")).value());
+  }
+  service->runs().cancel(first);
+  for (const auto& run : accepted) {
+    CHECK(service.report_of(*run).result.status == RunStatus::Completed);
+  }
+}
+
+TEST_CASE("a report that cannot be made ends the run, and the service goes on") {
+  Service service;
+  service.program("Q1 = 1");
+  service.break_reports();
+  const auto run = service.start(Service::order()).value();
+  std::promise<Result<FinishedRun>> promise;
+  run->on_end([](const Result<FinishedRun>&) { throw std::runtime_error("a follower's bug"); });
+  run->on_end([&promise](const Result<FinishedRun>& end) { promise.set_value(end); });
+  CHECK(promise.get_future().get().error().code == ErrorCode::Internal);
+  while (service->runs().active(run->id())) std::this_thread::yield();
+  CHECK(service.start(Service::order()).has_value());
 }
 
 TEST_CASE("a program that is gone when its turn comes fails with a message") {

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 
 #include "app/application.hpp"
@@ -64,7 +65,7 @@ class Service {
 
   void upload(std::string_view path, std::string_view bytes) {
     const auto written = wait_for<FileService::Written>([&](auto done) {
-      app_->files().write(interpreter::ControlPath::parse(path).value(), bytes, "test",
+      app_->files().write(interpreter::ControlPath::parse(path).value(), bytes, "test", {},
                           std::move(done));
     });
     REQUIRE(written.has_value());
@@ -113,8 +114,12 @@ class Service {
     return report_of(**started);
   }
 
+  /// From now on no report can be made.
+  void break_reports() { broken_ = true; }
+
  private:
   std::string keep(const RunReport& report) {
+    if (broken_) throw std::logic_error("a bug of the report");
     const std::lock_guard lock(mutex_);
     reports_.insert_or_assign(report.id, report);
     return std::to_string(report.id);
@@ -122,6 +127,7 @@ class Service {
 
   Folder folder_;
   SystemClock clock_;
+  std::atomic<bool> broken_{false};
   std::mutex mutex_;
   std::map<std::int64_t, RunReport> reports_;
   std::unique_ptr<Application> app_;  // ends before what its runs report to

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <future>
+#include <stdexcept>
 
 namespace fitgauge::app {
 namespace {
@@ -27,6 +28,37 @@ TEST_CASE("a pool refuses what its queue has no room for and finishes what it to
   pool.stop();
   CHECK(done == 3);
   CHECK_FALSE(pool.submit([&] { ++done; }));
+}
+
+TEST_CASE("a job that waits can be taken back, once, and makes room") {
+  std::promise<void> gate;
+  const auto opened = gate.get_future().share();
+  std::promise<void> begun;
+  std::atomic<int> done{0};
+  WorkerPool pool(1, 1);
+  const auto running = pool.submit([&] {
+    begun.set_value();
+    opened.wait();
+  });
+  begun.get_future().wait();
+  const auto waiting = pool.submit([&] { done += 1; });
+  REQUIRE(waiting);
+  CHECK_FALSE(pool.withdraw(*running));
+  CHECK(pool.withdraw(*waiting));
+  CHECK_FALSE(pool.withdraw(*waiting));
+  CHECK(pool.submit([&] { done += 10; }));
+  gate.set_value();
+  pool.stop();
+  CHECK(done == 10);
+}
+
+TEST_CASE("a job that throws ends neither its thread nor the jobs behind it") {
+  std::atomic<int> done{0};
+  WorkerPool pool(1, 2);
+  CHECK(pool.submit([] { throw std::runtime_error("a bug"); }));
+  CHECK(pool.submit([&] { ++done; }));
+  pool.stop();
+  CHECK(done == 1);
 }
 
 }  // namespace

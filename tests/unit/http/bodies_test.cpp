@@ -147,6 +147,30 @@ TEST_CASE("a chunked body over the limit is 413") {
   CHECK(server.ask(chunked("/none", "", "")).status == 405);
 }
 
+TEST_CASE("a chunk that announces more than the limit is 413 before its bytes come") {
+  TestServer server(body_routes());
+  const auto status_of = [&](std::string_view chunks) {
+    Client client = server.connect();
+    client.send(chunked("/json", chunks));
+    const auto answer = client.read();
+    return answer ? answer->status : 0;
+  };
+  // The limit is 100,000: 186a0.
+  for (const char* size : {"186a1", "000186A1", "7fffffff", "80000000", "ffffffff", "100000000",
+                           "7fffffffffffffff", "8000000000000000", "ffffffffffffffff",
+                           "10000000000000000", "ffffffffffffffffffffffff", "186a1;name=value"}) {
+    CAPTURE(size);
+    CHECK(status_of(std::string(size) + "\r\n") == 413);
+    CHECK(status_of("5\r\nhello\r\n" + std::string(size) + "\r\n") == 413);
+  }
+  CHECK(status_of("5\r\nhello\r\n1869c\r\n") == 413);  // together one too many
+  CHECK(status_of("g\r\n") == 400);
+  CHECK(status_of(fmt::format("186a0\r\n{}\r\n0\r\n\r\n", std::string(kLimit, 'x'))) == 200);
+  Client client = server.connect();
+  client.send("GET /none HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n186a1\r\n");
+  CHECK(client.read()->status == 413);
+}
+
 TEST_CASE("a body that the route has no use for is read and thrown away") {
   TestServer server(body_routes());
   Client client = server.connect();

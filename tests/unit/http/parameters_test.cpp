@@ -21,7 +21,6 @@ Result<Response> describe(const Request& request) {
     text += fmt::format("nm={} ", value->count());
   if (const auto value = request.length("u_um")) text += fmt::format("u={} ", value->count());
   if (const auto value = request.text("rule")) text += fmt::format("rule={} ", *value);
-  if (const auto value = request.boolean("all")) text += fmt::format("all={} ", *value);
   if (const auto value = request.time("from")) text += "from=" + format_rfc3339(*value) + " ";
   if (const auto value = request.integer("X-Depth")) text += fmt::format("depth={} ", *value);
   return Response(200, "text/plain", text);
@@ -37,7 +36,6 @@ std::vector<Route> parameter_routes() {
                       {.name = "measured_mm", .type = LengthIn{.round_to_nearest = true}},
                       {.name = "u_um", .type = LengthIn{.unit = LengthUnit::Micrometre}},
                       {.name = "rule", .type = Words{{"simple", "guard_band"}}},
-                      {.name = "all", .type = Boolean{}},
                       {.name = "from", .type = Time{}},
                       {.name = "X-Depth", .place = ParameterPlace::Header, .type = Integer{0, 9}}},
        .response_types = {"text/plain"}},
@@ -73,8 +71,6 @@ TEST_CASE("typed query parameters reach the handler as values") {
   CHECK(body("factor=2,5") == "factor=2500 ");
   CHECK(body("measured_mm=25.0000004") == "nm=25000000 ");
   CHECK(body("u_um=0,8") == "u=800 ");
-  CHECK(body("rule=guard_band&all=1") == "rule=guard_band all=true ");
-  CHECK(body("all=false") == "all=false ");
   CHECK(body("from=2026-11-20T08:00:00%2B01:00") == "from=2026-11-20T07:00:00Z ");
   CHECK(body("from=2026-11-20T08:00:00+01:00") == "from=2026-11-20T07:00:00Z ");
   CHECK(server.ask(get("/q", "x-depth: 3\r\n")).body == "depth=3 ");
@@ -97,7 +93,6 @@ TEST_CASE("a query that does not fit the table is refused with its code") {
   CHECK(refusal("/q?part_id=123456789", 400) == "query.invalid");
   CHECK(refusal("/q?factor=2.0001", 400) == "query.invalid");
   CHECK(refusal("/q?rule=Simple", 400) == "query.invalid");
-  CHECK(refusal("/q?all=yes", 400) == "query.invalid");
   CHECK(refusal("/q?from=yesterday", 400) == "query.invalid");
   CHECK(refusal("/q?u_um=0.00001", 422) == "length.too_fine");
   CHECK(refusal("/q?u_um=x", 400) == "length.malformed");

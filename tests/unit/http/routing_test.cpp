@@ -66,6 +66,7 @@ TEST_CASE("a path finds its route and its decoded segments") {
   CHECK(body("/v1/fits/25H7/g6") == "/v1/fits/{hole}/{shaft} hole=25H7 shaft=g6");
   CHECK(body("/v1/files/nc_prog/8255/8255.h") == "/v1/files/{path*} path=nc_prog/8255/8255.h");
   CHECK(body("/v1/files/a%20b/c%25d") == "/v1/files/{path*} path=a b/c%d");
+  CHECK(body("/v1/files/a%2Fb/c%2fd") == "/v1/files/{path*} path=a/b/c/d");
   CHECK(body("/v1/files/1/2/3/4/5/6/7/8/9/10/11/12/13/14/15/16/17/18") ==
         "/v1/files/{path*} path=1/2/3/4/5/6/7/8/9/10/11/12/13/14/15/16/17/18");
 }
@@ -85,9 +86,8 @@ TEST_CASE("a path that names nothing is 404") {
 
 TEST_CASE("a path that cannot be decoded is 400") {
   TestServer server(routes());
-  for (const char* path :
-       {"/v1/limits/%", "/v1/limits/%4", "/v1/limits/%zz", "/v1/limits/%ff", "/v1/limits/%00",
-        "/v1/limits/\xff", "/v1/limits/%ED%A0%80", "/v1/files/a%2fb"}) {
+  for (const char* path : {"/v1/limits/%", "/v1/limits/%4", "/v1/limits/%zz", "/v1/limits/%ff",
+                           "/v1/limits/%00", "/v1/limits/\xff", "/v1/limits/%ED%A0%80"}) {
     CAPTURE(path);
     const Answer answer = server.ask(get(path));
     CHECK(answer.status == 400);

@@ -178,7 +178,7 @@ TEST_CASE("a chunked body that is malformed is refused") {
   check_refused(head + "x\r\nhello\r\n0\r\n\r\n", 400, kMalformed);
   check_refused(head + "5\r\nhello!\r\n0\r\n\r\n", 400, kMalformed);
   check_refused(head + "-5\r\nhello\r\n0\r\n\r\n", 400, kMalformed);
-  check_refused(head + "fffffffffffffffff\r\nhello", 400, kMalformed);
+  check_refused(head + "fffffffffffffffff\r\nhello", 413, "request.body_too_large");
   check_refused(head + "5\r\nhello\r\n0\r\nTransfer-Encoding: chunked\r\n\r\n", 400, kMalformed);
   check_refused(head + "5\nhello\n0\r\n\r\n", 400, kMalformed);
   check_refused(head + "5\nhello", 400, kMalformed);

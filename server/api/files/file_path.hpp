@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+#include "base/result.hpp"
+#include "program/control_path.hpp"
+
+namespace fitgauge::api {
+
+inline constexpr std::string_view kDrive = "TNC:\\";
+inline constexpr std::string_view kFiles = "/v1/files/";
+
+/// A file of the control's disk in either form: `TNC:\nc_prog\8255.h`, or as under /v1/files,
+/// `nc_prog/8255.h`, with or without that in front.
+/// @errors those of ControlPath::parse.
+Result<interpreter::ControlPath> parse_file_path(std::string_view text);
+
+}  // namespace fitgauge::api
