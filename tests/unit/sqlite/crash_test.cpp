@@ -137,7 +137,8 @@ TEST_CASE("measurements acknowledged before a kill are there after it") {
     const auto last_id = (*opened)->readers().wait(
         [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.last_id(); });
     CHECK(*last_id >= acknowledged);
-    CHECK((*opened)->verify()->findings.empty());
+    const auto report = (*opened)->verify();
+    CHECK_MESSAGE(report->findings.empty(), report->findings.front());
   }
   CHECK(acknowledged > 0);
 }

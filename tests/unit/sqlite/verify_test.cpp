@@ -49,6 +49,15 @@ TEST_CASE("a sound database verifies") {
   CHECK(report->findings.empty());
 }
 
+TEST_CASE("a sound database verifies while its measurements are being indexed") {
+  Fixture fixture;
+  REQUIRE(fixture.append(std::vector<MeasurementRow>(30'000, sample_row())).has_value());
+  for (int round = 0; round < 4; ++round) {
+    const auto report = fixture.database->verify();
+    CHECK_MESSAGE(report->findings.empty(), report->findings.front());
+  }
+}
+
 TEST_CASE("measurements linked on another thread continue the chain") {
   VerifyFixture fixture;
   MeasurementChain chain(*fixture.read([](const Stores& stores) -> Result<MeasurementChain::End> {
