@@ -16,6 +16,7 @@ FOLDERS = {
     "store": "db/store", "sqlite": "db/sqlite", "gauging": "server/gauging", "metrology": "server/metrology", "klartext": "server/klartext",
     "machine": "server/machine", "probing": "server/probing",
     "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http", "tlog": "server/tlog",
+    "control_link": "server/control_link",
     "api": "server/api", "daemon": "server/daemon", "clients": "clients",
 }
 DOMAIN = {"iso286", "tabfile", "gauging", "metrology", "klartext", "machine", "probing", "program", "run"}
@@ -31,7 +32,7 @@ def allowed_edges(architecture: str) -> dict[str, set[str]]:
     for clause in paragraph.group(1).split(";"):
         if "→" not in clause:
             continue
-        sources, targets = (set(re.findall(r"[a-z0-9]+", side)) for side in clause.split("→"))
+        sources, targets = (set(re.findall(r"[a-z0-9_]+", side)) for side in clause.split("→"))
         if "domain" in targets:  # "the domain types it formats"
             targets |= DOMAIN
         for source in sources & FOLDERS.keys():

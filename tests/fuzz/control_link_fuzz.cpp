@@ -1,0 +1,62 @@
+// Bytes as what a client, or a control, sends: each telegram is the same however it is cut on its
+// way, and what is read of it is written as it was.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "control_link/answers.hpp"
+#include "control_link/requests.hpp"
+#include "control_link/telegram.hpp"
+
+using namespace fitgauge::control_link;
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+std::vector<Telegram> read_all(std::string_view bytes, std::size_t step) {
+  TelegramReader reader;
+  std::vector<Telegram> telegrams;
+  while (!bytes.empty()) {
+    reader.feed(bytes.substr(0, step));
+    bytes.remove_prefix(bytes.size() < step ? bytes.size() : step);
+    for (;;) {
+      const auto next = reader.next();
+      if (!next) return telegrams;
+      if (!*next) break;
+      telegrams.push_back(**next);
+    }
+  }
+  return telegrams;
+}
+
+template <class... Messages>
+void check_as(const Telegram& telegram) {
+  const auto check = [&telegram]<class Message>(Message*) {
+    if (const auto message = decode<Message>(telegram)) require(encode(*message) == telegram);
+  };
+  (check(static_cast<Messages*>(nullptr)), ...);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const std::vector<Telegram> telegrams = read_all(bytes, size + 1);
+  require(telegrams == read_all(bytes, 1));
+  for (const Telegram& telegram : telegrams) {
+    require(framed(telegram).size() < kSmallestBuffer);
+    if (const auto request = read_request(telegram)) {
+      std::visit([&](const auto& message) { require(encode(message) == telegram); }, *request);
+    }
+    check_as<Refused, Versions, Version, Parameters, DirectoryInformation, FileInformation,
+             DirectoryEntry, Memory, MachineParameter, DataValue, Axes, State, ProgramStack,
+             Overrides, Fault, SpindleTool>(telegram);
+  }
+  return 0;
+}
