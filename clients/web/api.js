@@ -30,7 +30,8 @@ let askForKey = async () => null;
 /** @param ask shows why a key is needed and resolves to one, or to null. */
 export const onKeyNeeded = (ask) => { askForKey = ask; };
 
-export const hasKey = () => readStored(KEY, 'session') !== null;
+/** The key that was entered in this window, or null. */
+export const keyInUse = () => readStored(KEY, 'session');
 
 async function problemOf(response) {
   const document = await response.json().catch(() => ({}));
@@ -47,7 +48,7 @@ export async function request(method, path, { body, headers = {}, signal, timeou
   const sent = isJson ? toJson(body) : body;
   const type = isJson ? { 'Content-Type': 'application/json' } : {};
   for (;;) {
-    const key = readStored(KEY, 'session');
+    const key = keyInUse();
     const authorization = key ? { Authorization: `Bearer ${key}` } : {};
     const response = await fetch(path, {
       method, body: sent, cache: 'no-cache', headers: { ...type, ...headers, ...authorization },

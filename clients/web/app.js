@@ -2,30 +2,64 @@
 
 import { onKeyNeeded } from './api.js';
 import { connection } from './connection.js';
-import { h } from './dom.js';
-import { chooseLanguage, language, LANGUAGES, loadLanguage, t } from './i18n.js';
+import { h, refill } from './dom.js';
+import { chooseLanguage, dateTime, has, language, LANGUAGES, loadLanguage, t } from './i18n.js';
 import { enterKey } from './key_dialog.js';
 import { queue } from './queue.js';
 import { currentRoute, lastOf, remember } from './route.js';
+import { forget, readStored, store } from './stored.js';
 
 const VIEWS = ['gauge', 'fit', 'trend', 'programs', 'tables'];
 const main = document.getElementById('main');
+const printed = document.getElementById('printed');
+const viewOf = (route) => (VIEWS.includes(route.view) ? route.view : VIEWS[0]);
 let leave = () => {};
+let shown = '';
 
 async function show() {
   const route = currentRoute();
-  const view = VIEWS.includes(route.view) ? route.view : VIEWS[0];
+  const view = viewOf(route);
   remember(view);
-  const { mount } = await import(`./views/${view}.js`);
+  const { mount } = await viewModule(view);
+  if (viewOf(currentRoute()) !== view) return;
+  const moved = shown && shown !== view;
+  shown = view;
   leave();
   leave = mount(main, route) ?? (() => {});
   document.title = `${t(`view.${view}`)} · fitgauge`;
   drawViews(view);
+  if (moved && !main.contains(document.activeElement)) main.querySelector('h1').focus({ preventScroll: true });
+}
+
+/** A page that stayed open over an update of the service asks for files that are gone: it loads anew, once. */
+async function viewModule(view) {
+  try {
+    const module = await import(`./views/${view}.js`);
+    forget('reloaded', 'session');
+    return module;
+  } catch (problem) {
+    if (readStored('reloaded', 'session')) throw problem;
+    store('reloaded', 'yes', 'session');
+    location.reload();
+    return new Promise(() => {});
+  }
 }
 
 function drawViews(current) {
-  document.getElementById('views').replaceChildren(...VIEWS.map((view) =>
+  refill(document.getElementById('views'), VIEWS.map((view) =>
     h('a', { href: lastOf(view), 'aria-current': view === current && 'page' }, t(`view.${view}`))));
+  // On a narrow screen the views are a row that scrolls.
+  const nav = document.getElementById('views');
+  const here = nav.querySelector('[aria-current]');
+  if (here) nav.scrollLeft = here.offsetLeft - nav.offsetLeft - (nav.clientWidth - here.offsetWidth) / 2;
+}
+
+/** What a sheet of paper says of itself: of what it is, where it comes from, when it was printed. */
+function drawPrinted() {
+  const { path, options } = currentRoute();
+  const given = [...path, ...Object.entries(options).map(([name, value]) => `${has(`field.${name}`) ? t(`field.${name}`) : name} ${value}`)];
+  printed.replaceChildren(h('strong', t(`view.${shown}`)), h('span', given.join(' · ')),
+    h('span', `${location.host} · ${dateTime(connection.now())}`));
 }
 
 function drawLink() {
@@ -62,7 +96,8 @@ document.getElementById('skip').addEventListener('click', (event) => {
 connection.addEventListener('change', drawLink);
 queue.addEventListener('change', drawLink);
 addEventListener('hashchange', show);
-addEventListener('routechange', () => drawViews(currentRoute().view));
+addEventListener('routechange', () => drawViews(viewOf(currentRoute())));
+addEventListener('beforeprint', drawPrinted);
 drawFrame();
 await show();
 connection.watch();

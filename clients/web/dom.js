@@ -27,6 +27,17 @@ export const h = (selector, ...rest) => make((name) => document.createElement(na
 /** The same for SVG. */
 export const s = (selector, ...rest) => make((name) => document.createElementNS(SVG, name), selector, rest);
 
+const FOCUSED = 'a, button, input, select, summary, textarea, [tabindex]';
+const sameAs = (element) => [element.tagName, element.id, element.name, element.getAttribute('aria-label'), element.textContent].join();
+
+/** Puts other children into an element; what had the focus and is there again keeps it. */
+export function refill(element, ...children) {
+  const focused = element.contains(document.activeElement) && document.activeElement;
+  const sign = focused && focused !== element && sameAs(focused);
+  element.replaceChildren(...children.flat(Infinity).filter(Boolean));
+  if (sign) [...element.querySelectorAll(FOCUSED)].find((each) => sameAs(each) === sign)?.focus();
+}
+
 /** A labelled form control. */
 export function field(label, control, hint) {
   return h('label.field', h('span.label', label), control, hint && h('span.hint', hint));

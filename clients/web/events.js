@@ -1,79 +1,80 @@
-/** Server-Sent Events over fetch, which can send a key where EventSource cannot. */
+/** What happens at the service: one stream for all tabs of a browser, none for a tab nobody sees. */
 
-import { get } from './api.js';
+import { get, keyInUse } from './api.js';
+import { eventsOf, followStream } from './stream.js';
 
-const LONGEST_WAIT_MS = 5000;
-
-/** The events of one answer (WHATWG HTML, 9.2.6), as {type, id, data}. */
-async function* eventsOf(response) {
-  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
-  let rest = '';
-  let event = {};
-  for (;;) {
-    const { value, done } = await reader.read();
-    if (done) return;
-    const lines = (rest + value).split('\n');
-    rest = lines.pop();
-    for (const line of lines) {
-      if (line === '') {
-        if (event.data !== undefined || event.id !== undefined) yield event;
-        event = {};
-        continue;
-      }
-      const [, name, text] = /^([^:]*):? ?(.*)$/.exec(line.replace(/\r$/, ''));
-      if (name === 'event') event.type = text;
-      else if (name === 'id') event.id = text;
-      else if (name === 'data') event.data = event.data === undefined ? text : `${event.data}\n${text}`;
-    }
-  }
-}
+const WORKER = new URL('./stream_worker.js', import.meta.url);
+/** A worker that is not there by then never comes: its file may be blocked. */
+const WORKER_START_MS = 4000;
 
 /** The events of one stream, to its end. */
 export async function* readEvents(path, signal) {
   yield* eventsOf(await get(path, { signal, headers: { Accept: 'text/event-stream' } }));
 }
 
-/** Resolves once the page is seen. */
-const seen = () => new Promise((resolve) => {
-  const look = () => {
-    if (document.hidden) return;
-    document.removeEventListener('visibilitychange', look);
-    resolve();
+/**
+ * Follows /v1/events until `signal` while the page is seen. A page that was hidden goes on where it was,
+ * or gets `resync`: then it reads anew.
+ */
+export async function follow(signal, onEvent) {
+  const port = await sharedPort();
+  let last;
+  const take = (event) => {
+    last = event.id ?? last;
+    if (!signal.aborted) onEvent(event);
   };
-  document.addEventListener('visibilitychange', look);
+  const join = port ? joinShared(port, take, () => last) : joinAlone(take, () => last);
+  let leave = () => {};
+  let left = false;
+  const look = () => {
+    leave();
+    leave = () => {};
+    if (signal.aborted) return;
+    if (document.hidden) {
+      left = true;
+      return;
+    }
+    leave = join();
+    // Without an event there is no id to go on from.
+    if (left && !last) take({ type: 'resync', data: '{}' });
+  };
+  document.addEventListener('visibilitychange', look, { signal });
+  addEventListener('pagehide', () => leave(), { signal });
+  addEventListener('pageshow', (event) => event.persisted && look(), { signal });
+  signal.addEventListener('abort', () => leave());
   look();
-});
-
-/** A signal that also ends when the page is hidden: a browser has six connections to a service for all its tabs. */
-function whileSeen(signal) {
-  const hidden = new AbortController();
-  const look = () => document.hidden && hidden.abort();
-  document.addEventListener('visibilitychange', look, { signal: hidden.signal });
-  signal.addEventListener('abort', () => hidden.abort(), { signal: hidden.signal });
-  if (signal.aborted) hidden.abort();
-  return hidden.signal;
 }
 
-/**
- * Follows a stream until `signal` while the page is seen, coming back with the id of the last event
- * after every break.
- */
-export async function follow(path, signal, onEvent) {
-  let last;
-  let wait = 250;
-  while (!signal.aborted) {
-    await seen();
+/** A port to the worker of this browser; null where there is none. */
+function sharedPort() {
+  if (!globalThis.SharedWorker) return null;
+  return new Promise((resolve) => {
     try {
-      const headers = { Accept: 'text/event-stream', ...(last && { 'Last-Event-ID': last }) };
-      for await (const event of eventsOf(await get(path, { signal: whileSeen(signal), headers }))) {
-        wait = 250;
-        last = event.id ?? last;
-        if (event.data !== undefined) onEvent(event);
-      }
-    } catch (error) {
-      if (signal.aborted || error.status === 401) return;
+      const worker = new SharedWorker(WORKER, { type: 'module' });
+      const give = setTimeout(() => resolve(null), WORKER_START_MS);
+      worker.onerror = () => resolve(null);
+      worker.port.onmessage = () => {
+        clearTimeout(give);
+        resolve(worker.port);
+      };
+    } catch {
+      resolve(null);
     }
-    await new Promise((resolve) => setTimeout(resolve, wait));
-    wait = Math.min(2 * wait, LONGEST_WAIT_MS);
-  }
+  });
+}
+
+function joinShared(port, take, last) {
+  port.onmessage = ({ data }) => data.event && take(data.event);
+  return () => {
+    port.postMessage({ join: true, key: keyInUse(), last: last() });
+    return () => port.postMessage({ join: false });
+  };
+}
+
+function joinAlone(take, last) {
+  return () => {
+    const ending = new AbortController();
+    followStream('/v1/events', { key: keyInUse(), last: last(), signal: ending.signal, onEvent: take });
+    return () => ending.abort();
+  };
 }

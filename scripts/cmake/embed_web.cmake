@@ -1,6 +1,7 @@
 # cmake -DOUT=<file> -DROOT=<folder> -DFILES=<names> -P embed_web.cmake
 # Writes the table of server/api/service/page_assets.hpp: every file of the page as it is and gzipped, with its
-# media type and an entity tag made of its content.
+# media type and an entity tag made of its content. index.html names the other files below the build's name,
+# a digest of them all: what stands there never changes and may be kept for ever.
 
 set(type_html "text/html; charset=utf-8")
 set(type_css "text/css; charset=utf-8")
@@ -15,6 +16,14 @@ function(bytes_of file variable)
   set(${variable} "${hex}" PARENT_SCOPE)
 endfunction()
 
+set(digests "")
+foreach(name IN LISTS FILES)
+  file(SHA256 "${ROOT}/${name}" digest)
+  string(APPEND digests "${name} ${digest}\n")
+endforeach()
+string(SHA256 build "${digests}")
+string(SUBSTRING "${build}" 0 12 build)
+
 set(arrays "")
 set(rows "")
 set(number 0)
@@ -23,12 +32,19 @@ foreach(name IN LISTS FILES)
   if(NOT DEFINED type_${extension})
     message(FATAL_ERROR "embed_web: no media type is known for ${name}")
   endif()
+  set(source "${ROOT}/${name}")
+  if(name STREQUAL "index.html")
+    file(READ "${source}" text)
+    string(REPLACE "\"/web/" "\"/web/${build}/" text "${text}")
+    set(source "${OUT}.html")
+    file(WRITE "${source}" "${text}")
+  endif()
   set(packed "${OUT}.gz")
-  execute_process(COMMAND gzip -9 -n -c "${ROOT}/${name}" OUTPUT_FILE "${packed}"
+  execute_process(COMMAND gzip -9 -n -c "${source}" OUTPUT_FILE "${packed}"
                   COMMAND_ERROR_IS_FATAL ANY)
-  file(SHA256 "${ROOT}/${name}" digest)
+  file(SHA256 "${source}" digest)
   string(SUBSTRING "${digest}" 0 16 digest)
-  bytes_of("${ROOT}/${name}" plain)
+  bytes_of("${source}" plain)
   bytes_of("${packed}" gzipped)
   file(REMOVE "${packed}")
   string(APPEND arrays
@@ -48,4 +64,5 @@ constexpr PageAsset kAssets[] = {
 ${rows}};\n
 }  // namespace\n
 std::span<const PageAsset> page_assets() { return kAssets; }\n
+std::string_view page_build() { return \"${build}\"; }\n
 }  // namespace fitgauge::api\n")

@@ -40,7 +40,11 @@ export class ClassMap {
     const y = (nm) => 8 + (HEIGHT - 16) * (high - nm) / Math.max(high - low, 1);
     const hadFocus = this.zones.contains(document.activeElement);
     this.zones.replaceChildren(...classes.map((zone) => this.#choice(zone, y)));
-    if (hadFocus) this.zones.querySelector(':checked')?.focus();
+    const chosen = this.zones.querySelector(':checked');
+    if (hadFocus) chosen?.focus();
+    // Sideways only: the page itself stays where it is.
+    const place = chosen?.parentElement;
+    if (place) this.zones.scrollLeft = place.offsetLeft - (this.zones.clientWidth - place.offsetWidth) / 2;
   }
 
   #choice({ name, upper, lower }, y) {

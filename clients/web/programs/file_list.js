@@ -1,6 +1,6 @@
 /** The files of the control's disk by folder, and the way new ones get there. */
 
-import { field, h } from '../dom.js';
+import { field, h, refill } from '../dom.js';
 import { t } from '../i18n.js';
 
 export class FileList {
@@ -32,7 +32,7 @@ export class FileList {
       const folder = at < 0 ? '' : path.slice(0, at);
       folders.set(folder, [...(folders.get(folder) ?? []), path]);
     }
-    this.list.replaceChildren(...[...folders].map(([folder, paths]) => h('section', h('h2.aside', `TNC:\\${folder.replaceAll('/', '\\')}`),
+    refill(this.list, [...folders].map(([folder, paths]) => h('section', h('h2.aside', `TNC:\\${folder.replaceAll('/', '\\')}`),
       h('ul', paths.map((path) => h('li', h('button', {
         type: 'button', 'aria-current': path === current && 'true', onclick: () => this.onPick(path),
       }, path.slice(path.lastIndexOf('/') + 1))))))));

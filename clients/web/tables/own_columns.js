@@ -2,7 +2,7 @@
 
 import { request, url } from '../api.js';
 import { confirm } from '../confirm.js';
-import { field, h } from '../dom.js';
+import { field, h, refill } from '../dom.js';
 import { Decimal, parseMeasured, parseSigned } from '../exact.js';
 import { explain, t } from '../i18n.js';
 import { isoClass } from './catalogue.js';
@@ -37,7 +37,7 @@ export class OwnColumns {
 
   show(feature, names) {
     this.feature = feature;
-    this.list.replaceChildren(...names.map((name) => h('li',
+    refill(this.list, names.map((name) => h('li',
       h('button.quiet', { type: 'button', onclick: () => this.onShow(name) }, name),
       h('button', { type: 'button', 'aria-label': t('own.remove_this', { name }), onclick: () => this.#remove(name) }, t('own.remove')))));
     if (!names.length) this.list.replaceChildren(h('li.aside', t('own.none')));

@@ -2,7 +2,7 @@
 
 import { getJson, url } from '../api.js';
 import { parseFit } from '../designation.js';
-import { field, h } from '../dom.js';
+import { field, h, refill } from '../dom.js';
 import { mmText, nmFromMm, nmFromUm, parseMeasured, umText } from '../exact.js';
 import { ClassMap } from '../fit/class_map.js';
 import { clearanceBar } from '../fit/clearance_bar.js';
@@ -32,8 +32,9 @@ export function mount(main, route) {
   const preferred = h('div');
   const maps = h('div.class-maps');
   let classMaps = {};
+  let drawn = () => {};
 
-  main.replaceChildren(h('div.desk.fit', h('h1.unseen', t('view.fit')),
+  main.replaceChildren(h('div.desk.fit', h('h1.unseen', { tabindex: -1 }, t('view.fit')),
     h('div.main-column', h('div.sheet', figure), preferred),
     h('div.side', h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); readTyped(); } },
       field(t('fit.label'), typed), note,
@@ -52,6 +53,7 @@ export function mount(main, route) {
   /** No result stands below a note that is about something else. */
   function nothing(reason) {
     note.textContent = reason;
+    drawn = () => {};
     figure.replaceChildren();
     result.replaceChildren();
   }
@@ -80,7 +82,7 @@ export function mount(main, route) {
       note.textContent = '';
       await draw(fit, signal);
     }).catch((problem) => nothing(explain(problem)));
-    preferred.replaceChildren(preferredFits(state, pick));
+    refill(preferred, preferredFits(state, pick));
     for (const feature of FEATURES) classMaps[feature]?.show(nmFromMm(state.size), state[feature]);
   }
 
@@ -93,7 +95,8 @@ export function mount(main, route) {
     }
     const actual = sizes.hole - sizes.shaft;
     const judged = await verdicts(fit, sizes, signal);
-    figure.replaceChildren(zoneFigure(fit, sizes), clearanceBar(fit, actual));
+    drawn = () => figure.replaceChildren(zoneFigure(fit, sizes, figure.clientWidth), clearanceBar(fit, actual, figure.clientWidth));
+    drawn();
     result.replaceChildren(...summary(fit, actual), limitsTable(fit, judged));
   }
 
@@ -111,9 +114,14 @@ export function mount(main, route) {
     if (state.size) for (const feature of FEATURES) classMaps[feature].show(nmFromMm(state.size), state[feature]);
   }
 
+  const resized = new ResizeObserver(() => drawn());
+  resized.observe(figure);
   refresh();
   drawMaps().catch((problem) => { note.textContent = explain(problem); });
-  return () => leaving.abort();
+  return () => {
+    leaving.abort();
+    resized.disconnect();
+  };
 }
 
 function summary(fit, actual) {

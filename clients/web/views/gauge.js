@@ -115,7 +115,7 @@ export function mount(main, route) {
   }, { signal });
   addEventListener('focus', () => document.activeElement === document.body && entry.focus(), { signal });
 
-  main.replaceChildren(h('div.gauge', h('h1.unseen', t('view.gauge')),
+  main.replaceChildren(h('div.gauge', h('h1.unseen', { tabindex: -1 }, t('view.gauge')),
     h('div.station', job.element, entry.element, arrivals.element, panel.element), recent.element));
   remember('gauge');
   job.start();

@@ -23,7 +23,7 @@ export function mount(main, route) {
   const program = h('div.program', h('div.line', title, actions), source, form.element);
   const nothing = h('p.empty', t('programs.pick'));
 
-  main.replaceChildren(h('div.desk.programs', h('h1.unseen', t('view.programs')), files.element, h('div.program', note, nothing, program)));
+  main.replaceChildren(h('div.desk.programs', h('h1.unseen', { tabindex: -1 }, t('view.programs')), files.element, h('div.program', note, nothing, program)));
 
   function remember(options = {}) {
     go({ view: 'programs', path: current.split('/').filter(Boolean), options }, { refine: true });

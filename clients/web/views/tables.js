@@ -1,7 +1,7 @@
 /** The tables: search by size and class, copy as CSV, the shop's own columns. */
 
 import { get, url } from '../api.js';
-import { copyText, field, h } from '../dom.js';
+import { copyText, field, h, refill } from '../dom.js';
 import { parseDesignation } from '../designation.js';
 import { nmFromMm, parseMeasured } from '../exact.js';
 import { explain, number, signed, t } from '../i18n.js';
@@ -27,7 +27,7 @@ export function mount(main, route) {
   const features = h('div.switch', { role: 'group', 'aria-label': t('tables.feature') });
   const own = new OwnColumns({ onChange: () => reload(), onShow: (name) => { find.value = name; refresh(); } });
 
-  main.replaceChildren(h('div.desk.tables', h('h1.unseen', t('view.tables')),
+  main.replaceChildren(h('div.desk.tables', h('h1.unseen', { tabindex: -1 }, t('view.tables')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, features, field(t('tables.find'), find),
       h('button', { type: 'button', onclick: copy }, t('tables.copy')),
       h('a.button', { href: '/v1/tables/hole?format=csv', download: 'hole.csv', id: 'whole-table' }, t('tables.whole'))),
@@ -88,7 +88,7 @@ export function mount(main, route) {
   }
 
   function drawFeatures() {
-    features.replaceChildren(...FEATURES.map((each) => h('button', {
+    refill(features, FEATURES.map((each) => h('button', {
       type: 'button', 'aria-pressed': String(each === feature), onclick: () => { feature = each; reload(); },
     }, t(`tables.${each}`))));
     const whole = main.querySelector('#whole-table');

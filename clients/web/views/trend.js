@@ -27,17 +27,17 @@ export function mount(main, route) {
   const chart = h('figure');
   const tiles = h('dl.tiles');
   const note = h('p.note', { role: 'alert' });
-  const table = h('div');
+  const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('recent.title') });
   let wanted = route.options.designation ?? '';
   let records = [];
   let timer = 0;
   const offered = new Set();
 
   count.append(...COUNTS.map((each) => option(each, String(each), each === (Number(route.options.count) || 100))));
-  main.replaceChildren(h('div.desk.trend', h('h1.unseen', t('view.trend')),
+  main.replaceChildren(h('div.desk.trend', h('h1.unseen', { tabindex: -1 }, t('view.trend')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('field.characteristic'), characteristic),
       field(t('job.designation'), designation), field(t('trend.count'), count)),
-    note, h('div', { role: 'status' }, tiles), h('div.sheet', chart), table));
+    note, tiles, h('div.sheet', chart), table));
 
   /** The choices; what the URL names is offered even when nothing has it yet. */
   async function offer() {
@@ -86,7 +86,7 @@ export function mount(main, route) {
       table.replaceChildren();
       return;
     }
-    chart.replaceChildren(runChart(points, Math.max(chart.clientWidth, 480)));
+    chart.replaceChildren(runChart(points, Math.max(chart.clientWidth, 320)));
     tiles.replaceChildren(...summary(points));
     table.replaceChildren(lastRows(points));
   }
@@ -112,7 +112,7 @@ export function mount(main, route) {
   const resized = new ResizeObserver(() => records.length && drawSoon());
   resized.observe(chart);
   offer().then(load, (problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); })
-    .then(() => follow('/v1/events', leaving.signal, arrived));
+    .then(() => follow(leaving.signal, arrived));
   return () => {
     leaving.abort();
     resized.disconnect();

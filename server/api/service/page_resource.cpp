@@ -1,7 +1,9 @@
 #include "api/service/page_resource.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <string>
 
 #include "api/service/page_assets.hpp"
 #include "api/wire/request_facts.hpp"
@@ -16,7 +18,7 @@ struct PageFile {
   Prepared plain;
   Prepared gzipped;
 };
-using PageFiles = std::map<std::string_view, PageFile>;
+using PageFiles = std::map<std::string, PageFile, std::less<>>;
 
 constexpr std::string_view kEntry = "index.html";
 
@@ -26,20 +28,25 @@ constexpr std::string_view kPolicy =
     "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
 
-http::Response response_of(const PageAsset& asset, std::span<const unsigned char> bytes) {
+/// Asked for again each time, or kept: what stands below the build's name never changes.
+constexpr std::string_view kFresh = "no-cache";
+constexpr std::string_view kKept = "public, max-age=31536000, immutable";
+
+http::Response response_of(const PageAsset& asset, std::span<const unsigned char> bytes,
+                           std::string_view caching) {
   return http::Response(200, std::string(asset.content_type),
                         std::string(bytes.begin(), bytes.end()))
-      .with("Cache-Control", "no-cache")
+      .with("Cache-Control", std::string(caching))
       .with("Content-Security-Policy", std::string(kPolicy))
       .with("Referrer-Policy", "no-referrer")
       .with("Vary", "Accept-Encoding")
       .with("X-Content-Type-Options", "nosniff");
 }
 
-PageFile prepare_file(const PageAsset& asset) {
-  http::Response plain = response_of(asset, asset.plain);
+PageFile prepare_file(const PageAsset& asset, std::string_view caching) {
+  http::Response plain = response_of(asset, asset.plain, caching);
   plain.etag = '"' + std::string(asset.digest) + '"';
-  http::Response gzipped = response_of(asset, asset.gzipped);
+  http::Response gzipped = response_of(asset, asset.gzipped, caching);
   gzipped.with("Content-Encoding", "gzip");
   gzipped.etag = '"' + std::string(asset.digest) + "-gzip\"";
   return {http::prepare(plain), http::prepare(gzipped)};
@@ -47,7 +54,11 @@ PageFile prepare_file(const PageAsset& asset) {
 
 PageFiles prepare_files() {
   PageFiles files;
-  for (const PageAsset& asset : page_assets()) files.emplace(asset.path, prepare_file(asset));
+  for (const PageAsset& asset : page_assets()) {
+    const std::string path(asset.path);
+    files.emplace(path, prepare_file(asset, kFresh));
+    files.emplace(std::string(page_build()) + '/' + path, prepare_file(asset, kKept));
+  }
   return files;
 }
 

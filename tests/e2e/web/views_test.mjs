@@ -5,7 +5,8 @@ import fs from 'node:fs';
 import { after, afterEach, before, describe, it } from 'node:test';
 
 import { close, launch, open, openIn, picture } from './support/browser.mjs';
-import { Daemon } from './support/daemon.mjs';
+import { Daemon, sleep } from './support/daemon.mjs';
+import { Gate } from './support/gate.mjs';
 
 const EXAMPLE = 'clients/nc/8255';
 const PROGRAM = 'nc_prog/8255/8255.h';
@@ -114,22 +115,54 @@ describe('answers that come late', () => {
 });
 
 describe('the trend', () => {
-  it('holds no stream while nobody sees it', async () => {
-    page = await open(browser, daemon, '#/trend');
+  let gate;
+  before(async () => { gate = await new Gate(daemon).open(); });
+  after(() => gate.close());
+  const untilStreams = async (count) => {
+    for (let i = 0; i < 100 && gate.streams !== count; ++i) await sleep(50);
+    assert.equal(gate.streams, count);
+  };
+
+  it('holds no stream while nobody sees it, and misses nothing meanwhile', async () => {
+    page = await open(browser, gate, '#/trend');
     await page.waitForSelector('.trend form');
     const hide = (hidden) => page.evaluate((value) => {
       Object.defineProperty(document, 'hidden', { value, configurable: true });
       document.dispatchEvent(new Event('visibilitychange'));
     }, hidden);
-    const asked = page.waitForRequest('**/v1/events');
-    await page.reload();
-    await asked;
-    const ended = page.waitForEvent('requestfailed', (request) => request.url().endsWith('/v1/events'));
+    await untilStreams(1);
     await hide(true);
-    await ended;
-    const again = page.waitForRequest('**/v1/events');
+    await untilStreams(0);
+    await daemon.send('POST', '/v1/measurements', { designation: '31 H7', measured_mm: '31.002' });
     await hide(false);
-    await again;
+    await untilStreams(1);
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 1);
+  });
+
+  it('shares one stream among all tabs of a browser: eight of them load and go on', async () => {
+    page = await open(browser, gate, '#/trend?designation=32 H7');
+    await untilStreams(1);
+    const tabs = [];
+    for (let i = 0; i < 7; ++i) tabs.push(await openIn(page.context(), gate, '#/trend?designation=32 H7'));
+    for (const tab of tabs) await tab.waitForSelector('.trend .empty');
+    await untilStreams(1);
+    await daemon.send('POST', '/v1/measurements', { designation: '32 H7', measured_mm: '32.002' });
+    for (const tab of [page, ...tabs]) await tab.waitForFunction(() => document.querySelectorAll('.point').length === 1);
+    for (const tab of tabs) await tab.close();
+    await untilStreams(1);
+  });
+
+  it('asks once for the newest, however much older there is', async () => {
+    const old = Array.from({ length: 3000 }, (_, i) => ({ designation: '33 H7', measured_mm: '33.01', characteristic: 'old', measured_at: `2026-01-0${1 + i % 9}T08:00:00Z` }));
+    await daemon.send('POST', '/v1/measurements', old);
+    await daemon.send('POST', '/v1/measurements', ['33.001', '33.002'].map((measured_mm) => ({ designation: '33 H7', measured_mm, characteristic: 'old' })));
+    const asked = [];
+    page = await open(browser, daemon, '');
+    page.on('request', (request) => request.url().includes('/v1/measurements?') && asked.push(request.url()));
+    await page.goto(`${daemon.url}/#/trend?characteristic=old&count=50`);
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 50);
+    assert.equal(asked.length, 1);
+    assert.match(await page.textContent('.trend tbody tr'), /33\.002 mm/);
   });
 
   it('shows the last values and those that come', async () => {

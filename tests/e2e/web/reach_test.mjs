@@ -1,0 +1,123 @@
+/** Everybody reaches everything: on a phone, by the keyboard, on paper, in every language. */
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { after, before, describe, it } from 'node:test';
+
+import { close, launch, open } from './support/browser.mjs';
+import { Daemon } from './support/daemon.mjs';
+
+const SMALLEST_LETTERING = 12;
+const PHONE = { width: 390, height: 844 };
+const VIEWS = {
+  gauge: '#/gauge/25H7?part_id=SN-1&order=WO-17&operator=42', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend',
+  programs: '#/programs/nc_prog/8255.h?setup=bore', tables: '#/tables/hole?find=25+H',
+};
+const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.point', programs: '.source li', tables: '.grid' };
+
+describe('the reach of the page', () => {
+  let browser;
+  let daemon;
+
+  before(async () => {
+    browser = await launch();
+    daemon = await new Daemon().start();
+    for (const name of ['8255.h', '82551.h']) {
+      await daemon.send('PUT', `/v1/files/nc_prog/${name}`, fs.readFileSync(`clients/nc/8255/${name}`, 'utf8'), 'text/plain');
+    }
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 40 }, (_, i) => (
+      { designation: '25 H7', measured_mm: `25.00${i % 10}`, part_id: `SN-${i}`, characteristic: 'bore-A' })));
+  });
+  after(async () => {
+    await browser.close();
+    await daemon.cleanup();
+  });
+
+  async function openView(view, options) {
+    const page = await open(browser, daemon, VIEWS[view], options);
+    await page.waitForSelector(READY[view]);
+    return page;
+  }
+
+  for (const view of Object.keys(VIEWS)) {
+    it(`${view} fits a phone in every language, with lettering one can read`, async () => {
+      for (const locale of ['en-GB', 'de-DE', 'nl-NL', 'it-IT']) {
+        const page = await openView(view, { viewport: PHONE, locale });
+        assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), PHONE.width, locale);
+        const names = await page.$$eval('#views a', (links) => links.map((link) => link.getBoundingClientRect()).map(({ left, right }) => ({ left, right })));
+        for (let i = 1; i < names.length; ++i) assert.ok(names[i].left >= names[i - 1].right, `${locale}: view ${i} lies over the one before`);
+        const small = await page.$$eval('main svg text', (texts, least) => texts
+          .filter((text) => text.getBoundingClientRect().width > 0)
+          .map((text) => ({ text: text.textContent, size: parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a }))
+          .filter(({ size }) => size < least - 0.05), SMALLEST_LETTERING);
+        assert.deepEqual(small, [], locale);
+        const cut = await page.evaluate(() => [...document.querySelectorAll('.class-zones')]
+          .filter((strip) => {
+            const place = strip.querySelector(':checked')?.parentElement.getBoundingClientRect();
+            const frame = strip.getBoundingClientRect();
+            return place && (place.left < frame.left || place.right > frame.right);
+          }).length);
+        assert.equal(cut, 0, `${locale}: the chosen class is off screen`);
+        await close(page);
+      }
+    });
+  }
+
+  it('shows a whole verdict on a phone', async () => {
+    const page = await openView('gauge', { viewport: PHONE });
+    await page.keyboard.type('25.0131\n');
+    await page.waitForSelector('.verdict[data-verdict="good"]');
+    const { bottom } = await page.$eval('.verdict', (panel) => panel.getBoundingClientRect().toJSON());
+    assert.ok(bottom <= PHONE.height, `${bottom}`);
+    await close(page);
+  });
+
+  it('keeps the focus where it was, and moves it to a new view', async () => {
+    const page = await openView('gauge');
+    const focused = () => page.evaluate(() => document.activeElement.textContent || document.activeElement.tagName);
+    for (const [view, title] of [['fit', 'Fit'], ['tables', 'Tables'], ['programs', 'Programs'], ['trend', 'Trend']]) {
+      await page.focus(`#views a[href^="#/${view}"]`);
+      await page.keyboard.press('Enter');
+      await page.waitForFunction((name) => document.querySelector('main h1').textContent === name, title);
+      assert.equal(await focused(), title);
+    }
+    await page.goto(`${daemon.url}/${VIEWS.fit}`);
+    await page.waitForSelector(READY.fit);
+    await page.focus('.preferred button:has-text("H7/s6")');
+    await page.keyboard.press('Enter');
+    await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Interference fit');
+    assert.equal(await focused(), 'H7/s6');
+    await page.goto(`${daemon.url}/${VIEWS.tables}`);
+    await page.waitForSelector(READY.tables);
+    await page.focus('.switch button:last-child');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.switch button:last-child[aria-pressed="true"]');
+    assert.equal(await focused(), 'Shafts');
+    await page.goto(`${daemon.url}/${VIEWS.programs}`);
+    await page.waitForSelector(READY.programs);
+    await page.focus('.files button:has-text("82551.h")');
+    await page.keyboard.press('Enter');
+    await page.waitForFunction(() => document.querySelector('.title').textContent === '82551.h');
+    assert.equal(await focused(), '82551.h');
+    await close(page);
+  });
+
+  it('prints whole, and says of what, where and when', async () => {
+    for (const view of Object.keys(VIEWS)) {
+      const page = await openView(view, { viewport: { width: 1366, height: 768 } });
+      await page.setViewportSize({ width: 660, height: 900 }); // the inside of A4 at 96 pixels an inch
+      await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+      await page.emulateMedia({ media: 'print' });
+      await page.waitForFunction(() => document.querySelector('#printed').checkVisibility());
+      assert.match(await page.textContent('#printed'), /127\.0\.0\.1.*20\d\d/, view);
+      if (view === 'gauge') assert.match(await page.textContent('#printed'), /Order WO-17.*Operator 42/);
+      await page.waitForTimeout(150); // figures are drawn anew for the width of the paper
+      const cut = await page.evaluate(() => [...document.querySelectorAll('main *')]
+        .filter((element) => element.checkVisibility() && !element.closest('.unseen, svg, .grid'))
+        .filter((element) => element.getBoundingClientRect().right > innerWidth + 1 || (element.scrollHeight > element.clientHeight + 1 && getComputedStyle(element).overflowY !== 'visible'))
+        .map((element) => element.outerHTML.slice(0, 100)));
+      assert.deepEqual(cut, [], view);
+      await close(page);
+    }
+  });
+});
