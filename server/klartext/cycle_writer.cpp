@@ -4,7 +4,8 @@ namespace fitgauge::klartext {
 namespace {
 
 void write_head(BlockWriter& out, CycleFamily family, unsigned number) {
-  out.write(family == CycleFamily::TchProbe ? "TCH PROBE " : "CYCL DEF ");
+  out.write(words_of(family));
+  out.write(" ");
   out.write(std::to_string(number));
 }
 

@@ -105,7 +105,9 @@ Statement parse_cycle(BlockReader& in, CycleFamily family) {
   in.skip_blanks();
   Cycle cycle{.family = family};
   cycle.number = static_cast<std::uint16_t>(in.digits(kLargestCycle, "the number of the cycle"));
-  if (at_cycle_part(in)) return parse_cycle_part(in, family, cycle.number);
+  if (family != CycleFamily::GlobalDef && at_cycle_part(in)) {
+    return parse_cycle_part(in, family, cycle.number);
+  }
   cycle.dialog = parse_dialog(in);
   cycle.parameters = parse_parameters(in);
   return cycle;
@@ -142,6 +144,11 @@ Statement parse_cycl(BlockReader& in) {
   if (in.accept_word("CALL")) return parse_cycle_call(in);
   in.expect_joined("DEF");
   return parse_cycle(in, CycleFamily::CyclDef);
+}
+
+Statement parse_global(BlockReader& in) {
+  in.expect_word("DEF");
+  return parse_cycle(in, CycleFamily::GlobalDef);
 }
 
 Statement parse_tch_probe(BlockReader& in) {

@@ -50,6 +50,7 @@ Statement parse_table_function(BlockReader& in, unsigned fn);
 // parser_cycle.cpp
 Statement parse_cycl(BlockReader& in);
 Statement parse_tch_probe(BlockReader& in);
+Statement parse_global(BlockReader& in);
 /// `Q200 =`, `QS400 =`: a parameter of a cycle starts here.
 bool at_cycle_parameter(const char* at, const char* end);
 // parser_dotted_cycle.cpp

@@ -139,7 +139,16 @@ struct Stop {
 
 // --- cycles
 
-enum class CycleFamily : std::uint8_t { CyclDef, TchProbe };
+enum class CycleFamily : std::uint8_t { CyclDef, TchProbe, GlobalDef };
+
+/// As a block of it begins: `CYCL DEF`.
+constexpr std::string_view words_of(CycleFamily family) {
+  switch (family) {
+    case CycleFamily::TchProbe: return "TCH PROBE";
+    case CycleFamily::GlobalDef: return "GLOBAL DEF";
+    default: return "CYCL DEF";
+  }
+}
 
 /// What stands right of a cycle parameter's `=`.
 enum class CycleValue : std::uint8_t {
@@ -166,7 +175,8 @@ struct CycleParameter {
   }
 };
 
-/// A cycle in Q-form, one block: `CYCL DEF 200 DRILLING ~ Q200=...`, `TCH PROBE 421 ...`.
+/// A cycle in Q-form, one block: `CYCL DEF 200 DRILLING ~ Q200=...`, `TCH PROBE 421 ...`; or
+/// values for PREDEF: `GLOBAL DEF 120 PROBING ~ Q320=...`.
 struct Cycle {
   CycleFamily family = CycleFamily::CyclDef;
   std::uint16_t number = 0;
@@ -405,7 +415,7 @@ using Statement =
                  LabelDefinition, LabelCall, ConditionalJump, CallProgram, SelectProgram,
                  CallSelectedProgram, SelectTable, Assignment, SetUndefined, CircleData, ErrorStop,
                  Print, FormattedPrint, SystemWrite, ExternalFunction, WaitFor, TableOpen,
-                 TableWrite, TableRead, Trans, Plane, FunctionMode, FunctionTcpm,
-                 PatternDefinition, Dwell>;
+                 TableWrite, TableRead, Trans, Plane, FunctionMode, FunctionTcpm, PatternDefinition,
+                 Dwell>;
 
 }  // namespace fitgauge::klartext

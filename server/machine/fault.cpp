@@ -25,6 +25,7 @@ FaultText text_of(FaultKind kind) {
     case FaultKind::ToolUnknown: return {1092, "Tool not defined"};
     case FaultKind::ToolLocked: return {0, "Tool locked"};
     case FaultKind::NotAProbe: return {1093, "Tool number not permitted"};
+    case FaultKind::OptionMissing: return {1095, "Software option not active"};
     case FaultKind::FeedMissing: return {1010, "Feed rate is missing"};
     case FaultKind::PresetUnknown: return {0, "Preset not found"};
     case FaultKind::PresetLocked: return {1085, "Line is write-protected"};

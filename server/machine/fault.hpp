@@ -19,6 +19,7 @@ enum class FaultKind : std::uint8_t {
   ToolUnknown,        ///< 1092: the tool table has no such tool
   ToolLocked,         ///< the tool table marks the tool as locked (TL = L)
   NotAProbe,          ///< 1093: a probing cycle needs a touch probe in the spindle
+  OptionMissing,      ///< 1095: the machine does not have this software option
   FeedMissing,        ///< 1010: a feed move with a feed that is not positive
   PresetUnknown,      ///< the preset table has no such row
   PresetLocked,       ///< 1085: the row of the preset table is write-protected

@@ -135,7 +135,8 @@ class Machine {
   /// @faults ValueInvalid (not finite, or a scaling factor of 0).
   virtual MachineResult<void> set_frames(const Frames& frames) = 0;
 
-  /// Spindle, its orientation, coolant, feed, TCPM and operating mode. @faults ValueInvalid.
+  /// Spindle, its orientation, coolant, feed, TCPM and operating mode. @faults ValueInvalid,
+  ///   OptionMissing (TCPM).
   virtual MachineResult<void> set_modes(const Modes& modes) = 0;
 
   /// Replaces the control's kinematic model (cycles 450 to 452). @faults AxisMissing, ValueInvalid.

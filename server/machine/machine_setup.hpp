@@ -10,6 +10,7 @@
 #include "base/result.hpp"
 #include "machine/axis.hpp"
 #include "machine/kinematics.hpp"
+#include "machine/machine_state.hpp"
 #include "machine/preset_table.hpp"
 #include "machine/probe_table.hpp"
 #include "machine/tool_table.hpp"
@@ -106,6 +107,7 @@ struct MachineSetup {
   std::vector<ToolSetup> tools{default_probe_tool()};
   std::vector<ProbeSetup> probes{ProbeSetup{}};
   ToolTouchProbeSetup tt;
+  KinematicsOptions kinematics_options;
   /// What the touch probe is calibrated against; fixed to the table.
   std::optional<CalibrationRing> calibration_ring;
   std::optional<Boss> calibration_stud;

@@ -57,6 +57,19 @@ struct AxisRange {
   friend bool operator==(const AxisRange&, const AxisRange&) = default;
 };
 
+/// What the builder's parameters say about cycles 451 to 453.
+struct KinematicsOptions {
+  bool tcpm = true;  ///< M128 and FUNCTION TCPM are available
+  /// mStrobeRotAxPos: A, B, C are positioned by an M function.
+  std::array<bool, 3> strobed{};
+  /// maxModification: a larger correction waits for NC Start; mm.
+  std::optional<double> max_modification;
+  double max_ball_deviation = 0.1;   ///< maxDevCalBall: of the sphere's radius, mm
+  bool notes_insignificant = false;  ///< corrects what is below twice its uncertainty, with a note
+
+  friend bool operator==(const KinematicsOptions&, const KinematicsOptions&) = default;
+};
+
 /// Everything that can be read from a machine. Positions, lengths and radii are those the control
 /// knows (its tables), not those of the simulated reality.
 ///
@@ -71,6 +84,7 @@ class MachineState {
   ProbeTable probes;
   ToolTouchProbe tt;
   PresetTable presets;
+  KinematicsOptions kinematics_options;
   std::array<std::optional<AxisRange>, kAxes> ranges;  ///< an axis without one does not exist
   int active_preset = 0;
   ActiveTool tool;

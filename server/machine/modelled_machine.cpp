@@ -30,6 +30,7 @@ ModelledMachine::ModelledMachine(const MachineSetup& setup, Allowance* allowance
     state_.ranges[index(axis)] = AxisRange{known->min, known->max, known->hirth_grid_deg};
     if (is_rotary(axis)) rotary.push_back(known->modelled(axis));
   }
+  state_.kinematics_options = setup.kinematics_options;
   state_.kinematics = Kinematics(std::move(rotary));
   for (const ToolSetup& tool : setup.tools) state_.tools.write(tool.row);
   for (const ProbeSetup& probe : setup.probes) state_.probes.write(probe.row);
@@ -127,6 +128,9 @@ MachineResult<void> ModelledMachine::set_frames(const Frames& frames) {
 }
 
 MachineResult<void> ModelledMachine::set_modes(const Modes& modes) {
+  if (modes.tcpm && !state_.kinematics_options.tcpm) {
+    return make_fault(FaultKind::OptionMissing, "TCPM (tcpm_option of the setup)");
+  }
   if (!(modes.spindle_rpm >= 0) || !(modes.feed_mm_min >= 0)) {
     return make_fault(FaultKind::ValueInvalid, "spindle speed and feed are 0 or more");
   }

@@ -260,6 +260,14 @@ void check_tool_touch_probe(Findings& findings, const ToolTouchProbeSetup& tt) {
   findings.within("/machine/tt/repeatability_um", tt.repeatability_um, 0, 1e4);
 }
 
+void check_kinematics_options(Findings& findings, const KinematicsOptions& options) {
+  if (options.max_modification) {
+    findings.within("/machine/max_modification_mm", *options.max_modification, 0, kLongestMm);
+  }
+  findings.within("/machine/max_calibration_ball_deviation_mm", options.max_ball_deviation, 0,
+                  kLongestMm);
+}
+
 void check_standards(Findings& findings, const MachineSetup& setup) {
   if (const auto& ring = setup.calibration_ring) {
     const std::string at = "/machine/calibration_ring";
@@ -295,6 +303,7 @@ Result<void> validate(const Setup& setup) {
   check_tools(findings, machine);
   check_probes(findings, machine);
   check_tool_touch_probe(findings, machine.tt);
+  check_kinematics_options(findings, machine.kinematics_options);
   check_standards(findings, machine);
   check_presets(findings, machine);
   for (std::size_t k = 0; k < setup.features.size(); ++k) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "probing/error_set.hpp"
+
 namespace fitgauge::probing {
 
 /// How the block that defines the cycle begins. The same number may mean two cycles: TCH PROBE 3
@@ -106,6 +108,7 @@ struct CycleDescriptor {
   bool dotted = false;  ///< one block per sub-line, `0.0`, `0.1`; its parameters are words
   std::span<const CycleParameter> parameters{};  ///< in the order of the control's dialog
   std::span<const CycleOutput> results{};
+  ErrorSet errors{};                 ///< that it ends with, beside 1004 and 1011 of its values
   std::string_view simulated{};      ///< what the simulation does
   std::string_view not_simulated{};  ///< what of the control's cycle changes nothing; may be empty
 

@@ -70,6 +70,10 @@ class CycleHost {
   virtual CycleResult<void> write_log(std::string_view name, std::string_view text) = 0;
   /// Stops until NC Start. Returns at once; where a stop ends the run, it ends after the cycle.
   virtual void stop(std::string_view reason) = 0;
+  /// Stops until NC Start confirms what `reason` says. @return false where a stop ends the run.
+  virtual CycleResult<bool> confirm(std::string_view reason) = 0;
+  /// Tells the operator something, once in a run. @errors when the run's output budget is used up.
+  virtual CycleResult<void> note(std::string_view text) = 0;
   /// Q281 = 2: shows the log on the screen and stops.
   virtual void show_and_stop(std::string_view text) = 0;
 

@@ -27,8 +27,8 @@ struct MeasuredSize {
   bool is_position = false;  ///< of a centre: without feature of size, out of tolerance is reject
   Length nominal{};
   Length measured{};
-  std::optional<Limits> limits{};  ///< nothing when the block switches the check off
-  gauging::Verdict verdict = gauging::Verdict::Good;
+  std::optional<Limits> limits{};             ///< nothing when the block switches the check off
+  std::optional<gauging::Verdict> verdict{};  ///< nothing where the cycle does not judge
 };
 
 /// What the number of points lets one say about the form of a circular feature.
@@ -36,12 +36,13 @@ struct Form {
   bool assessable = false;
   std::string reason{};                 ///< which deviations stay invisible
   std::optional<double> residual_mm{};  ///< largest distance of a point from the fitted circle
+  double diameter_factor = 1;  ///< standard deviation of the diameter over that of one touch
 };
 
 /// The outcome of a measuring cycle, kept with the run.
 struct MeasuringRecord {
   std::uint16_t cycle = 0;
-  std::vector<MeasuredSize> sizes{};          ///< sizes, then positions; none for 0, 1, 420, 431
+  std::vector<MeasuredSize> sizes{};          ///< sizes, then positions; none for 0 and 1
   std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without status
   std::optional<Form> form{};                 ///< of circular features
 };

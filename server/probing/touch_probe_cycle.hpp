@@ -17,10 +17,15 @@ struct CycleContext {
 
 using CycleFunction = CycleResult<void> (*)(const CycleContext&);
 
+/// What several values say together, or a text says. Values that are not known yet are missing.
+using ArgumentCheck = CycleResult<void> (*)(const Arguments&);
+
 /// A cycle: what it is and what it does. Static data without state, shared by all threads.
 struct TouchProbeCycle {
   CycleDescriptor descriptor;
   CycleFunction execute;
+  /// Of the linker, with the values that are written out, and of run_cycle with all; may be null.
+  ArgumentCheck check = nullptr;
 };
 
 /// Completes and checks the arguments, then runs the cycle: motion, results, status, log, in that

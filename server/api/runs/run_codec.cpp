@@ -108,7 +108,8 @@ void write_size(JsonWriter& json, const probing::MeasuredSize& size) {
     json.member_mm("upper_limit_mm", size.limits->upper)
         .member_mm("lower_limit_mm", size.limits->lower);
   }
-  json.member("verdict", word(size.verdict)).end_object();
+  write_verdict(json, size.verdict);
+  json.end_object();
 }
 
 void write_measurement(JsonWriter& json, const interpreter::Measurement& measurement) {

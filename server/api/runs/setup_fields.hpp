@@ -43,6 +43,10 @@ class SetupFields {
   virtual void word(SetupMember member, std::span<const std::string_view> words,
                     std::size_t& index) = 0;
 
+  /// A list of `words`. @param chosen of each word whether it is there
+  virtual void words(SetupMember member, std::span<const std::string_view> words,
+                     std::span<bool> chosen) = 0;
+
   /// A member that is read elsewhere. @param describe makes its schema
   virtual void elsewhere(SetupMember member, std::string (*describe)()) = 0;
 

@@ -140,6 +140,25 @@ void read_calibration_standards(SetupFields& fields, machine::MachineSetup& mach
       });
 }
 
+/// What the builder's parameters say about cycles 451 to 453.
+void read_kinematics_options(SetupFields& fields, machine::KinematicsOptions& options) {
+  fields.boolean({"tcpm_option", "M128 and FUNCTION TCPM are available"}, options.tcpm);
+  constexpr std::array<std::string_view, 3> kLetters{"A", "B", "C"};
+  fields.words({"strobe_rotary_axes", "mStrobeRotAxPos: axes that an M function positions"},
+               kLetters, options.strobed);
+  fields.mm({"max_modification_mm", "maxModification: a larger correction waits for NC Start"},
+            options.max_modification);
+  fields.mm({"max_calibration_ball_deviation_mm", "maxDevCalBall: of the sphere's radius"},
+            options.max_ball_deviation);
+  constexpr std::array<std::string_view, 2> kReactions{"refuse", "note"};
+  std::size_t reaction = options.notes_insignificant ? 1 : 0;
+  fields.word({"insignificant_corrections",
+               "What becomes of a correction below twice its uncertainty: left out, with 1102 when "
+               "none is left, or made with a note"},
+              kReactions, reaction);
+  options.notes_insignificant = reaction == 1;
+}
+
 }  // namespace
 
 void read_machine(SetupFields& fields, machine::MachineSetup& machine) {
@@ -158,6 +177,7 @@ void read_machine(SetupFields& fields, machine::MachineSetup& machine) {
   fields.object({"start_mm", "Where the spindle nose starts"}, "StartPosition",
                 [&machine](SetupFields& start) { read_start(start, machine.start); });
   fields.number({"rapid_mm_min", "Rapid traverse"}, machine.rapid_mm_min);
+  read_kinematics_options(fields, machine.kinematics_options);
   fields.array({"tools", "Rows of the tool table; number 30, a touch probe, when absent"}, "Tool",
                machine.tools, read_tool);
   fields.array({"probes", "Rows of the touch-probe table; number 1 when absent"}, "Probe",

@@ -98,6 +98,24 @@ void SetupReader::word(SetupMember member, std::span<const std::string_view> wor
   }
 }
 
+void SetupReader::words(SetupMember member, std::span<const std::string_view> words,
+                        std::span<bool> chosen) {
+  const JsonValue* const array = fields_.has(member.name) ? fields_.array(member.name) : nullptr;
+  if (array == nullptr) return;
+  std::fill(chosen.begin(), chosen.end(), false);
+  for (const JsonValue& item : array->items) {
+    const auto found = item.is(JsonValue::Kind::String)
+                           ? std::find(words.begin(), words.end(), item.text)
+                           : words.end();
+    if (found == words.end()) {
+      return fields_.report(
+          ErrorCode::FieldInvalid, member.name,
+          fmt::format("{} takes a list of \"{}\"", member.name, fmt::join(words, "\", \"")));
+    }
+    chosen[static_cast<std::size_t>(found - words.begin())] = true;
+  }
+}
+
 void SetupReader::elsewhere(SetupMember member, std::string (*)()) {
   fields_.optional(member.name);
 }

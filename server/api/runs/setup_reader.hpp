@@ -29,6 +29,8 @@ class SetupReader final : public SetupFields {
   void text(SetupMember member, std::string& value) override;
   void word(SetupMember member, std::span<const std::string_view> words,
             std::size_t& index) override;
+  void words(SetupMember member, std::span<const std::string_view> words,
+             std::span<bool> chosen) override;
   void elsewhere(SetupMember member, std::string (*describe)()) override;
   void mm(SetupMember member, std::span<double> values) override;
   void required_mm(SetupMember member, std::span<double> values) override;

@@ -18,6 +18,10 @@ std::string array_of(const std::string& item, std::span<const double> values) {
   return schema::array(item, values.size());
 }
 
+std::string word_of(std::span<const std::string_view> words) {
+  return fmt::format(R"({{"type":"string","enum":["{}"]}})", fmt::join(words, "\",\""));
+}
+
 constexpr std::string_view kExample =
     R"({"workpiece":{"features":[{"type":"block","min_mm":[0,0,-40],"max_mm":[100,80,0]},)"
     R"({"type":"bore","center_mm":[50,40],"diameter_mm":25.013}]}})";
@@ -67,9 +71,12 @@ void SetupSchema::text(SetupMember member, std::string& value) {
 
 void SetupSchema::word(SetupMember member, std::span<const std::string_view> words,
                        std::size_t& index) {
-  const std::string list = fmt::format("\"{}\"", fmt::join(words, "\",\""));
-  add(member, with_default(fmt::format(R"({{"type":"string","enum":[{}]}})", list),
-                           fmt::format("\"{}\"", words[index])));
+  add(member, with_default(word_of(words), fmt::format("\"{}\"", words[index])));
+}
+
+void SetupSchema::words(SetupMember member, std::span<const std::string_view> words,
+                        std::span<bool>) {
+  add(member, schema::array(word_of(words)));
 }
 
 void SetupSchema::elsewhere(SetupMember member, std::string (*describe)()) {

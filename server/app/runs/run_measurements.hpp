@@ -7,9 +7,10 @@
 
 namespace fitgauge::app {
 
-/// One record of each measuring cycle of a run: its first size, judged by the limits of the cycle's
-/// block. A size whose check the block switches off has the widest limits there are. A cycle that
-/// measures no size (0, 1, 420, 431) leaves none. The texts are views of the report and the order.
+/// The records of a run (decision 27): one for each value that a cycle judged by limits of its
+/// block, so the cycle's verdict is among them. A cycle that judged nothing leaves its first value,
+/// indeterminate, with the widest limits there are; 0 and 1 leave none. The texts are views of the
+/// report and the order.
 std::vector<Measurement> measurements_of(const RunReport& report,
                                          const std::optional<std::string>& caller);
 

@@ -20,7 +20,6 @@ std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
   switch (written.kind) {
     case klartext::CycleValue::Expression: break;
     case klartext::CycleValue::Max: return std::numeric_limits<double>::infinity();
-    case klartext::CycleValue::Predef: return std::monostate{};
     default: return std::nullopt;
   }
   if (const auto* number = std::get_if<double>(&written.value)) {

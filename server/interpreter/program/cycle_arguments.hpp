@@ -14,7 +14,7 @@ inline constexpr double kMillimetresPerInch = 25.4;
 double scale_of(probing::Unit unit, bool is_inch);
 
 /// The value of a cycle parameter as far as it is known before the program runs: numbers and texts
-/// written out. Nothing for parameters and formulas.
+/// written out. Nothing for parameters, formulas and PREDEF.
 std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
                                               const klartext::CycleParameter& written,
                                               const probing::CycleParameter& parameter);

@@ -14,6 +14,7 @@ constexpr std::array kDotted{7, 8, 9, 10, 11, 12, 13, 19, 26, 32};
 }  // namespace
 
 const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {
+  if (family == klartext::CycleFamily::GlobalDef) return nullptr;
   return probing::find_cycle(family == klartext::CycleFamily::TchProbe
                                  ? probing::CycleFamily::TchProbe
                                  : probing::CycleFamily::CyclDef,

@@ -11,6 +11,7 @@
 #include "program/cycle_arguments.hpp"
 #include "program/cycle_names.hpp"
 #include "program/diagnose.hpp"
+#include "program/global_definitions.hpp"
 #include "program/known_m_functions.hpp"
 #include "program/parameter.hpp"
 
@@ -60,11 +61,15 @@ class BlockCheck {
       : program_(program), block_(block), diagnostics_(diagnostics) {}
 
   void check_cycle(const klartext::Cycle& cycle) {
+    check_predefined(cycle);
     const BoundCycle bound = bind_cycle(program_, cycle);
     if (bound.probing != nullptr) {
-      check_parameters(cycle, bound.probing->descriptor);
-    } else if (bound.machining != nullptr) {
-      check_parameters(cycle, bound.machining->descriptor);
+      const probing::Arguments known = check_parameters(cycle, bound.probing->descriptor);
+      if (bound.probing->check != nullptr) {
+        report_failure(bound.probing->check(known), block_.written);
+      }
+    } else if (const auto* descriptor = bound.descriptor()) {
+      check_parameters(cycle, *descriptor);
     } else {
       warn_unavailable(cycle.family, cycle.number);
     }
@@ -99,7 +104,11 @@ class BlockCheck {
 
   void warn_unavailable(klartext::CycleFamily family, int number) {
     report(Severity::Warning, DiagnosticCode::CycleUnknown, block_.written,
-           cycle_hint(family == klartext::CycleFamily::TchProbe, number));
+           family == klartext::CycleFamily::GlobalDef
+               ? fmt::format("GLOBAL DEF {} is not available: the run fails when it reaches this "
+                             "block",
+                             number)
+               : cycle_hint(family == klartext::CycleFamily::TchProbe, number));
   }
 
   void report_unknown(const klartext::CycleParameter& written,
@@ -111,7 +120,23 @@ class BlockCheck {
                        hint.text()));
   }
 
-  void check_parameters(const klartext::Cycle& cycle, const probing::CycleDescriptor& descriptor) {
+  /// PREDEF stands for a value of a GLOBAL DEF, so a parameter that none has takes no PREDEF.
+  void check_predefined(const klartext::Cycle& cycle) {
+    const bool defines = cycle.family == klartext::CycleFamily::GlobalDef;
+    for (const auto& written : program_.view(cycle.parameters)) {
+      if (written.kind != klartext::CycleValue::Predef) continue;
+      if (!defines && global_definition_of(written.parameter.number) != nullptr) continue;
+      report(
+          Severity::Error, DiagnosticCode::CycleParameterInvalid, written.written,
+          fmt::format("{} takes no PREDEF: {}", name(written.parameter),
+                      defines ? "GLOBAL DEF gives the value" : "no GLOBAL DEF has a value for it"));
+    }
+  }
+
+  /// @return the values that are written out and may stand there.
+  probing::Arguments check_parameters(const klartext::Cycle& cycle,
+                                      const probing::CycleDescriptor& descriptor) {
+    probing::Arguments known(descriptor);
     std::vector<const probing::CycleParameter*> given;
     for (const auto& written : program_.view(cycle.parameters)) {
       const auto* parameter = find_parameter(descriptor, written.parameter);
@@ -126,23 +151,24 @@ class BlockCheck {
                            name(*parameter)));
         continue;
       }
-      if (const auto value = literal(program_, written, *parameter)) {
-        check_value(*parameter, *value, written.written);
+      if (auto value = literal(program_, written, *parameter)) {
+        const bool stands = report_failure(probing::check(*parameter, *value), written.written);
+        if (stands) known.set(parameter->id, *std::move(value));
       }
     }
     for (const auto& parameter : descriptor.parameters) {
       if (std::find(given.begin(), given.end(), &parameter) == given.end()) {
-        check_value(parameter, std::monostate{}, block_.written);
+        report_failure(probing::check(parameter, std::monostate{}), block_.written);
       }
     }
+    return known;
   }
 
-  void check_value(const probing::CycleParameter& parameter, const probing::ArgumentValue& value,
-                   klartext::Slice<char> place) {
-    const auto checked = probing::check(parameter, value);
-    if (checked.has_error()) {
-      report(Severity::Error, DiagnosticCode::CycleParameterInvalid, place, checked.error().text);
-    }
+  /// @return whether the check passed.
+  bool report_failure(const probing::CycleResult<void>& checked, klartext::Slice<char> place) {
+    if (checked) return true;
+    report(Severity::Error, DiagnosticCode::CycleParameterInvalid, place, checked.error().text);
+    return false;
   }
 
   const klartext::Program& program_;

@@ -64,6 +64,8 @@ class Channel {
 
   Contour contour;
   ActiveCycle active_cycle;
+  /// What PREDEF takes, by the number of the Q parameter: mm, degrees, mm/min (GLOBAL DEF).
+  std::map<int, double> predefined;
   FormattedPrinter printer;
   TableAccess tables;
   probing::CycleMemory cycle_memory;

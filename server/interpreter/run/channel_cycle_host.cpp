@@ -43,6 +43,15 @@ void ChannelCycleHost::stop(std::string_view reason) {
   }
 }
 
+probing::CycleResult<bool> ChannelCycleHost::confirm(std::string_view reason) {
+  stop(reason);
+  return channel_.options.on_stop != OnStop::End;
+}
+
+probing::CycleResult<void> ChannelCycleHost::note(std::string_view text) {
+  return reported(channel_.note(std::string(text)));
+}
+
 void ChannelCycleHost::show_and_stop(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');

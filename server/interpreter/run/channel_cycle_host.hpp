@@ -20,6 +20,8 @@ class ChannelCycleHost final : public probing::CycleHost {
   probing::CycleResult<void> append_log(std::string_view name, std::string_view text) override;
   probing::CycleResult<void> write_log(std::string_view name, std::string_view text) override;
   void stop(std::string_view reason) override;
+  probing::CycleResult<bool> confirm(std::string_view reason) override;
+  probing::CycleResult<void> note(std::string_view text) override;
   void show_and_stop(std::string_view text) override;
   void record(const probing::MeasuringRecord& record) override;
   void touched(const machine::ContactPoint& contact) override;

@@ -56,16 +56,35 @@ NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cyc
   return {};
 }
 
-NcResult<void> run_probing(Channel& channel, const klartext::Cycle& cycle,
-                           const BoundCycle& bound) {
-  probing::Arguments arguments(bound.probing->descriptor);
+NcResult<probing::Arguments> arguments_of(Channel& channel, const klartext::Cycle& cycle,
+                                          const BoundCycle& bound) {
+  probing::Arguments arguments(*bound.descriptor());
   const auto parameters = channel.program().view(cycle.parameters);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     auto value = cycle_argument(channel, parameters[i], *bound.parameters[i]);
     if (!value) return value.error();
     arguments.set(bound.parameters[i]->id, *std::move(value));
   }
-  return run_probing(channel, *bound.probing, std::move(arguments));
+  return arguments;
+}
+
+NcResult<void> run_probing(Channel& channel, const klartext::Cycle& cycle,
+                           const BoundCycle& bound) {
+  auto arguments = arguments_of(channel, cycle, bound);
+  if (!arguments) return arguments.error();
+  return run_probing(channel, *bound.probing, *std::move(arguments));
+}
+
+/// GLOBAL DEF: its values hold until the next one of its number, or the end of the run.
+NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
+                               const BoundCycle& bound) {
+  auto arguments = arguments_of(channel, cycle, bound);
+  if (!arguments) return arguments.error();
+  if (auto completed = arguments->complete(); !completed) return from_cycle(completed.error());
+  for (const probing::CycleParameter& parameter : bound.global->parameters) {
+    channel.predefined[static_cast<int>(parameter.id)] = arguments->number(parameter.id);
+  }
+  return {};
 }
 
 /// Keeps the cycle for M99 and CYCL CALL, or runs it at once where it is DEF-active.
@@ -87,6 +106,9 @@ NcResult<void> define(Channel& channel, MachiningDefinition definition) {
 
 /// A cycle that only the builder of the machine knows.
 NcResult<Next> run_builders(Channel& channel, klartext::CycleFamily family, int number) {
+  if (family == klartext::CycleFamily::GlobalDef) {
+    return nc_error(fmt::format("cycle GLOBAL DEF {} is not available", number));
+  }
   const BuilderAction* action = channel.options.builder.cycle(number);
   if (action == nullptr) {
     return unknown_cycle(family == klartext::CycleFamily::TchProbe, number);
@@ -116,6 +138,8 @@ NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const Bou
   } else if (bound.machining != nullptr) {
     auto definition = machining_arguments(channel, cycle, bound);
     done = definition ? define(channel, *std::move(definition)) : definition.error();
+  } else if (bound.global != nullptr) {
+    done = define_globally(channel, cycle, bound);
   } else {
     if (channel.options.builder.cycle(cycle.number) != nullptr) {
       if (auto set = set_parameters(channel, cycle); !set) return set.error();

@@ -1,9 +1,12 @@
 #include "run/machining_arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
 #include "program/cycle_arguments.hpp"
+#include "program/global_definitions.hpp"
 #include "run/channel.hpp"
 #include "run/values.hpp"
 
@@ -35,6 +38,16 @@ NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& 
     feed *= tool == nullptr ? 0 : tool->teeth;
   }
   return feed;
+}
+
+/// What the active GLOBAL DEF says, in mm, degrees or mm/min.
+NcResult<double> predefined_value(const Channel& channel, int parameter) {
+  const auto found = channel.predefined.find(parameter);
+  if (found != channel.predefined.end()) return found->second;
+  // Not null: the linker has refused parameters that no GLOBAL DEF has.
+  const probing::CycleDescriptor& definition = *global_definition_of(parameter);
+  return nc_error(1017, fmt::format("Q{} is PREDEF, and no GLOBAL DEF {} {} stands before",
+                                    parameter, definition.number, definition.name));
 }
 
 /// What a word of an old cycle is in the cycle of today. `scale`: 2 makes a diameter of a radius.
@@ -96,6 +109,10 @@ NcResult<void> for_each_word(Channel& channel, std::uint32_t first, std::uint32_
 NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
                                                 const klartext::CycleParameter& written,
                                                 const probing::CycleParameter& parameter) {
+  if (written.kind == CycleValue::Predef) {
+    const auto value = predefined_value(channel, written.parameter.number);
+    return value ? NcResult<probing::ArgumentValue>(*value) : value.error();
+  }
   if (auto value = literal(channel.program(), written, parameter)) return *std::move(value);
   if (written.kind == CycleValue::Expression && is_text(written.value)) {
     auto value = text(channel, written.value);

@@ -200,7 +200,9 @@ Answer limit_data(const MachineState& state, const Address& address) {
 Answer position_data(const MachineState& state, const Address& address, CoordinateSystem system) {
   const auto axis = axis_of(address);
   if (!axis) return std::nullopt;
-  return state.position(system)[*axis];
+  // As results of cycles: to a nanometre, so that equal positions are equal (decision 21).
+  const double steps = machine::is_rotary(*axis) ? 1e7 : 1e6;
+  return std::round(state.position(system)[*axis] * steps) / steps + 0.0;
 }
 
 Answer tcpm_data(const MachineState& state, const Address& address) {

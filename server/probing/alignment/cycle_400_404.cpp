@@ -3,6 +3,7 @@
 
 #include "probing/alignment/basic_rotation.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
 #include "probing/touch/line_probing.hpp"
@@ -49,6 +50,7 @@ constinit const TouchProbeCycle kCycle400{
      .name = "BASIC ROTATION",
      .kind = CycleKind::Alignment,
      .parameters = kParameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1042, 1081, 1085},
      .simulated = "All parameters. With Q272 = 1 the line is compared with the secondary axis."},
     rotate};
 
@@ -56,6 +58,7 @@ constinit const TouchProbeCycle kCycle404{{.number = 404,
                                            .name = "SET BASIC ROTATION",
                                            .kind = CycleKind::Alignment,
                                            .parameters = k404Parameters,
+                                           .errors = errors::kWithProbe | ErrorSet{1085},
                                            .simulated = "All parameters. No motion."},
                                           set_rotation};
 

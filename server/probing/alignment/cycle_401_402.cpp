@@ -3,6 +3,7 @@
 #include "probing/alignment/basic_rotation.hpp"
 #include "probing/alignment/rotary_alignment.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/parameters.hpp"
 #include "probing/touch/hole_pattern.hpp"
 
@@ -99,14 +100,17 @@ constinit const TouchProbeCycle kCycle401{
      .name = "ROT OF 2 HOLES",
      .kind = CycleKind::Alignment,
      .parameters = k401Parameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1081, 1085, 1100},
      .simulated = "All parameters; holes are touched from their nominal centre."},
     two_holes};
 
-constinit const TouchProbeCycle kCycle402{{.number = 402,
-                                           .name = "ROT OF 2 STUDS",
-                                           .kind = CycleKind::Alignment,
-                                           .parameters = k402Parameters,
-                                           .simulated = "All parameters."},
-                                          two_studs};
+constinit const TouchProbeCycle kCycle402{
+    {.number = 402,
+     .name = "ROT OF 2 STUDS",
+     .kind = CycleKind::Alignment,
+     .parameters = k402Parameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1081, 1085, 1100},
+     .simulated = "All parameters."},
+    two_studs};
 
 }  // namespace fitgauge::probing

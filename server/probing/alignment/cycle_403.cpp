@@ -3,6 +3,7 @@
 #include "probing/alignment/basic_rotation.hpp"
 #include "probing/alignment/rotary_alignment.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
 #include "probing/touch/line_probing.hpp"
@@ -72,6 +73,7 @@ constinit const TouchProbeCycle kCycle403{
      .kind = CycleKind::Alignment,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1019, 1042, 1043, 1081, 1085, 1100},
      .simulated = "All parameters. Q380 counts in the working plane.",
      .not_simulated = "Rotary axes of a head: they cannot turn the workpiece."},
     align};

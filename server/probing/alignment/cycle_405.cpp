@@ -4,6 +4,7 @@
 #include "probing/alignment/basic_rotation.hpp"
 #include "probing/alignment/rotary_alignment.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
 #include "probing/touch/circle_probing.hpp"
@@ -51,6 +52,7 @@ constinit const TouchProbeCycle kCycle405{
      .kind = CycleKind::Alignment,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kCircle | ErrorSet{1043, 1100},
      .simulated = "All parameters; the datum must lie in the centre of the table."},
     align};
 

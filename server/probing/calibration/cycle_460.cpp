@@ -3,6 +3,7 @@
 
 #include "probing/calibration/probe_calibration.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -71,6 +72,7 @@ constinit const TouchProbeCycle kCycle460{
      .name = "CALIBRATION OF TS ON A SPHERE",
      .kind = CycleKind::Calibration,
      .parameters = kParameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1075, 1080},
      .simulated =
          "From a position above the sphere: its top and equator, twice with the spindle turned by "
          "180 degrees; effective radius, CAL_OF1, CAL_OF2 and, with Q433, the effective length. "

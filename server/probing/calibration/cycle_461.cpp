@@ -2,6 +2,7 @@
 
 #include "probing/calibration/probe_calibration.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -27,6 +28,7 @@ constinit const TouchProbeCycle kCycle461{
      .name = "TS CALIBRATION OF TOOL LENGTH",
      .kind = CycleKind::Calibration,
      .parameters = kParameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1075, 1080},
      .simulated = "One touch against the probe axis from where the probe stands, such as on the "
                   "calibration ring; the effective length. The log TCHPRAUTO.html."},
     calibrate};

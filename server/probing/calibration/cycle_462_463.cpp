@@ -2,6 +2,7 @@
 
 #include "probing/calibration/probe_calibration.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -43,6 +44,7 @@ constinit const TouchProbeCycle kCycle462{
      .name = "CALIBRATION OF TS IN RING",
      .kind = CycleKind::Calibration,
      .parameters = k462Parameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1075, 1080},
      .simulated = "From a position in the ring at measuring height, twice with the spindle turned "
                   "by 180 degrees; effective radius, CAL_OF1, CAL_OF2. The log TCHPRAUTO.html."},
     [](const CycleContext& context) { return calibrate(context, Side::Inside); }};
@@ -52,6 +54,7 @@ constinit const TouchProbeCycle kCycle463{
      .name = "TS CALIBRATION ON STUD",
      .kind = CycleKind::Calibration,
      .parameters = k463Parameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1075, 1080},
      .simulated =
          "From a position SET_UP + Q320 above the stud, which is touched one ball diameter "
          "below its edge, twice with the spindle turned by 180 degrees; effective radius, "

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/log/html_log.hpp"
 #include "probing/log/measuring_log.hpp"
 #include "probing/measured_value.hpp"
@@ -57,10 +58,10 @@ std::string table_of(const Kinematics& model) {
   for (const machine::RotaryAxis& axis : model.axes()) {
     html += fmt::format(
         "<tr><th scope=\"row\">{} in the {}</th><td>{}</td><td>{}</td><td>{}</td>"
-        "<td>{:.7f} {:.7f} {:.7f}</td></tr>\n",
+        "<td>{} {} {}</td></tr>\n",
         name(axis.axis), axis.mount == machine::AxisMount::Table ? "table" : "head",
-        mm(axis.centre.x), mm(axis.centre.y), mm(axis.centre.z), axis.direction.x, axis.direction.y,
-        axis.direction.z);
+        mm(axis.centre.x), mm(axis.centre.y), mm(axis.centre.z), fixed(axis.direction.x, 7),
+        fixed(axis.direction.y, 7), fixed(axis.direction.z, 7));
   }
   const Vec3& offset = model.offset();
   return html + fmt::format(
@@ -142,6 +143,7 @@ constinit const TouchProbeCycle kCycle450{
      .name = "SAVE KINEMATICS",
      .kind = CycleKind::Kinematics,
      .parameters = kParameters,
+     .errors = ErrorSet{1011, 1017, 1096, 1097},
      .simulated =
          "All modes, with a number (Q409) or a name of up to 16 characters (QS409). Up to 16 "
          "records in TNC:\\table\\DATA450.KD, which, as all that a run writes, stays in the run "

@@ -1,6 +1,8 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
+#include "probing/kinematics/correction.hpp"
 #include "probing/kinematics/log.hpp"
 #include "probing/kinematics/parameters.hpp"
 #include "probing/kinematics/preset.hpp"
@@ -21,7 +23,8 @@ constexpr std::array<std::string_view, 3> kModes{"0 = check", "1 = optimise loca
 /// The error of the axis that was measured last.
 Vec3 offset_error(const KinematicsMeasurement& measurement) {
   if (measurement.axes.empty()) return {};
-  return measurement.axes.back().errors.location.value_or(Vec3{});
+  const auto& location = measurement.axes.back().errors.location;
+  return location ? location->value : Vec3{};
 }
 
 CycleResult<void> measure(const CycleContext& context) {
@@ -35,16 +38,23 @@ CycleResult<void> measure(const CycleContext& context) {
   if (!probing) return probing.error();
   if (auto set = preset.before(context, *probing); !set) return set;
 
-  const auto measurement = measure_kinematics(context, *probing, *plans, mode != 1);
+  const auto measurement =
+      measure_kinematics(context, *probing, *plans, fit_options(context, mode != 1));
   if (!measurement) return measurement.error();
-  if (mode != 0) {
-    if (auto set = lift(context.machine.set_kinematics(measurement->corrected)); !set) return set;
-  }
   write_kinematics_results(context.host, *measurement, offset_error(*measurement));
   const KinematicsReport report{.mode = kModes.at(static_cast<std::size_t>(mode)),
                                 .measurement = *measurement,
                                 .directions = mode != 1};
   if (auto logged = log_kinematics(context, report); !logged) return logged;
+  if (mode != 0) {
+    std::vector<AxisErrors> errors;
+    for (const AxisMeasurement& axis : measurement->axes) errors.push_back(axis.errors);
+    if (auto corrected =
+            correct_kinematics(context, errors, measurement->is_corrected, measurement->corrected);
+        !corrected) {
+      return corrected;
+    }
+  }
   return preset.after(context, *probing);
 }
 
@@ -56,21 +66,24 @@ constinit const TouchProbeCycle kCycle451{
      .kind = CycleKind::Kinematics,
      .parameters = kParameters,
      .results = kKinematicsResults,
+     .errors = errors::kTouching | errors::kKinematics | ErrorSet{1005, 1085},
      .simulated =
-         "All parameters, against the calibration_sphere of the setup. Q406 = 1 corrects the "
-         "location of each measured axis in the kinematic model, 2 its direction too; 0 says what "
-         "2 "
-         "would correct. Q408 = 0 needs TCPM: the probe then circles the sphere. A reference is "
-         "measured at 0 degrees of each axis. Q141 to Q146 with one position beside it hold the "
-         "error of that position. Q147 to Q149 are the location error of the axis measured last, "
-         "real minus modelled. What the positions cannot see is not corrected, and the log says "
-         "so; nor can they tell what an axis below has come to rest with from a location error. "
-         "The "
-         "axes end at 0. Backlash is measured, never compensated. The log "
-         "TCHPR451.html.",
-     .not_simulated =
-         "Positioning by an M function (mStrobeRotAxPos). The largest permitted correction "
-         "(maxModification)."},
+         "All parameters, against the calibration_sphere of the setup. All measured axes are "
+         "fitted together, the others standing at their incidence. Q406 = 1 corrects the location "
+         "of each measured axis in the kinematic model, 2 its direction too; 0 says what 2 would "
+         "correct. An error below twice its uncertainty is not corrected: 1102 when nothing is "
+         "left to correct, or a note with insignificant_corrections of the setup. Beyond its "
+         "max_modification_mm the cycle stops for NC Start before it corrects. Q408 = 0 needs the "
+         "option of TCPM (tcpm_option): the probe then circles the sphere. A reference is measured "
+         "at 0 degrees of each axis. Q141 to Q146 are the root mean square of the errors in space, "
+         "with one position beside the reference its error; Q144 to Q146 are what the next check "
+         "finds. Q147 to Q149 are the location error of the axis measured last, real minus "
+         "modelled. What the positions cannot see is not corrected, and the log says so; nor can "
+         "they tell what another axis has come to rest with from a location error. The axes end at "
+         "0. An axis of strobe_rotary_axes stands at 0 before the start, gets its targets in Q120 "
+         "to Q122 for its M function and has no backlash measured. Backlash is measured, never "
+         "compensated. The log TCHPR451.html.",
+     .not_simulated = "Q406 = 3, the zero of the rotary axes: the kinematic model has none."},
     measure};
 
 }  // namespace fitgauge::probing

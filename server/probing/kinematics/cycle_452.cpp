@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/kinematics/log.hpp"
 #include "probing/kinematics/parameters.hpp"
 #include "probing/measured_value.hpp"
@@ -51,7 +52,7 @@ CycleResult<void> compensate(const CycleContext& context) {
   auto probing = KinematicsProbing::begin(context);
   if (!probing) return probing.error();
   const Vec3 preset = probing->sphere();
-  const auto measurement = measure_kinematics(context, *probing, *plans, false);
+  const auto measurement = measure_kinematics(context, *probing, *plans, {.directions = false});
   if (!measurement) return measurement.error();
   if (auto complete = check_complete(*measurement); !complete) return complete;
 
@@ -76,6 +77,7 @@ constinit const TouchProbeCycle kCycle452{
      .kind = CycleKind::Kinematics,
      .parameters = kParameters,
      .results = kKinematicsResults,
+     .errors = errors::kTouching | errors::kKinematics | ErrorSet{1005},
      .simulated =
          "All parameters. Measures as 451 and corrects the location of each measured axis; then "
          "the kinematic model is shifted so that the active preset, which keeps its values, lies "

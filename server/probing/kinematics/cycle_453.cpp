@@ -2,6 +2,8 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
+#include "probing/kinematics/correction.hpp"
 #include "probing/kinematics/log.hpp"
 #include "probing/kinematics/parameters.hpp"
 #include "probing/kinematics/preset.hpp"
@@ -64,8 +66,8 @@ void write_results(CycleHost& host, const Grid& grid, const KinematicsFit& fit) 
       host.set_q(static_cast<std::uint16_t>(first + letter),
                  measured ? to_length(value).to_mm() : -1, Unit::None);
     };
-    set(141, fit.before.deviation);
-    set(144, fit.after.deviation);
+    set(141, fit.before.front().deviation);
+    set(144, fit.after.front().deviation);
   }
 }
 
@@ -83,20 +85,23 @@ CycleResult<void> measure_grid(const CycleContext& context) {
   if (!probing) return probing.error();
   if (auto set = preset.before(context, *probing); !set) return set;
 
-  std::vector<SpherePose> poses;
+  PoseGroup poses;
   for (const Vec3& position : grid->positions) {
     const auto pose = probing->measure(position);
     if (!pose) return pose.error();
     poses.push_back(*pose);
   }
-  const KinematicsFit fit =
-      fit_kinematics(poses, context.machine.state().kinematics, probing->tool(), grid->axes, true);
-  if (mode == 1) {
-    if (auto set = lift(context.machine.set_kinematics(fit.corrected)); !set) return set;
-  }
+  const KinematicsFit fit = fit_kinematics(std::array{poses}, context.machine.state().kinematics,
+                                           probing->tool(), grid->axes, fit_options(context, true));
   write_results(context.host, *grid, fit);
   const std::string_view words = mode == 1 ? "1 = optimise" : "0 = check";
   if (auto logged = log_grid(context, words, poses, fit); !logged) return logged;
+  if (mode == 1) {
+    if (auto corrected = correct_kinematics(context, fit.errors, fit.is_corrected, fit.corrected);
+        !corrected) {
+      return corrected;
+    }
+  }
   return preset.after(context, *probing);
 }
 
@@ -108,6 +113,7 @@ constinit const TouchProbeCycle kCycle453{
      .kind = CycleKind::Kinematics,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kKinematics | ErrorSet{1085},
      .simulated =
          "Measures the calibration_sphere of the setup at every combination of five positions of "
          "each rotary axis, evenly over its range but at most half a turn to either side, and "

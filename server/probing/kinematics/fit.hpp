@@ -14,6 +14,10 @@ struct SpherePose {
   machine::Vec3 nose;    ///< what X, Y, Z would show with the ball's centre in that of the sphere
 };
 
+/// Poses that are compared with each other: those of one axis. Between groups the other axes come
+/// to rest elsewhere, so each group has a place of the sphere of its own.
+using PoseGroup = std::vector<SpherePose>;
+
 /// The spherical tool that measured: a ball `length` mm from the spindle nose.
 struct MeasuringTool {
   machine::Axis axis = machine::Axis::Z;
@@ -27,49 +31,76 @@ machine::Vec3 on_table(const SpherePose& pose, const machine::Kinematics& model,
 
 /// The spread of sphere centres that should lie at one place of the table.
 struct Spread {
-  /// One coordinate's standard deviation over the degrees of freedom. Of two positions the distance
-  /// between them: one position beside the reference has an error, but no standard deviation.
+  /// The root mean square of the errors in space (decision 26). Of two positions the distance
+  /// between them: one position beside the reference has an error, but no dispersion.
   double deviation = 0;
   machine::Vec3 centre;
   std::vector<machine::Vec3> errors;  ///< of each pose, on the table
 };
 
-/// @param parameters how many values of the model were fitted to the poses.
 /// @pre there is a pose.
-Spread spread(std::span<const SpherePose> poses, const machine::Kinematics& model,
-              const MeasuringTool& tool, std::size_t parameters = 0);
+Spread spread(const PoseGroup& poses, const machine::Kinematics& model, const MeasuringTool& tool);
 
-/// What the poses say about one rotary axis: real minus modelled, in machine coordinates with all
-/// axes at zero. What they cannot see has no value.
+/// An error of an axis, real minus modelled, in machine coordinates with all axes at zero.
+struct FoundError {
+  machine::Vec3 value;
+  /// Half of the interval in which each coordinate lies with a probability of 95 %, by the scatter
+  /// of the poses (Student); what axes between this one and the sphere, or the tool, rest with
+  /// while it is measured counts as much as the scatter of a pose.
+  machine::Vec3 uncertainty;
+  double size = 0;                  ///< of the value: mm, or mm at 100 mm of a direction
+  double standard_uncertainty = 0;  ///< along the value, in the same unit
+  /// At least twice its standard uncertainty, or that is less than a nanometre; of a fit of
+  /// significant errors: it is corrected.
+  bool is_significant = true;
+};
+
+/// What the poses say about one rotary axis. What they cannot see has no value.
 struct AxisErrors {
   machine::Axis axis = machine::Axis::C;
-  std::optional<machine::Vec3> location;  ///< in mm across the axis, at the height of the sphere
-  std::optional<machine::Vec3> tilt_deg;  ///< a rotation vector across the axis
+  std::optional<FoundError> location;  ///< in mm across the axis, at the height of the sphere
+  std::optional<FoundError> tilt_deg;  ///< a rotation vector across the axis
   /// The variance of one measured centre over that of the location, in its worst direction; 0
   /// without a location.
   double valuation = 0;
+
+  bool is_significant() const {
+    return (!location || location->is_significant) && (!tilt_deg || tilt_deg->is_significant);
+  }
 };
 
 struct KinematicsFit {
   machine::Kinematics corrected;   ///< the model with what was found
+  bool is_corrected = false;       ///< something was found and is corrected
   std::vector<AxisErrors> errors;  ///< in the order asked for
-  Spread before;                   ///< by the model
-  Spread after;                    ///< by the corrected model
+  std::vector<Spread> before;      ///< of each group, by the model
+  std::vector<Spread> after;       ///< by the corrected model
 };
 
-/// Location, and with `directions` the direction, of axes by least squares over the distances of
-/// the sphere centres on the table from their mean (Gauss-Newton; the place of the sphere is
-/// eliminated). A value that the singular value decomposition of the positions leaves undefined is
-/// not determined: first directions are given up, then locations.
-KinematicsFit fit_kinematics(std::span<const SpherePose> poses, const machine::Kinematics& model,
+struct FitOptions {
+  bool directions = true;         ///< of the axes, beside their locations
+  bool only_significant = false;  ///< corrects no error that is not significant
+};
+
+/// Location, and with `directions` the direction, of all axes together by least squares over the
+/// distances of the sphere centres on the table from the mean of their group (Gauss-Newton; the
+/// places of the sphere are eliminated): exact whatever the order of the axes and wherever the
+/// others stand (decision 26). A value that the singular value decomposition of the positions
+/// leaves undefined is not determined: first directions are given up, then locations.
+KinematicsFit fit_kinematics(std::span<const PoseGroup> groups, const machine::Kinematics& model,
                              const MeasuringTool& tool, std::span<const machine::Axis> axes,
-                             bool directions);
+                             const FitOptions& options);
 
 /// By how much more the axis is turned where its position was approached from above than where it
 /// was approached from below, in degrees, by least squares. @pre both have the same positions.
-double fit_backlash(std::span<const SpherePose> from_below, std::span<const SpherePose> from_above,
+double fit_backlash(const PoseGroup& from_below, const PoseGroup& from_above,
                     const machine::Kinematics& model, const MeasuringTool& tool,
                     machine::Axis axis);
+
+/// How far the axis stands from its positions, in degrees: the mean size of the errors along the
+/// measuring circle over its radius, by that model.
+double mean_positioning_error(const PoseGroup& poses, const machine::Kinematics& model,
+                              const MeasuringTool& tool, machine::Axis axis);
 
 /// The radius of the circle that the sphere and the ball describe around each other, in mm.
 double measuring_radius(const machine::Vec3& sphere, const machine::RotaryAxis& axis,

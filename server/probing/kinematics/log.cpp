@@ -17,8 +17,7 @@ namespace {
 using machine::Axis;
 
 std::string mm(double value) { return log_text(to_length(value), false); }
-/// Four decimals, and zero is never negative.
-std::string degrees(double value) { return fmt::format("{:.4f}", to_angle(value) + 0.0); }
+std::string degrees(double value) { return fixed(value, 4); }
 
 std::string row(std::string_view label, std::string_view value) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", label, value);
@@ -86,29 +85,38 @@ std::string judged(const AxisErrors& errors, bool directions) {
   return html;
 }
 
-/// Rows of a table with what was found of an axis.
-std::string error_rows(const AxisErrors& errors, const Spread& after) {
+/// What was found of an error and how sure it is. @param what "the location error".
+std::string error_rows(std::string_view label, std::string_view what, const FoundError& found,
+                       std::string (*text)(double)) {
+  std::string html = row(label, components(found.value, text));
+  if (found.uncertainty != Vec3{}) {
+    html += row(fmt::format("Uncertainty of {} (95 %)", what), components(found.uncertainty, text));
+  }
+  if (!found.is_significant) {
+    html +=
+        row(fmt::format("Significance of {}", what), "▲ less than twice its standard uncertainty");
+  }
+  return html;
+}
+
+std::string error_rows(const AxisErrors& errors) {
   std::string html;
   if (errors.location) {
-    html += row("Location error", components(*errors.location, mm));
-    // Of two positions the spread is no standard deviation.
-    if (after.errors.size() > 2) {
-      html += row("Uncertainty of the location (one standard deviation)",
-                  mm(after.deviation / std::sqrt(errors.valuation)));
-    }
+    html += error_rows("Location error", "the location error", *errors.location, mm);
   }
   if (errors.tilt_deg) {
-    html += row("Direction error, turned around the axes, in degrees",
-                components(*errors.tilt_deg, degrees));
+    html += error_rows("Direction error, turned around the axes, in degrees", "the direction error",
+                       *errors.tilt_deg, degrees);
   }
   return html;
 }
 
 std::string deviation_rows(const Spread& before, const Spread& after) {
   const bool one = before.errors.size() < 3;
-  return row(one ? "Measured error of the position" : "Measured standard deviation",
+  return row(one ? "Measured error of the position" : "Measured dispersion (root mean square)",
              mm(before.deviation)) +
-         row(one ? "Error after correction" : "Optimised standard deviation", mm(after.deviation));
+         row(one ? "Error after correction" : "Optimised dispersion (root mean square)",
+             mm(after.deviation));
 }
 
 std::string axis_text(const AxisMeasurement& axis, bool directions) {
@@ -121,11 +129,15 @@ std::string axis_text(const AxisMeasurement& axis, bool directions) {
       plan.grid > 0 ? fmt::format(" on a Hirth grid of {}", degrees(plan.grid)) : "",
       degrees(plan.incidence));
   html += judged(axis.errors, directions) + positions(axis.poses, only, axis.before, axis.after) +
-          "<table>\n<tbody>\n" + deviation_rows(axis.before, axis.after) +
-          error_rows(axis.errors, axis.after);
+          "<table>\n<tbody>\n" + deviation_rows(axis.before, axis.after) + error_rows(axis.errors);
   html += row("Backlash in degrees",
               axis.backlash_deg ? degrees(*axis.backlash_deg) : std::string(axis.no_backlash));
+  html += row("Mean positioning error in degrees", degrees(axis.positioning_error_deg));
   html += row("Radius of the measuring circle", mm(axis.radius));
+  constexpr double kMicrometre = 0.001;
+  html += row("Measuring uncertainty in degrees per µm",
+              axis.radius > 0 ? fmt::format("{:.6f}", machine::degrees(kMicrometre / axis.radius))
+                              : std::string("none: the sphere lies on the axis"));
   return html + "</tbody>\n</table>\n";
 }
 
@@ -140,8 +152,8 @@ CycleResult<void> add(const CycleContext& context, std::string_view mode,
   const HtmlLog log{file, title, heading, "Errors are real minus modelled.", true};
   return add_section(
       context.host, log,
-      fmt::format("<section>\n<h2>Kinematics measured on {}</h2>\n<p>Mode {}; calibration sphere "
-                  "of radius {}</p>\n{}</section>\n",
+      fmt::format("<section>\n<h2>Kinematics measured on {}</h2>\n<p>Mode {}; active kinematics 0; "
+                  "calibration sphere of radius {}</p>\n{}</section>\n",
                   date_and_time(context.host), mode, mm(context.arguments.number(407)), measured));
 }
 
@@ -163,14 +175,14 @@ CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsRe
 CycleResult<void> log_grid(const CycleContext& context, std::string_view mode,
                            std::span<const SpherePose> poses, const KinematicsFit& fit) {
   std::vector<Axis> axes;
-  std::string html =
-      "<table>\n<tbody>\n" + deviation_rows(fit.before, fit.after) + "</tbody>\n</table>\n";
+  std::string html = "<table>\n<tbody>\n" + deviation_rows(fit.before.front(), fit.after.front()) +
+                     "</tbody>\n</table>\n";
   for (const AxisErrors& errors : fit.errors) {
     axes.push_back(errors.axis);
     html += fmt::format("<h3>Axis {}</h3>\n{}<table>\n<tbody>\n{}</tbody>\n</table>\n",
-                        name(errors.axis), judged(errors, true), error_rows(errors, fit.after));
+                        name(errors.axis), judged(errors, true), error_rows(errors));
   }
-  return add(context, mode, html + positions(poses, axes, fit.before, fit.after));
+  return add(context, mode, html + positions(poses, axes, fit.before.front(), fit.after.front()));
 }
 
 }  // namespace fitgauge::probing

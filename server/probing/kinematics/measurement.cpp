@@ -13,13 +13,13 @@ using machine::Kinematics;
 
 /// One axis as it was measured.
 struct Approaches {
-  std::vector<SpherePose> first;
-  std::vector<SpherePose> second;  ///< from the other side; empty without backlash
+  PoseGroup first;
+  PoseGroup second;  ///< from the other side; empty without backlash
 };
 
 /// Measures at `rotary`, coming from `by` beyond it.
 CycleResult<void> approach(KinematicsProbing& probing, const Vec3& rotary, Axis axis, double by,
-                           std::vector<SpherePose>& poses) {
+                           PoseGroup& poses) {
   Vec3 beyond = rotary;
   beyond[index(axis) - 3] += by;
   if (auto turned = probing.turn(beyond); !turned) return turned;
@@ -51,27 +51,31 @@ CycleResult<Approaches> measure_axis(KinematicsProbing& probing, const AxisPlan&
 std::string_view no_backlash(const AxisPlan& plan, double radius, double backlash_angle) {
   constexpr double kSmallestCircle = 1;  // mm
   if (backlash_angle == 0) return "not asked for (Q432)";
+  if (plan.strobed) return "not possible with an axis that an M function positions";
   if (plan.grid > 0) return "not possible on a Hirth axis";
   if (radius < kSmallestCircle) return "the measuring circle is smaller than 1 mm";
   return {};
 }
 
 void evaluate(KinematicsMeasurement& measurement, const Kinematics& active,
-              const MeasuringTool& tool, bool directions) {
-  measurement.corrected = active;
-  for (const machine::RotaryAxis& known : active.axes()) {
-    const auto axis = std::ranges::find_if(measurement.axes, [&](const AxisMeasurement& measured) {
-      return measured.plan.axis == known.axis;
-    });
-    if (axis == measurement.axes.end()) continue;
-    const std::array wanted{known.axis};
-    KinematicsFit fit =
-        fit_kinematics(axis->poses, measurement.corrected, tool, wanted, directions);
-    axis->before = spread(axis->poses, active, tool);
-    axis->after = std::move(fit.after);
-    axis->errors = fit.errors.front();
-    measurement.corrected = std::move(fit.corrected);
+              const MeasuringTool& tool, const FitOptions& options) {
+  std::vector<PoseGroup> groups;
+  std::vector<Axis> axes;
+  for (const AxisMeasurement& axis : measurement.axes) {
+    groups.push_back(axis.poses);
+    axes.push_back(axis.plan.axis);
   }
+  KinematicsFit fit = fit_kinematics(groups, active, tool, axes, options);
+  for (std::size_t k = 0; k < measurement.axes.size(); ++k) {
+    AxisMeasurement& axis = measurement.axes[k];
+    axis.before = std::move(fit.before[k]);
+    axis.after = std::move(fit.after[k]);
+    axis.errors = fit.errors[k];
+    axis.positioning_error_deg =
+        mean_positioning_error(axis.poses, fit.corrected, tool, axis.plan.axis);
+  }
+  measurement.corrected = std::move(fit.corrected);
+  measurement.is_corrected = fit.is_corrected;
 }
 
 }  // namespace
@@ -79,7 +83,7 @@ void evaluate(KinematicsMeasurement& measurement, const Kinematics& active,
 CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& context,
                                                       KinematicsProbing& probing,
                                                       std::span<const AxisPlan> plans,
-                                                      bool directions) {
+                                                      const FitOptions& options) {
   const Kinematics active = context.machine.state().kinematics;
   const double angle = context.arguments.number_or(432, 0);
   const MeasuringTool tool = probing.tool();
@@ -104,7 +108,7 @@ CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& contex
     measured.poses = std::move(found->first);
     measurement.axes.push_back(std::move(measured));
   }
-  evaluate(measurement, active, tool, directions);
+  evaluate(measurement, active, tool, options);
   return measurement;
 }
 

@@ -14,11 +14,12 @@ namespace fitgauge::probing {
 /// What was measured of one rotary axis.
 struct AxisMeasurement {
   AxisPlan plan;
-  std::vector<SpherePose> poses;  ///< the reference at 0 first, then the positions
+  PoseGroup poses;  ///< the reference at 0 first, then the positions
   AxisErrors errors;
   Spread before;      ///< by the kinematics that were active
-  Spread after;       ///< by the corrected kinematics
+  Spread after;       ///< by the corrected kinematics: what the next measurement finds
   double radius = 0;  ///< of the measuring circle, in mm
+  double positioning_error_deg = 0;  ///< mean, by the corrected kinematics
   std::optional<double> backlash_deg{};
   std::string_view no_backlash{};  ///< why there is none
 };
@@ -26,17 +27,17 @@ struct AxisMeasurement {
 struct KinematicsMeasurement {
   std::vector<AxisMeasurement> axes;  ///< those measured, in the order A, B, C
   machine::Kinematics corrected;      ///< the active kinematics with what was found
+  bool is_corrected = false;          ///< something was found and is corrected
 };
 
 /// Measures the planned axes one after the other, the others at their angle of incidence: with
 /// backlash (Q432) each position is approached from either side, and the first side counts.
-/// Evaluates from the bed to the workpiece and from the column to the tool, each axis with what was
-/// found of those before it.
+/// Evaluates all axes together (decision 26).
 /// @errors those of KinematicsProbing::measure.
 CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& context,
                                                       KinematicsProbing& probing,
                                                       std::span<const AxisPlan> plans,
-                                                      bool directions);
+                                                      const FitOptions& options);
 
 /// Q141 to Q149, in mm whatever the unit of the program; -1 for axes that were not measured.
 void write_kinematics_results(CycleHost& host, const KinematicsMeasurement& measurement,

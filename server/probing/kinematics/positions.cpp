@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace fitgauge::probing {
 namespace {
@@ -13,8 +14,21 @@ using machine::Axis;
 
 constexpr double kReference = 1e-9;  ///< degrees from 0 that still are the reference
 
+/// Angles of a block and of a grid are decimals: whole billionths of a degree, in which steps and
+/// ties are exact.
+constexpr double kPerDegree = 1e9;
+std::int64_t whole(double degrees) { return std::llround(degrees * kPerDegree); }
+
+/// The multiple of the grid that is nearest to numerator / denominator, of two equally near ones
+/// that away from zero (decision 5).
+double nearest_tooth(std::int64_t numerator, std::int64_t denominator, double grid) {
+  const std::int64_t tooth = whole(grid) * denominator;
+  const std::int64_t count = (2 * std::abs(numerator) + tooth) / (2 * tooth);
+  return static_cast<double>(numerator < 0 ? -count : count) * grid;
+}
+
 double on_grid(double position, double grid) {
-  return grid > 0 ? std::round(position / grid) * grid : position;
+  return grid > 0 ? nearest_tooth(whole(position), 1, grid) : position;
 }
 
 CycleResult<void> check_range(Axis axis, double position, const machine::AxisRange& range) {
@@ -27,7 +41,8 @@ CycleResult<void> check_range(Axis axis, double position, const machine::AxisRan
 CycleResult<void> check_reach(const AxisPlan& plan, double backlash,
                               const machine::AxisRange& range) {
   std::vector<double> reached{plan.incidence};
-  const double beside = plan.grid > 0 || !plan.is_measured() ? 0 : std::abs(backlash);
+  const double beside =
+      plan.grid > 0 || plan.strobed || !plan.is_measured() ? 0 : std::abs(backlash);
   const auto reach = [&](double position) {
     reached.push_back(position - beside);
     reached.push_back(position + beside);
@@ -44,9 +59,11 @@ CycleResult<void> check_reach(const AxisPlan& plan, double backlash,
 
 std::vector<double> measuring_positions(double start, double end, int points, double grid) {
   std::vector<double> positions;
+  const int steps = std::max(points - 1, 1);
   for (int k = 0; k < points; ++k) {
-    const double step = points > 1 ? (end - start) / (points - 1) : 0;
-    positions.push_back(on_grid(start + k * step, grid));
+    positions.push_back(
+        grid > 0 ? nearest_tooth(whole(start) * (steps - k) + whole(end) * k, steps, grid)
+                 : start + k * ((end - start) / steps));
   }
   return positions;
 }
@@ -68,6 +85,12 @@ CycleResult<std::vector<AxisPlan>> plan_positions(const Arguments& arguments,
                   .grid = range->hirth_grid_deg};
     plan.positions = measuring_positions(plan.start, plan.end, plan.points, plan.grid);
     std::erase_if(plan.positions, [](double p) { return std::abs(p) < kReference; });
+    plan.strobed = state.kinematics_options.strobed[index(axis) - 3];
+    if (plan.strobed && state.nose[axis] != 0) {
+      return nc_error(1005, fmt::format("{} is positioned by an M function and stands at {:+.4f}: "
+                                        "turn it to 0 before the cycle",
+                                        name(axis), state.nose[axis]));
+    }
     if (auto checked = check_reach(plan, arguments.number_or(432, 0), *range); !checked) {
       return checked.error();
     }

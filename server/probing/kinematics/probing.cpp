@@ -36,8 +36,8 @@ CycleResult<void> check_retraction(const Arguments& arguments, const MachineStat
     if (height > arguments.number(407)) return {};
     return nc_error(1082, "the retraction height Q408 lies inside the calibration sphere");
   }
-  if (!state.modes.tcpm) {
-    return nc_error(1082, "Q408 = 0 needs TCPM (M128); without it give a retraction height");
+  if (!state.kinematics_options.tcpm) {
+    return nc_error(1082, "Q408 = 0 needs the option of TCPM; without it give a retraction height");
   }
   for (const Axis axis : kRotary) {
     const auto& range = state.ranges[index(axis)];
@@ -74,6 +74,7 @@ CycleResult<KinematicsProbing> KinematicsProbing::begin(const CycleContext& cont
 KinematicsProbing::KinematicsProbing(const CycleContext& context, const SphereProbe& probe,
                                      bool follows)
     : machine_(context.machine),
+      host_(context.host),
       probe_(probe),
       retraction_(context.arguments.number(408)),
       turning_feed_(feed_of(context.arguments.number(253))),
@@ -115,7 +116,16 @@ CycleResult<void> KinematicsProbing::turn(const Vec3& rotary) {
   return turn_axes(rotary);
 }
 
+/// Q120 to Q122, from which an M function of the builder takes its targets (mStrobeRotAxPos).
+void KinematicsProbing::publish_targets(const Vec3& rotary) {
+  for (std::size_t letter = 0; letter < 3; ++letter) {
+    if (!state().kinematics_options.strobed[letter]) continue;
+    host_.set_q(static_cast<std::uint16_t>(120 + letter), rotary[letter], Unit::Angle);
+  }
+}
+
 CycleResult<void> KinematicsProbing::turn_axes(const Vec3& rotary) {
+  publish_targets(rotary);
   return lift_move(
       machine_.move({turning_words(state(), rotary), turning_feed_, CoordinateSystem::Machine}));
 }
@@ -153,6 +163,7 @@ CycleResult<void> KinematicsProbing::circle(const Vec3& rotary) {
   const int steps = std::max(1, static_cast<int>(std::ceil(angle / kStepDeg)));
   for (int step = 1; step <= steps; ++step) {
     const Vec3 next = step == steps ? rotary : from + way * (static_cast<double>(step) / steps);
+    publish_targets(next);
     AxisWords words = turning_words(state(), next);
     const Vec3 tip = tip_at(next);
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) words[axis] = tip[index(axis)];

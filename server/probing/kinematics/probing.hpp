@@ -7,13 +7,14 @@ namespace fitgauge::probing {
 
 /// Turns the rotary axes and measures the calibration sphere where it then stands. Before a turn
 /// the probe goes to the retraction height Q408 over the sphere's place at zero, or with Q408 = 0
-/// and TCPM it circles the sphere while the axes turn. A tilted plane and TCPM are switched off for
+/// it circles the sphere while the axes turn. A tilted plane and TCPM are switched off for
 /// good, as the control does. Not thread-safe; lives within one execution. After an error the
 /// machine stands where it stopped.
 class KinematicsProbing {
  public:
   /// The sphere is expected at the zero of the active preset.
-  /// @errors 1082 Q408 = 0 without TCPM or on a machine with Hirth axes, or a height inside the
+  /// @errors 1082 Q408 = 0 without the option of TCPM or on a machine with Hirth axes, or a height
+  /// inside the
   ///   sphere; those of SphereProbe::begin.
   static CycleResult<KinematicsProbing> begin(const CycleContext& context);
 
@@ -34,12 +35,14 @@ class KinematicsProbing {
   KinematicsProbing(const CycleContext& context, const SphereProbe& probe, bool follows);
 
   const machine::MachineState& state() const { return machine_.state(); }
+  void publish_targets(const Vec3& rotary);
   CycleResult<void> turn_axes(const Vec3& rotary);
   CycleResult<void> circle(const Vec3& rotary);
   CycleResult<SpherePose> measure_here();
   Vec3 expected(const Vec3& rotary) const;
 
   machine::Machine& machine_;
+  CycleHost& host_;
   SphereProbe probe_;
   double retraction_;  ///< Q408
   machine::Feed turning_feed_;

@@ -14,9 +14,6 @@ namespace {
 using machine::AxisWords;
 using machine::CoordinateSystem;
 
-/// The machine parameter maxDevCalBall.
-constexpr double kLargestRadiusError = 0.1;
-
 }  // namespace
 
 CycleResult<SphereProbe> SphereProbe::begin(const CycleContext& context) {
@@ -122,13 +119,17 @@ CycleResult<Vec3> SphereProbe::measure(const Vec3& sphere) {
   }
   if (auto moved = move_ball(sphere + up * distance); !moved) return moved.error();
 
-  const FittedSphere fitted = fit_sphere(centres, {sphere, sphere_radius_ + probe_.radius});
-  const double radius = fitted.radius - probe_.radius;
-  if (std::abs(radius - sphere_radius_) > kLargestRadiusError) {
-    return nc_error(1072, fmt::format("the calibration sphere has a radius of {:.4f} mm, not {} mm",
-                                      radius, sphere_radius_));
+  const auto fitted = fit_sphere(centres, {sphere, sphere_radius_ + probe_.radius});
+  if (!fitted) return nc_error(1072, "the touched points lie on no sphere");
+  const double radius = fitted->radius - probe_.radius;
+  const double largest = machine_.state().kinematics_options.max_ball_deviation;
+  if (std::abs(radius - sphere_radius_) > largest) {
+    return nc_error(1072,
+                    fmt::format("the calibration sphere has a radius of {:.4f} mm, not {} mm; "
+                                "max_calibration_ball_deviation_mm is {} mm",
+                                radius, sphere_radius_, largest));
   }
-  return fitted.centre;
+  return fitted->centre;
 }
 
 CycleResult<void> lift_move(const machine::MachineResult<void>& moved) {

@@ -13,15 +13,16 @@ namespace {
 constexpr std::string_view kRule = "------------------------------------------------------------\n";
 constexpr double kMmPerInch = 25.4;
 
-std::string fixed4(double value) {
-  std::string text = fmt::format("{:.4f}", value);
-  return text == "-0.0000" ? text.substr(1) : text;
-}
-
 }  // namespace
 
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.find_first_not_of("-0.") == std::string::npos && text.front() == '-' ? text.substr(1)
+                                                                                   : text;
+}
+
 std::string log_text(Length value, bool inch) {
-  return fixed4(inch ? value.to_mm() / kMmPerInch : value.to_mm());
+  return inch ? fixed(value.to_mm() / kMmPerInch, 6) : fixed(value.to_mm(), 4);
 }
 
 MeasuringLog::MeasuringLog(const CycleDescriptor& cycle, const CycleHost& host)
@@ -46,7 +47,7 @@ void MeasuringLog::length(std::string_view label, Length value) {
   line(label, log_text(value, inch_));
 }
 
-void MeasuringLog::angle(std::string_view label, double degrees) { line(label, fixed4(degrees)); }
+void MeasuringLog::number(std::string_view label, double value) { line(label, fixed(value, 4)); }
 
 void MeasuringLog::line(std::string_view label, std::string_view value) {
   fmt::format_to(std::back_inserter(text_), "{:<44}{:>16}\n", fmt::format("{}:", label), value);

@@ -10,11 +10,14 @@
 
 namespace fitgauge::probing {
 
-/// Four decimals of a length, in mm or inch, as logs show it.
+/// A number with that many decimals; zero is never negative.
+std::string fixed(double value, int decimals);
+
+/// A length as logs show it: four decimals in mm, six in inch.
 std::string log_text(Length value, bool inch);
 
 /// The text log of Q281: header with date, time, program and unit, then sections separated by
-/// dashed lines, each a list of named numbers with four decimals in the unit of the main program.
+/// dashed lines, each a list of named numbers in the unit of the main program.
 class MeasuringLog {
  public:
   MeasuringLog(const CycleDescriptor& cycle, const CycleHost& host);
@@ -22,7 +25,8 @@ class MeasuringLog {
   /// Opens a section: "Nominal values".
   void section(std::string_view title);
   void length(std::string_view label, Length value);
-  void angle(std::string_view label, double degrees);
+  void number(std::string_view label, double value);  ///< with four decimals
+  void angle(std::string_view label, double degrees) { number(label, degrees); }
 
   /// The closing line and the whole text.
   std::string finish() &&;

@@ -2,6 +2,7 @@
 
 #include "probing/cycles.hpp"
 #include "probing/dotted_parameters.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/measuring/measurement.hpp"
 
@@ -63,6 +64,7 @@ constinit const TouchProbeCycle kCycle0{
      .dotted = true,
      .parameters = k0Parameters,
      .results = kTouchResults,
+     .errors = errors::kMeasuring | ErrorSet{1042},
      .simulated = "All parameters. The position is that of the tip; the result is compensated."},
     reference_plane};
 
@@ -73,6 +75,7 @@ constinit const TouchProbeCycle kCycle1{
      .dotted = true,
      .parameters = k1Parameters,
      .results = kTouchResults,
+     .errors = errors::kMeasuring,
      .simulated = "All parameters. The position is that of the tip; the angle turns from the named "
                   "axis to the next one (X to Y, Y to Z, Z to X)."},
     polar};

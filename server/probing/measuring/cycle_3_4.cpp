@@ -2,6 +2,7 @@
 
 #include "probing/cycles.hpp"
 #include "probing/dotted_parameters.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/touch/probing_motion.hpp"
 
@@ -133,6 +134,7 @@ constinit const TouchProbeCycle kCycle3{
      .dotted = true,
      .parameters = k3Parameters,
      .results = kTouchResults,
+     .errors = errors::kTouching | ErrorSet{1010, 1011},
      .simulated =
          "All parameters. X, Y and Z go to the result parameter and the two after it, 0 or "
          "-1 (no contact) to the fourth; the tip in the active system, the spindle nose "
@@ -146,6 +148,7 @@ constinit const TouchProbeCycle kCycle4{
      .dotted = true,
      .parameters = k4Parameters,
      .results = kTouchResults,
+     .errors = errors::kWithProbe | ErrorSet{1010, 1011, 1042},
      .simulated = "All parameters, results as of cycle 3; without contact the program goes on."},
     measure_along_vector};
 

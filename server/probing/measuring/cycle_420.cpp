@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/log/measuring_log.hpp"
 #include "probing/measuring/measurement.hpp"
 #include "probing/parameters.hpp"
@@ -27,7 +28,17 @@ CycleResult<void> measure(const CycleContext& context) {
   log.angle("Measured angle", angle);
   log.section("Further results");
   log.length("Measuring height", to_length(context.arguments.number(261)));
-  return deliver_log(context, std::move(log));
+  if (auto written = deliver_log(context, std::move(log)); !written) return written;
+  MeasuringRecord record{.cycle = context.arguments.descriptor().number};
+  constexpr std::array<std::string_view, 2> kNames{"1st point", "2nd point"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    record.sizes.push_back({.characteristic = kNames.at(k),
+                            .is_position = true,
+                            .nominal = to_length(edge->coordinates.at(k).nominal),
+                            .measured = to_length(edge->coordinates.at(k).measured)});
+  }
+  context.host.record(record);
+  return {};
 }
 
 }  // namespace
@@ -38,6 +49,7 @@ constinit const TouchProbeCycle kCycle420{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kMeasuring | ErrorSet{1042, 1081},
      .simulated = "All parameters. The angle is that of the line to the main axis, with Q272 = 3 "
                   "to the axis along which the points differ."},
     measure};

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measuring/feature_values.hpp"
 #include "probing/measuring/measurement.hpp"
 #include "probing/parameters.hpp"
@@ -62,6 +63,8 @@ constinit const TouchProbeCycle kCycle421{
      .kind = CycleKind::Measuring,
      .parameters = k421Parameters,
      .results = kCircleResults,
+     .errors = errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre |
+               ErrorSet{1046, 1047},
      .simulated = "All other parameters.",
      .not_simulated = kNotSimulated},
     [](const CycleContext& context) { return measure(context, Side::Inside); }};
@@ -72,6 +75,8 @@ constinit const TouchProbeCycle kCycle422{
      .kind = CycleKind::Measuring,
      .parameters = k422Parameters,
      .results = kCircleResults,
+     .errors = errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre |
+               ErrorSet{1048, 1049},
      .simulated = "All other parameters.",
      .not_simulated = kNotSimulated},
     [](const CycleContext& context) { return measure(context, Side::Outside); }};

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measuring/feature_values.hpp"
 #include "probing/measuring/measurement.hpp"
 #include "probing/parameters.hpp"
@@ -106,6 +107,8 @@ constinit const TouchProbeCycle kCycle423{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kResults,
+     .errors =
+         errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1050, 1051, 1052, 1053},
      .simulated = "All parameters; moves at measuring height are paraxial."},
     [](const CycleContext& context) { return measure(context, Side::Inside); }};
 
@@ -115,6 +118,8 @@ constinit const TouchProbeCycle kCycle424{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kResults,
+     .errors =
+         errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1054, 1055, 1056, 1057},
      .simulated = "All parameters; moves at measuring height are paraxial."},
     [](const CycleContext& context) { return measure(context, Side::Outside); }};
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measuring/feature_values.hpp"
 #include "probing/measuring/measurement.hpp"
 #include "probing/parameters.hpp"
@@ -121,6 +122,7 @@ constinit const TouchProbeCycle kCycle425{
      .kind = CycleKind::Measuring,
      .parameters = k425Parameters,
      .results = kResults,
+     .errors = errors::kMeasuring | errors::kJudged | ErrorSet{1058, 1059},
      .simulated =
          "All parameters; both touches begin at the starting point, so Q320 moves nothing."},
     [](const CycleContext& context) { return measure(context, Side::Inside); }};
@@ -131,6 +133,7 @@ constinit const TouchProbeCycle kCycle426{
      .kind = CycleKind::Measuring,
      .parameters = k426Parameters,
      .results = kResults,
+     .errors = errors::kMeasuring | errors::kJudged | ErrorSet{1060, 1061},
      .simulated = "All parameters; each point is touched towards the other one."},
     [](const CycleContext& context) { return measure(context, Side::Outside); }};
 

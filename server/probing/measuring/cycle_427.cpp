@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measuring/measurement.hpp"
 #include "probing/parameters.hpp"
 #include "probing/touch/single_touch.hpp"
@@ -47,8 +48,10 @@ CycleResult<void> measure(const CycleContext& context) {
                                  .limits = *limits,
                                  .result_q = 160,
                                  .deviation_q = 168};
-  const ToolCorrection correction = touched->axis == 2 ? length_correction(coordinate.deviation())
-                                                       : radius_correction(coordinate);
+  const Length deviation = coordinate.deviation();
+  const ToolCorrection correction = touched->axis == 2
+                                        ? length_correction(deviation)
+                                        : face_correction(deviation, arguments.whole(267));
   return finish_measurement(context, {.values = {coordinate},
                                       .measuring_height = to_length(arguments.number(261)),
                                       .correction = correction});
@@ -62,6 +65,7 @@ constinit const TouchProbeCycle kCycle427{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kMeasuring | errors::kJudged | ErrorSet{1042, 1072},
      .simulated = "All other parameters. The nominal coordinate is that of the point (Q263, Q264, "
                   "Q261).",
      .not_simulated = "Turning tools, which Q498 and Q531 concern: the values are checked and "

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measuring/feature_values.hpp"
 #include "probing/measuring/measurement.hpp"
 #include "probing/parameters.hpp"
@@ -51,6 +52,7 @@ constinit const TouchProbeCycle kCycle430{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kCircleResults,
+     .errors = errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1062, 1063, 1081},
      .simulated = "All parameters; Q330 watches for breakage only."},
     measure};
 

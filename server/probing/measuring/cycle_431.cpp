@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/log/measuring_log.hpp"
 #include "probing/measuring/measurement.hpp"
 #include "probing/parameters.hpp"
@@ -94,14 +95,21 @@ CycleResult<void> measure(const CycleContext& context) {
   publish_angle(kResults[0], machine::degrees(std::atan2(-n.y, n.z)));
   publish_angle(kResults[1], machine::degrees(std::atan2(n.x, n.z)));
   for (std::size_t i = 0; i < 3; ++i) publish_angle(kResults[2 + i], spatial[i]);
+  MeasuringRecord record{.cycle = arguments.descriptor().number};
   for (std::size_t i = 0; i < 3; ++i) {
     // The ball touches beside its lowest point: the plane lies below its centre by radius / cosine.
     const Vec3& centre = (*contacts)[i].ball_centre;
     const Length height = to_length(centre.z - motion->ball_radius() / std::abs(n.z));
     context.host.set_q(kResults[5 + i].q, height.to_mm(), Unit::Length);
     log.length(kResults[5 + i].meaning, height);
+    record.sizes.push_back({.characteristic = kResults[5 + i].meaning,
+                            .is_position = true,
+                            .nominal = to_length(touches[i].start.z + back.z),
+                            .measured = height});
   }
-  return deliver_log(context, std::move(log));
+  if (auto written = deliver_log(context, std::move(log)); !written) return written;
+  context.host.record(record);
+  return {};
 }
 
 }  // namespace
@@ -112,6 +120,7 @@ constinit const TouchProbeCycle kCycle431{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kMeasuring | ErrorSet{1081},
      .simulated = "All parameters; the measured coordinates are those of the plane at the points."},
     measure};
 

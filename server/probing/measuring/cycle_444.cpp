@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/measuring/probing_3d_log.hpp"
 #include "probing/measuring/tolerance_text.hpp"
@@ -50,15 +51,26 @@ constexpr std::array<CycleOutput, 8> kResults{
 constexpr std::array<std::string_view, 3> kAxisNames{"Point, main axis", "Point, secondary axis",
                                                      "Point, probe axis"};
 
-CycleResult<Vec3> surface_normal(const Arguments& arguments) {
+/// The normal is not zero and QS400 can be read, in whatever unit.
+CycleResult<void> check_arguments(const Arguments& arguments) {
+  const auto is_zero = [&](int component) {
+    return arguments.has_number(q(component)) && arguments.number(component) == 0;
+  };
+  if (is_zero(581) && is_zero(582) && is_zero(583)) {
+    return nc_error(1042,
+                    "Q581, Q582 and Q583 are 0: give the surface normal, away from the material");
+  }
+  const std::string* tolerance = arguments.text(q(kTolerance));
+  if (tolerance == nullptr) return {};
+  if (const auto read = parse_tolerance(*tolerance, false); !read) return read.error();
+  return {};
+}
+
+/// @pre check_arguments has accepted them.
+Vec3 surface_normal(const Arguments& arguments) {
   const Vec3 normal{arguments.number(581), arguments.number(582), arguments.number(583)};
   // The largest component decides, since squares of tiny ones would vanish.
   const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
-  if (largest == 0) {
-    return nc_error(1042,
-                    "Q581, Q582 and Q583 are 0: give the surface normal, away from the "
-                    "material");
-  }
   return unit(normal * (1 / largest));
 }
 
@@ -90,8 +102,7 @@ CycleResult<ProbedPoint> touch_point(const CycleContext& context,
                                      const std::optional<Limits>& limits) {
   const Arguments& arguments = context.arguments;
   const machine::MachineState& state = context.machine.state();
-  const auto normal = surface_normal(arguments);
-  if (!normal) return normal.error();
+  const Vec3 normal = surface_normal(arguments);
   if (auto allowed = refuse_mirror_and_scaling(state.frames); !allowed) return allowed.error();
   auto motion = ProbingMotion::begin(context);
   if (!motion) return motion.error();
@@ -99,17 +110,17 @@ CycleResult<ProbedPoint> touch_point(const CycleContext& context,
     return checked.error();
   }
   const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(294)};
-  const std::array touches{
-      Touch{.start = nominal + *normal * motion->start_distance(arguments.number(320)),
-            .direction = -*normal}};
-  const auto contacts = motion->touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
-  const Vec3 surface = contacts->front().surface;
+  const auto contact =
+      motion->touch({.start = nominal + normal * motion->start_distance(arguments.number(320)),
+                     .direction = -normal},
+                    arguments.number(260));
+  if (!contact) return contact.error();
+  const Vec3 surface = contact->surface;
 
   ProbedPoint point{.plane = motion->plane(),
-                    .normal = *normal,
+                    .normal = normal,
                     .distance = state.probe_system()->data.distance,
-                    .deviation = to_length(dot(surface - nominal, *normal)),
+                    .deviation = to_length(dot(surface - nominal, normal)),
                     .limits = limits};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     point.nominal[axis] = to_length(nominal[axis]);
@@ -136,7 +147,7 @@ MeasuringRecord make_record(const ProbedPoint& point) {
                           .feature = iso286::Feature::Shaft,
                           .measured = deviation.measured,
                           .limits = deviation.limits,
-                          .verdict = deviation.verdict()});
+                          .verdict = point.verdict});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     record.sizes.push_back({.characteristic = kAxisNames[axis],
                             .is_position = true,
@@ -178,12 +189,14 @@ constinit const TouchProbeCycle kCycle444{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1004, 1011, 1042, 1072, 1099},
      .simulated =
          "All parameters. QS400 is in the unit of the program. After contact the probe goes back "
-         "to the start (MB), then to the clearance height. A basic rotation stays active. In a "
-         "tilted "
-         "plane the rotary axes must stand square to it, except with TCPM. The points of a run "
-         "share one log."},
-    measure};
+         "to the start (MB) and stays there. A basic rotation stays active. In a tilted plane the "
+         "rotary axes must stand square to it, except with TCPM. The points of a run share one "
+         "log, which colours the value along the normal and each axis against its share of the "
+         "tolerance."},
+    measure,
+    check_arguments};
 
 }  // namespace fitgauge::probing

@@ -57,6 +57,13 @@ MeasuringRecord make_record(const CycleContext& context, const Measurement& meas
   return record;
 }
 
+/// On a short arc the scatter of the touches becomes a large one of the diameter.
+void add_short_arc(MeasuringLog& log, const std::optional<Form>& form) {
+  constexpr double kShort = 2;  // four touches at right angles: 1, three: 1.15
+  if (!form || form->diameter_factor <= kShort) return;
+  log.number("Scatter of the diameter per scatter of touch", form->diameter_factor);
+}
+
 }  // namespace
 
 CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
@@ -79,6 +86,7 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
   if (measurement.measuring_height) {
     log.section("Further results");
     log.length("Measuring height", *measurement.measuring_height);
+    add_short_arc(log, measurement.form);
   }
   if (auto written = deliver_log(context, std::move(log)); !written) return written;
   host.record(make_record(context, measurement));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "probing/log/html_log.hpp"
 #include "probing/log/measuring_log.hpp"
 #include "probing/measured_value.hpp"
@@ -32,16 +34,19 @@ Appearance appearance(const std::optional<Verdict>& verdict) {
   }
 }
 
+/// Of the values along the axes and along the normal.
+using Styles = std::array<std::string_view, 4>;
+
 /// Adds rows of a value along each axis and one along the normal.
 class PointTable {
  public:
   PointTable(std::string& html, bool inch) : html_(html), inch_(inch) {}
 
   void row(std::string_view label, const std::array<Length, 3>& along_axes, Length along_normal,
-           std::string_view style = {}) {
+           const Styles& styles = {}) {
     html_ += fmt::format("<tr><th scope=\"row\">{}</th>", label);
-    for (const Length value : along_axes) cell(value, {});
-    cell(along_normal, style);
+    for (std::size_t axis = 0; axis < 3; ++axis) cell(along_axes.at(axis), styles.at(axis));
+    cell(along_normal, styles.back());
     html_ += "</tr>\n";
   }
 
@@ -58,6 +63,28 @@ class PointTable {
 
 std::array<Length, 3> components(const Vec3& normal, double length) {
   return {to_length(normal.x * length), to_length(normal.y * length), to_length(normal.z * length)};
+}
+
+/// Each axis against its share of the tolerance (decision 24), the last along the normal. What lies
+/// across the normal has no share.
+Styles styles_of(const ProbedPoint& point) {
+  Styles styles{};
+  if (!point.limits) return styles;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double share = point.normal[axis];
+    const double away = (point.measured[axis] - point.nominal[axis]).to_mm() * (share < 0 ? -1 : 1);
+    const auto limit = [&](Length along_normal) {
+      return to_length(along_normal.to_mm() * std::abs(share));
+    };
+    if (limit(point.limits->upper) == limit(point.limits->lower)) continue;
+    const Length value = to_length(away);
+    const Verdict verdict = value > limit(point.limits->upper)   ? Verdict::Rework
+                            : value < limit(point.limits->lower) ? Verdict::Reject
+                                                                 : Verdict::Good;
+    styles.at(axis) = appearance(verdict).style;
+  }
+  styles.back() = appearance(point.verdict).style;
+  return styles;
 }
 
 std::array<Length, 3> sum(const std::array<Length, 3>& a, const std::array<Length, 3>& b) {
@@ -90,8 +117,9 @@ std::string section(const CycleHost& host, const ProbedPoint& point) {
     limit("Upper limit", point.limits->upper);
     limit("Lower limit", point.limits->lower);
   }
-  table.row("Actual", point.measured, point.deviation, look.style);
-  table.row("Deviation", difference(point.measured, point.nominal), point.deviation, look.style);
+  const Styles styles = styles_of(point);
+  table.row("Actual", point.measured, point.deviation, styles);
+  table.row("Deviation", difference(point.measured, point.nominal), point.deviation, styles);
   html += "</tbody>\n</table>\n</section>\n";
   return html;
 }

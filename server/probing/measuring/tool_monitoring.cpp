@@ -35,8 +35,12 @@ ToolCorrection radius_correction(const MeasuredValue& size) {
           size.deviation()};
 }
 
+ToolCorrection face_correction(Length deviation, int direction) {
+  return {ToolCorrection::Target::Radius, direction > 0 ? deviation : -deviation, deviation};
+}
+
 ToolCorrection length_correction(Length deviation) {
-  return {ToolCorrection::Target::Length, deviation, deviation};
+  return {ToolCorrection::Target::Length, -deviation, deviation};
 }
 
 CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection& correction) {

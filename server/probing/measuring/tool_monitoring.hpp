@@ -17,7 +17,12 @@ struct ToolCorrection {
 /// for an outside dimension (decision 8).
 ToolCorrection radius_correction(const MeasuredValue& size);
 
-/// The length of the tool that cut a face across the probe axis.
+/// The radius of the tool that cut one face, which was touched in that direction (Q267): where
+/// material is missing the tool is larger than its radius says (decision 8).
+ToolCorrection face_correction(Length deviation, int direction);
+
+/// The length of the tool that cut a face across the probe axis: a face that is too high was cut by
+/// a tool that is shorter than its length says (decision 8).
 ToolCorrection length_correction(Length deviation);
 
 /// Corrects the tool that Q330 names, inside the tolerance too and on top of earlier corrections

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {
@@ -39,6 +40,7 @@ constinit const TouchProbeCycle kCycle247{
      .name = "PRESETTING",
      .kind = CycleKind::Preset,
      .parameters = kParameters,
+     .errors = ErrorSet{1011},
      .simulated = "Activates the row and resets datum shift, mirroring, rotation and scaling. No "
                   "motion."},
     activate};

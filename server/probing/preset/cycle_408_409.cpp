@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/preset/preset_cycle.hpp"
 #include "probing/touch/rectangle_probing.hpp"
@@ -61,6 +62,7 @@ constinit const TouchProbeCycle kCycle408{
      .kind = CycleKind::Preset,
      .parameters = k408Parameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
      .simulated = "All parameters."},
     [](const CycleContext& context) { return set_datum(context, Side::Inside); }};
 
@@ -70,6 +72,7 @@ constinit const TouchProbeCycle kCycle409{
      .kind = CycleKind::Preset,
      .parameters = k409Parameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
      .simulated = "All parameters."},
     [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
 

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/preset/preset_cycle.hpp"
 #include "probing/touch/rectangle_probing.hpp"
@@ -49,6 +50,7 @@ constinit const TouchProbeCycle kCycle410{
      .kind = CycleKind::Preset,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
      .simulated = "All parameters; moves at measuring height are paraxial."},
     [](const CycleContext& context) { return set_datum(context, Side::Inside); }};
 
@@ -58,6 +60,7 @@ constinit const TouchProbeCycle kCycle411{
      .kind = CycleKind::Preset,
      .parameters = kParameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
      .simulated = "All parameters; moves at measuring height are paraxial."},
     [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
 

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/preset/preset_circle.hpp"
 #include "probing/preset/preset_cycle.hpp"
 #include "probing/touch/circle_probing.hpp"
@@ -34,6 +35,7 @@ constinit const TouchProbeCycle kCycle412{
      .kind = CycleKind::Preset,
      .parameters = kParameters,
      .results = kPresetCircleResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | errors::kCircle,
      .simulated = "All parameters."},
     [](const CycleContext& context) { return set_datum(context, Side::Inside); }};
 
@@ -43,6 +45,7 @@ constinit const TouchProbeCycle kCycle413{
      .kind = CycleKind::Preset,
      .parameters = kParameters,
      .results = kPresetCircleResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | errors::kCircle,
      .simulated = "All parameters."},
     [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
 

@@ -2,6 +2,7 @@
 
 #include "probing/alignment/basic_rotation.hpp"
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/preset/preset_cycle.hpp"
 #include "probing/touch/corner_probing.hpp"
@@ -115,6 +116,7 @@ constinit const TouchProbeCycle kCycle414{
      .kind = CycleKind::Preset,
      .parameters = k414Parameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1081},
      .simulated = "All parameters. With Q304 = 1 the angle of the edge along the main axis becomes "
                   "the basic rotation."},
     [](const CycleContext& context) { return set_datum(context, false); }};
@@ -125,6 +127,7 @@ constinit const TouchProbeCycle kCycle415{
      .kind = CycleKind::Preset,
      .parameters = k415Parameters,
      .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1081},
      .simulated = "All parameters. With Q304 = 1 the angle of the edge along the main axis becomes "
                   "the basic rotation."},
     [](const CycleContext& context) { return set_datum(context, true); }};

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/preset/preset_circle.hpp"
 #include "probing/preset/preset_cycle.hpp"
@@ -64,6 +65,7 @@ constinit const TouchProbeCycle kCycle416{
      .kind = CycleKind::Preset,
      .parameters = k416Parameters,
      .results = kPresetCircleResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1081},
      .simulated = "All parameters; holes are touched from their nominal centre, Q320 counts in the "
                   "probe axis only."},
     bolt_circle};
@@ -74,6 +76,7 @@ constinit const TouchProbeCycle kCycle418{
      .kind = CycleKind::Preset,
      .parameters = k418Parameters,
      .results = k418Results,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1081},
      .simulated = "All parameters; the lines join holes 1 and 3, 2 and 4."},
     four_holes};
 

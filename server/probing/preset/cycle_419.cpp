@@ -1,6 +1,7 @@
 #include <array>
 
 #include "probing/cycles.hpp"
+#include "probing/errors.hpp"
 #include "probing/preset/preset_cycle.hpp"
 #include "probing/touch/single_touch.hpp"
 
@@ -32,12 +33,14 @@ CycleResult<void> set_datum(const CycleContext& context) {
 
 }  // namespace
 
-constinit const TouchProbeCycle kCycle419{{.number = 419,
-                                           .name = "DATUM IN ONE AXIS",
-                                           .kind = CycleKind::Preset,
-                                           .parameters = kParameters,
-                                           .results = kResults,
-                                           .simulated = "All parameters."},
-                                          set_datum};
+constinit const TouchProbeCycle kCycle419{
+    {.number = 419,
+     .name = "DATUM IN ONE AXIS",
+     .kind = CycleKind::Preset,
+     .parameters = kParameters,
+     .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1042},
+     .simulated = "All parameters."},
+    set_datum};
 
 }  // namespace fitgauge::probing

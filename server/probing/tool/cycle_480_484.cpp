@@ -2,6 +2,7 @@
 
 #include "probing/cycles.hpp"
 #include "probing/dotted_parameters.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
 #include "probing/tool/tool_measuring.hpp"
@@ -91,6 +92,7 @@ constinit const TouchProbeCycle kCycle30{{.number = 30,
                                           .kind = CycleKind::Tool,
                                           .dotted = true,
                                           .parameters = k30Parameters,
+                                          .errors = errors::kTouching | errors::kToolMeasuring,
                                           .simulated = kSimulated,
                                           .not_simulated = kNotSimulated},
                                          calibrate_at_known_place};
@@ -99,6 +101,7 @@ constinit const TouchProbeCycle kCycle480{{.number = 480,
                                            .name = "CALIBRATE TT",
                                            .kind = CycleKind::Tool,
                                            .parameters = k480Parameters,
+                                           .errors = errors::kTouching | errors::kToolMeasuring,
                                            .simulated = kSimulated,
                                            .not_simulated = kNotSimulated},
                                           calibrate_at_known_place};
@@ -107,6 +110,7 @@ constinit const TouchProbeCycle kCycle484{{.number = 484,
                                            .name = "CALIBRATE IR TT",
                                            .kind = CycleKind::Tool,
                                            .parameters = k484Parameters,
+                                           .errors = errors::kTouching | errors::kToolMeasuring,
                                            .simulated = kSimulated,
                                            .not_simulated = kNotSimulated},
                                           calibrate_here};

@@ -3,6 +3,7 @@
 
 #include "probing/cycles.hpp"
 #include "probing/dotted_parameters.hpp"
+#include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
 #include "probing/parameters.hpp"
 #include "probing/tool/tool_measuring.hpp"
@@ -197,6 +198,7 @@ constexpr CycleDescriptor tool_measurement(std::uint16_t number, std::string_vie
           .dotted = dotted,
           .parameters = dotted ? std::span<const CycleParameter>(kToolWords) : kParameters,
           .results = results,
+          .errors = errors::kTouching | errors::kToolMeasuring,
           .simulated = kSimulated,
           .not_simulated = kNotSimulated};
 }

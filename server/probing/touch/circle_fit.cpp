@@ -1,9 +1,9 @@
 #include "probing/touch/circle_fit.hpp"
 
-#include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "probing/touch/gauss_newton.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -17,8 +17,7 @@ using Columns3 = Matrix<double, Eigen::Dynamic, 3>;
 
 /// Below this ratio of the singular directions the points count as one line.
 constexpr double kCollinear = 1e-10;
-constexpr int kMostSteps = 50;
-constexpr double kConverged = 1e-15;  ///< of the points' spread
+constexpr double kSettled = 1e-10;  ///< of the points' spread; a short arc has noise above less
 
 /// Centre x, y and radius of the algebraic fit (Kåsa), exact for points on a circle.
 /// Nothing when the points lie on a line.
@@ -37,20 +36,20 @@ Eigen::VectorXd distances(const Points& points, const Vector3d& circle) {
   return (points.rowwise() - circle.head<2>().transpose()).rowwise().norm();
 }
 
-/// One Gauss-Newton step on the orthogonal distances; false when it ends or leads nowhere.
-bool refine(const Points& points, Vector3d& circle) {
+/// The distances from the circle x, y, radius along their normals.
+Linearised linearise(const Points& points, const Vector3d& circle) {
   const Eigen::VectorXd distance = distances(points, circle);
-  if (distance.minCoeff() == 0) return false;
   Columns3 jacobian(points.rows(), 3);
-  jacobian << ((points.rowwise() - circle.head<2>().transpose()).array().colwise() /
-               distance.array())
-                  .matrix(),
-      Eigen::VectorXd::Ones(points.rows());
-  const Eigen::VectorXd residual = distance.array() - circle.z();
-  const Vector3d step = jacobian.colPivHouseholderQr().solve(residual);
-  if (!step.allFinite()) return false;
-  circle += step;
-  return step.norm() > kConverged;
+  jacobian << -((points.rowwise() - circle.head<2>().transpose()).array().colwise() /
+                distance.array())
+                   .matrix(),
+      -Eigen::VectorXd::Ones(points.rows());
+  return {distance.array() - circle.z(), jacobian};
+}
+
+double diameter_factor(const Eigen::MatrixXd& jacobian) {
+  const Eigen::Matrix3d normal = jacobian.transpose() * jacobian;
+  return 2 * std::sqrt(normal.inverse()(2, 2));
 }
 
 }  // namespace
@@ -67,12 +66,15 @@ CycleResult<Circle> fit_circle(std::span<const Point2> points) {
   if (spread > 0) all /= spread;
   auto circle = algebraic_fit(all);
   if (!circle) return nc_error(1081, "the touched points lie on a straight line");
-  for (int step = 0; step < kMostSteps && refine(all, *circle);) ++step;
+  if (!gauss_newton(*circle, kSettled, [&](const Vector3d& at) { return linearise(all, at); })) {
+    return nc_error(1081, "no circle passes near the touched points");
+  }
 
   const double residual = (distances(all, *circle).array() - circle->z()).abs().maxCoeff();
   return Circle{{circle->x() * spread + mean.x(), circle->y() * spread + mean.y()},
                 circle->z() * spread,
-                residual * spread};
+                residual * spread,
+                diameter_factor(linearise(all, *circle).jacobian)};
 }
 
 }  // namespace fitgauge::probing

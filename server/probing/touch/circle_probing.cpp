@@ -37,22 +37,19 @@ CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
   return circle;
 }
 
-Form circle_form(std::size_t points, double residual) {
+Form circle_form(std::size_t points, const Circle& circle) {
+  Form form{.diameter_factor = circle.diameter_factor};
   if (points == 3) {
-    return {.reason =
-                "three points always lie on a circle: any form deviation is taken for centre "
-                "and diameter"};
+    form.reason =
+        "three points always lie on a circle: any form deviation is taken for centre and diameter";
+    return form;
   }
-  if (points == 4) {
-    return {.reason =
-                "four points show an oval in their residual only: three and five lobes move "
-                "the centre, four lobes change the diameter",
-            .residual_mm = residual};
-  }
-  return {.reason = std::to_string(points) +
-                    " points cannot show as many lobes: these change the "
-                    "diameter",
-          .residual_mm = residual};
+  form.residual_mm = circle.residual;
+  form.reason = points == 4 ? "four points show an oval in their residual only: three and five "
+                              "lobes move the centre, four lobes change the diameter"
+                            : std::to_string(points) +
+                                  " points cannot show as many lobes: these change the diameter";
+  return form;
 }
 
 CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
@@ -76,7 +73,7 @@ CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotio
   if (!contacts) return contacts.error();
   const auto circle = circle_through(*contacts, side, motion.ball_radius());
   if (!circle) return circle.error();
-  return ProbedCircle{*circle, circle_form(contacts->size(), circle->residual)};
+  return ProbedCircle{*circle, circle_form(contacts->size(), *circle)};
 }
 
 }  // namespace fitgauge::probing

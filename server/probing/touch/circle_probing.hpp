@@ -37,8 +37,8 @@ std::vector<Touch> circle_touches(const CirclePlan& plan);
 CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
                                    double ball_radius);
 
-/// What that number of points says about roundness.
-Form circle_form(std::size_t points, double residual);
+/// What that number of points says about roundness, and the circle about its diameter.
+Form circle_form(std::size_t points, const Circle& circle);
 
 struct ProbedCircle {
   Circle circle;  ///< of the surface

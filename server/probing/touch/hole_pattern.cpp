@@ -31,7 +31,7 @@ CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, Probing
   if (!holes) return holes.error();
   const auto circle = fit_circle(*holes);
   if (!circle) return circle.error();
-  return ProbedCircle{*circle, circle_form(holes->size(), circle->residual)};
+  return ProbedCircle{*circle, circle_form(holes->size(), *circle)};
 }
 
 }  // namespace fitgauge::probing

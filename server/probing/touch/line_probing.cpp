@@ -40,6 +40,9 @@ CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& m
   if (!contacts) return contacts.error();
   line.first = contacts->front().ball_centre;
   line.second = contacts->back().ball_centre;
+  for (std::size_t k = 0; k < 2; ++k) {
+    line.coordinates[k] = {nominal[k][line.axis], (*contacts)[k].surface[line.axis]};
+  }
   return line;
 }
 

@@ -13,6 +13,13 @@ struct ProbedLine {
   std::size_t axis = 0;    ///< 0 main, 1 secondary, 2 probe axis: the one touched along
   std::size_t across = 1;  ///< the axis along which the line runs
 
+  /// Of each point along the axis it was touched in.
+  struct Coordinate {
+    double nominal = 0;
+    double measured = 0;
+  };
+  std::array<Coordinate, 2> coordinates{};
+
   /// The angle of the line: to the main axis when it lies in the plane, in -90 < angle <= 90 for
   /// one along the main axis and in 0 < angle <= 180 for one across it, so that neither jumps near
   /// its nominal value; touched in the probe axis, its slope along `across`.

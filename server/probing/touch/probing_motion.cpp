@@ -59,6 +59,11 @@ CycleResult<std::vector<Contact>> ProbingMotion::touch_all(std::span<const Touch
   return contacts;
 }
 
+CycleResult<Contact> ProbingMotion::touch(const Touch& touch, double clearance_height) {
+  if (auto moved = approach(touch, clearance_height); !moved) return moved.error();
+  return probe(touch.direction);
+}
+
 CycleResult<void> ProbingMotion::approach(const Touch& touch, double clearance_height) {
   if (tip().z < clearance_height) return via_clearance_height(touch.start, clearance_height);
   if (auto moved = move_ball_in_plane(touch.start); !moved) return moved;

@@ -61,6 +61,10 @@ class ProbingMotion {
   CycleResult<std::vector<Contact>> touch_all(std::span<const Touch> touches,
                                               double clearance_height);
 
+  /// The first of such touches alone: comes back to its start and stays there.
+  /// @errors those of touch_all.
+  CycleResult<Contact> touch(const Touch& touch, double clearance_height);
+
   /// Moves the tip in the named input axes, all together.
   CycleResult<void> move_tip(const machine::AxisWords& target);
   /// Touches along a direction in plane coordinates, as touch_all does, and comes back.

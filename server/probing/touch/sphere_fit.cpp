@@ -1,31 +1,28 @@
 #include "probing/touch/sphere_fit.hpp"
 
-#include <Eigen/Dense>
+#include "probing/touch/gauss_newton.hpp"
 
 namespace fitgauge::probing {
 
 using machine::Vec3;
 
-FittedSphere fit_sphere(std::span<const Vec3> points, const FittedSphere& near) {
-  constexpr int kSteps = 50;
-  constexpr double kSettled = 1e-12;
-  FittedSphere sphere = near;
+std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points, const FittedSphere& near) {
+  constexpr double kSettled = 1e-9;  // mm
   const auto count = static_cast<Eigen::Index>(points.size());
-  for (int step = 0; step < kSteps; ++step) {
-    Eigen::MatrixX4d jacobian(count, 4);
-    Eigen::VectorXd residuals(count);
+  const auto linearise = [&](const Eigen::Vector4d& sphere) {
+    Linearised at{Eigen::VectorXd(count), Eigen::MatrixXd(count, 4)};
     for (Eigen::Index k = 0; k < count; ++k) {
-      const Vec3 from_centre = points[static_cast<std::size_t>(k)] - sphere.centre;
+      const Vec3 from_centre =
+          points[static_cast<std::size_t>(k)] - Vec3{sphere[0], sphere[1], sphere[2]};
       const Vec3 outward = unit(from_centre);
-      jacobian.row(k) << outward.x, outward.y, outward.z, 1;
-      residuals[k] = norm(from_centre) - sphere.radius;
+      at.jacobian.row(k) << -outward.x, -outward.y, -outward.z, -1;
+      at.residuals[k] = norm(from_centre) - sphere[3];
     }
-    const Eigen::Vector4d change = jacobian.colPivHouseholderQr().solve(residuals);
-    sphere.centre = sphere.centre + Vec3{change[0], change[1], change[2]};
-    sphere.radius += change[3];
-    if (change.norm() < kSettled) break;
-  }
-  return sphere;
+    return at;
+  };
+  Eigen::Vector4d sphere(near.centre.x, near.centre.y, near.centre.z, near.radius);
+  if (!gauss_newton(sphere, kSettled, linearise)) return std::nullopt;
+  return FittedSphere{{sphere[0], sphere[1], sphere[2]}, sphere[3]};
 }
 
 }  // namespace fitgauge::probing

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "machine/geometry.hpp"
@@ -12,7 +13,8 @@ struct FittedSphere {
 };
 
 /// The sphere of least squared distances from the points (Gauss-Newton, exact for four of them),
-/// searched from `near`. @pre four or more points that are not in one plane.
-FittedSphere fit_sphere(std::span<const machine::Vec3> points, const FittedSphere& near);
+/// searched from `near`; nothing where the points lie in one plane, or on no sphere near it.
+std::optional<FittedSphere> fit_sphere(std::span<const machine::Vec3> points,
+                                       const FittedSphere& near);
 
 }  // namespace fitgauge::probing

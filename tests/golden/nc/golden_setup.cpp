@@ -154,6 +154,12 @@ bool read_kinematics(const std::string& word, std::istringstream& in,
     axis.tilt_error_deg = n.vector(3);
   } else if (word == "hirth") {
     in >> rotary_axis(in, machine).hirth_grid_deg;
+  } else if (word == "strobe") {
+    std::string name;
+    in >> name;
+    machine.kinematics_options.strobed.at(static_cast<std::size_t>(name.at(0) - 'A')) = true;
+  } else if (word == "noise") {  // repeatability of the probe in um
+    in >> machine.probes.front().repeatability_um;
   } else if (word == "preset") {
     const Numbers n(in);
     machine.presets.front().frame.origin = n.vector(0);

@@ -93,6 +93,23 @@ TEST_CASE("every part of a setup is read") {
   CHECK(std::get<machine::Surface>(setup.features.at(1)).points.size() == 3);
 }
 
+TEST_CASE("the parameters of the builder for the kinematics are read") {
+  const machine::KinematicsOptions given =
+      decode(R"({"machine": {"tcpm_option": false, "max_modification_mm": 0.05,
+                 "max_calibration_ball_deviation_mm": 0.02, "strobe_rotary_axes": ["A", "C"],
+                 "insignificant_corrections": "note"}})")
+          .machine.kinematics_options;
+  CHECK_FALSE(given.tcpm);
+  CHECK(given.max_modification == 0.05);
+  CHECK(given.max_ball_deviation == 0.02);
+  CHECK(given.strobed == std::array{true, false, true});
+  CHECK(given.notes_insignificant);
+  CHECK(decode("{}").machine.kinematics_options == machine::KinematicsOptions{});
+  CHECK(complaints(R"({"machine": {"strobe_rotary_axes": ["X"], "max_modification_mm": "a",
+                      "insignificant_corrections": "ignore"}})")
+            .size() == 3);
+}
+
 TEST_CASE("tables of the control add rows; rows given go before them") {
   const machine::Setup setup = decode(R"({"machine": {"active_preset": 5}})", control_tables());
   CHECK(setup.machine.tools.size() == 2);

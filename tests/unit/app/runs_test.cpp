@@ -86,6 +86,37 @@ TEST_CASE("a measuring cycle leaves a record of the simulation") {
   CHECK(records[0].result.verdict == gauging::Verdict::Good);
 }
 
+TEST_CASE("each judged value of a cycle leaves a record, and nothing unjudged is good") {
+  Service service;
+  const std::string hole =
+      "TOOL CALL 30 Z\nTCH PROBE 421 MEASURE HOLE ~\n Q273=+50 ~\n"
+      " Q274=+50 ~\n Q262=+25 ~\n Q325=+0 ~\n Q247=+90 ~\n Q261=-10 ~\n"
+      " Q320=+0 ~\n Q260=+50 ~\n Q281=+0 ~\n";
+  service.program(hole + " Q275=+25.01 ~\n Q276=+24.99 ~\n Q279=+0.1 ~\n Q280=+0.1\n" +
+                  hole.substr(15) +
+                  " Q275=+0 ~\n Q276=+0 ~\n Q279=+0 ~\n Q280=+0\n"
+                  "TCH PROBE 420 MEASURE ANGLE ~\n Q263=+0 ~\n Q264=+60 ~\n Q265=+0 ~\n"
+                  " Q266=+80 ~\n Q272=+1 ~\n Q267=+1 ~\n Q261=-10 ~\n Q320=+0 ~\n"
+                  " Q260=+50 ~\n Q281=+0");
+  RunOrder order = Service::order();
+  order.setup.features = {machine::Block{{0, 0, -60}, {100, 100, 0}},
+                          machine::Bore{{50.2, 50}, 0, 40, 25}};
+  const RunReport report = service.run(std::move(order));
+  REQUIRE(report.result.status == RunStatus::Completed);
+  const auto records = measurements_of(report, std::nullopt);
+  REQUIRE(records.size() == 5);
+  using gauging::Verdict;
+  const std::array verdicts{Verdict::Good, Verdict::Reject, Verdict::Good, Verdict::Indeterminate,
+                            Verdict::Indeterminate};
+  const std::array names{"Diameter", "Centre, main axis", "Centre, secondary axis", "Diameter",
+                         "1st point"};
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    CAPTURE(k);
+    CHECK(records[k].result.verdict == verdicts[k]);
+    CHECK(records[k].texts.characteristic == names[k]);
+  }
+}
+
 TEST_CASE("a run is cancelled while it goes on and while it waits, each with its own setup") {
   Service service;
   service.program(kForever);

@@ -80,6 +80,8 @@ TEST_CASE("scaling keeps its centre, and a tilted plane its origin") {
   frames.set_plane(TiltedPlane{{90, 0, 0}, {0, 0, 50}});
   check_near(frames.to_machine({0, 0, 0}), {0, 0, 50});
   check_near(frames.to_machine({1, 2, 3}), {1, -3, 52});
+  frames.reset_transformations();  // the shift from before the tilt too
+  check_near(frames.to_machine({1, 2, 3}), {1, -3, 2});
 }
 
 TEST_CASE("a basic rotation and its reset leave the preset's zero") {

@@ -60,4 +60,22 @@ TEST_CASE("points that make no circle are contradictory") {
   }
 }
 
+TEST_CASE("what the scatter of touches makes of a diameter") {
+  const auto factor = [](int points, double step_deg) {
+    std::vector<Point2> touched;
+    for (int k = 0; k < points; ++k) {
+      const double angle = k * step_deg * std::acos(-1.0) / 180;
+      touched.push_back({100 + 12 * std::cos(angle), 12 * std::sin(angle)});
+    }
+    return fit_circle(touched)->diameter_factor;
+  };
+  CHECK(factor(4, 90) == doctest::Approx(1));
+  CHECK(factor(3, 120) == doctest::Approx(2 / std::sqrt(3)));
+  // Found by drawing noise for a review: 1 um becomes 0.26 and 0.64 mm, with 30 degrees 6.5, 17 um.
+  CHECK(factor(4, 5) == doctest::Approx(260).epsilon(0.02));
+  CHECK(factor(3, 5) == doctest::Approx(640).epsilon(0.02));
+  CHECK(factor(4, 30) == doctest::Approx(6.5).epsilon(0.1));
+  CHECK(factor(3, 30) == doctest::Approx(17).epsilon(0.1));
+}
+
 }  // namespace fitgauge::probing

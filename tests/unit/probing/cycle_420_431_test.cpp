@@ -25,7 +25,10 @@ TEST_CASE("420 measures the angle of an edge to the main axis") {
     CHECK(bench.run(420, along_main) == 0);
     CHECK(std::abs(bench.host.q[150] - angle) < 1e-7);
     CHECK(bench.host.files.at("TCHPR420.TXT").find("Measured angle:") != std::string::npos);
-    CHECK(bench.host.records.empty());
+    // Two touched coordinates, which nothing judges.
+    REQUIRE(bench.host.records.size() == 1);
+    CHECK(bench.host.records.front().sizes.size() == 2);
+    CHECK_FALSE(bench.host.records.front().verdict.has_value());
   }
   const Values across{{263, -30.0}, {264, 10.0}, {265, -30.0}, {266, 60.0}, {272, 1.0},
                       {267, -1.0},  {261, 0.0},  {260, 100.0}, {320, 5.0},  {281, 0.0}};

@@ -344,7 +344,7 @@ TEST_CASE("the log of an INCH program counts in inches") {
   CHECK(bench.run(421, with(hole_block(), {{262, 25.4}, {275, 0.0}, {276, 0.0}})) == 0);
   const std::string& log = bench.host.files.at("TCHPR421.TXT");
   CHECK(log.find("Unit (0=MM / 1=INCH): 1\n") != std::string::npos);
-  CHECK(log.find("Diameter:                                             1.0000\n") !=
+  CHECK(log.find("Diameter:                                           1.000000\n") !=
         std::string::npos);
 }
 

@@ -73,9 +73,11 @@ TEST_CASE("427 corrects the length of a tool in the probe axis, its radius acros
   setup.machine.tools.push_back(mill);
   ProbingBench bench(setup);
   CHECK(bench.run(427, with(top_block(), {{330, 7.0}})) == 0);
-  CHECK(same(bench.machine.state().tools.find(7)->dl, 0.013));
+  CHECK(same(bench.machine.state().tools.find(7)->dl, -0.013));  // too high: the tool is shorter
   CHECK(bench.run(427, with(side_block(1, -1, 99.98), {{330, 7.0}})) == 0);
-  CHECK(same(bench.machine.state().tools.find(7)->dr, -0.01));
+  CHECK(same(bench.machine.state().tools.find(7)->dr, -0.02));  // too much material
+  CHECK(bench.run(427, with(side_block(1, 1, -0.05), {{330, 7.0}})) == 0);
+  CHECK(same(bench.machine.state().tools.find(7)->dr, 0.03));  // of the other side too little
   machine::Tool tool = *bench.machine.state().tools.find(7);
   tool.l_breakage = 0.01;
   REQUIRE(bench.machine.write_tool(tool).has_value());

@@ -147,13 +147,16 @@ void compare_deviations(double optimised, double measured, const MeasuredAxis& a
   const Sight sight = sight_of(axis);
   const double s2 = claim.scatter * claim.scatter;
   const double freedom = 3 * sight.positions - 3;
-  found.optimised.add(optimised * optimised / s2, 2 / (freedom - kFitted));
+  // Sums of squares over all positions.
+  const double left = optimised * optimised * sight.positions;
+  const double seen = measured * measured * sight.positions;
+  found.optimised.add(left / (s2 * (freedom - kFitted)), 2 / (freedom - kFitted));
   // Scatter, what the fit has taken for errors, and what carriers rest with now and rested with
   // then.
   const double own = freedom + kFitted;
   const double carried = claim.carriers_count ? 2 * axis.carried_by * sight.valuation : 0;
   const double expected = own + 2 * carried;
-  found.measured.add(measured * measured * freedom / (s2 * expected),
+  found.measured.add(seen / (s2 * expected),
                      (2 * own + 4 * carried * carried) / (expected * expected));
 }
 

@@ -51,6 +51,10 @@ TEST_CASE("a Hirth axis is measured on its grid") {
   CHECK(measuring_positions(-30, 90, 4, 3) == std::vector<double>{-30, 9, 51, 90});
   // Of two teeth that are equally near the one away from zero.
   CHECK(measuring_positions(-1.5, 1.5, 2, 3) == std::vector<double>{-3, 3});
+  // Decimal grids have exact ties, too: -56.55 and ±0.1.
+  CHECK(measuring_positions(-51, -62.1, 11, 0.1)[5] == doctest::Approx(-56.6).epsilon(1e-12));
+  CHECK(measuring_positions(-0.3, 0.3, 4, 0.2) ==
+        std::vector<double>{-2 * 0.2, -0.2, 0.2, 2 * 0.2});
 }
 
 TEST_CASE("a machine that is as modelled has no errors") {
@@ -228,11 +232,19 @@ TEST_CASE("with TCPM the probe circles the sphere instead of retracting") {
   CHECK_FALSE(circling.machine.state().modes.tcpm);
 }
 
-TEST_CASE("Q408 = 0 needs TCPM and no Hirth axis, and a height must clear the sphere") {
+TEST_CASE("Q408 = 0 needs the option of TCPM and no Hirth axis, a height must clear the sphere") {
   Setup setup = trunnion();
   SphereBench bench(setup);
-  CHECK(bench.run(451, with(both_axes(3), {{408, 0.0}})) == 1082);
   CHECK(bench.run(451, with(both_axes(3), {{408, 10.0}})) == 1082);
+  // The option is there, whether TCPM is active or not.
+  CHECK(bench.run(451, with(both_axes(3), {{408, 0.0}})) == 0);
+  setup.machine.kinematics_options.tcpm = false;
+  SphereBench without(setup);
+  CHECK(without.run(451, with(both_axes(3), {{408, 0.0}})) == 1082);
+  machine::Modes modes = without.machine.state().modes;
+  modes.tcpm = true;
+  CHECK(without.machine.set_modes(modes).error().number == 1095);
+  setup.machine.kinematics_options.tcpm = true;
   setup.machine.axes[index(Axis::A)]->hirth_grid_deg = 3;
   SphereBench hirth(setup);
   set_tcpm(hirth.machine, true);
@@ -307,6 +319,89 @@ TEST_CASE("errors of 451") {
   CHECK(locked.run(451, with(both_axes(3), {{431, 2.0}})) == 1085);
   REQUIRE(locked.machine.call_tool({.number = 0, .axis = {}, .spindle_rpm = {}}).has_value());
   CHECK(locked.run(451, both_axes(3)) == 1092);
+}
+
+TEST_CASE("what 451 promises for a fork head is what the next check finds") {
+  // Heads A and C; A has to stand inclined while C is measured, since the ball would lie on C.
+  Setup setup = sphere_setup();
+  for (const Axis axis : {Axis::A, Axis::C}) {
+    machine::AxisSetup& head = add_axis(setup, axis);
+    head.mount = machine::AxisMount::Head;
+    head.centre = {};
+  }
+  setup.machine.axes[index(Axis::A)]->centre_error = {0, 0.03, 0.05};
+  SphereBench bench(setup);
+  const Values block = with(
+      with(with(kinematics_block(), measured(Axis::A, -60, 60, 4)), measured(Axis::C, 60, 300, 5)),
+      {{408, 100.0}, {413, 20.0}, {421, 0.0}});
+  REQUIRE(bench.run(451, with(block, {{406, 1.0}})) == 0);
+  for (const int q : {144, 146}) CHECK(same(bench.host.q[q], 0));
+  REQUIRE(bench.run(451, with(block, {{406, 0.0}})) == 0);
+  for (const int q : {141, 143, 147, 148, 149}) CHECK(same(bench.host.q[q], 0));
+  CHECK(distance(bench, setup, Axis::C) < 1e-8);
+}
+
+TEST_CASE("a correction that is mostly noise is refused, or taken with a note") {
+  Setup setup = trunnion();
+  setup.machine.probes.front().repeatability_um = 1;
+  const Values block =
+      with(with(kinematics_block(), measured(Axis::C, -0.05, 0.05, 3)), {{406, 1.0}});
+  SphereBench bench(setup);
+  const machine::Kinematics before = bench.machine.state().kinematics;
+  CHECK(bench.run(451, block) == 1102);
+  CHECK(contains(bench.fault.text, "location of axis C"));
+  CHECK(bench.machine.state().kinematics == before);
+  CHECK(contains(log_of(bench, 451), "less than twice its standard uncertainty"));
+  CHECK(bench.run(451, with(block, {{406, 0.0}})) == 0);
+  setup.machine.kinematics_options.notes_insignificant = true;
+  SphereBench noting(setup);
+  CHECK(noting.run(451, block) == 0);
+  CHECK(noting.host.notes.size() == 1);
+  CHECK_FALSE(noting.machine.state().kinematics == before);
+}
+
+TEST_CASE("a correction beyond maxModification waits for NC Start") {
+  Setup setup = with_location_errors();
+  setup.machine.kinematics_options.max_modification = 0.05;
+  const Values block = with(both_axes(4), {{406, 1.0}});
+  SphereBench waiting(setup);
+  const machine::Kinematics before = waiting.machine.state().kinematics;
+  waiting.host.starts = false;
+  CHECK(waiting.run(451, block) == 0);
+  CHECK(waiting.host.stops.size() == 1);
+  CHECK(waiting.machine.state().kinematics == before);
+  SphereBench started(setup);
+  CHECK(started.run(451, block) == 0);
+  CHECK(distance(started, setup, Axis::C) < 1e-8);
+  setup.machine.kinematics_options.max_modification = 0.06;
+  SphereBench within(setup);
+  CHECK(within.run(451, block) == 0);
+  CHECK(within.host.stops.empty());
+}
+
+TEST_CASE("the largest deviation of the sphere's radius is a setting") {
+  Setup setup = trunnion();
+  SphereBench bench(setup);
+  CHECK(bench.run(451, with(both_axes(3), {{407, 14.95}})) == 0);
+  setup.machine.kinematics_options.max_ball_deviation = 0.02;
+  SphereBench strict(setup);
+  CHECK(strict.run(451, with(both_axes(3), {{407, 14.95}})) == 1072);
+}
+
+TEST_CASE("an axis of mStrobeRotAxPos gets its targets in Q120 to Q122") {
+  Setup setup = with_location_errors();
+  setup.machine.axes[index(Axis::C)]->backlash_deg = 0.01;
+  setup.machine.kinematics_options.strobed[2] = true;
+  SphereBench bench(setup);
+  REQUIRE(bench.run(451, with(with(kinematics_block(), measured(Axis::C, -60, 120, 3)),
+                              {{432, 2.0}})) == 0);
+  CHECK(bench.host.q[122] == 0);
+  CHECK_FALSE(bench.host.q.contains(120));
+  CHECK(contains(log_of(bench, 451), "not possible with an axis that an M function positions"));
+  machine::AxisWords turned;
+  turned[Axis::C] = 5;
+  REQUIRE(bench.machine.move({turned, {}}).has_value());
+  CHECK(bench.run(451, with(kinematics_block(), measured(Axis::C, -60, 120, 3))) == 1005);
 }
 
 TEST_CASE("FMAX is a feed, and an INCH program gets millimetres") {

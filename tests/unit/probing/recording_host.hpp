@@ -27,6 +27,14 @@ class RecordingHost final : public CycleHost {
     return {};
   }
   void stop(std::string_view reason) override { stops.emplace_back(reason); }
+  CycleResult<bool> confirm(std::string_view reason) override {
+    stops.emplace_back(reason);
+    return starts;
+  }
+  CycleResult<void> note(std::string_view text) override {
+    notes.emplace_back(text);
+    return {};
+  }
   void show_and_stop(std::string_view text) override { shown.emplace_back(text); }
   void record(const MeasuringRecord& record) override { records.push_back(record); }
   void touched(const machine::ContactPoint& contact) override { touches.push_back(contact); }
@@ -50,6 +58,8 @@ class RecordingHost final : public CycleHost {
   std::map<std::string, std::string> files;
   std::vector<std::string> shown;
   std::vector<std::string> stops;
+  bool starts = true;  ///< NC Start is pressed at a stop
+  std::vector<std::string> notes;
   std::vector<MeasuringRecord> records;
   std::vector<machine::ContactPoint> touches;
   bool has_datum_table = false;
