@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 #include "store/storage_failure.hpp"
 
@@ -49,6 +50,7 @@ std::string_view name_of(Synchronous synchronous) {
 Connection::Connection(const std::filesystem::path& file, Mode mode, Synchronous synchronous)
     : database_(open(file, mode)) {
   sqlite3_extended_result_codes(handle(), 1);
+  add_row_digest(handle());
   // temp_store: savepoints keep what they may undo in memory, so no temporary directory is needed.
   // recursive_triggers: REPLACE, too, fires the triggers that refuse DELETE.
   execute(

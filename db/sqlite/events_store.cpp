@@ -1,5 +1,6 @@
 #include "store/events_store.hpp"
 
+#include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 
 namespace fitgauge::store {
@@ -8,7 +9,7 @@ using sqlite::Rows;
 
 struct EventsStore::Statements {
   explicit Statements(sqlite::Connection& c)
-      : insert(c, "INSERT INTO events (type, payload, created_at) VALUES (?, ?, ?) RETURNING id"),
+      : insert(c, kEvents.insert() + " RETURNING id"),
         after(c,
               "SELECT id, type, payload, created_at FROM events WHERE id > ? ORDER BY id LIMIT ?"),
         kept(c,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 
 namespace fitgauge::store {
@@ -27,6 +28,7 @@ FileEntry read_entry(const Rows& rows) {
 
 std::optional<FileContent> read_file(Rows rows) {
   if (!rows.next()) return std::nullopt;
+  require_sound(rows, kContent + 1, kFileRevisions);
   return FileContent{read_entry(rows), std::string(rows.get<Blob>(kContent).bytes)};
 }
 
@@ -43,12 +45,12 @@ struct FilesStore::Statements {
       : stat(c, fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
                             "WHERE f.path_key = ?",
                             kEntry)),
-        find(c, fmt::format("SELECT {}, r.content FROM files f JOIN file_revisions r "
+        find(c, fmt::format("SELECT {}, r.content, {} FROM files f JOIN file_revisions r "
                             "USING (revision) WHERE f.path_key = ?",
-                            kEntry)),
-        find_revision(c, fmt::format("SELECT {}, r.content FROM file_revisions r "
+                            kEntry, kFileRevisions.is_sound("r"))),
+        find_revision(c, fmt::format("SELECT {}, r.content, {} FROM file_revisions r "
                                      "WHERE r.revision = ? AND r.content IS NOT NULL",
-                                     kEntry)),
+                                     kEntry, kFileRevisions.is_sound("r"))),
         list(c, fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
                             "WHERE f.path_key >= ?1 AND substr(f.path_key, 1, length(?1)) = ?1 "
                             "ORDER BY f.path_key",
@@ -56,9 +58,7 @@ struct FilesStore::Statements {
         history(c, fmt::format("SELECT {} FROM file_revisions r WHERE r.path_key = ? "
                                "ORDER BY r.revision DESC",
                                kEntry)),
-        insert(c,
-               "INSERT INTO file_revisions (path, path_key, content, modified_at, caller) "
-               "VALUES (?, ?, ?, ?, ?) RETURNING revision"),
+        insert(c, kFileRevisions.insert() + " RETURNING revision"),
         point(c, "INSERT OR REPLACE INTO files (path_key, revision) VALUES (?, ?)"),
         unpoint(c, "DELETE FROM files WHERE path_key = ?") {}
 

@@ -1,5 +1,8 @@
 #include "store/idempotency_store.hpp"
 
+#include <fmt/format.h>
+
+#include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 
 namespace fitgauge::store {
@@ -11,14 +14,12 @@ struct IdempotencyStore::Statements {
   Statements(sqlite::Connection& c, const Clock& time, std::chrono::hours kept_for)
       : clock(time),
         retention(kept_for),
-        find(c,
-             "SELECT body_digest, status, content_type, location, body FROM idempotent_answers "
-             "WHERE key = ? AND caller = ? AND method = ? AND path = ? AND expires_at > ?"),
+        find(c, fmt::format("SELECT body_digest, status, content_type, location, body, {} "
+                            "FROM idempotent_answers WHERE key = ? AND caller = ? AND method = ? "
+                            "AND path = ? AND expires_at > ?",
+                            kIdempotentAnswers.is_sound())),
         // An expired answer that was not purged yet makes room.
-        insert(c,
-               "INSERT OR REPLACE INTO idempotent_answers (key, caller, method, path, body_digest, "
-               "status, content_type, location, body, expires_at) "
-               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        insert(c, kIdempotentAnswers.insert("INSERT OR REPLACE")),
         remove(c,
                "DELETE FROM idempotent_answers WHERE id IN "
                "(SELECT id FROM idempotent_answers WHERE expires_at <= ? LIMIT ?) RETURNING 1") {}
@@ -39,6 +40,7 @@ Result<std::optional<StoredAnswer>> IdempotencyStore::find(const IdempotentReque
   Rows rows = statements_->find.query(request.key, request.caller, request.method, request.path,
                                       statements_->clock.now().nanoseconds);
   if (!rows.next()) return std::optional<StoredAnswer>();
+  require_sound(rows, 5, kIdempotentAnswers);
   if (rows.get<Digest>(0) != request.body) {
     return Error{
         ErrorCode::IdempotencyKeyReused,

@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 
 namespace fitgauge::store {
@@ -57,18 +58,18 @@ struct KeysStore::Statements {
         clash(c,
               "SELECT name = ?1 AND revoked_at IS NULL FROM api_keys "
               "WHERE (name = ?1 AND revoked_at IS NULL) OR token_hash = ?2 ORDER BY 1 DESC"),
-        insert(c,
-               "INSERT INTO api_keys (name, role, token_hash, created_at) VALUES (?, ?, ?, ?) "
-               "RETURNING id"),
+        insert(c, kApiKeys.insert() + " RETURNING id"),
         revoke(c,
                "UPDATE api_keys SET revoked_at = ?2 WHERE name = ?1 AND revoked_at IS NULL "
-               "RETURNING 1") {}
+               "RETURNING id"),
+        reseal(c, kApiKeys.reseal()) {}
 
   sqlite::Statement all;
   sqlite::Statement valid;
   sqlite::Statement clash;
   sqlite::Statement insert;
   sqlite::Statement revoke;
+  sqlite::Statement reseal;
 };
 
 KeysStore::KeysStore(sqlite::Connection& connection)
@@ -97,14 +98,18 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
     }
     return Error{ErrorCode::FieldConflict, "this token was used before; make a new one", "token"};
   }
-  key.id = statements_->insert.returning<std::int64_t>(name, role, key.token_hash, now_ns);
+  key.id = statements_->insert.returning<std::int64_t>(name, role, key.token_hash, now_ns,
+                                                       key.revoked_at_ns);
   return key;
 }
 
 Result<void> KeysStore::revoke(std::string_view name, std::int64_t now_ns) {
-  if (statements_->revoke.run_counting(name, now_ns) == 0) {
-    return Error{ErrorCode::NotFound, fmt::format("there is no valid key '{}'", name)};
+  std::optional<std::int64_t> id;
+  for (Rows rows = statements_->revoke.query(name, now_ns); rows.next();) {
+    id = rows.get<std::int64_t>(0);
   }
+  if (!id) return Error{ErrorCode::NotFound, fmt::format("there is no valid key '{}'", name)};
+  statements_->reseal.run(*id);
   return {};
 }
 

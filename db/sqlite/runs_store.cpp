@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 
 namespace fitgauge::store {
@@ -17,6 +18,7 @@ constexpr std::string_view kRun =
     "id, status, program, request, result, created_at, finished_at, caller";
 
 Run read_run(const Rows& rows) {
+  require_sound(rows, 8, kRuns);
   return {.id = rows.get<std::int64_t>(0),
           .status = rows.get<RunStatus>(1),
           .program = rows.get<std::string>(2),
@@ -36,21 +38,23 @@ std::string_view name_of(std::string_view path) {
 
 struct RunsStore::Statements {
   explicit Statements(sqlite::Connection& c)
-      : insert(c,
-               "INSERT INTO runs (status, program, program_key, request, result, created_at, "
-               "finished_at, caller) VALUES (?, ?, ?, ?, ?, ?, ?, ?) RETURNING id"),
+      : insert(c, kRuns.insert() + " RETURNING id"),
         start(c, "UPDATE runs SET status = 2 WHERE id = ?"),
         finish(c, "UPDATE runs SET status = ?2, result = ?3, finished_at = ?4 WHERE id = ?1"),
-        insert_trace(c, "INSERT INTO run_traces (run, trace) VALUES (?, ?)"),
-        insert_file(c, "INSERT INTO run_files (run, name_key, path, content) VALUES (?, ?, ?, ?)"),
+        reseal(c, kRuns.reseal()),
+        insert_trace(c, kRunTraces.insert()),
+        insert_file(c, kRunFiles.insert()),
         status(c, "SELECT status FROM runs WHERE id = ?"),
-        find(c, fmt::format("SELECT {} FROM runs WHERE id = ?", kRun)),
-        trace(c, "SELECT trace FROM run_traces WHERE run = ?"),
-        file(c, "SELECT path, content FROM run_files WHERE run = ? AND name_key = ? ORDER BY path"),
-        page(c, fmt::format("SELECT {} FROM runs WHERE (?1 IS NULL OR status = ?1) "
+        find(c, fmt::format("SELECT {}, {} FROM runs WHERE id = ?", kRun, kRuns.is_sound())),
+        trace(c,
+              fmt::format("SELECT trace, {} FROM run_traces WHERE run = ?", kRunTraces.is_sound())),
+        file(c, fmt::format("SELECT path, content, {} FROM run_files WHERE run = ? AND "
+                            "name_key = ? ORDER BY path",
+                            kRunFiles.is_sound())),
+        page(c, fmt::format("SELECT {}, {} FROM runs WHERE (?1 IS NULL OR status = ?1) "
                             "AND (?2 IS NULL OR program_key = ?2) AND id < ?3 "
                             "ORDER BY id DESC LIMIT ?4",
-                            kRun)),
+                            kRun, kRuns.is_sound())),
         purge(c,
               "DELETE FROM runs WHERE id IN "
               "(SELECT id FROM runs WHERE finished_at < ? LIMIT ?) RETURNING 1") {}
@@ -67,6 +71,7 @@ struct RunsStore::Statements {
   sqlite::Statement insert;
   sqlite::Statement start;
   sqlite::Statement finish;
+  sqlite::Statement reseal;
   sqlite::Statement insert_trace;
   sqlite::Statement insert_file;
   sqlite::Statement status;
@@ -91,12 +96,14 @@ std::int64_t RunsStore::create(const Run& run) {
 Result<void> RunsStore::start(std::int64_t id) {
   if (Result<void> open = statements_->require_unfinished(id); !open) return open;
   statements_->start.run(id);
+  statements_->reseal.run(id);
   return {};
 }
 
 Result<void> RunsStore::finish(std::int64_t id, const RunOutcome& outcome, std::int64_t now_ns) {
   if (Result<void> open = statements_->require_unfinished(id); !open) return open;
   statements_->finish.run(id, outcome.status, outcome.result, now_ns);
+  statements_->reseal.run(id);
   statements_->insert_trace.run(id, Blob{outcome.trace});
   for (const RunFile& file : outcome.files) {
     const std::string key = ascii_upper(name_of(file.path));
@@ -112,13 +119,16 @@ std::optional<Run> RunsStore::find(std::int64_t id) const {
 
 std::optional<std::string> RunsStore::trace(std::int64_t id) const {
   Rows rows = statements_->trace.query(id);
-  return rows.next() ? std::optional(std::string(rows.get<Blob>(0).bytes)) : std::nullopt;
+  if (!rows.next()) return std::nullopt;
+  require_sound(rows, 1, kRunTraces);
+  return std::string(rows.get<Blob>(0).bytes);
 }
 
 std::optional<RunFile> RunsStore::file(std::int64_t id, std::string_view name) const {
   const std::string key = ascii_upper(name);
   Rows rows = statements_->file.query(id, key);
   if (!rows.next()) return std::nullopt;
+  require_sound(rows, 2, kRunFiles);
   return RunFile{rows.get<std::string>(0), std::string(rows.get<Blob>(1).bytes)};
 }
 

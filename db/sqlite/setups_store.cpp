@@ -1,5 +1,8 @@
 #include "store/setups_store.hpp"
 
+#include <fmt/format.h>
+
+#include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 
 namespace fitgauge::store {
@@ -8,6 +11,7 @@ namespace {
 using sqlite::Rows;
 
 Setup read_setup(const Rows& rows) {
+  require_sound(rows, 4, kSetups);
   return {.name = rows.get<std::string>(0),
           .text = rows.get<std::string>(1),
           .modified_at_ns = rows.get<std::int64_t>(2),
@@ -18,10 +22,11 @@ Setup read_setup(const Rows& rows) {
 
 struct SetupsStore::Statements {
   explicit Statements(sqlite::Connection& c)
-      : find(c, "SELECT name, text, modified_at, caller FROM setups WHERE name = ?"),
-        list(c, "SELECT name, text, modified_at, caller FROM setups ORDER BY name"),
-        put(c,
-            "INSERT OR REPLACE INTO setups (name, text, modified_at, caller) VALUES (?, ?, ?, ?)"),
+      : find(c, fmt::format("SELECT {}, {} FROM setups WHERE name = ?", kSetups.columns,
+                            kSetups.is_sound())),
+        list(c, fmt::format("SELECT {}, {} FROM setups ORDER BY name", kSetups.columns,
+                            kSetups.is_sound())),
+        put(c, kSetups.insert("INSERT OR REPLACE")),
         remove(c, "DELETE FROM setups WHERE name = ? RETURNING 1") {}
 
   sqlite::Statement find;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 #include "store/canonical_digest.hpp"
 
@@ -79,11 +80,9 @@ struct TablesStore::Statements {
                "SELECT table_name, column_name, over_nm, up_to_nm, upper_nm, lower_nm FROM "
                "custom_cells WHERE revision = ? ORDER BY table_name, column_name, over_nm"),
         set_by_digest(c, "SELECT id FROM table_sets WHERE digest = ?"),
-        insert_set(c, "INSERT INTO table_sets (digest) VALUES (?) RETURNING id"),
+        insert_set(c, kTableSets.insert() + " RETURNING id"),
         insert_cell(c, "INSERT INTO table_cells VALUES (?, ?, ?, ?, ?, ?)"),
-        insert_revision(c,
-                        "INSERT INTO table_revisions (digest, table_set, source, created_at, "
-                        "parent, caller) VALUES (?, ?, ?, ?, ?, ?) RETURNING number"),
+        insert_revision(c, kTableRevisions.insert() + " RETURNING number"),
         insert_custom(c, "INSERT INTO custom_cells VALUES (?, ?, ?, ?, ?, ?, ?)") {}
 
   std::optional<TableRevision> one(sqlite::Statement& statement, auto... key) {

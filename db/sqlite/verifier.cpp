@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sqlite/migrator.hpp"
+#include "sqlite/row_digest.hpp"
 #include "store/storage_failure.hpp"
 
 namespace fitgauge::store {
@@ -35,6 +36,7 @@ VerifyReport Verifier::run() {
     check_file();
     check_schema();
     check_tables();
+    check_rows();
     check_measurements();
   } catch (const StorageFailure& failure) {
     if (failure.error().code != ErrorCode::StorageCorrupt) throw;
@@ -86,6 +88,23 @@ void Verifier::check_tables() {
     if (loaded && loaded->computed != revision.digest) {
       note(fmt::format("table revision {} differs from its digest", revision.id));
     }
+  }
+}
+
+void Verifier::check_rows() {
+  for (const SealedTable& table : sealed_tables()) {
+    sqlite::Statement altered(session_.connection, table.altered());
+    for (sqlite::Rows rows = altered.query(); rows.next();) {
+      note(fmt::format("the row {} of {} was altered: it does not fit its seal",
+                       rows.get<std::string>(0), table.name));
+    }
+  }
+  sqlite::Statement files(session_.connection,
+                          "SELECT path_key FROM files LEFT JOIN (SELECT path_key, max(revision) AS "
+                          "revision FROM file_revisions GROUP BY path_key) newest USING (path_key) "
+                          "WHERE files.revision IS NOT newest.revision");
+  for (sqlite::Rows rows = files.query(); rows.next();) {
+    note(fmt::format("the file {} does not have its newest revision", rows.get<std::string>(0)));
   }
 }
 

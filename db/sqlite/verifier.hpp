@@ -22,6 +22,8 @@ class Verifier {
   void check_file();
   void check_schema();
   void check_tables();
+  /// What has a digest of its own, and the files' revisions in force.
+  void check_rows();
   void check_measurements();
   void check_measurement(const MeasurementRow& row);
   void note(std::string finding);
