@@ -5,8 +5,8 @@
 
 #include "sqlite/data_directory.hpp"
 #include "sqlite/database_file.hpp"
-#include "sqlite/file_check.hpp"
 #include "sqlite/read_pool_engine.hpp"
+#include "sqlite/scrub.hpp"
 #include "sqlite/verifier.hpp"
 #include "sqlite/writer_engine.hpp"
 #include "store/storage_failure.hpp"
@@ -28,7 +28,9 @@ struct Database::Parts {
         readers(reader_engine) {
     const bool too_large_for_the_start =
         std::filesystem::file_size(file) > options.check_at_open_limit;
-    if (options.access == Access::Serve && too_large_for_the_start) check.emplace(file, monitor);
+    if (options.access == Access::Serve) {
+      scrub.emplace(options, clock, monitor, too_large_for_the_start);
+    }
   }
 
   std::optional<DirectoryLock> lock;
@@ -40,7 +42,7 @@ struct Database::Parts {
   ReadPool::Engine reader_engine;
   Writer writer;
   ReadPool readers;
-  std::optional<BackgroundCheck> check;
+  std::optional<Scrub> scrub;
 };
 
 Database::Database(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -68,6 +70,7 @@ Writer& Database::writer() { return parts_->writer; }
 ReadPool& Database::readers() { return parts_->readers; }
 /// The readers first: the last connection to close, the writer's, checkpoints.
 void Database::drain() {
+  parts_->scrub.reset();
   parts_->reader_engine.stop();
   parts_->writer_engine.stop();
 }

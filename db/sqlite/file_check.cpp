@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 
 #include "sqlite/connection.hpp"
@@ -15,49 +14,29 @@ namespace {
 /// Instructions of SQLite's machine between two looks at the stop flag.
 constexpr int kInstructions = 10'000;
 
-Result<void> check_file(const std::filesystem::path& file, std::atomic<bool>* stop) {
+}  // namespace
+
+Result<void> check_file(const std::filesystem::path& file, std::stop_token stop) {
   std::string finding;
   try {
     sqlite::Connection connection(file, sqlite::Mode::Read);
-    if (stop != nullptr) {
-      sqlite3_progress_handler(
-          connection.handle(), kInstructions,
-          [](void* flag) { return static_cast<std::atomic<bool>*>(flag)->load() ? 1 : 0; }, stop);
+    const auto is_stopped = [](void* token) {
+      return static_cast<const std::stop_token*>(token)->stop_requested() ? 1 : 0;
+    };
+    if (stop.stop_possible()) {
+      sqlite3_progress_handler(connection.handle(), kInstructions, is_stopped, &stop);
     }
     finding = connection.query_text("PRAGMA quick_check(1)");
   } catch (const StorageFailure& failure) {
+    if (stop.stop_requested()) return {};
     if (failure.error().code != ErrorCode::StorageCorrupt) return failure.error();
     finding = failure.error().message;
   }
-  if (finding == "ok") return {};
+  if (finding == "ok" || stop.stop_requested()) return {};
   std::replace(finding.begin(), finding.end(), '\n', ' ');  // SQLite's heading is a line of its own
   return Error{
       ErrorCode::StorageCorrupt,
       fmt::format("{} is damaged: {}. Restore a backup in its place", file.string(), finding)};
-}
-
-}  // namespace
-
-Result<void> check_file(const std::filesystem::path& file) { return check_file(file, nullptr); }
-
-BackgroundCheck::BackgroundCheck(const std::filesystem::path& file, HealthMonitor& health) {
-  health.checking(fmt::format("{} is being checked", file.string()));
-  thread_ = std::thread(&BackgroundCheck::run, this, file, std::ref(health));
-}
-
-void BackgroundCheck::run(const std::filesystem::path& file, HealthMonitor& health) {
-  const Result<void> checked = check_file(file, &stop_);
-  if (stop_) return;
-  if (checked) {
-    health.check_passed();
-  } else {
-    health.damaged(checked.error().message);
-  }
-}
-
-BackgroundCheck::~BackgroundCheck() {
-  stop_ = true;
-  thread_.join();
 }
 
 }  // namespace fitgauge::store

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "sqlite/migrator.hpp"
-#include "sqlite/row_digest.hpp"
 #include "store/storage_failure.hpp"
 
 namespace fitgauge::store {
@@ -16,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMostFindings = 100;
 constexpr std::size_t kPage = 10'000;
+constexpr std::size_t kScrubPage = 1'000;
 
 /// `table measurements: CREATE TABLE …` for each object, sorted.
 std::vector<std::string> schema_of(sqlite::Connection& connection) {
@@ -37,12 +37,24 @@ VerifyReport Verifier::run() {
     check_schema();
     check_tables();
     check_rows();
-    check_measurements();
+    check_measurements(kPage, [] { return true; });
+    check_index();
   } catch (const StorageFailure& failure) {
     if (failure.error().code != ErrorCode::StorageCorrupt) throw;
     note(failure.error().message);
   }
   return std::move(report_);
+}
+
+std::optional<std::string> Verifier::first_altered_row(const std::function<bool()>& go_on) {
+  const auto goes_on = [&] { return report_.findings.empty() && go_on(); };
+  check_tables();
+  for (const SealedTable& table : sealed_tables()) {
+    if (goes_on()) check_rows(table);
+  }
+  if (goes_on()) check_measurements(kScrubPage, goes_on);
+  if (report_.findings.empty()) return std::nullopt;
+  return report_.findings.front();
 }
 
 void Verifier::check_file() {
@@ -92,13 +104,19 @@ void Verifier::check_tables() {
 }
 
 void Verifier::check_rows() {
-  for (const SealedTable& table : sealed_tables()) {
-    sqlite::Statement altered(session_.connection, table.altered());
-    for (sqlite::Rows rows = altered.query(); rows.next();) {
-      note(fmt::format("the row {} of {} was altered: it does not fit its seal",
-                       rows.get<std::string>(0), table.name));
-    }
+  for (const SealedTable& table : sealed_tables()) check_rows(table);
+  check_files();
+}
+
+void Verifier::check_rows(const SealedTable& table) {
+  sqlite::Statement altered(session_.connection, table.altered());
+  for (sqlite::Rows rows = altered.query(); rows.next();) {
+    note(fmt::format("the row {} of {} was altered: it does not fit its seal",
+                     rows.get<std::string>(0), table.name));
   }
+}
+
+void Verifier::check_files() {
   sqlite::Statement files(session_.connection,
                           "SELECT path_key FROM files LEFT JOIN (SELECT path_key, max(revision) AS "
                           "revision FROM file_revisions GROUP BY path_key) newest USING (path_key) "
@@ -108,15 +126,21 @@ void Verifier::check_rows() {
   }
 }
 
-void Verifier::check_measurements() {
+void Verifier::check_measurements(std::size_t page, const std::function<bool()>& go_on) {
   const MeasurementsStore& measurements = session_.stores.measurements;
   const MeasurementFilter all{.source = std::nullopt, .history = true};
   const auto check = [this](const MeasurementRow& row) { check_measurement(row); };
   std::optional<std::int64_t> after = 0;
-  while (after) after = measurements.list(all, *after, kPage, check);
+  do {
+    after = measurements.list(all, *after, page, check);
+  } while (after && go_on());
+}
+
+void Verifier::check_index() {
   // The writer goes on indexing meanwhile: nodes and values have to be of the same moment.
   session_.begin_reading.run();
-  measurements.verify_index([this](std::string finding) { note(std::move(finding)); });
+  session_.stores.measurements.verify_index(
+      [this](std::string finding) { note(std::move(finding)); });
   session_.commit.run();
 }
 

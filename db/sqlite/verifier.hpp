@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
 
+#include "sqlite/row_digest.hpp"
 #include "sqlite/session.hpp"
 #include "store/measurement_hash.hpp"
 #include "store/verify.hpp"
@@ -18,13 +22,20 @@ class Verifier {
 
   VerifyReport run();
 
+  /// Only rows, in pieces of some milliseconds, until one is not what was stored or `go_on`, called
+  /// after each piece, says false. No transaction is open when it is called.
+  std::optional<std::string> first_altered_row(const std::function<bool()>& go_on);
+
  private:
   void check_file();
   void check_schema();
   void check_tables();
   /// What has a digest of its own, and the files' revisions in force.
   void check_rows();
-  void check_measurements();
+  void check_rows(const SealedTable& table);
+  void check_files();
+  void check_measurements(std::size_t page, const std::function<bool()>& go_on);
+  void check_index();
   void check_measurement(const MeasurementRow& row);
   void note(std::string finding);
 

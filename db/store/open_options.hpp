@@ -35,6 +35,7 @@ struct OpenOptions {
   int checkpoint_pages = 4000;  ///< in the log when it begins to be copied into the database
 
   std::uintmax_t check_at_open_limit = std::uintmax_t{256} << 20;  ///< bytes; larger: in background
+  std::chrono::milliseconds scrub_interval = std::chrono::hours(24);  ///< from pass to pass
   std::chrono::hours idempotency_retention{30 * 24};
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
   std::int64_t event_retention = 100'000;     ///< events kept for replay

@@ -1,5 +1,8 @@
 #include "store/verify.hpp"
 
+#include <chrono>
+#include <thread>
+
 #include "fixture.hpp"
 #include "sqlite/connection.hpp"
 
@@ -186,4 +189,32 @@ TEST_CASE("what is derived from the measurements is derived again") {
     fixture.tamper("UPDATE measurement_nodes SET max_measured_at = 1 WHERE node = 1");
   }
   CHECK_FALSE(fixture.findings().empty());
+}
+
+TEST_CASE("damage is found before somebody asks for the row") {
+  VerifyFixture fixture;
+  REQUIRE(fixture.append(std::vector<MeasurementRow>(3000, sample_row())).has_value());
+  const auto health_after_a_pass = [&] {
+    fixture.database.reset();
+    fixture.options.scrub_interval = std::chrono::milliseconds(1);
+    fixture.open();
+    Health health;
+    for (int i = 0; i < 1000 && health.state == HealthState::Ok; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      health = fixture.database->health();
+    }
+    return health;
+  };
+  SUBCASE("a measurement") {
+    fixture.tamper("UPDATE measurements SET comment = 'x' WHERE id = 2500");
+    CHECK(health_after_a_pass().reason.find("measurement 2500 ") != std::string::npos);
+  }
+  SUBCASE("a table") {
+    fixture.tamper("UPDATE table_cells SET value_nm = 22");
+    CHECK(health_after_a_pass().reason.find("table revision 1-") != std::string::npos);
+  }
+  SUBCASE("a sealed row") {
+    fixture.tamper("UPDATE table_revisions SET source = 'x'");
+    CHECK(health_after_a_pass().reason.find("table_revisions") != std::string::npos);
+  }
 }
