@@ -5,6 +5,7 @@
 
 #include "cli/bash_completion.hpp"
 #include "cli/completion_scripts.hpp"
+#include "cli/figure_commands.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/limits_commands.hpp"
 #include "cli/measure_command.hpp"
@@ -135,13 +136,32 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   run->add_flag("--block-skip", options->block_skip, "Pass over blocks that begin with /");
 }
 
-std::shared_ptr<RecordQuery> add_filters(CLI::App& command,
-                                         const std::shared_ptr<RecordQuery>& query) {
+void add_filters(CLI::App& command, const std::shared_ptr<RecordQuery>& query) {
   for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
     const RecordFilter& filter = kRecordFilters.at(i);
     command.add_option(std::string(filter.option), query->filters.at(i), std::string(filter.help));
   }
-  return query;
+}
+
+void add_figures(CLI::App& app, Action& chosen) {
+  const std::string help = "use, or ignore to take the values one by one";
+  const auto indices = std::make_shared<CapabilityQuery>();
+  CLI::App* capability = add_command(app, "capability", "Capability of what is stored", chosen,
+                                     indices, run_capability);
+  add_filters(*capability, indices);
+  capability->add_option("--target-mm", indices->target_mm, "Of cpm, else the middle");
+  capability->add_option("--confidence", indices->confidence, "Of the intervals, else 0.95");
+  capability->add_option("--subgroups", indices->subgroups, help)
+      ->check(CLI::IsMember({"use", "ignore"}));
+
+  const auto query = std::make_shared<ChartQuery>();
+  CLI::App* chart =
+      add_command(app, "chart", "Control chart of what is stored", chosen, query, run_chart);
+  add_filters(*chart, query);
+  chart->add_option("--kind", query->kind, "xbar_r with subgroups, else i_mr, when not given")
+      ->check(CLI::IsMember({"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}));
+  chart->add_option("--rules", query->rules, "Of Western Electric: 1,2,3,4");
+  chart->add_option("--subgroups", query->subgroups, help)->check(CLI::IsMember({"use", "ignore"}));
 }
 
 void add_records(CLI::App& app, Action& chosen) {
@@ -288,6 +308,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_nc_programs(*nc, chosen);
   add_nc_files(*nc, chosen);
   add_records(app, chosen);
+  add_figures(app, chosen);
   add_setups(app, chosen);
   add_runs(app, chosen);
   add_tables(app, chosen);

@@ -16,30 +16,6 @@
 namespace fitgauge::cli {
 namespace {
 
-/// A path with the filters that were given and whatever else is not empty.
-std::string target_of(std::string path, const RecordQuery& query,
-                      std::initializer_list<std::pair<std::string_view, std::string>> others) {
-  char separator = '?';
-  const auto add = [&path, &separator](std::string_view name, const std::string& value) {
-    if (value.empty()) return;
-    path += separator;
-    path.append(name).append("=").append(percent_encoded(value));
-    separator = '&';
-  };
-  for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
-    add(kRecordFilters.at(i).parameter, query.filters.at(i));
-  }
-  for (const auto& [name, value] : others) add(name, value);
-  return path;
-}
-
-Outcome<JsonValue> get(const Context& context, const std::string& target) {
-  const auto answer = expect_ok(context.client.send({.target = target}), context.client.url());
-  if (!answer) return answer.error();
-  if (context.json) context.print_document(answer->body);
-  return read_document(*answer, context.client.url());
-}
-
 /// Where a stream goes: a file, or standard output.
 class Output {
  public:
@@ -73,9 +49,32 @@ class Output {
 
 }  // namespace
 
+std::string record_target(std::string path, const RecordQuery& query,
+                          std::initializer_list<std::pair<std::string_view, std::string>> others) {
+  char separator = '?';
+  const auto add = [&path, &separator](std::string_view name, const std::string& value) {
+    if (value.empty()) return;
+    path += separator;
+    path.append(name).append("=").append(percent_encoded(value));
+    separator = '&';
+  };
+  for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
+    add(kRecordFilters.at(i).parameter, query.filters.at(i));
+  }
+  for (const auto& [name, value] : others) add(name, value);
+  return path;
+}
+
+Outcome<JsonValue> get_document(const Context& context, const std::string& target) {
+  const auto answer = expect_ok(context.client.send({.target = target}), context.client.url());
+  if (!answer) return answer.error();
+  if (context.json) context.print_document(answer->body);
+  return read_document(*answer, context.client.url());
+}
+
 Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
-  const auto page =
-      get(context, target_of("/v1/measurements", query,
+  const auto page = get_document(
+      context, record_target("/v1/measurements", query,
                              {{"limit", std::to_string(query.limit)}, {"after", query.after}}));
   if (!page) return page.error();
   if (context.json) return ExitCode::Good;
@@ -93,7 +92,7 @@ Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
   const std::string type = ndjson ? "application/x-ndjson" : "text/csv";
   Output output(query.output);
   const auto answer = context.client.stream(
-      {.target = target_of("/v1/measurements", query, {}), .headers = {"Accept: " + type}},
+      {.target = record_target("/v1/measurements", query), .headers = {"Accept: " + type}},
       [&output](std::string_view piece) { return output.write(piece); });
   const auto good = expect_ok(answer, context.client.url());
   return good ? output.finish() : good.error();
@@ -101,8 +100,8 @@ Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
 
 Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) {
   const std::string group_by = query.group_by.empty() ? "characteristic" : query.group_by;
-  const auto summary =
-      get(context, target_of("/v1/measurements/summary", query, {{"group_by", group_by}}));
+  const auto summary = get_document(
+      context, record_target("/v1/measurements/summary", query, {{"group_by", group_by}}));
   if (!summary) return summary.error();
   if (context.json) return ExitCode::Good;
   for (const JsonValue& group : summary->items_of("groups")) {

@@ -2,10 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "cli/context.hpp"
+#include "cli/json_value.hpp"
 
 namespace fitgauge::cli {
 
@@ -15,11 +18,15 @@ struct RecordFilter {
   std::string_view parameter;
   std::string_view help;
 };
-inline constexpr std::array<RecordFilter, 9> kRecordFilters = {{
+inline constexpr std::array<RecordFilter, 13> kRecordFilters = {{
     {"--part-id", "part_id", "Exactly this part"},
     {"--characteristic", "characteristic", "Exactly this characteristic"},
     {"--order", "order", "Exactly this work order"},
+    {"--operation", "operation", "Exactly this operation"},
     {"--machine", "machine", "Exactly this machine"},
+    {"--gauge", "gauge", "Exactly this gauge"},
+    {"--designation", "designation", "Size and class, as in 25H7"},
+    {"--subgroup", "subgroup", "Exactly this subgroup"},
     {"--verdict", "verdict", "good, rework, reject or indeterminate"},
     {"--source", "source", "gauge, simulation or all; gauge when absent"},
     {"--from", "from", "Measured from this RFC 3339 time on"},
@@ -36,6 +43,14 @@ struct RecordQuery {
   std::string output{};       ///< of export: a file; - or empty is standard output
   std::string group_by{};     ///< of summary
 };
+
+/// A path with the filters that were given and whatever else is not empty.
+std::string record_target(
+    std::string path, const RecordQuery& query,
+    std::initializer_list<std::pair<std::string_view, std::string>> others = {});
+
+/// What a GET gives; with --json it is printed as it is.
+Outcome<JsonValue> get_document(const Context& context, const std::string& target);
 
 /// `fitgauge list`: a page of records, one a line, and on standard error how to get the next.
 Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query);

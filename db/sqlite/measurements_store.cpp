@@ -29,6 +29,36 @@ MeasurementRow read_row(const Rows& rows) {
   return row;
 }
 
+constexpr std::string_view kValueColumns =
+    "m.id, m.measured_nm, m.nominal_nm + m.lower_deviation_nm, "
+    "m.nominal_nm + m.upper_deviation_nm, m.subgroup";
+
+MeasuredValue read_value(const Rows& rows) {
+  return {.id = rows.get<std::int64_t>(0),
+          .measured_nm = rows.get<std::int64_t>(1),
+          .lower_limit_nm = rows.get<std::int64_t>(2),
+          .upper_limit_nm = rows.get<std::int64_t>(3),
+          .subgroup = rows.get<std::optional<std::string_view>>(4)};
+}
+
+/// Visits a page of the rows that match. @param read visits a row and gives its id
+/// @returns the cursor for the next page, or none when this was the last
+template <class Read>
+std::optional<std::int64_t> read_page(MeasurementQuery& query, const MeasurementFilter& filter,
+                                      const IdSpan& ids, std::size_t limit, ListOrder order,
+                                      const Read& read) {
+  std::int64_t last = 0;
+  std::size_t count = 0;
+  bool more = false;
+  query.run(filter, ids, order, [&](const Rows& rows) {
+    // One row more than the page tells that there is a next one.
+    more = count++ == limit;
+    if (!more) last = read(rows);
+    return !more;
+  });
+  return more ? std::optional(last) : std::nullopt;
+}
+
 }  // namespace
 
 struct MeasurementsStore::Statements {
@@ -41,6 +71,7 @@ struct MeasurementsStore::Statements {
         revision(c, "SELECT 1 FROM table_revisions WHERE number = ?"),
         indexer(c),
         whole_rows(c, measurement_columns()),
+        values(c, std::string(kValueColumns)),
         ids(c, "m.id") {}
 
   MeasurementChain::End chain_end() {
@@ -90,6 +121,7 @@ struct MeasurementsStore::Statements {
   Statement revision;
   MeasurementIndexer indexer;
   MeasurementQuery whole_rows;
+  MeasurementQuery values;
   MeasurementQuery ids;
   std::map<TextField, MeasurementSummary> summaries;
   std::optional<std::int64_t> seen_revision;
@@ -146,19 +178,24 @@ std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& fil
     if (after == kLastId) return std::nullopt;
     ids.first = after + 1;
   }
-  std::int64_t last = after;
-  std::size_t count = 0;
-  bool more = false;
-  statements_->whole_rows.run(filter, ids, order, [&](const Rows& rows) {
-    // One row more than the page tells that there is a next one.
-    more = count++ == limit;
-    if (more) return false;
+  return read_page(statements_->whole_rows, filter, ids, limit, order, [&](const Rows& rows) {
     const MeasurementRow row = read_row(rows);
     visit(row);
-    last = row.id;
-    return true;
+    return row.id;
   });
-  return more ? std::optional(last) : std::nullopt;
+}
+
+std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilter& filter,
+                                                           std::int64_t after, std::size_t limit,
+                                                           const ValueVisitor& visit) const {
+  if (after == kLastId) return std::nullopt;
+  const IdSpan ids{.first = after + 1, .last = kLastId};
+  return read_page(statements_->values, filter, ids, limit, ListOrder::OldestFirst,
+                   [&](const Rows& rows) {
+                     const MeasuredValue value = read_value(rows);
+                     visit(value);
+                     return value.id;
+                   });
 }
 
 std::optional<std::int64_t> MeasurementsStore::first_of_newest(const MeasurementFilter& filter,

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.hpp"
@@ -25,6 +26,15 @@ class Connection;
 struct IdRange {
   std::int64_t first = 0;
   std::int64_t last = 0;
+};
+
+/// What figures are computed from: a measured value, its limits and what it is grouped by.
+struct MeasuredValue {
+  std::int64_t id = 0;
+  std::int64_t measured_nm = 0;
+  std::int64_t lower_limit_nm = 0;
+  std::int64_t upper_limit_nm = 0;
+  std::optional<std::string_view> subgroup{};  ///< the database's own while a visitor runs
 };
 
 /// Measurements, kept for ever: the database refuses UPDATE and DELETE. Rows carry a chain of
@@ -60,6 +70,11 @@ class MeasurementsStore {
   std::optional<std::int64_t> list(const MeasurementFilter& filter, std::int64_t after,
                                    std::size_t limit, const Visitor& visit,
                                    ListOrder order = ListOrder::OldestFirst) const;
+
+  /// list() of no more than figures are computed from, from the oldest on: several times as fast.
+  using ValueVisitor = std::function<void(const MeasuredValue&)>;
+  std::optional<std::int64_t> list_values(const MeasurementFilter& filter, std::int64_t after,
+                                          std::size_t limit, const ValueVisitor& visit) const;
 
   /// The oldest of the newest `count` rows that match; none when none does.
   std::optional<std::int64_t> first_of_newest(const MeasurementFilter& filter,

@@ -14,6 +14,7 @@
 #include "api/service/page_resource.hpp"
 #include "api/service/service_resource.hpp"
 #include "api/statistics/statistics_resource.hpp"
+#include "api/statistics/stored_statistics_resource.hpp"
 #include "api/statistics/uncertainty_resource.hpp"
 #include "api/tables/tables_resource.hpp"
 
@@ -30,6 +31,7 @@ http::RouteTable make_routes(const Services& services) {
   add_verdicts_routes(routes, services);
   add_measurements_routes(routes, services);
   add_statistics_routes(routes, services);
+  add_stored_statistics_routes(routes, services);
   add_uncertainty_routes(routes, services);
   add_files_routes(routes, services);
   add_setups_routes(routes, services);

@@ -4,7 +4,7 @@
 _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
-  local commands='limits fit gauge measure list export summary correct nc setups runs tables watch version completion'
+  local commands='limits fit gauge measure list export summary capability chart correct nc setups runs tables watch version completion'
   COMPREPLY=()
 
   # What the option before takes.
@@ -13,6 +13,9 @@ _fitgauge() {
     --part-id | --characteristic | --order | --operation | --machine | --operator | --gauge) return ;;
     --unit | --measured-at | --temperature-c | --comment | --uncertainty-um | --coverage-factor) return ;;
     --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --group-by) return ;;
+    --designation | --subgroup | --target-mm | --confidence | --rules) return ;;
+    --kind) _fitgauge_words 'i_mr xbar_r xbar_s ewma cusum'; return ;;
+    --subgroups) _fitgauge_words 'use ignore'; return ;;
     --verdict) _fitgauge_words 'good rework reject indeterminate'; return ;;
     --history) _fitgauge_words 'current all'; return ;;
     --feature) _fitgauge_words 'hole shaft'; return ;;
@@ -42,7 +45,8 @@ _fitgauge() {
   done
 
   local options=
-  local filters='--part-id --characteristic --order --machine --verdict --source --from --to --history'
+  local filters='--part-id --characteristic --order --operation --machine --gauge --designation --subgroup
+                 --verdict --source --from --to --history'
   case ${words[0]-} in
     '') _fitgauge_words "$commands $common --version"; return ;;
     gauge)
@@ -52,6 +56,8 @@ _fitgauge() {
     list) options="$filters --limit --after" ;;
     export) options="$filters --format --output" ;;
     summary) options="$filters --group-by" ;;
+    capability) options="$filters --target-mm --confidence --subgroups" ;;
+    chart) options="$filters --kind --rules --subgroups" ;;
     correct) options='--reason' ;;
     setups) ((${#words[@]} > 1)) || options='ls put get rm' ;;
     runs)

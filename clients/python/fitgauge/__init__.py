@@ -837,6 +837,19 @@ class Client:
         return self._get("/v1/measurements/summary",
                                                  {"group_by": group_by, **filters})["groups"]
 
+    def capability(self, *, target_mm: Size | None = None, confidence: Size | None = None,
+                   **filters: Parameter) -> dict[str, Any]:
+        """Capability and performance of stored values against the limits in their records; by `subgroup` where
+        they name one, unless `subgroups="ignore"`."""
+        return self._get("/v1/measurements/capability",
+                         {"target_mm": target_mm, "confidence": confidence, **filters})
+
+    def chart(self, kind: str | None = None, rules: Sequence[int] = (), **filters: Parameter) -> dict[str, Any]:
+        """Control chart of stored values with the violations of `rules` of 1 to 4. `kind` is i_mr, xbar_r, xbar_s,
+        ewma or cusum; without it xbar_r where the values name subgroups, else i_mr."""
+        return self._get("/v1/measurements/chart",
+                         {"kind": kind, "rules": ",".join(map(str, rules)) or None, **filters})
+
     def correct(self, measurement_id: str, correction: NewMeasurement, *,
                 idempotency_key: str | None = None) -> Measurement:
         """A new record in place of a wrong one, which stays: `measured_mm`, `reason`, and what else changes."""

@@ -33,14 +33,16 @@ void write_points(JsonWriter& json, std::string_view name, const std::vector<dou
   json.end_array();
 }
 
-void write_violations(JsonWriter& json, const std::vector<ChartViolation>& violations) {
+void write_violations(JsonWriter& json, const std::vector<ChartViolation>& violations,
+                      const PointName& name) {
   json.key("violations").begin_array();
   for (const ChartViolation& violation : violations) {
     json.begin_object()
         .member("chart", violation.chart)
         .member("rule", violation.rule)
-        .member("index", count_of(violation.index))
-        .end_object();
+        .member("index", count_of(violation.index));
+    if (name) name(json, violation);
+    json.end_object();
   }
   json.end_array();
 }
@@ -134,7 +136,8 @@ void write_test_members(JsonWriter& json, const metrology::FTest& test) {
   json.key("f").figure(test.f).key("p").figure(test.p);
 }
 
-void write_chart_members(JsonWriter& json, const metrology::ControlCharts& charts) {
+void write_chart_members(JsonWriter& json, const metrology::ControlCharts& charts,
+                         const PointName& name) {
   json.key("standard_deviation").figure(charts.standard_deviation).key("charts").begin_array();
   for (const metrology::Chart& chart : charts.charts) {
     json.begin_object().member("name", chart.name);
@@ -145,15 +148,16 @@ void write_chart_members(JsonWriter& json, const metrology::ControlCharts& chart
     json.end_object();
   }
   json.end_array();
-  write_violations(json, charts.violations);
+  write_violations(json, charts.violations, name);
   json.member("average_run_length", charts.average_run_length);
 }
 
-void write_capability(JsonWriter& json, const metrology::Capability& c,
-                      const metrology::SpecificationLimits& limits, long double confidence) {
+void write_capability_members(JsonWriter& json, const metrology::Capability& c,
+                              const metrology::SpecificationLimits& limits, long double confidence,
+                              const PointName& name) {
   constexpr std::string_view kWidth = "chi-square, n - 1";
   constexpr std::string_view kDistance = "normal, Bissell 1990";
-  json.begin_object().member("count", count_of(c.count)).key("mean").figure(c.mean);
+  json.member("count", count_of(c.count)).key("mean").figure(c.mean);
   json.key("standard_deviation_within").figure(c.within);
   json.key("standard_deviation_overall").figure(c.overall);
   write_exact(json, "lower", limits.lower);
@@ -169,11 +173,10 @@ void write_capability(JsonWriter& json, const metrology::Capability& c,
   write_index(json, "cm", c.cm, kWidth);
   write_index(json, "cmk", c.cmk, kDistance);
   json.member("stable", c.stable);
-  write_violations(json, c.violations);
+  write_violations(json, c.violations, name);
   write_normality(json, c.normality);
   write_model(json, c.model);
   write_percentile(json, c.percentile);
-  json.end_object();
 }
 
 void write_gauge_study(JsonWriter& json, const metrology::GaugeStudy& study,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -20,11 +21,17 @@ void write_summary(JsonWriter& json, const metrology::Summary& summary);
 void write_variation_members(JsonWriter& json, const metrology::Variation& variation);
 void write_test_members(JsonWriter& json, const metrology::FTest& test);
 
-/// The members of a chart's answer, without braces.
-void write_chart_members(JsonWriter& json, const metrology::ControlCharts& charts);
+/// Writes members that name the point of a violation, beside its index.
+using PointName = std::function<void(JsonWriter&, const metrology::ChartViolation&)>;
 
-void write_capability(JsonWriter& json, const metrology::Capability& capability,
-                      const metrology::SpecificationLimits& limits, long double confidence);
+/// The members of a chart's answer, without braces.
+void write_chart_members(JsonWriter& json, const metrology::ControlCharts& charts,
+                         const PointName& name = {});
+
+/// The same of a capability.
+void write_capability_members(JsonWriter& json, const metrology::Capability& capability,
+                              const metrology::SpecificationLimits& limits, long double confidence,
+                              const PointName& name = {});
 
 /// @param tolerance none: its shares are null
 void write_gauge_study(JsonWriter& json, const metrology::GaugeStudy& study,

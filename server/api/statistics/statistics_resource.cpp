@@ -76,7 +76,9 @@ Result<std::string> capability(const JsonValue& body) {
   }
   std::string out;
   JsonWriter json(out);
-  write_capability(json, *made, limits, confidence);
+  json.begin_object();
+  write_capability_members(json, *made, limits, confidence);
+  json.end_object();
   return out;
 }
 

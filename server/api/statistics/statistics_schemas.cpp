@@ -29,7 +29,9 @@ Fields data_fields() {
 std::string violations() {
   return schema::array(schema::object({{"chart", schema::text(), "As it is named in charts"},
                                        {"rule", schema::integer(1, 4), "Western Electric 1956"},
-                                       {"index", schema::count(), "Of the point, from 0"}}));
+                                       {"index", schema::count(), "Of the point, from 0"},
+                                       {"id", schema::text(), "Of the stored measurement", false},
+                                       {"subgroup", schema::text(), "Of stored ones", false}}));
 }
 
 Fields chart_fields() {
@@ -45,6 +47,19 @@ Fields chart_fields() {
           {"average_run_length", figure(), "Points to a false alarm of the location chart"}};
 }
 
+/// Which stored measurements a figure is of.
+Fields selection_field() {
+  const std::string selection =
+      schema::object({{"count", schema::count(), "Values"},
+                      {"subgroups", schema::count(), "0 where the values are taken one by one"},
+                      {"first_id", schema::text(), "The first of them in storage order"},
+                      {"last_id", schema::text(), ""},
+                      {"as_of", schema::text(), "The newest measurement there was"},
+                      {"lower_limit_mm", schema::number(), "That all of them have"},
+                      {"upper_limit_mm", schema::number(), ""}});
+  return {{"selection", selection, "Which measurements it is of"}};
+}
+
 Fields variation_fields() {
   return {{"degrees_of_freedom", schema::count(), ""},
           {"sum_of_squares", figure(), ""},
@@ -56,10 +71,11 @@ void add_summary(Schemas& schemas) {
   const std::string quantiles =
       schema::object({{"type", schema::integer(7, 7), "Hyndman and Fan 1996"},
                       {"values", schema::array(schema::object(figures({"p", "value"}))), ""}});
-  schemas.push_back({"ValueSummary", schema::object(Fields{{"count", schema::count(), ""}} +
-                                               figures({"mean", "standard_deviation",
-                                                        "autocorrelation_lag_1", "min", "max"}) +
-                                               Fields{{"quantiles", quantiles, ""}})});
+  schemas.push_back(
+      {"ValueSummary", schema::object(Fields{{"count", schema::count(), ""}} +
+                                      figures({"mean", "standard_deviation",
+                                               "autocorrelation_lag_1", "min", "max"}) +
+                                      Fields{{"quantiles", quantiles, ""}})});
   schemas.push_back(
       {"Groups", order({{"groups", schema::array(exact_values()), "Two or more, of any size"}})});
   const std::string variation = schema::object(variation_fields());
@@ -100,14 +116,13 @@ void add_capability(Schemas& schemas) {
   for (const char* name : {"cp", "cpk", "cpl", "cpu", "pp", "ppk", "cpm", "cm", "cmk"}) {
     fields.push_back({name, schema::null_or(schema::ref("CapabilityIndex")), ""});
   }
-  schemas.push_back(
-      {"Capability",
-       schema::object(fields +
-                      Fields{{"stable", schema::boolean(), "No rule is broken"},
-                             {"violations", violations(), ""},
-                             {"normality", schema::null_or(normality), "From five values"},
-                             {"model", schema::null_or(model), "From five subgroups"},
-                             {"percentile", schema::null_or(percentile), "From 741 values"}})});
+  const Fields others = {{"stable", schema::boolean(), "No rule is broken"},
+                         {"violations", violations(), ""},
+                         {"normality", schema::null_or(normality), "From five values"},
+                         {"model", schema::null_or(model), "From five subgroups"},
+                         {"percentile", schema::null_or(percentile), "From 741 values"}};
+  schemas.push_back({"Capability", schema::object(fields + others)});
+  schemas.push_back({"StoredCapability", schema::object(selection_field() + fields + others)});
 }
 
 void add_chart(Schemas& schemas) {
@@ -126,8 +141,9 @@ void add_chart(Schemas& schemas) {
                  {"reference_value", schema::number(0, 10), "k of cusum, in standard deviations"},
                  {"decision_interval", schema::number(0, 20), "h of cusum, likewise"},
              }))});
-  schemas.push_back(
-      {"ControlChart", schema::object(Fields{{"kind", schema::text(), ""}} + chart_fields())});
+  const Fields fields = Fields{{"kind", schema::text(), ""}} + chart_fields();
+  schemas.push_back({"ControlChart", schema::object(fields)});
+  schemas.push_back({"StoredControlChart", schema::object(selection_field() + fields)});
 }
 
 /// Who or what: a word or a number.

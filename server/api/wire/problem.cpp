@@ -35,6 +35,8 @@ int status_of(ErrorCode code) {
     case ErrorCode::SetupUnknown:
     case ErrorCode::RunUnknown:
     case ErrorCode::CycleUnknown:
+    case ErrorCode::UncertaintyUnknown:
+    case ErrorCode::GaugeUnknown:
     case ErrorCode::MeasurementUnknown: return 404;
     case ErrorCode::MethodNotAllowed: return 405;
     case ErrorCode::NotAcceptable: return 406;
@@ -68,10 +70,13 @@ int status_of(ErrorCode code) {
     case ErrorCode::LengthOutOfRange:
     case ErrorCode::NumberOutOfRange:
     case ErrorCode::RuleInvalid:
+    case ErrorCode::RuleNoAcceptance:
     case ErrorCode::LimitsInvalid:
+    case ErrorCode::LimitsMixed:
     case ErrorCode::StatisticsTooFew:
     case ErrorCode::StatisticsZeroSpread:
     case ErrorCode::StatisticsUnbalanced:
+    case ErrorCode::StatisticsTooMany:
     case ErrorCode::TableRowsInvalid:
     case ErrorCode::TableFileMalformed:
     case ErrorCode::IdempotencyKeyReused:

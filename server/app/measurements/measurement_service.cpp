@@ -46,6 +46,14 @@ MeasurementGroup measurement_group(store::SummaryGroup group) {
           .max = Length::nanometres(group.max_nm)};
 }
 
+MeasuredValue measured_value(const store::MeasuredValue& value) {
+  return {.id = value.id,
+          .measured = Length::nanometres(value.measured_nm),
+          .lower_limit = Length::nanometres(value.lower_limit_nm),
+          .upper_limit = Length::nanometres(value.upper_limit_nm),
+          .subgroup = value.subgroup};
+}
+
 }  // namespace
 
 void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t> done) {
@@ -84,6 +92,29 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
         return ListPage{.next = last ? std::nullopt : next, .as_of = *filter.as_of_id};
       },
       std::move(done));
+}
+
+Result<std::int64_t> MeasurementService::read_values(const MeasurementQuery& query,
+                                                     const ValueVisitor& visit) {
+  constexpr std::size_t kRowsAJob = 20'000;  // other readers get their turn between two jobs
+  store::MeasurementFilter filter = measurement_filter(query);
+  std::optional<std::int64_t> after = 0;
+  while (after) {
+    auto next = database_.readers().wait(
+        [&](const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
+          if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
+          Result<void> taken;
+          const auto more = stores.measurements.list_values(
+              filter, *after, kRowsAJob, [&](const store::MeasuredValue& value) {
+                if (taken) taken = visit(measured_value(value));
+              });
+          if (!taken) return taken.error();
+          return more;
+        });
+    if (!next) return next.error();
+    after = *next;
+  }
+  return *filter.as_of_id;
 }
 
 void MeasurementService::summary(const MeasurementQuery& query, std::string_view group_by,

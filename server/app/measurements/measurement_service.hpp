@@ -71,6 +71,15 @@ struct ListPage {
   std::int64_t as_of = 0;            ///< the state all pages of the list are read in
 };
 
+/// What figures are computed from. The text is valid during the visitor's call.
+struct MeasuredValue {
+  std::int64_t id = 0;
+  Length measured;
+  Length lower_limit;
+  Length upper_limit;
+  std::optional<std::string_view> subgroup;
+};
+
 /// Counts and statistics of one group; texts are exact decimals in mm.
 struct MeasurementGroup {
   std::optional<std::string> value;
@@ -152,6 +161,12 @@ class MeasurementService {
   /// that the list is of one piece however much is recorded and corrected meanwhile.
   void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
             Done<ListPage> done);
+
+  /// Visits what figures are computed from of all that match, in storage order and in one state,
+  /// and ends with the first error the visitor gives. Blocks: for threads that take long requests.
+  /// @returns the id that was the newest. @errors StorageBusy, StorageUnavailable, ShuttingDown
+  using ValueVisitor = std::function<Result<void>(const MeasuredValue&)>;
+  Result<std::int64_t> read_values(const MeasurementQuery& query, const ValueVisitor& visit);
 
   /// Groups by one of kTextFilters. @errors QueryInvalid for another field or too many groups.
   void summary(const MeasurementQuery& query, std::string_view group_by,

@@ -240,6 +240,12 @@ class Records(ClientTest):
         self.assertIn("SN-8: 1 values", self.assert_runs(0, "summary", "--group-by", "part_id"))
         self.assertIn("mean 25.005 mm", self.assert_runs(0, "summary", "--verdict", "good", "--part-id", "SN-7"))
 
+        self.assertIn("3 values, m", self.assert_runs(0, "capability", "--part-id", "SN-7", "--confidence", "0.9"))
+        self.assertRegex(self.assert_runs(0, "chart", "--part-id", "SN-7", "--rules", "1,2,3,4"),
+                         r"i +centre 25\.\d+ mm[^!]*a false alarm every 91\.8 points")
+        self.assertIn('"kind":"ewma"', self.assert_runs(0, "--json", "chart", "--designation", "25H7", "--kind", "ewma"))
+        self.assert_fails(7, "capability", "--part-id", "SN-8")
+
         self.assertIn("GOOD", self.assert_runs(0, "correct", wrong, "25,003", "--reason", "misread"))
         self.assertNotIn(wrong + "  ", self.assert_runs(0, "list"))
         self.assertIn(wrong + "  ", self.assert_runs(0, "list", "--history", "all"))

@@ -9,7 +9,7 @@ import unittest
 from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 
-COMMANDS = ("limits", "fit", "gauge", "measure", "list", "export", "summary", "correct", "nc", "setups", "runs",
+COMMANDS = ("limits", "fit", "gauge", "measure", "list", "export", "summary", "capability", "chart", "correct", "nc", "setups", "runs",
             "tables", "watch", "version", "completion")
 SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables", "setups", "runs")] + [
     ("setups", name) for name in ("ls", "put", "get", "rm")] + [

@@ -109,6 +109,12 @@ class EveryRoute(ControlTest):
         self.assertEqual([next(events).type for _ in range(3)],
                          ["measurement.recorded", "verdict.reject", "measurement.recorded"])
         events.close()
+        values = [Decimal("25.010"), Decimal("25.012"), Decimal("25.009"), Decimal("25.011"), Decimal("25.010")]
+        client.measure_all([{"designation": "25 H7", "measured_mm": value, "characteristic": "figures"}
+                            for value in values])
+        self.assertEqual(client.capability(characteristic="figures", target_mm=25)["selection"]["count"], 5)
+        chart = client.chart("i_mr", [1, 2], characteristic="figures")
+        self.assertEqual((chart["charts"][0]["points"], chart["violations"]), (values, []))
 
     def call_control(self, client):
         self.upload_examples()

@@ -201,6 +201,13 @@ class Answers(ContractTest):
             {"name": "a", "standard_uncertainty": 2, "degrees_of_freedom": 9, "sensitivity": 1},
             {"name": "b", "half_width": 3, "distribution": "triangular"}], "probability": 0.99,
             "correlations": [], "monte_carlo": {"trials": 1000, "seed": 3}})
+        row = {"designation": "25H7", "characteristic": "figures"}
+        for i, values in enumerate([*groups, [25.1] * 5]):
+            self.expect("postMeasurements", 201, [{**row, "measured_mm": value, "subgroup": str(i)} for value in values])
+        for subgroups in ("use", "ignore"):
+            self.expect("assessStoredCapability", 200, characteristic="figures", subgroups=subgroups)
+            self.expect("makeStoredControlChart", 200, characteristic="figures", subgroups=subgroups, rules="1,2,3,4")
+        self.expect("assessStoredCapability", 422, characteristic="none")
         self.assert_seen("ValueSummary", "Anova", "Capability", "CapabilityIndex", "ControlChart", "Type1Study", "VariationStudy",
                          "LinearityStudy", "StabilityStudy", "Pairing", "Uncertainty", without={})
 

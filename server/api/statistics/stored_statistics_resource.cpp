@@ -1,0 +1,249 @@
+#include "api/statistics/stored_statistics_resource.hpp"
+
+#include <functional>
+
+#include "api/handlers.hpp"
+#include "api/measurements/measurement_listing.hpp"
+#include "api/statistics/statistics_codec.hpp"
+#include "api/statistics/value_selection.hpp"
+#include "app/runs/run_service.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using metrology::ChartKind;
+
+constexpr int kScale = 6;
+constexpr double kMillion = 1e6;
+
+/// What is computed from a selection, given the newest id there was.
+using Figure = std::function<Result<std::string>(ValueSelection&&, std::int64_t as_of)>;
+
+/// Reads the values that the filters choose and computes from them, where both may take long.
+void answer_with(const Services& services, const http::Request& request, http::Responder responder,
+                 Figure figure) {
+  auto query = measurement_query(request);
+  if (!query) return responder.fail(query.error());
+  const SharedResponder shared = share(std::move(responder));
+  services.runs.prepare(
+      [&services, shared, query = *std::move(query), figure = std::move(figure)] {
+        ValueSelection selection;
+        const auto as_of = services.measurements.read_values(
+            query, [&](const app::MeasuredValue& value) { return selection.add(value); });
+        if (!as_of) return shared->fail(as_of.error());
+        auto answer = figure(std::move(selection), *as_of);
+        if (!answer) return shared->fail(answer.error());
+        shared->answer({200, "application/json", *std::move(answer)});
+      },
+      [shared](Error error) { shared->fail(std::move(error)); });
+}
+
+/// Takes values by subgroup where they name one, unless that is to be ignored.
+Result<SelectedValues> take(ValueSelection&& selection, bool ignore_subgroups) {
+  return selection.names_subgroups() && !ignore_subgroups ? std::move(selection).by_subgroup()
+                                                          : std::move(selection).one_by_one();
+}
+
+bool ignores_subgroups(const http::Request& request) {
+  return request.text("subgroups") == "ignore";
+}
+
+void write_selection(JsonWriter& json, const SelectedValues& selected, std::int64_t as_of) {
+  json.key("selection")
+      .begin_object()
+      .member("count", std::uint64_t{selected.count})
+      .member("subgroups", std::uint64_t{selected.subgroups.size()})
+      .member("first_id", app::measurement_id_text(selected.first_id))
+      .member("last_id", app::measurement_id_text(selected.last_id))
+      .member("as_of", app::measurement_id_text(as_of))
+      .member_mm("lower_limit_mm", selected.lower_limit)
+      .member_mm("upper_limit_mm", selected.upper_limit)
+      .end_object();
+}
+
+/// The subgroup or the measurement that a point is of. A moving range is named by its later value.
+PointName name_in(const SelectedValues& selected) {
+  return [&selected](JsonWriter& json, const metrology::ChartViolation& violation) {
+    if (!selected.subgroups.empty()) {
+      json.member("subgroup", selected.subgroups[violation.index]);
+    } else {
+      const std::size_t later = violation.chart == "mr" ? 1 : 0;
+      json.member("id", app::measurement_id_text(selected.ids[violation.index + later]));
+    }
+  };
+}
+
+void find_capability(const Services& services, const http::Request& request,
+                     http::Responder responder) {
+  const auto target = request.length("target_mm");
+  constexpr std::int64_t kUsual = 950'000;
+  const long double confidence =
+      static_cast<long double>(request.integer("confidence").value_or(kUsual)) / kMillion;
+  answer_with(services, request, std::move(responder),
+              [target, confidence, ignore = ignores_subgroups(request)](
+                  ValueSelection&& selection, std::int64_t as_of) -> Result<std::string> {
+                auto selected = take(std::move(selection), ignore);
+                if (!selected) return selected.error();
+                if (target) selected->limits.target = exact_mm(*target);
+                const auto made =
+                    metrology::assess_capability(selected->data, selected->limits, confidence);
+                if (!made) return made.error();
+                std::string out;
+                JsonWriter json(out);
+                json.begin_object();
+                write_selection(json, *selected, as_of);
+                write_capability_members(json, *made, selected->limits, confidence,
+                                         name_in(*selected));
+                json.end_object();
+                return out;
+              });
+}
+
+Error invalid(std::string_view parameter, std::string message) {
+  return {ErrorCode::QueryInvalid, std::move(message), std::string(parameter)};
+}
+
+/// `1,2,3,4`, in any order.
+Result<metrology::ZoneRules> parse_rules(std::string_view text) {
+  metrology::ZoneRules rules;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_digit = i % 2 == 0;
+    const bool fits = is_digit ? text[i] >= '1' && text[i] <= '4' : text[i] == ',';
+    if (!fits || text.size() % 2 == 0) {
+      return invalid("rules", "rules are of 1, 2, 3 and 4, with a comma between two: rules=1,2");
+    }
+    if (is_digit) rules.add(text[i] - '0');
+  }
+  return rules;
+}
+
+double scaled(const http::Request& request, std::string_view name, double fallback) {
+  const auto given = request.integer(name);
+  return given ? static_cast<double>(*given) / kMillion : fallback;
+}
+
+/// A plan whose kind may still depend on whether the values name subgroups.
+struct StoredChartPlan {
+  metrology::ChartPlan plan;
+  bool has_kind = false;
+  bool ignores_subgroups = false;
+};
+
+Result<StoredChartPlan> chart_plan(const http::Request& request) {
+  StoredChartPlan stored;
+  metrology::ChartPlan& plan = stored.plan;
+  if (const auto kind = request.text("kind")) {
+    plan.kind = *metrology::chart_kind_from_word(*kind);
+    stored.has_kind = true;
+  }
+  stored.ignores_subgroups =
+      ignores_subgroups(request) || (stored.has_kind && plan.kind == ChartKind::IMr);
+  const auto rules = parse_rules(request.text("rules").value_or(""));
+  if (!rules) return rules.error();
+  plan.rules = *rules;
+  plan.lambda = scaled(request, "lambda", plan.lambda);
+  plan.reference_value = scaled(request, "reference_value", plan.reference_value);
+  plan.decision_interval = scaled(request, "decision_interval", plan.decision_interval);
+  const auto from = request.integer("phase1_from");
+  const auto to = request.integer("phase1_to");
+  if (from && !to) return invalid("phase1_to", "phase1_from needs phase1_to, which is exclusive");
+  if (to) {
+    plan.phase1 = {static_cast<std::size_t>(from.value_or(0)), static_cast<std::size_t>(*to)};
+  }
+  return stored;
+}
+
+void find_chart(const Services& services, const http::Request& request, http::Responder responder) {
+  auto stored = chart_plan(request);
+  if (!stored) return responder.fail(stored.error());
+  answer_with(services, request, std::move(responder),
+              [stored = *std::move(stored)](ValueSelection&& selection,
+                                            std::int64_t as_of) -> Result<std::string> {
+                metrology::ChartPlan plan = stored.plan;
+                auto selected = take(std::move(selection), stored.ignores_subgroups);
+                if (!selected) return selected.error();
+                if (!stored.has_kind && selected->data.size > 1) plan.kind = ChartKind::XbarR;
+                const auto made = metrology::make_charts(selected->data, plan);
+                if (!made) return made.error();
+                selected->data = {};
+                std::string out;
+                JsonWriter json(out);
+                json.begin_object();
+                write_selection(json, *selected, as_of);
+                json.member("kind", word(plan.kind));
+                write_chart_members(json, *made, name_in(*selected));
+                json.end_object();
+                return out;
+              });
+}
+
+std::vector<http::Parameter> with_filters(std::vector<http::Parameter> own) {
+  auto parameters = measurement_filter_parameters();
+  own.push_back({.name = "subgroups",
+                 .type = http::Words{{"use", "ignore"}},
+                 .description = "use when absent: by `subgroup` where the values name one; ignore "
+                                "takes them one by one"});
+  parameters.insert(parameters.end(), own.begin(), own.end());
+  return parameters;
+}
+
+http::Parameter positive(std::string name, std::int64_t most, std::string description) {
+  return {.name = std::move(name),
+          .type = http::Decimal{.scale = kScale, .min = 1, .max = most * 1'000'000},
+          .description = std::move(description)};
+}
+
+std::vector<http::Parameter> chart_parameters() {
+  constexpr std::int64_t kMost = 100'000'000;
+  return with_filters({
+      {.name = "kind",
+       .type = http::Words{{"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}},
+       .description = "xbar_r where the values name subgroups, else i_mr, when absent"},
+      {.name = "rules", .description = "Of Western Electric 1956: 1,2,3,4; none when absent"},
+      positive("lambda", 1, "Of ewma; 0.2 when absent"),
+      positive("reference_value", 10, "k of cusum, in standard deviations; 0.5 when absent"),
+      positive("decision_interval", 20, "h of cusum, likewise; 5 when absent"),
+      {.name = "phase1_from",
+       .type = http::Integer{.min = 0, .max = kMost},
+       .description = "First point the limits are taken from; 0 when absent"},
+      {.name = "phase1_to",
+       .type = http::Integer{.min = 0, .max = kMost},
+       .description = "End of these points, exclusive; all when absent"},
+  });
+}
+
+}  // namespace
+
+void add_stored_statistics_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back({
+      .pattern = "/v1/measurements/capability",
+      .handler = with(services, find_capability),
+      .summary = "Capability and performance of stored values",
+      .description = "Against the limits in the records, which must be the same in all.",
+      .parameters = with_filters({{.name = "target_mm",
+                                   .type = http::LengthIn{},
+                                   .description = "Of cpm; the middle of the limits when absent"},
+                                  {.name = "confidence",
+                                   .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
+                                   .description = "Of the intervals; 0.95 when absent"}}),
+      .access = "viewer",
+      .operation = "assessStoredCapability",
+      .tag = "measurements",
+      .outcomes = {{.meaning = "What was computed", .schema = "StoredCapability"}},
+      .refusals = {422},
+  });
+  routes.push_back({
+      .pattern = "/v1/measurements/chart",
+      .handler = with(services, find_chart),
+      .summary = "Control chart of stored values",
+      .description = "In storage order; a violation names its measurement or subgroup.",
+      .parameters = chart_parameters(),
+      .access = "viewer",
+      .operation = "makeStoredControlChart",
+      .tag = "measurements",
+      .outcomes = {{.meaning = "What was computed", .schema = "StoredControlChart"}},
+      .refusals = {422},
+  });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,123 @@
+#include "api/statistics/value_selection.hpp"
+
+#include <fmt/format.h>
+
+namespace fitgauge::api {
+namespace {
+
+using metrology::Decimals;
+using metrology::Wide;
+
+constexpr int kDecimals = 6;  // a nanometre in mm
+
+Error none_selected() {
+  return {ErrorCode::StatisticsTooFew,
+          "no stored value matches; look at what GET /v1/measurements lists with these filters"};
+}
+
+Error unbalanced(std::string what) {
+  return {ErrorCode::StatisticsUnbalanced,
+          std::move(what) +
+              "; narrow the selection, or take the values one by one with "
+              "subgroups=ignore"};
+}
+
+}  // namespace
+
+metrology::Exact exact_mm(Length length) {
+  return {metrology::Integer(length.count()), metrology::power_of_ten(kDecimals)};
+}
+
+Result<void> ValueSelection::add(const app::MeasuredValue& value) {
+  const Limits limits{value.lower_limit, value.upper_limit};
+  if (!limits_) limits_ = limits;
+  if (limits != *limits_) {
+    return Error{ErrorCode::LimitsMixed,
+                 fmt::format("{} has the limits {} to {} mm, {} has {} to {} mm: select values of "
+                             "one size by characteristic or designation",
+                             app::measurement_id_text(ids_.front()), format_mm(limits_->lower),
+                             format_mm(limits_->upper), app::measurement_id_text(value.id),
+                             format_mm(limits.lower), format_mm(limits.upper))};
+  }
+  bytes_ += sizeof(Wide) + sizeof(std::int64_t);
+  names_subgroups_ = names_subgroups_ || value.subgroup.has_value();
+  if (!value.subgroup && !ungrouped_) ungrouped_ = value.id;
+  if (!ungrouped_) join(*value.subgroup);
+  if (bytes_ > most_bytes_) {
+    return Error{ErrorCode::StatisticsTooMany,
+                 fmt::format("more than {} values match, which is what one figure takes: narrow "
+                             "the selection, by from and to for instance",
+                             counts_.size())};
+  }
+  counts_.push_back(value.measured.count());
+  ids_.push_back(value.id);
+  return {};
+}
+
+void ValueSelection::join(std::string_view subgroup) {
+  constexpr std::size_t kOfAName = 96;  // its places in the map and in the lists
+  bytes_ += sizeof(std::uint32_t);
+  if (!groups_.empty() && *names_[groups_.back()] == subgroup) {
+    groups_.push_back(groups_.back());
+    return;
+  }
+  const auto [found, is_new] =
+      numbers_.try_emplace(std::string(subgroup), static_cast<std::uint32_t>(names_.size()));
+  if (is_new) {
+    names_.push_back(&found->first);
+    bytes_ += kOfAName + 2 * subgroup.size();
+  }
+  groups_.push_back(found->second);
+}
+
+Result<SelectedValues> ValueSelection::selected() {
+  if (counts_.empty()) return none_selected();
+  return SelectedValues{
+      .data = {},
+      .limits = {.lower = exact_mm(limits_->lower), .upper = exact_mm(limits_->upper)},
+      .lower_limit = limits_->lower,
+      .upper_limit = limits_->upper,
+      .count = counts_.size(),
+      .first_id = ids_.front(),
+      .last_id = ids_.back()};
+}
+
+Result<SelectedValues> ValueSelection::one_by_one() && {
+  auto made = selected();
+  if (!made) return made;
+  made->data = {.values = Decimals(std::move(counts_), kDecimals)};
+  made->ids = std::move(ids_);
+  return made;
+}
+
+Result<SelectedValues> ValueSelection::by_subgroup() && {
+  auto made = selected();
+  if (!made) return made;
+  if (ungrouped_) {
+    return unbalanced(
+        fmt::format("measurement {} names no subgroup", app::measurement_id_text(*ungrouped_)));
+  }
+  std::vector<std::size_t> sizes(names_.size());
+  for (const std::uint32_t group : groups_) ++sizes[group];
+  const std::size_t size = sizes.front();
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (sizes[i] == size) continue;
+    return unbalanced(fmt::format("subgroup '{}' has {} values, subgroup '{}' has {}", *names_[i],
+                                  sizes[i], *names_.front(), size));
+  }
+  if (size < 2) {
+    return Error{ErrorCode::StatisticsTooFew,
+                 "each subgroup has one value; take the values one by one with subgroups=ignore"};
+  }
+  std::vector<std::size_t> ends(names_.size());
+  for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = i * size;
+  std::vector<Wide> sorted(counts_.size());
+  for (std::size_t i = 0; i < counts_.size(); ++i) sorted[ends[groups_[i]]++] = counts_[i];
+  counts_ = {};
+  made->data = {.values = Decimals(std::move(sorted), kDecimals), .size = size};
+  made->subgroups.reserve(names_.size());
+  for (const std::string* name : names_) made->subgroups.push_back(*name);
+  return made;
+}
+
+}  // namespace fitgauge::api

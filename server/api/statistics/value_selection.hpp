@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "app/measurements/measurement_service.hpp"
+#include "metrology/capability.hpp"
+#include "metrology/control_chart.hpp"
+
+namespace fitgauge::api {
+
+metrology::Exact exact_mm(Length length);
+
+/// The stored values a figure is computed from, in mm, with the limits all of them have.
+struct SelectedValues {
+  metrology::Subgroups data;
+  metrology::SpecificationLimits limits{};
+  Length lower_limit;
+  Length upper_limit;
+  std::vector<std::int64_t> ids{};       ///< of the values, where they come one by one
+  std::vector<std::string> subgroups{};  ///< the names of the subgroups, else
+  std::size_t count = 0;
+  std::int64_t first_id = 0;  ///< in storage order
+  std::int64_t last_id = 0;
+};
+
+/// Collects values as they are read. Its memory is bounded: 24 bytes a value, and the names of the
+/// subgroups.
+class ValueSelection {
+ public:
+  static constexpr std::size_t kMostBytes = std::size_t{48} << 20;
+
+  explicit ValueSelection(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
+
+  /// @errors LimitsMixed: other limits than those of the first; StatisticsTooMany.
+  Result<void> add(const app::MeasuredValue& value);
+
+  /// Whether a value names a subgroup.
+  bool names_subgroups() const { return names_subgroups_; }
+
+  /// The values one by one, in storage order, whatever they name. @errors StatisticsTooFew: none.
+  Result<SelectedValues> one_by_one() &&;
+  /// The values by the subgroup they name: the subgroups in the order they begin in, the values of
+  /// each in storage order. @errors StatisticsTooFew: none, or subgroups of one value;
+  ///   StatisticsUnbalanced: a value without subgroup, or subgroups of different sizes.
+  Result<SelectedValues> by_subgroup() &&;
+
+ private:
+  struct Limits {
+    Length lower;
+    Length upper;
+    friend bool operator==(const Limits&, const Limits&) = default;
+  };
+
+  /// Puts the value that is being added into its subgroup.
+  void join(std::string_view subgroup);
+  Result<SelectedValues> selected();
+
+  const std::size_t most_bytes_;
+  std::size_t bytes_ = 0;
+  std::optional<Limits> limits_;
+  std::vector<metrology::Wide> counts_;  ///< in nm
+  std::vector<std::int64_t> ids_;
+  bool names_subgroups_ = false;
+  std::optional<std::int64_t> ungrouped_;  ///< the first value without a subgroup
+  // While every value has one:
+  std::vector<std::uint32_t> groups_;  ///< the number of the subgroup of each value
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+  std::vector<const std::string*> names_;  ///< by number
+};
+
+}  // namespace fitgauge::api

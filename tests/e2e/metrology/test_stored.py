@@ -1,0 +1,132 @@
+"""Capability and charts of stored values: certified figures, which values they are of, and what is refused."""
+
+import math
+
+from support.daemon import ROOT, DaemonTest
+
+RINGS = [line.split() for line in (ROOT / "tests/reference/piston_rings.txt").read_text().splitlines()]
+DRAWING = {"nominal_mm": 74, "feature": "hole", "upper_um": 50, "lower_um": -50}
+
+
+def nist(name):
+    """The certified figures and the values of a data set of NIST."""
+    head, values = (ROOT / f"tests/reference/nist/{name}.txt").read_text().split("values\n")
+    return {line.split()[0]: float(line.split()[1]) for line in head.splitlines()}, values.split()
+
+
+class Stored(DaemonTest):
+    def store(self, characteristic, values, limits=None, **others):
+        rows = [{**(limits or DRAWING), "measured_mm": value, "characteristic": characteristic, **others}
+                for value in values]
+        answer = self.daemon.measure(rows)
+        self.assertEqual(answer.status, 201, answer)
+        return answer.json
+
+    def store_rings(self, characteristic, groups=RINGS):
+        for i, values in enumerate(groups):
+            self.store(characteristic, values, subgroup=str(i + 1))
+
+    def find(self, name, query):
+        answer = self.daemon.get(f"/v1/measurements/{name}?{query}")
+        self.assertEqual(answer.status, 200, answer)
+        return answer.json
+
+    def test_the_certified_figures_of_nist(self):
+        for name, nominal in (("Mavro", 2), ("Michelso", 300), ("NumAcc1", 10_000_002), ("NumAcc2", 1.2),
+                              ("NumAcc3", 1_000_000.2), ("NumAcc4", 10_000_000.2)):
+            with self.subTest(name):
+                certified, values = nist(name)
+                self.store(name, values, {"nominal_mm": nominal, "feature": "hole", "upper_um": 900,
+                                          "lower_um": -900})
+                found = self.find("capability", f"characteristic={name}")
+                self.assertEqual(found["selection"]["count"], len(values))
+                for figure, of in (("mean", "mean"), ("standard_deviation", "standard_deviation_overall")):
+                    error = abs(found[of] - certified[figure]) / certified[figure]
+                    self.assertLess(error, 1e-14, (found[of], certified[figure]))
+
+    def test_the_piston_rings(self):
+        self.store_rings("ring")
+        self.store("other", ["74.1"])
+        found = self.find("chart", "characteristic=ring&kind=xbar_r&rules=1,2,3,4&phase1_to=25")
+        self.assertEqual([chart["name"] for chart in found["charts"]], ["xbar", "r"])
+        self.assertAlmostEqual(found["average_run_length"], 91.75, places=2)
+        self.assertIn({"chart": "xbar", "rule": 1, "index": 36, "subgroup": "37"}, found["violations"])
+        self.assertEqual(found["selection"]["subgroups"], len(RINGS))
+        sent = self.daemon.post("/v1/statistics/chart", {"kind": "xbar_r", "subgroups": RINGS, "rules": [1, 2, 3, 4],
+                                                         "phase1": {"from": 0, "to": 25}}).json
+        self.assertEqual(found["charts"], sent["charts"])
+
+        self.store_rings("first", RINGS[:25])
+        found = self.find("capability", "characteristic=first")
+        self.assertAlmostEqual(found["cp"]["value"], 1.703, places=3)
+        self.assertAlmostEqual(found["cpk"]["value"], 1.663, places=3)
+        self.assertEqual((found["selection"]["lower_limit_mm"], found["selection"]["upper_limit_mm"]), (73.95, 74.05))
+        # Off the target by d: cpm = pp / sqrt(1 + (d / s)^2).
+        off = self.find("capability", "characteristic=first&target_mm=74.01&confidence=0.9")
+        away = (off["mean"] - 74.01) / off["standard_deviation_overall"]
+        self.assertAlmostEqual(off["cpm"]["value"], off["pp"]["value"] / math.hypot(1, away), places=12)
+        self.assertGreater(off["cp"]["lower"], found["cp"]["lower"])
+
+    def test_values_one_by_one(self):
+        values = ["74", "74.001", "74", "74.001", "74", "74.001", "74", "74.03", "74", "74.001"]
+        answer = self.store("jump", values)
+        found = self.find("chart", "characteristic=jump&rules=1")
+        self.assertEqual(found["kind"], "i_mr")
+        self.assertEqual(found["charts"][0]["points"], [float(value) for value in values])
+        first = int(answer["first_id"][1:])
+        # The jump is the eighth value; its moving ranges are those to it and from it.
+        self.assertEqual([(v["chart"], v["index"], v["id"]) for v in found["violations"]],
+                         [("i", 7, f"m{first + 7}"), ("mr", 6, f"m{first + 7}"), ("mr", 7, f"m{first + 8}")])
+
+    def test_subgroups_may_be_interleaved(self):
+        for value, subgroup in (("74.001", "a"), ("74.005", "b"), ("74.003", "a"), ("74.009", "b")):
+            self.store("mixed", [value], subgroup=subgroup)
+        found = self.find("chart", "characteristic=mixed")
+        self.assertEqual(found["kind"], "xbar_r")
+        self.assertEqual([chart["points"] for chart in found["charts"]], [[74.002, 74.007], [0.002, 0.004]])
+        single = self.find("chart", "characteristic=mixed&kind=i_mr")
+        self.assertEqual(single["charts"][0]["points"], [74.001, 74.005, 74.003, 74.009])
+        self.assertEqual(self.find("capability", "characteristic=mixed&subgroups=ignore")["selection"]["subgroups"], 0)
+        ewma = self.find("chart", "characteristic=mixed&kind=ewma&lambda=1")
+        self.assertEqual(ewma["charts"][0]["points"], [74.002, 74.007])
+
+    def test_a_correction_counts_in_place_of_what_it_corrects(self):
+        answer = self.store("mended", ["74.001", "74.002", "75"])
+        body = {"measured_mm": "74.003", "reason": "misread"}
+        self.assertEqual(self.daemon.post(f"/v1/measurements/{answer['last_id']}/corrections", body).status, 201)
+        self.assertAlmostEqual(self.find("capability", "characteristic=mended")["mean"], 74.002, places=12)
+
+    def test_what_is_refused(self):
+        self.store("two sizes", ["74.001", "74.002"])
+        self.store("two sizes", ["74.001"], {**DRAWING, "upper_um": 51})
+        self.store("one", ["74.001"])
+        self.store("equal", ["74.001", "74.001"])
+        for size, subgroup in ((2, "a"), (3, "b")):
+            self.store("uneven", ["74.001"] * size, subgroup=subgroup)
+        self.store("partly", ["74.001", "74.002"], subgroup="a")
+        self.store("partly", ["74.001"])
+        for subgroup in "ab":
+            self.store("ones", ["74.001"], subgroup=subgroup)
+        for query, code in [
+                ("capability?characteristic=two%20sizes", "limits.mixed"),
+                ("chart?characteristic=two%20sizes", "limits.mixed"),
+                ("capability?characteristic=none", "statistics.too_few"),
+                ("chart?characteristic=none", "statistics.too_few"),
+                ("capability?characteristic=one", "statistics.too_few"),
+                ("chart?characteristic=one", "statistics.too_few"),
+                ("capability?characteristic=equal", "statistics.zero_spread"),
+                ("chart?characteristic=uneven", "statistics.unbalanced"),
+                ("capability?characteristic=partly", "statistics.unbalanced"),
+                ("chart?characteristic=ones", "statistics.too_few"),
+                ("chart?characteristic=equal&kind=xbar_r", "statistics.too_few")]:
+            with self.subTest(query):
+                self.assert_problem(self.daemon.get("/v1/measurements/" + query), 422, code)
+        for query, code in [("chart?rules=5", "query.invalid"), ("chart?rules=1,", "query.invalid"),
+                            ("chart?rules=12", "query.invalid"), ("chart?kind=p", "query.invalid"),
+                            ("chart?lambda=0", "query.invalid"), ("chart?phase1_from=1", "query.invalid"),
+                            ("capability?confidence=1", "query.invalid"), ("capability?limit=1", "query.unknown"),
+                            ("capability?target_mm=x", "length.malformed")]:
+            with self.subTest(query):
+                self.assert_problem(self.daemon.get("/v1/measurements/" + query), 400, code)
+        problem = self.daemon.get("/v1/measurements/chart?characteristic=equal&phase1_to=9")
+        self.assertEqual(problem.status, 422, problem)
