@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -156,7 +157,19 @@ struct Surface {
   std::vector<Vec3> points;
 };
 
-using Feature = std::variant<Block, Bore, Boss, Plane, Sphere, Surface>;
+class TriangleTree;
+
+/// Material inside a closed mesh of the control's disk.
+struct Mesh {
+  std::string file;         ///< TNC:\parts\flange.stl
+  double unit = 1;          ///< of the file's figures, in mm
+  Vec3 origin;              ///< origin_mm: where the file's zero lies
+  Vec3 spatial_angles_deg;  ///< how the file's axes are turned
+  /// In mm, from the file's zero. Null until the file is read; no machine is made before.
+  std::shared_ptr<const TriangleTree> body = nullptr;
+};
+
+using Feature = std::variant<Block, Bore, Boss, Plane, Sphere, Surface, Mesh>;
 
 struct Setup {
   MachineSetup machine;

@@ -16,6 +16,23 @@ double with_sign_of(double sign, double value) { return sign < 0 ? -value : valu
 
 }  // namespace
 
+std::optional<double> Solid::contact(const BallPath& ball) const {
+  constexpr double kSettled = 1e-13;
+  constexpr int kSteps = 200;  // a tangent comes nearer by halves
+  double way = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    const Field at = field(ball.at(way));
+    const double gap = at.distance - ball.radius;
+    if (gap <= (step == 0 ? kNoClearance : kSettled)) return way;
+    const double slope = dot(at.gradient, ball.direction);
+    const double next = slope < 0 ? way - gap / slope : std::numeric_limits<double>::infinity();
+    if (next > ball.longest) return std::nullopt;
+    if (next == way) return way;
+    way = next;
+  }
+  return way;
+}
+
 BlockSolid::BlockSolid(const Block& block)
     : centre_((block.min + block.max) * 0.5), half_((block.max - block.min) * 0.5) {}
 

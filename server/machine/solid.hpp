@@ -1,9 +1,13 @@
 #pragma once
 
-#include "machine/geometry.hpp"
+#include <optional>
+
+#include "machine/ball_path.hpp"
 #include "machine/machine_setup.hpp"
 
 namespace fitgauge::machine {
+
+inline constexpr double kNoClearance = 1e-11;  ///< mm: a clearance that is none
 
 /// A signed distance to a boundary and its gradient, a unit vector away from the material: the
 /// nearest point of the boundary is `at - distance * gradient`.
@@ -24,8 +28,12 @@ class Solid {
   virtual ~Solid() = default;
 
   virtual Field field(const Vec3& at) const = 0;
-  /// Whether the distance is a convex function of the place, as it is of a convex body.
-  virtual bool is_convex() const { return true; }
+  /// Whether `contact` cannot tell, so that the path has to be traced step by step.
+  virtual bool is_traced() const { return false; }
+  /// The way after which the ball touches, 0 where it does at the start. As it stands for convex
+  /// bodies, whose distance is convex along a line: Newton's steps never pass the contact, one to a
+  /// face, a few to a rounding.
+  virtual std::optional<double> contact(const BallPath& ball) const;
   /// The lowest z of the material, -infinity where it has no lower end.
   virtual double bottom() const = 0;
 };

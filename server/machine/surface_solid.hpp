@@ -14,7 +14,7 @@ class SurfaceSolid final : public Solid {
   /// @pre not all points are on one line in X and Y.
   explicit SurfaceSolid(const Surface& surface);
   Field field(const Vec3& at) const override;
-  bool is_convex() const override { return false; }
+  bool is_traced() const override { return true; }
   double bottom() const override;
 
  private:

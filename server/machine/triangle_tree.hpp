@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "machine/ball_path.hpp"
 #include "machine/geometry.hpp"
 
 namespace fitgauge::machine {
@@ -13,6 +14,10 @@ using Triangle = std::array<Vec3, 3>;
 
 /// The point of a triangle that is nearest to `at`.
 Vec3 nearest_point(const Triangle& triangle, const Vec3& at);
+
+/// The way after which the ball touches the triangle, in closed form: its face from either side, an
+/// edge or a corner. Nothing when it passes by or overlaps the triangle at the start.
+std::optional<double> contact(const Triangle& triangle, const BallPath& ball);
 
 /// Triangles in a tree of boxes. Immutable: thread-safe.
 class TriangleTree {
@@ -26,9 +31,19 @@ class TriangleTree {
   };
   /// The point of all triangles that is nearest to `at`, and the triangle it is of.
   Nearest nearest(const Vec3& at) const;
+  /// The least way after which the ball touches a triangle, of those it does not overlap at the
+  /// start.
+  std::optional<double> contact(const BallPath& ball) const;
+  /// The sum of the unit normals of the triangles that have `point`, each by the angle it takes
+  /// there. With `point` the nearest of a closed mesh, its side is the side of the mesh (Baerentzen
+  /// and Aanaes, Signed distance computation using the angle weighted pseudonormal, 2005).
+  Vec3 normal_at(const Vec3& point) const;
   /// The z of a triangle above or below (x, y), or nothing outside of all.
   std::optional<double> height(double x, double y) const;
+
   double highest() const { return nodes_.front().box.max.z; }
+  double lowest() const { return nodes_.front().box.min.z; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
   struct Box {
@@ -44,6 +59,7 @@ class TriangleTree {
 
   void build(std::uint32_t begin, std::uint32_t end);
   static double squared_distance(const Box& box, const Vec3& at);
+  static std::optional<double> way_to(const Box& box, const BallPath& ball);
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;

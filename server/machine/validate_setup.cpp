@@ -224,6 +224,11 @@ struct CheckFeature {
     findings.positive(at + "/diameter_mm", sphere.diameter);
   }
 
+  void operator()(const Mesh& mesh) const {
+    findings.point(at + "/origin_mm", mesh.origin);
+    findings.point(at + "/spatial_angles_deg", mesh.spatial_angles_deg, 360);
+  }
+
   void operator()(const Surface& surface) const {
     std::set<std::pair<long long, long long>> places;
     for (std::size_t k = 0; k < surface.points.size(); ++k) {

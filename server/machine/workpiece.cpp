@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "machine/bore_void.hpp"
+#include "machine/mesh_solid.hpp"
 #include "machine/solid.hpp"
 #include "machine/sphere_tracing.hpp"
 #include "machine/surface_solid.hpp"
@@ -12,8 +13,7 @@ namespace fitgauge::machine {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kOnBoundary = 1e-9;    ///< mm: what counts as lying on a face
-constexpr double kNoClearance = 1e-11;  ///< mm: a clearance that is none
+constexpr double kOnBoundary = 1e-9;  ///< mm: what counts as lying on a face
 
 /// The point nearest to `at` on the edge where two boundaries meet, searched from `from`: projects
 /// `at` onto the line in which the tangent planes meet, until that moves no more.
@@ -42,35 +42,6 @@ std::optional<Vec3> nearest_on_edge(const Vec3& at, Vec3 from, const First& firs
     return next;
   }
   return std::nullopt;
-}
-
-/// The way of a ball's centre.
-struct Ray {
-  Vec3 start;
-  Vec3 direction;  ///< of length 1
-
-  Vec3 at(double way) const { return start + direction * way; }
-};
-
-/// The way, at least `from`, after which a ball touches a convex solid; nothing when it passes by.
-/// The distance to such a solid is convex along a line, so Newton's steps never pass the contact:
-/// one step to a face, a few to a rounding.
-std::optional<double> convex_contact(const Solid& solid, const Ray& ray, double radius, double from,
-                                     double longest) {
-  constexpr double kSettled = 1e-13;
-  constexpr int kSteps = 200;  // a tangent comes nearer by halves
-  double way = from;
-  for (int step = 0; step < kSteps; ++step) {
-    const Field field = solid.field(ray.at(way));
-    const double gap = field.distance - radius;
-    if (gap <= (step == 0 ? kNoClearance : kSettled)) return way;
-    const double slope = dot(field.gradient, ray.direction);
-    const double next = slope < 0 ? way - gap / slope : kInfinity;
-    if (next > longest) return std::nullopt;
-    if (next == way) return way;
-    way = next;
-  }
-  return way;
 }
 
 }  // namespace
@@ -109,8 +80,7 @@ struct Workpiece::Part {
 
   double distance(const Vec3& at, double radius, const Field& to_solid) const;
   double exact_distance(const Vec3& at, const Field& to_solid) const;
-  std::optional<double> contact(const Ray& ray, double radius, double longest,
-                                Allowance& allowance) const;
+  std::optional<double> contact(const BallPath& ball, Allowance& allowance) const;
 };
 
 /// The distance to solid less voids is at least that to the solid and that to the boundary of every
@@ -171,33 +141,34 @@ double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) co
 /// Goes from one place to the next before which there is certainly no contact: to the solid as if
 /// it had no bores, then to the end of the bore that the ball is in. Where neither helps (over the
 /// edge of a bore, beside lobes, a surface) the rest is traced.
-std::optional<double> Workpiece::Part::contact(const Ray& ray, double radius, double longest,
-                                               Allowance& allowance) const {
+std::optional<double> Workpiece::Part::contact(const BallPath& ball, Allowance& allowance) const {
   double way = 0;
   constexpr int kLegs = 16;
   for (int leg = 0; leg < kLegs; ++leg) {
-    if (solid->is_convex()) {
-      const auto reached = convex_contact(*solid, ray, radius, way, longest);
-      if (!reached || cuts.empty()) return reached;
-      way = *reached;
+    if (!solid->is_traced()) {
+      const auto reached = solid->contact(ball.from(way));
+      if (!reached) return std::nullopt;
+      way += *reached;
+      if (cuts.empty()) return way;
     }
-    const Vec3 at = ray.at(way);
-    if (distance(at, radius, solid->field(at)) - radius <= kNoClearance) return way;
+    const Vec3 at = ball.at(way);
+    if (distance(at, ball.radius, solid->field(at)) - ball.radius <= kNoClearance) return way;
     double free = 0;
     for (const Cut& cut : cuts) {
-      free = std::max(free, cut.bore->way_inside(at, ray.direction, radius, !cut.is_through));
+      free = std::max(free, cut.bore->way_inside(at, ball.direction, ball.radius, !cut.is_through));
     }
     if (free <= kNoClearance) break;
     way += free;
-    if (way > longest) return std::nullopt;
+    if (way > ball.longest) return std::nullopt;
   }
-  const auto rest = first_zero(
+  const BallPath rest = ball.from(way);
+  const auto traced = first_zero(
       [&](double ahead) {
-        const Vec3 at = ray.at(way + ahead);
-        return distance(at, radius, solid->field(at)) - radius;
+        const Vec3 at = rest.at(ahead);
+        return distance(at, ball.radius, solid->field(at)) - ball.radius;
       },
-      longest - way, least_step(radius), allowance);
-  return rest ? std::optional(way + *rest) : std::nullopt;
+      rest.longest, least_step(ball.radius), allowance);
+  return traced ? std::optional(way + *traced) : std::nullopt;
 }
 
 namespace {
@@ -209,6 +180,7 @@ std::unique_ptr<const Solid> solid_of(const Sphere& f) { return std::make_unique
 std::unique_ptr<const Solid> solid_of(const Surface& f) {
   return std::make_unique<SurfaceSolid>(f);
 }
+std::unique_ptr<const Solid> solid_of(const Mesh& f) { return std::make_unique<MeshSolid>(f); }
 
 }  // namespace
 
@@ -246,13 +218,16 @@ double Workpiece::clearance(const Vec3& centre, double radius) const {
 
 std::optional<double> Workpiece::contact(const Vec3& start, const Vec3& direction, double radius,
                                          double longest, Allowance& allowance) const {
-  const Ray ray{start, direction};
+  BallPath ball{start, direction, radius, longest};
   std::optional<double> first;
   unsigned visited = 0;
   for (const Part& part : parts_) {
     constexpr unsigned kBetweenLooks = 64;
     if (++visited % kBetweenLooks == 0 && allowance.is_spent()) return std::nullopt;
-    if (const auto way = part.contact(ray, radius, first.value_or(longest), allowance)) first = way;
+    if (const auto way = part.contact(ball, allowance)) {
+      first = way;
+      ball.longest = *way;
+    }
   }
   return first;
 }

@@ -101,6 +101,11 @@ Result<app::RunOrder> read_order(const SharedPosting& posting) {
       [&posting](const std::string& name) { return posting->services.setups.wait_for(name); },
       **tables);
   if (!order) return order;
+  if (auto loaded =
+          posting->services.runs.load_meshes(order->setup, "/setup", app::MissingFiles::Refused);
+      !loaded) {
+    return loaded.error();
+  }
   if (const auto caller = caller_name(posting->request)) order->caller = std::string(*caller);
   return order;
 }

@@ -39,6 +39,8 @@ class SetupFields {
   virtual void seed(SetupMember member, std::uint64_t& value) = 0;
   virtual void boolean(SetupMember member, bool& value) = 0;
   virtual void text(SetupMember member, std::string& value) = 0;
+  /// A file of the control's disk, in either form. @param path TNC:\...
+  virtual void required_file(SetupMember member, std::string& path) = 0;
   /// One of `words`. @param index of the default; then of the word that was given
   virtual void word(SetupMember member, std::span<const std::string_view> words,
                     std::size_t& index) = 0;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "api/files/file_path.hpp"
+
 namespace fitgauge::api {
 namespace {
 
@@ -83,6 +85,14 @@ void SetupReader::boolean(SetupMember member, bool& value) {
 
 void SetupReader::text(SetupMember member, std::string& value) {
   if (auto given = fields_.optional_text(member.name)) value = *std::move(given);
+}
+
+void SetupReader::required_file(SetupMember member, std::string& path) {
+  const auto given = fields_.text(member.name);
+  if (!given) return;
+  const auto parsed = parse_file_path(*given);
+  if (!parsed) return fields_.report(parsed.error().code, member.name, parsed.error().message);
+  path = parsed->text();
 }
 
 void SetupReader::word(SetupMember member, std::span<const std::string_view> words,

@@ -69,6 +69,10 @@ void SetupSchema::text(SetupMember member, std::string& value) {
   add(member, with_default(schema::text(), fmt::format("\"{}\"", value)));
 }
 
+void SetupSchema::required_file(SetupMember member, std::string&) {
+  add(member, schema::text(), true);
+}
+
 void SetupSchema::word(SetupMember member, std::span<const std::string_view> words,
                        std::size_t& index) {
   add(member, with_default(word_of(words), fmt::format("\"{}\"", words[index])));

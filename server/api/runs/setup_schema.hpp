@@ -28,6 +28,7 @@ class SetupSchema final : public SetupFields {
   void seed(SetupMember member, std::uint64_t& value) override;
   void boolean(SetupMember member, bool& value) override;
   void text(SetupMember member, std::string& value) override;
+  void required_file(SetupMember member, std::string& path) override;
   void word(SetupMember member, std::span<const std::string_view> words,
             std::size_t& index) override;
   void words(SetupMember member, std::span<const std::string_view> words,

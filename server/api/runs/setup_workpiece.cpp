@@ -58,16 +58,34 @@ machine::Feature read_surface(SetupFields& fields) {
   return surface;
 }
 
-constexpr std::array<SetupFields::Kind, 6> kKinds{{
+machine::Feature read_mesh(SetupFields& fields) {
+  machine::Mesh mesh;
+  fields.required_file({"file", "STL of the control's disk, text or binary: `parts/flange.stl`"},
+                       mesh.file);
+  constexpr std::array<std::string_view, 2> kUnits{"mm", "inch"};
+  constexpr double kInch = 25.4;
+  std::size_t unit = 0;
+  fields.word({"unit", "Of the file's figures"}, kUnits, unit);
+  mesh.unit = unit == 1 ? kInch : 1;
+  fields.mm({"origin_mm", "Where the file's zero lies"}, mesh.origin);
+  fields.numbers({"spatial_angles_deg",
+                  "How the file's axes are turned around its zero, as "
+                  "PLANE SPATIAL turns"},
+                 mesh.spatial_angles_deg);
+  return mesh;
+}
+
+constexpr std::array<SetupFields::Kind, 7> kKinds{{
     {"block", "Block", "Material between two corners"},
     {"bore", "Bore", "Removes material: a hole that is open upwards"},
     {"boss", "Boss", "Material: an upright cylinder"},
     {"plane", "Plane", "Material everywhere behind a plane"},
     {"sphere", "Sphere", "Material: a ball"},
     {"surface", "Surface", "Material below a measured surface"},
+    {"mesh", "Mesh", "Material inside a closed mesh of triangles"},
 }};
 constexpr std::array<machine::Feature (*)(SetupFields&), kKinds.size()> kReaders{
-    read_block, read_bore, read_boss, read_plane, read_sphere, read_surface};
+    read_block, read_bore, read_boss, read_plane, read_sphere, read_surface, read_mesh};
 
 }  // namespace
 

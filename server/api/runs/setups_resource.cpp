@@ -54,10 +54,12 @@ void put_setup(const Services& services, const http::Request& request, http::Res
         const auto tables = services.runs.control_tables();
         if (!tables) return shared->fail(tables.error());
         FieldErrors errors;
-        decode_setup(*body, "", **tables, errors);
+        machine::Setup setup = decode_setup(*body, "", **tables, errors);
         interpreter::RunOptions options;
         decode_builder(*body, "", options, errors);
         if (auto error = errors.take()) return shared->fail(std::move(*error));
+        const auto loaded = services.runs.load_meshes(setup, "", app::MissingFiles::Allowed);
+        if (!loaded) return shared->fail(loaded.error());
         const auto caller = caller_name(request);
         services.setups.write(
             name, std::string(request.body()),

@@ -82,6 +82,7 @@ RunService::RunService(store::Database& database, const TableCatalog& tables, co
       live_tables_(tables),
       stored_(database),
       control_tables_(stored_),
+      meshes_(stored_),
       preparing_(1, kPreparing),
       // What may be queued is limited where runs are started.
       running_(options.workers, options.workers + options.queue) {}
@@ -167,6 +168,13 @@ Result<std::string> RunService::format(const interpreter::ControlPath& path) try
 Result<std::shared_ptr<const ControlTables>> RunService::control_tables() try {
   Allowance allowance(kPreparingTime, kPreparingMemory, stopping_.get_token());
   return control_tables_.read(allowance);
+} catch (const store::StorageFailure& failure) {
+  return failure.error();
+}
+
+Result<void> RunService::load_meshes(machine::Setup& setup, std::string_view pointer,
+                                     MissingFiles missing) try {
+  return meshes_.load(setup, pointer, missing);
 } catch (const store::StorageFailure& failure) {
   return failure.error();
 }

@@ -14,6 +14,7 @@
 #include "app/measurements/measurement_service.hpp"
 #include "app/runs/active_run.hpp"
 #include "app/runs/control_tables.hpp"
+#include "app/runs/mesh_files.hpp"
 #include "app/runs/run_report.hpp"
 #include "app/runs/worker_pool.hpp"
 #include "app/tables/live_tables.hpp"
@@ -84,6 +85,10 @@ class RunService {
   /// @errors TableFileMalformed, StorageUnavailable.
   Result<std::shared_ptr<const ControlTables>> control_tables();
 
+  /// Reads the files that features of the setup name. @param pointer of the setup in its request
+  /// @errors RequestInvalid with a detail for each file that cannot be used, StorageUnavailable.
+  Result<void> load_meshes(machine::Setup& setup, std::string_view pointer, MissingFiles missing);
+
   /// The answer that was kept for a request, if any. @errors IdempotencyKeyReused,
   /// StorageUnavailable.
   Result<std::optional<Answer>> kept_answer(const IdempotencyScope& scope);
@@ -144,6 +149,7 @@ class RunService {
   LiveTables live_tables_;
   StoredDisk stored_;
   ControlTablesCache control_tables_;  ///< of the preparing thread
+  MeshFiles meshes_;                   ///< of the preparing thread
   interpreter::ProgramCache programs_;
   RunFormat format_;
   std::stop_source stopping_;

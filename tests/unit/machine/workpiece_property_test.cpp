@@ -7,11 +7,14 @@
 
 #include "machine/random.hpp"
 #include "machine/workpiece.hpp"
+#include "unit/machine/meshes.hpp"
 #include "unit/machine/vec_check.hpp"
 
 using namespace fitgauge::machine;
 
 namespace {
+
+constexpr Vec3 kRing{60, 40, 12};
 
 /// Whether a point is material by the words of the setup alone: no distance is computed.
 struct Inside {
@@ -30,6 +33,14 @@ struct Inside {
   /// The surfaces of this test are the plane z = x / 50 + y / 40 on a square of 80 mm.
   bool operator()(const Surface&) const {
     return p.x > 10 && p.x < 90 && p.y > 10 && p.y < 90 && p.z < p.x / 50 + p.y / 40;
+  }
+  /// The meshes of this test are a ring around the Z axis, of sixteen corners, lying at kRing.
+  bool operator()(const Mesh&) const {
+    const Vec3 from = p - kRing;
+    const double half = kPi / 16;
+    const double angle = std::remainder(std::atan2(from.y, from.x) - half, 2 * half);
+    const double across = std::hypot(from.x, from.y) * std::cos(angle) / std::cos(half);
+    return from.z < 0 && from.z > -25 && across > 8 && across < 20;
   }
   /// The void of a bore.
   bool operator()(const Bore& f) const {
@@ -93,6 +104,11 @@ class Generator {
     }
     if (coin()) features.emplace_back(Boss{{between(10, 90), between(10, 90)}, 15, 20, 25});
     if (coin()) features.emplace_back(Sphere{{between(10, 90), between(10, 90), 5}, 30});
+    if (coin()) {
+      const auto body = std::make_shared<const TriangleTree>(ring(8, 20, 25, 16));
+      features.emplace_back(
+          Mesh{.file = {}, .origin = kRing, .spatial_angles_deg = {}, .body = body});
+    }
     for (int k = 0; k < 3; ++k) features.emplace_back(bore());
     if (coin()) features.emplace_back(Boss{{between(20, 80), between(20, 80)}, 5, 60, 8});
     if (coin()) features.emplace_back(Plane{{0, 0, -45}, {0.05, 0, 1}});

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdlib>
+
+namespace fitgauge {
+
+/// How many random cases a test draws: `deep` where FITGAUGE_DEEP is set (scripts/test --deep).
+inline int rounds(int usual, int deep) {
+  return std::getenv("FITGAUGE_DEEP") == nullptr ? usual : deep;
+}
+
+}  // namespace fitgauge
