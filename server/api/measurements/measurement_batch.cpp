@@ -29,7 +29,9 @@ void read_row(const JsonValue& object, MeasurementRowReader& reader, Measurement
     return;
   }
   for (const auto& [name, value] : object.members) {
-    if (!reader.field(name, raw_value(value))) reader.report_unknown(name);
+    RawValue raw = raw_value(value);
+    if (value.is(JsonValue::Kind::String)) raw.text = batch.keep(raw.text);
+    if (!reader.field(name, raw)) reader.report_unknown(name);
   }
   if (const app::Measurement* row = reader.end()) batch.rows.push_back(*row);
 }
@@ -42,35 +44,33 @@ Result<void> finish(FieldErrors& errors) {
 /// Any JSON, with every error in its place: what the fast reader does not take ends here.
 Result<void> decode_json(std::string_view body, const BatchContext& context,
                          MeasurementBatch& batch) {
-  auto parsed = parse_json(body);
-  if (!parsed) return parsed.error();
-  const auto document = std::make_shared<const JsonValue>(*std::move(parsed));
   FieldErrors errors;
   MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
   batch.rows.clear();
-  batch.texts = document;
-  if (document->is(JsonValue::Kind::Array)) {
-    if (document->items.empty()) return no_rows("the array");
-    if (document->items.size() > kMostRows) return too_many_rows();
-    for (std::size_t i = 0; i < document->items.size(); ++i) {
-      reader.begin(i);
-      read_row(document->items[i], reader, batch);
-      take_full(batch, context, errors);
-    }
-  } else {
-    batch.single = true;
+  std::size_t row = 0;
+  const auto parsed = parse_json(body, [&](const JsonValue& item) {
+    if (row == kMostRows) return false;
+    reader.begin(row++);
+    read_row(item, reader, batch);
+    take_full(batch, context, errors);
+    return true;
+  });
+  if (!parsed && row == kMostRows) return too_many_rows();
+  if (!parsed) return parsed.error();
+  batch.single = !parsed->is(JsonValue::Kind::Array);
+  if (batch.single) {
     reader.begin(std::nullopt);
-    read_row(*document, reader, batch);
+    read_row(*parsed, reader, batch);
+  } else if (row == 0) {
+    return no_rows("the array");
   }
   return finish(errors);
 }
 
 Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
                            MeasurementBatch& batch) {
-  const auto documents = std::make_shared<std::vector<std::unique_ptr<const JsonValue>>>();
   FieldErrors errors;
   MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
-  batch.texts = documents;
   std::size_t row = 0;
   std::size_t line = 0;
   for (std::string_view rest = body; !rest.empty();) {
@@ -97,8 +97,7 @@ Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
       return error;
     }
     reader.begin(row++, line);
-    documents->push_back(std::make_unique<const JsonValue>(*std::move(parsed)));
-    read_row(*documents->back(), reader, batch);
+    read_row(*parsed, reader, batch);
     take_full(batch, context, errors);
   }
   if (row == 0) return no_rows("the file");

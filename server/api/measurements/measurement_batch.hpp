@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/wire/text_arena.hpp"
 #include "app/measurements/measurement.hpp"
 
 namespace fitgauge::api {
@@ -19,9 +20,19 @@ struct MeasurementBatch {
   bool single = false;                  ///< the body was one object, not a list
   std::shared_ptr<const void> texts{};  ///< keeps what had to be copied out of the body
   bool is_begun = false;                ///< BatchContext::take has rows before these
-  /// The fast reader had delivered rows before it met an escape or an error. The caller discards
-  /// them and decodes the whole body without `take`.
+  /// The fast reader had delivered rows before it met an error or an escaped key. The caller
+  /// discards them and decodes the whole body without `take`.
   bool wants_whole = false;
+
+  /// Keeps a text that the body has in another form.
+  std::string_view keep(std::string_view text) {
+    if (!decoded_texts) {
+      decoded_texts = std::make_shared<TextArena>();
+      texts = decoded_texts;
+    }
+    return decoded_texts->keep(text);
+  }
+  std::shared_ptr<TextArena> decoded_texts{};  ///< of keep()
 };
 
 /// What a batch is decoded with.

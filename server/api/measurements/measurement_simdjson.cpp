@@ -47,19 +47,23 @@ bool is_json_number(std::string_view token) {
   return at == end;
 }
 
-/// A string token without escapes as its characters; simdjson has checked UTF-8 and controls.
-bool plain_string(std::string_view token, std::string_view& text) {
-  if (token.size() < 2 || token.front() != '"' || token.back() != '"') return false;
+/// The characters of a string; simdjson has checked UTF-8 and controls, and checks escapes here.
+bool string(ondemand::value& content, std::string_view token, MeasurementBatch& batch,
+            std::string_view& text) {
+  if (token.size() < 2 || token.back() != '"') return false;
   text = token.substr(1, token.size() - 2);
-  return text.find('\\') == std::string_view::npos;
+  if (text.find('\\') == std::string_view::npos) return true;
+  if (content.get_string().get(text) != simdjson::SUCCESS) return false;
+  text = batch.keep(text);
+  return true;
 }
 
-bool scalar(std::string_view token, RawValue& value) {
-  token = without_trailing_blanks(token);
+bool scalar(ondemand::value& content, MeasurementBatch& batch, RawValue& value) {
+  const std::string_view token = without_trailing_blanks(content.raw_json_token());
   if (token.empty()) return false;
   if (token.front() == '"') {
     value.kind = RawValue::Kind::String;
-    return plain_string(token, value.text);
+    return string(content, token, batch, value.text);
   }
   if (token == "null") {
     value.kind = RawValue::Kind::Null;
@@ -87,7 +91,7 @@ bool read_fields(ondemand::object& object, MeasurementRowReader& reader, Measure
     const char* name_end = name;
     while (*name_end != '"' && *name_end != '\\') ++name_end;
     RawValue value;
-    if (*name_end != '"' || !scalar(content.raw_json_token(), value) ||
+    if (*name_end != '"' || !scalar(content, batch, value) ||
         !reader.field({name, static_cast<std::size_t>(name_end - name)}, value)) {
       return false;
     }

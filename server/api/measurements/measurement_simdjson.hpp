@@ -7,7 +7,7 @@
 
 namespace fitgauge::api {
 
-// The fast way into a batch, for plain well-formed JSON. It takes no text with an escape, no nested
+// The fast way into a batch, for plain well-formed JSON. It takes no key with an escape, no nested
 // value and no duplicate key, and is strict where simdjson's on-demand reading is not (it hands out
 // number tokens unchecked). Where it returns false, the exact reader decides what is wrong, so both
 // accept the same texts.

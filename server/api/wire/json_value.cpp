@@ -12,8 +12,8 @@ namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kDeepest = 32;
-/// 100,000 measurements with every field have fewer.
-constexpr std::size_t kMostValues = 2'500'000;
+/// As a tree they take less than 50 MB.
+constexpr std::size_t kMostValues = 500'000;
 
 std::string place(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
@@ -42,7 +42,8 @@ using WideJson = nlohmann::basic_json<std::map, std::vector, std::string, bool, 
 /// Builds a JsonValue from the library's events, which carry the digits of a number.
 class Builder final : public nlohmann::json_sax<WideJson> {
  public:
-  explicit Builder(std::string_view text) : text_(text) {}
+  Builder(std::string_view text, const JsonItemHandler& handle_item)
+      : text_(text), handle_item_(handle_item) {}
 
   bool null() override { return add({}); }
   bool boolean(bool value) override {
@@ -75,8 +76,9 @@ class Builder final : public nlohmann::json_sax<WideJson> {
       reason.remove_prefix(at + 2);
     }
     const std::string where = place(text_, position == 0 ? 0 : position - 1);
-    error_ = Error{ErrorCode::JsonMalformed,
-                   fmt::format("at {}: {}", where, first_characters(reason, kLongestReason)), where};
+    error_ =
+        Error{ErrorCode::JsonMalformed,
+              fmt::format("at {}: {}", where, first_characters(reason, kLongestReason)), where};
     return false;
   }
 
@@ -113,6 +115,9 @@ class Builder final : public nlohmann::json_sax<WideJson> {
     }
     if (open_.empty()) {
       root_ = std::move(value);
+    } else if (handle_item_ && open_.size() == 1 && open_.back().is(JsonValue::Kind::Array)) {
+      count_ = 0;
+      return handle_item_(value);
     } else if (open_.back().is(JsonValue::Kind::Array)) {
       open_.back().items.push_back(std::move(value));
     } else {
@@ -122,6 +127,7 @@ class Builder final : public nlohmann::json_sax<WideJson> {
   }
 
   std::string_view text_;
+  const JsonItemHandler& handle_item_;
   std::vector<JsonValue> open_;
   JsonValue root_;
   std::size_t count_ = 0;
@@ -148,7 +154,9 @@ std::string_view name_of(JsonValue::Kind kind) {
   return "";
 }
 
-Result<JsonValue> parse_json(std::string_view text) {
+Result<JsonValue> parse_json(std::string_view text) { return parse_json(text, {}); }
+
+Result<JsonValue> parse_json(std::string_view text, const JsonItemHandler& handle_item) {
   if (text.starts_with("\xEF\xBB\xBF")) {
     return Error{ErrorCode::TextEncoding, "JSON begins with a byte-order mark: leave it out"};
   }
@@ -160,7 +168,7 @@ Result<JsonValue> parse_json(std::string_view text) {
     const std::string where = place(text, at);
     return Error{ErrorCode::JsonMalformed, fmt::format("at {}: a NUL character", where), where};
   }
-  Builder builder(text);
+  Builder builder(text, handle_item);
   if (!WideJson::sax_parse(text, &builder)) return builder.error();
   return builder.take();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,9 +31,16 @@ std::string_view name_of(JsonValue::Kind kind);
 
 /// Reads the whole text as one JSON value (RFC 8259).
 /// @errors TextEncoding (invalid UTF-8, a byte-order mark), JsonMalformed (with line and column),
-///   JsonDuplicateKey, JsonTooDeep (more than 32 levels), BodyTooLarge (more than 2,500,000
-///   values).
+///   JsonDuplicateKey, JsonTooDeep (more than 32 levels), BodyTooLarge (more than 500,000 values).
 Result<JsonValue> parse_json(std::string_view text);
+
+/// Takes an item of a list; false: no more.
+using JsonItemHandler = std::function<bool(const JsonValue& item)>;
+
+/// The same of a text that may be a long list, whose items are handed over one by one as they are
+/// read: the result is then an empty Array. What was handed over before an error is not to be used.
+/// @errors as above, for each item; any once the handler has said false.
+Result<JsonValue> parse_json(std::string_view text, const JsonItemHandler& handle_item);
 
 /// The same of a text the service has stored itself. @param what names it in the message.
 /// @errors StorageCorrupt.

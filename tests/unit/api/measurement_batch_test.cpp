@@ -101,7 +101,7 @@ TEST_CASE("unreadable JSON is no request with bad fields") {
   CHECK(decode("[]").error().code == ErrorCode::RequestInvalid);
 }
 
-TEST_CASE("escaped texts and keys take the exact way and mean the same") {
+TEST_CASE("escaped texts and keys mean the same") {
   const auto m =
       one(R"({"designation":"25\u0020H7","measured_mm":25.013,"comment":"a\"b\\\u00b5"})");
   CHECK(m.texts.comment == "a\"b\\\xC2\xB5");
@@ -176,7 +176,8 @@ TEST_CASE("no more than a hundred bad fields are listed, all are counted") {
 
 namespace {
 
-/// `count` rows in each format; row `odd` has a text that only the exact reader of JSON takes.
+/// `count` rows in each format; row `odd` has a text with an escape and a key that only the exact
+/// reader of JSON takes.
 std::string list_of(int count, std::string_view type, int odd) {
   const bool csv = type == "text/csv";
   const bool json = type == "application/json";
@@ -186,7 +187,8 @@ std::string list_of(int count, std::string_view type, int odd) {
     if (csv) {
       body += "25 H7,25.01," + part + '\n';
     } else {
-      body += R"({"designation":"25 H7","measured_mm":25.01,"part_id":")" + part + "\"}" +
+      const std::string key = i == odd ? "p\\u0061rt_id" : "part_id";
+      body += R"({"designation":"25 H7","measured_mm":25.01,")" + key + "\":\"" + part + "\"}" +
               (json ? "," : "\n");
     }
   }
@@ -254,6 +256,32 @@ TEST_CASE("a long list is taken away in pieces while it is read, in every format
       }
     }
   }
+}
+
+TEST_CASE("escaped texts alone do not need the exact reader") {
+  std::string body = "[";
+  for (int i = 0; i < 1000; ++i) {
+    body += R"({"designation":"25 H7","measured_mm":25.01,"part_id":"\u00b5)" + std::to_string(i) +
+            "\"},";
+  }
+  body.back() = ']';
+  const Pieces pieces = in_pieces(body, "application/json");
+  CHECK_FALSE(pieces.in_vain);
+  const auto parts = pieces.parts();
+  REQUIRE(parts.size() == 1000);
+  CHECK(parts.front() ==
+        "\xC2\xB5"
+        "0");
+  CHECK(parts.back() ==
+        "\xC2\xB5"
+        "999");
+}
+
+TEST_CASE("a list of what is no measurement is refused at the 100,001st, not kept") {
+  std::string body = "[";
+  for (int i = 0; i < 600'000; ++i) body += "1,";
+  body.back() = ']';
+  CHECK(decode(body).error().message.find("at most 100000 rows") != std::string::npos);
 }
 
 TEST_CASE("a wrong row is named when rows before it were taken already, and so are all others") {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <algorithm>
+#include <memory_resource>
+#include <string_view>
+
+namespace fitgauge::api {
+
+/// Texts that outlive what they were read from: views of them stay valid as long as the arena.
+class TextArena {
+ public:
+  std::string_view keep(std::string_view text) {
+    if (text.empty()) return {};
+    auto* const copy = static_cast<char*>(memory_.allocate(text.size(), 1));
+    std::copy(text.begin(), text.end(), copy);
+    return {copy, text.size()};
+  }
+
+ private:
+  std::pmr::monotonic_buffer_resource memory_;
+};
+
+}  // namespace fitgauge::api
