@@ -140,7 +140,7 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
       // An empty cell is a field that is not given; unknown names were reported once.
       if (cell.text.empty() || !MeasurementRowReader::knows(csv->header()[i])) continue;
       reader.field(csv->header()[i], {.kind = RawValue::Kind::String,
-                                      .text = cell.text,
+                                      .text = without_formula_guard(cell.text),
                                       .decimal_comma = semicolon || cell.quoted});
     }
     if (const app::Measurement* m = reader.end()) batch.rows.push_back(*m);

@@ -162,12 +162,16 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   text(m.standard_uncertainty ? format_um(*m.standard_uncertainty) : "");
   text(m.coverage_factor ? format(*m.coverage_factor) : "");
   text(m.temperature ? format_decimal(*m.temperature, app::kTemperatureDecimals) : "");
-  for (const auto& [name, field] : kMeasurementTexts) text((m.texts.*field).value_or(""));
-  text(m.caller.value_or(""));
+  const auto chosen_text = [&out](std::string_view cell) {
+    append_csv_text(out, cell);
+    out += ',';
+  };
+  for (const auto& [name, field] : kMeasurementTexts) chosen_text((m.texts.*field).value_or(""));
+  chosen_text(m.caller.value_or(""));
   text(m.run_id ? app::run_id_text(*m.run_id) : "");
   text(m.cycle ? std::to_string(*m.cycle) : "");
   text(m.correction_of ? app::measurement_id_text(*m.correction_of) : "");
-  append_csv_cell(out, m.correction_reason.value_or(""));
+  append_csv_text(out, m.correction_reason.value_or(""));
   out += "\r\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "api/wire/csv_reader.hpp"
 #include "iso286/table_data.hpp"
 
 using namespace fitgauge;
@@ -135,6 +136,29 @@ TEST_CASE("a guard band needs its uncertainty") {
   const auto m = one(
       R"({"designation":"25 H7","measured_mm":25.02,"rule":"guard_band","uncertainty_um":0.8})");
   CHECK(m.result.verdict == gauging::Verdict::Indeterminate);
+}
+
+TEST_CASE("what a spreadsheet would run as a formula is guarded in CSV, and read back as it was") {
+  const std::pair<const char*, const char*> rows[] = {
+      {"=HYPERLINK(A1)", "'=HYPERLINK(A1)"},
+      {"+1", "'+1"},
+      {"-1", "'-1"},
+      {"@x", "'@x"},
+      {"'=1", "''=1"},
+      {"'a", "'a"},
+      {"a=1", "a=1"},
+      {"", ""},
+      {"\tx", "'\tx"},
+  };
+  for (const auto& [text, cell] : rows) {
+    std::string out;
+    append_csv_text(out, text);
+    CHECK(out == cell);
+    CHECK(without_formula_guard(out) == text);
+  }
+  const auto batch = decode("designation,measured_mm,comment\n25 H7,25.01,'=1\n", "text/csv");
+  REQUIRE(batch.has_value());
+  CHECK(batch->rows.front().texts.comment == "=1");
 }
 
 TEST_CASE("CSV of both dialects is read, empty cells are not given") {
