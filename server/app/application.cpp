@@ -76,8 +76,10 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
   app->setups_ = std::make_unique<SetupService>(*app->database_, clock);
   if (!options.attach) {
-    app->runs_ = std::make_unique<RunService>(*app->database_, *app->tables_, clock,
-                                              RunServiceOptions{.workers = options.run_workers});
+    app->runs_ =
+        std::make_unique<RunService>(*app->database_, *app->tables_, clock,
+                                     RunServiceOptions{.workers = options.run_workers,
+                                                       .keeps_newest = options.keeps_newest_run});
   }
   app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, app->committed_,
                                                 options.event_retention);

@@ -31,6 +31,7 @@ struct ApplicationOptions {
   std::size_t write_queue = 4096;
   unsigned readers = 2;
   unsigned run_workers = 2;
+  bool keeps_newest_run = false;  ///< see RunServiceOptions
   std::int64_t idempotency_days = 30;
   std::int64_t run_retention_days = 90;  ///< 0: for ever
   std::int64_t event_retention = 100'000;

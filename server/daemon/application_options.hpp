@@ -17,6 +17,7 @@ inline app::ApplicationOptions application_options(const Config& config) {
   options.idempotency_days = config.idempotency_days;
   options.run_retention_days = config.run_retention_days;
   options.event_retention = config.event_retention;
+  options.keeps_newest_run = !config.control_listen.empty();
   return options;
 }
 

@@ -48,8 +48,15 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--config", arguments.config_file, "TOML file with these settings")
       ->envname("FITGAUGE_CONFIG");
   for (const Setting& setting : settings()) {
-    auto* option = app.add_option("--" + std::string(setting.name),
-                                  arguments.settings[setting.name], std::string(setting.help));
+    auto& values = arguments.settings[setting.name];
+    if (setting.flag != nullptr) {
+      app.add_flag_callback(
+          "--" + std::string(setting.name), [&values] { values = {"true"}; },
+          std::string(setting.help));
+      continue;
+    }
+    auto* option =
+        app.add_option("--" + std::string(setting.name), values, std::string(setting.help));
     if (setting.texts == nullptr) option->expected(1);
   }
   app.add_option("--port-file", arguments.port_file, "Receives the port once the socket listens");

@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "base/text.hpp"
+#include "virtual_control/control_model.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -56,11 +57,29 @@ Result<void> assign_integer(const Setting& setting, std::string_view text, Confi
   return {};
 }
 
+Result<void> assign_flag(const Setting& setting, std::string_view text, Config& config) {
+  if (text != "true" && text != "false") {
+    return invalid(fmt::format("{} must be true or false, not '{}'", setting.name, text));
+  }
+  config.*setting.flag = text == "true";
+  return {};
+}
+
+std::vector<std::string_view> model_names() {
+  std::vector<std::string_view> names;
+  for (const auto& model : virtual_control::control_models()) names.push_back(model.name);
+  return names;
+}
+
 /// A TOML value as the text that `assign` takes; an array of strings becomes a list.
 Result<std::string> text_of(const Setting& setting, const toml::node& node) {
   if (setting.integer != nullptr) {
     if (const auto value = node.value_exact<std::int64_t>()) return std::to_string(*value);
     return invalid(fmt::format("{} must be a whole number", toml_key(setting)));
+  }
+  if (setting.flag != nullptr) {
+    if (const auto value = node.value_exact<bool>()) return *value ? "true" : "false";
+    return invalid(fmt::format("{} must be true or false", toml_key(setting)));
   }
   if (const auto value = node.value_exact<std::string>()) return *value;
   const toml::array* items = node.as_array();
@@ -154,6 +173,19 @@ const std::vector<Setting>& settings() {
        .integer = &Config::event_retention,
        .least = 100,
        .most = 10'000'000},
+      {.name = "control-listen",
+       .help = "Address of a virtual control that speaks LSV-2, as host:port; empty for none",
+       .text = &Config::control_listen},
+      {.name = "control-model",
+       .help = "Which control it is",
+       .text = &Config::control_model,
+       .words = model_names()},
+      {.name = "control-setup",
+       .help = "Named setup of the machine it shows and runs programs on; empty for the default",
+       .text = &Config::control_setup},
+      {.name = "control-write",
+       .help = "Its clients may change files and start programs; else they only read",
+       .flag = &Config::control_write},
   };
   return kSettings;
 }
@@ -181,6 +213,7 @@ std::string environment_name(const Setting& setting) {
 
 Result<void> assign(const Setting& setting, std::string_view text, Config& config) {
   if (setting.integer != nullptr) return assign_integer(setting, text, config);
+  if (setting.flag != nullptr) return assign_flag(setting, text, config);
   if (setting.texts != nullptr) {
     config.*setting.texts = split_list(text);
     return {};
@@ -257,6 +290,8 @@ std::string to_toml(const Config& config) {
     out += fmt::format("# {}{}\n{} = ", setting.help, range_text(setting), toml_key(setting));
     if (setting.integer != nullptr) {
       out += std::to_string(config.*setting.integer);
+    } else if (setting.flag != nullptr) {
+      out += config.*setting.flag ? "true" : "false";
     } else if (setting.texts != nullptr) {
       std::vector<std::string> items;
       for (const std::string& item : config.*setting.texts) items.push_back(toml_string(item));

@@ -29,6 +29,10 @@ struct Config {
   std::int64_t idempotency_days = 30;
   std::int64_t run_retention_days = 90;
   std::int64_t event_retention = 100'000;
+  std::string control_listen;
+  std::string control_model = "TNC640";
+  std::string control_setup;
+  bool control_write = false;
 };
 
 /// One setting: its place in Config, its names and its documentation.
@@ -38,6 +42,7 @@ struct Setting {
   std::vector<std::string> Config::*texts = nullptr;
   std::string Config::*text = nullptr;
   std::int64_t Config::*integer = nullptr;
+  bool Config::*flag = nullptr;  ///< on the command line without a value
   std::int64_t least = 0;
   std::int64_t most = 0;
   std::vector<std::string_view> words{};  ///< the values a text may have, if they are few

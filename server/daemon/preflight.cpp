@@ -73,6 +73,11 @@ Result<void> preflight(const Config& config, const std::string& port_file) {
   for (const http::ListenAddress& address : *addresses) {
     if (const auto free = http::check_listen(address); !free) return free.error();
   }
+  if (!config.control_listen.empty()) {
+    const auto address = http::parse_listen_address(config.control_listen);
+    if (!address) return address.error();
+    if (const auto free = http::check_listen(*address); !free) return free.error();
+  }
   if (const auto tls = tls_options(config)) {
     if (const auto usable = http::check_tls(*tls); !usable) return usable.error();
   }

@@ -19,6 +19,7 @@
 #include "base/guarded.hpp"
 #include "daemon/admin_key.hpp"
 #include "daemon/application_options.hpp"
+#include "daemon/control.hpp"
 #include "daemon/file_limit.hpp"
 #include "daemon/healthcheck.hpp"
 #include "daemon/log.hpp"
@@ -207,6 +208,8 @@ Result<void> serve(const Config& config, const std::string& port_file) {
             metrics));
   if (!started) return started.error();
   http::Server& server = **started;
+  auto control = start_control(config, app, services);
+  if (!control) return control.error();
   metrics.add([&server](api::Exposition& out) { write_server_metrics(server, out); });
   if (!config.tls_client_ca.empty()) {
     const auto written = write_port_file(health_port_file(config), server.ports().back());
@@ -229,6 +232,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   log_info("stopping", "");
   // Runs are cancelled first, so that those who wait for one get their answer.
   app.runs().stop();
+  control->reset();
   server.stop();
   // The application drains its queues first: the answers of its last jobs find no connection.
   opened->reset();

@@ -62,6 +62,24 @@ void ActiveRun::change(const Change& change) {
   for (const auto& [ticket, wake] : woken) guarded("a run's follower", wake);
 }
 
+LiveState ActiveRun::look(Look what, std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  if (!end_) {
+    const std::uint64_t seen = shows_;
+    if (what > wanted()) wanted_.store(what, std::memory_order_relaxed);
+    shown_.wait_for(lock, patience, [&] { return shows_ != seen || end_; });
+  }
+  return live_;
+}
+
+void ActiveRun::show(LiveState state) {
+  const std::lock_guard lock(mutex_);
+  wanted_.store(Look::Nothing, std::memory_order_relaxed);
+  live_ = std::move(state);
+  ++shows_;
+  shown_.notify_all();
+}
+
 void ActiveRun::started() {
   change([this] { state_ = RunState::Running; });
 }
@@ -79,6 +97,7 @@ void ActiveRun::finished(Result<FinishedRun> end) {
   change([this, &end, &at_end] {
     state_ = end ? end->state : RunState::Failed;
     end_ = std::move(end);
+    shown_.notify_all();
     at_end.swap(at_end_);
   });
   for (const auto& done : at_end) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -10,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "app/runs/live_state.hpp"
 #include "app/runs/run_report.hpp"
 #include "base/result.hpp"
 
@@ -63,7 +67,15 @@ class ActiveRun {
   /// Calls `done` once when the run is over; at once if it is.
   void on_end(std::function<void(const Result<FinishedRun>&)> done);
 
+  /// The state of the machine now, as far as the run tells it within `patience`; else the last one
+  /// it told. A run that is over has told its last. Waits.
+  LiveState look(Look what, std::chrono::milliseconds patience);
+
   // For the thread that runs or ends it.
+
+  /// What a reader waits for.
+  Look wanted() const { return wanted_.load(std::memory_order_relaxed); }
+  void show(LiveState state);
 
   void started();
   void progressed(std::uint64_t blocks);
@@ -88,6 +100,11 @@ class ActiveRun {
   Ticket next_ticket_ = 1;
   std::map<Ticket, std::function<void()>> waiting_;
   std::vector<std::function<void(const Result<FinishedRun>&)>> at_end_;
+
+  std::atomic<Look> wanted_{Look::Nothing};
+  std::condition_variable shown_;
+  std::uint64_t shows_ = 0;  ///< counts the states shown
+  LiveState live_;
 };
 
 }  // namespace fitgauge::app

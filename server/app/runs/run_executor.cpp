@@ -1,6 +1,7 @@
 #include "app/runs/run_executor.hpp"
 
 #include "machine/simulated_machine.hpp"
+#include "run/run_files.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -14,12 +15,30 @@ constexpr std::size_t kLongestTrace = 30'000;
 /// Passes on what a run prints and remembers which block is commanding the machine.
 class Follower final : public interpreter::RunObserver {
  public:
-  explicit Follower(ActiveRun& active) : active_(active) {}
+  Follower(ActiveRun& active, Allowance& allowance, bool shows_last)
+      : active_(active), allowance_(allowance), shows_last_(shows_last) {}
 
-  void entered(const interpreter::Place& place) override { place_ = place; }
+  /// @param machine outlives the run.
+  void follow(const machine::Machine& machine) { machine_ = &machine; }
+
+  void begins(const interpreter::RunFiles& files) override { files_ = &files; }
+  void entered(const interpreter::Place& place) override {
+    place_ = place;
+    answer_look();
+  }
   void moved_by_cycle(int number) override { cycle_ = number; }
-  void progressed(std::uint64_t blocks) override { active_.progressed(blocks); }
+  void progressed(std::uint64_t blocks) override {
+    active_.progressed(blocks);
+    answer_look();
+  }
+  void reported(const interpreter::RunMessage& message) override {
+    if (message.kind == MessageKind::Error) errors_.push_back(message);
+  }
   void printed(std::string_view line) override { active_.printed(line); }
+
+  void ends() override {
+    if (shows_last_) show(Look::StateAndFiles);
+  }
 
   /// The index of the present block among the places of the trace.
   std::int64_t place() {
@@ -36,7 +55,47 @@ class Follower final : public interpreter::RunObserver {
   std::vector<RunTrace::Place> take_places() { return std::move(places_); }
 
  private:
+  void answer_look() {
+    if (const Look wanted = active_.wanted(); wanted != Look::Nothing) show(wanted);
+  }
+
+  void show(Look wanted) {
+    // It outlives the run, and another thread frees it.
+    allowance_.uncounted([&] {
+      LiveState state = live();
+      if (wanted == Look::StateAndFiles && files_ != nullptr) {
+        state.files =
+            std::make_shared<const std::vector<interpreter::WrittenFile>>(files_->copies());
+      }
+      active_.show(std::move(state));
+      return 0;
+    });
+  }
+
+  LiveState live() const {
+    LiveState live{.errors = errors_};
+    if (place_.program != nullptr) {
+      live.program = place_.path();
+      live.block = place_.block();
+    }
+    const machine::MachineState& state = machine_->state();
+    const machine::Position position = state.position();
+    for (const machine::Axis axis : machine::kAllAxes) {
+      if (state.ranges[machine::index(axis)]) live.axes.emplace_back(axis, position[axis]);
+    }
+    live.tool = state.tool.number;
+    live.tool_axis = state.tool_axis();
+    live.tool_length = state.tool_length();
+    live.tool_radius = state.tool_radius();
+    return live;
+  }
+
   ActiveRun& active_;
+  Allowance& allowance_;
+  const bool shows_last_;
+  const machine::Machine* machine_ = nullptr;
+  const interpreter::RunFiles* files_ = nullptr;
+  std::vector<interpreter::RunMessage> errors_;
   interpreter::Place place_;
   int cycle_ = 0;
   interpreter::Place kept_;  ///< the last of places_
@@ -87,13 +146,14 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
                       program),
             {}};
   }
-  Follower follower(active);
   const interpreter::RunLimits& limits = order.options.limits;
   Allowance allowance(limits.time, limits.memory_bytes, active.stop_token());
   allowance.share(main->memory_bytes);
+  Follower follower(active, allowance, surroundings.shows_last);
   machine::SimulatedMachine simulated(order.setup, &allowance);
   machine::TracingMachine machine(
       simulated, {.block = [&follower] { return follower.place(); }, .longest = kLongestTrace});
+  follower.follow(machine);
   ExecutedRun executed;
   executed.result = interpreter::run(
       linked,

@@ -10,6 +10,7 @@ struct RunSurroundings {
   const interpreter::ControlDisk& disk;
   interpreter::ProgramCache& programs;
   const Clock& clock;
+  bool shows_last = false;  ///< whether the run's last state is shown, with its files
 };
 
 struct ExecutedRun {

@@ -222,7 +222,7 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
   bool is_queued = false;
   {
     const std::lock_guard lock(mutex_);
-    const auto ticket = running_.submit([this, active] { run(*active); });
+    const auto ticket = running_.submit([this, active] { run(active); });
     active_.emplace(active->id(), Entry{active, ticket.value_or(0)});
     is_queued = ticket.has_value();
   }
@@ -235,7 +235,12 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
   return active;
 }
 
-void RunService::run(ActiveRun& active) {
+void RunService::run(const std::shared_ptr<ActiveRun>& run) {
+  ActiveRun& active = *run;
+  if (options_.keeps_newest) {
+    const std::lock_guard lock(mutex_);
+    newest_ = run;
+  }
   active.started();
   // Not waited for: the writer keeps the order of its jobs.
   database_.writer().submit(
@@ -283,7 +288,7 @@ bool RunService::withdraw(std::int64_t id) {
 /// A bug or broken storage ends the run, not the service.
 interpreter::RunResult RunService::execute_guarded(ActiveRun& active, RunTrace& trace) try {
   const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
-  ExecutedRun executed = execute({disk, programs_, clock_}, active);
+  ExecutedRun executed = execute({disk, programs_, clock_, options_.keeps_newest}, active);
   trace = std::move(executed.trace);
   return std::move(executed.result);
 } catch (const std::exception& failure) {
@@ -341,6 +346,11 @@ RunService::Counts RunService::counts() const {
     if (state <= RunState::Running) ++counts[static_cast<std::size_t>(state)];
   }
   return counts;
+}
+
+std::shared_ptr<ActiveRun> RunService::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
 }
 
 std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {

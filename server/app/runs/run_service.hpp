@@ -23,8 +23,9 @@
 namespace fitgauge::app {
 
 struct RunServiceOptions {
-  unsigned workers = 2;    ///< runs at the same time
-  std::size_t queue = 64;  ///< runs that wait for a worker
+  unsigned workers = 2;       ///< runs at the same time
+  std::size_t queue = 64;     ///< runs that wait for a worker
+  bool keeps_newest = false;  ///< for a control that shows what its machine does
 };
 
 /// A run as the store has it.
@@ -106,6 +107,10 @@ class RunService {
   /// The run while it is queued or under way, else null.
   std::shared_ptr<ActiveRun> active(std::int64_t id) const;
 
+  /// The run that began last, under way or over; null before the first. It is kept only where
+  /// RunServiceOptions::keeps_newest says so.
+  std::shared_ptr<ActiveRun> newest() const;
+
   /// Runs by state, for metrics: those queued and running now, the others ended since the start.
   using Counts = std::array<std::uint64_t, kRunStates>;
   Counts counts() const;
@@ -135,7 +140,7 @@ class RunService {
                                         const interpreter::ControlDisk&, interpreter::ProgramCache&,
                                         Allowance&);
   Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path);
-  void run(ActiveRun& active);
+  void run(const std::shared_ptr<ActiveRun>& run);
   bool withdraw(std::int64_t id);
   void end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace);
   interpreter::RunResult execute_guarded(ActiveRun& active, RunTrace& trace);
@@ -160,6 +165,7 @@ class RunService {
   };
   std::map<std::int64_t, Entry> active_;  ///< queued or under way: the one count of runs
   Counts ended_{};
+  std::shared_ptr<ActiveRun> newest_;
   // The workers end before what they use.
   WorkerPool preparing_;
   WorkerPool running_;

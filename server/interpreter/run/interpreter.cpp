@@ -43,6 +43,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   Allowance own(options.limits.time, options.limits.memory_bytes, std::move(stop));
   Allowance& allowance = environment.allowance != nullptr ? *environment.allowance : own;
   Channel channel(std::move(main), environment, options, allowance);
+  environment.observer.begins(channel.files);
   channel.parameters.enter(channel.linked());
   Ending ending;
   if (auto done = preset(channel.parameters, options.parameters); !done) {
@@ -62,6 +63,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
     result.status = status_of(ending.error->kind);
     channel.log.finish(*ending.error, last);
   }
+  environment.observer.ends();
   // What is reported are the QL of the main program, also when the run ended in another.
   while (!channel.calls.is_in_main()) {
     const CallStack::Caller caller = channel.calls.return_from_program();

@@ -58,6 +58,12 @@ NcResult<void> RunFiles::append(const ControlPath& path, std::string_view bytes)
   return {};
 }
 
+std::vector<WrittenFile> RunFiles::copies() const {
+  std::vector<WrittenFile> files;
+  for (const auto& [key, file] : written_) files.push_back({file.path, *file.bytes});
+  return files;
+}
+
 std::vector<WrittenFile> RunFiles::take() {
   std::vector<WrittenFile> files;
   for (auto& [key, file] : written_) files.push_back({file.path, std::move(*file.bytes)});

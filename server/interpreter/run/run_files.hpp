@@ -34,6 +34,8 @@ class RunFiles {
   /// Adds to a file of the run, or to what is stored of it. @errors as write.
   NcResult<void> append(const ControlPath& path, std::string_view bytes);
 
+  /// Copies of all that was written until now.
+  std::vector<WrittenFile> copies() const;
   std::vector<WrittenFile> take();
 
  private:

@@ -8,6 +8,8 @@
 
 namespace fitgauge::interpreter {
 
+class RunFiles;
+
 /// A block of a running program.
 struct Place {
   const LinkedProgram* program = nullptr;
@@ -31,6 +33,9 @@ class RunObserver {
   /// Asked once at the start: whether `entered` is wanted for every block, and not only for those
   /// that may command the machine or print.
   virtual bool follows_every_block() const { return false; }
+  /// Called once before the first block: where the run's files are, which may be looked at in the
+  /// calls below.
+  virtual void begins(const RunFiles&) {}
   /// The block that is about to run: what the machine is commanded until the next call is its
   /// doing.
   virtual void entered(const Place&) {}
@@ -40,6 +45,8 @@ class RunObserver {
   virtual void progressed(std::uint64_t /*blocks*/) {}
   virtual void printed(std::string_view /*screen_line*/) {}
   virtual void reported(const RunMessage&) {}
+  /// The run is over and its files are closed; the last call, and the files are still there.
+  virtual void ends() {}
 };
 
 }  // namespace fitgauge::interpreter

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "api/services.hpp"
+#include "app/application.hpp"
+#include "daemon/config.hpp"
+#include "virtual_control/virtual_control.hpp"
+
+namespace fitgauge::daemon {
+
+/// Opens the LSV-2 port of the configuration; null where it names none. The control goes before
+/// `app` and `services`. @errors as VirtualControl::start.
+Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
+    const Config& config, app::Application& app, const api::Services& services);
+
+}  // namespace fitgauge::daemon
