@@ -123,8 +123,10 @@ constexpr CycleParameter kParameters[] = {
     choice(343, "Select diameter or depth: 0 depth, 1 diameter", 0, 1),
     coordinate(344, "Diameter of the countersink"),
     choice(351, "Climb: +1 climb, -1 up-cut, 0 as the spindle turns", -1, 1, 1),
-    count(355, "Threads per step: 0 one helix, 1 a full helix, more several", 0),
-    coordinate(356, "Countersinking depth"),
+    count(355,
+          "Threads per step: 0 one turn at the depth, 1 a helix of the whole depth, more several",
+          0),
+    coordinate(356, "Countersinking depth, in 264 depth of the hole"),
     length(357, "Clearance to the side"),
     coordinate(358, "Countersinking depth at the front"),
     length(359, "Offset of the countersinking at the front"),
@@ -140,7 +142,7 @@ constexpr CycleParameter kParameters[] = {
     angle(376, "Starting angle"),
     count(377, "Number of operations", 1),
     angle(378, "Stepping angle"),
-    coordinate(379, "Deepened starting point"),
+    length(379, "Deepened starting point, below the surface"),
     feed(385, "Feed rate for finishing", 500),
     choice(395, "Depth reference: 0 tip, 1 shoulder", 0, 1),
     choice(301, "Move to clearance height: 0 no, 1 yes", 0, 1),
@@ -232,8 +234,9 @@ constexpr std::string_view kNoClearing =
     "Clearing the inside and the way of plunging (Q366, Q370): the tool plunges vertically beside "
     "the contour.";
 constexpr std::string_view kThreadText =
-    "Helix at the pitch, entered and left through the centre; the countersinking of 263 to 267 as "
-    "a move to its depth.";
+    "Helix at the pitch, entered and left through the centre: one turn at the depth in 263 and "
+    "264, the whole depth downwards in 265, by Q355 in 262 and 267; the countersinking of 263 to "
+    "267 as a move to its depth.";
 constexpr std::string_view kContourText =
     "The tool goes to the first point of each contour label of cycle 14, in infeeds to the depth.";
 constexpr std::string_view kNoContour = "Milling the contour itself.";

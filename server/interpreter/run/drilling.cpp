@@ -38,12 +38,12 @@ class Drilling {
         heights_(cycle.heights),
         number_(cycle.definition.cycle->descriptor.number),
         down_(heights_.bottom < heights_.surface ? -1 : 1),
-        begin_(heights_.surface + cycle.value(379)) {}
+        begin_(heights_.surface + down_ * cycle.value(379)) {}
 
   NcResult<void> run() {
     if (auto done = cycle_.start(); !done) return done;
     if (cycle_.value(379) != 0) {
-      const double above = begin_ - down_ * first_stop();
+      const double above = begin_ - down_ * cycle_.value(200);
       if (auto done = motion_.to_height(above, cycle_.feed(253)); !done) return done;
     }
     if (auto done = cut(); !done) return done;
@@ -54,14 +54,16 @@ class Drilling {
 
  private:
   bool is_pecking() const {
-    return number_ == 1 || number_ == 200 || number_ == 203 || number_ == 205 || number_ == 241;
+    return number_ == 1 || number_ == 200 || number_ == 203 || number_ == 241 || is_universal();
   }
+  /// Stops above what is drilled by Q258 and breaks the chip each Q257.
+  bool is_universal() const { return number_ == 205 || number_ == 264; }
   /// Where feed begins again above the depth that is reached: the clearance, in 205 its advanced
   /// stop distance.
-  double first_stop() const { return number_ == 205 ? cycle_.value(258) : cycle_.value(200); }
   double stop_above(double reached) const {
     if (number_ == 1) return 0.6;  // the old cycle's own
-    if (number_ != 205) return cycle_.value(200);
+    if (!is_universal()) return cycle_.value(200);
+    if (number_ == 264) return cycle_.value(258);
     const double part = (reached - begin_) / (heights_.bottom - begin_);
     return cycle_.value(258) + (cycle_.value(259) - cycle_.value(258)) * part;
   }
@@ -89,9 +91,8 @@ class Drilling {
     return {};
   }
 
-  /// 205 breaks the chip each Q257.
   NcResult<void> plunge(double from, double to) {
-    const double chip = number_ == 205 ? cycle_.value(257) : 0;
+    const double chip = is_universal() ? cycle_.value(257) : 0;
     for (double at = from; chip > 0 && std::abs(to - at) > chip;) {
       const double next = at + down_ * chip;
       if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");

@@ -367,8 +367,7 @@ NcResult<void> note_what_has_no_effect(Channel& channel, const Motion& motion,
     if (!noted) return noted;
   }
   const machine::Tool* tool = channel.machine().state().active_tool();
-  const double oversize =
-      channel.machine().state().tool.dr + (tool == nullptr ? 0 : tool->dr);
+  const double oversize = channel.machine().state().tool.dr + (tool == nullptr ? 0 : tool->dr);
   if (oversize == 0 || !names(klartext::Letter::Nx, klartext::Letter::Nz)) return {};
   return channel.note("LN: DR does not move the path along the normal NX NY NZ");
 }

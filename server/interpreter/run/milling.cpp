@@ -101,14 +101,16 @@ NcError does_not_fit(int number, double radius) {
   return nc_error(number, "the tool has a radius of " + std::to_string(radius) + " mm");
 }
 
-/// From the centre onto a circle and back, on half circles of half its radius.
-NcResult<void> onto_circle(Machining& cycle, Vec2 centre, Vec2 point, double height,
+/// From the centre onto a circle and back, on half circles of half its radius. @param turn has the
+/// sign of the way around, so that both are tangents.
+NcResult<void> onto_circle(Machining& cycle, Vec2 centre, Vec2 point, double turn, double height,
                            const Feed& feed) {
-  return cycle.motion.arc((centre + point) * 0.5, point, turn_inside(cycle) * 180, height, feed);
+  return cycle.motion.arc((centre + point) * 0.5, point, std::copysign(180, turn), height, feed);
 }
-NcResult<void> off_circle(Machining& cycle, Vec2 centre, double height, const Feed& feed) {
+NcResult<void> off_circle(Machining& cycle, Vec2 centre, double turn, double height,
+                          const Feed& feed) {
   const Vec2 middle = (centre + cycle.motion.point()) * 0.5;
-  return cycle.motion.arc(middle, centre, turn_inside(cycle) * 180, height, feed);
+  return cycle.motion.arc(middle, centre, std::copysign(180, turn), height, feed);
 }
 
 /// One helical path of a thread from `from` to `to`.
@@ -127,18 +129,29 @@ NcResult<void> thread_path(Machining& cycle, Vec2 centre, double radius, double 
   }
   if (auto done = motion.to_height(from, cycle.feed(253)); !done) return done;
   auto entered = outside ? motion.to_point(start, cycle.feed(207))
-                         : onto_circle(cycle, centre, start, from, cycle.feed(207));
+                         : onto_circle(cycle, centre, start, sweep, from, cycle.feed(207));
   if (!entered) return entered;
   if (auto done = motion.arc(centre, end, sweep, to, cycle.feed(207)); !done) return done;
-  if (!outside) return off_circle(cycle, centre, to, cycle.feed(207));
+  if (!outside) return off_circle(cycle, centre, sweep, to, cycle.feed(207));
   const Vec2 beside = centre + (end - centre) * ((radius + cycle.value(200)) / radius);
   return motion.to_point(beside, cycle.feed(207));
 }
 
-/// 263 to 267: the countersinking at the front (Q358) and of the bore (Q356).
+/// 264: the hole of the thread, in the infeeds of drilling. Without a depth there is none.
+NcResult<void> drill_core(Machining& cycle) {
+  MachiningDefinition core = cycle.definition;
+  core.values[201] = cycle.value(356);
+  if (core.value(201) == 0) return {};
+  Machining drilling(cycle.channel, core);
+  return drill(drilling);
+}
+
+/// 263 to 267: the countersinking of the bore (Q356; of 264 that is the hole) and at the front
+/// (Q358).
 NcResult<void> countersink(Machining& cycle) {
+  const bool is_core = cycle.definition.cycle->descriptor.number == 264;
   for (const int parameter : {356, 358}) {
-    if (cycle.value(parameter) == 0) continue;
+    if (cycle.value(parameter) == 0 || (parameter == 356 && is_core)) continue;
     const double height = cycle.heights.surface + cycle.value(parameter);
     const int feed = cycle.value(254) > 0 ? 254 : 207;
     if (auto done = cycle.motion.to_height(height, cycle.feed(feed)); !done) return done;
@@ -167,10 +180,10 @@ NcResult<void> mill_bore(Machining& cycle) {
     const double turns = (heights.clearance - heights.bottom) / cycle.value(334);
     const double sweep = turn_inside(cycle) * 360 * turns;
     const Vec2 end = centre + turned(start - centre, sweep);
-    auto done = onto_circle(cycle, centre, start, heights.clearance, feed);
+    auto done = onto_circle(cycle, centre, start, sweep, heights.clearance, feed);
     if (done) done = motion.arc(centre, end, sweep, heights.bottom, feed);
     if (done) done = motion.arc(centre, end, turn_inside(cycle) * 360, heights.bottom, feed);
-    if (done) done = off_circle(cycle, centre, heights.bottom, feed);
+    if (done) done = off_circle(cycle, centre, sweep, heights.bottom, feed);
     if (!done) return done;
   }
   if (auto done = motion.to_height(heights.clearance, Feed::rapid()); !done) return done;
@@ -199,9 +212,8 @@ NcResult<void> mill_circle(Machining& cycle) {
                                          Vec2{0, -1}};
   const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
   const Vec2 centre = cycle.motion.point() + kCentres[place] * half;
-  return at_each_depth(cycle, centre, [&](double depth) {
-    return full_circle(cycle, centre, radius, depth);
-  });
+  return at_each_depth(cycle, centre,
+                       [&](double depth) { return full_circle(cycle, centre, radius, depth); });
 }
 
 NcResult<void> mill_slot(Machining& cycle) {
@@ -271,22 +283,23 @@ NcResult<void> mill_thread(Machining& cycle) {
   const double pitch = std::abs(cycle.value(239));
   if (pitch == 0) return nc_error(1011, "the pitch Q239 is 0");
   const double nominal = cycle.value(335) / 2;
-  const double radius = number == 267 ? nominal + motion.tool_radius()
-                                      : nominal - motion.tool_radius();
+  const double radius =
+      number == 267 ? nominal + motion.tool_radius() : nominal - motion.tool_radius();
   if (radius <= 0) return does_not_fit(1003, motion.tool_radius());
   if (number == 264) {
-    if (auto done = drill(cycle); !done) return done;
-  } else if (auto done = cycle.start(); !done) {
-    return done;
+    if (auto done = drill_core(cycle); !done) return done;
   }
+  if (auto done = cycle.start(); !done) return done;
   if (auto done = countersink(cycle); !done) return done;
   const Vec2 centre = motion.point();
   // Climb milling of an inner right-hand thread goes up, out of the hole.
-  const bool up = (cycle.value(351) < 0) == (cycle.value(239) < 0);
-  const double per_step = cycle.value(355);
-  // Q355 = 0: one helix over the depth; 1: one turn, the tool cuts the whole thread; more: in steps.
+  // 265 drills the thread on its way down.
+  const bool up = number != 265 && (cycle.value(351) < 0) == (cycle.value(239) < 0);
+  // 265 has no Q355 and mills the whole depth; 263 and 264 take one turn at it, for a tool whose
+  // teeth cut all threads.
+  const double per_step = number == 265 ? 1 : cycle.value(355);
   const double depth = heights.surface - heights.bottom;
-  const double stretch = per_step == 0 ? depth : pitch;
+  const double stretch = per_step == 1 ? depth : pitch;
   const double step = per_step > 1 ? per_step * pitch : depth;
   for (double bottom = heights.bottom; bottom < heights.surface - kSamePoint; bottom += step) {
     const double top = bottom + stretch;

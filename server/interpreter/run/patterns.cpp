@@ -61,8 +61,7 @@ NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern)
   MachiningDefinition cycle = *before;
   for (const int shared : {200, 203, 204}) cycle.values[shared] = pattern.value(shared);
   const double height = pattern.value(203) + std::max(pattern.value(200), pattern.value(204));
-  const double between =
-      pattern.value(301) == 1 ? height : pattern.value(203) + pattern.value(200);
+  const double between = pattern.value(301) == 1 ? height : pattern.value(203) + pattern.value(200);
   const auto points = is_circle ? circle_points(pattern) : grid_points(pattern);
   const Vec2 centre{pattern.value(216), pattern.value(217)};
   ToolMotion motion(channel);

@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <map>
 
 #include "kinematics_bench.hpp"
 #include "probing/kinematics/positions.hpp"
+#include "support/deep.hpp"
 
 /// Cycle 451 on machines of which every axis scatters. What is to be expected follows from the
 /// measuring circles alone, in variances of one coordinate:
@@ -88,11 +88,8 @@ class Ratio {
   int count_ = 0;
 };
 
-/// FITGAUGE_SEEDS=1000 measures as many machines, with bounds as much closer.
-int seeds() {
-  const char* given = std::getenv("FITGAUGE_SEEDS");
-  return given == nullptr ? 12 : std::stoi(given);
-}
+/// The more machines, the closer the bounds.
+int seeds() { return rounds(12, 1'000); }
 
 /// What somebody says of the machines that are measured.
 struct Claim {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 #include "machine/random.hpp"
+#include "support/deep.hpp"
 
 /// Random machines of nine kinds, whose spheres are touched by geometry that is written down here
 /// once more. One fit of all axes finds every error; the old order of axes does not.
@@ -63,11 +63,7 @@ struct RealMachine {
   }
 };
 
-/// FITGAUGE_SEEDS=1000 draws as many machines.
-std::uint64_t seeds() {
-  const char* given = std::getenv("FITGAUGE_SEEDS");
-  return given == nullptr ? 27 : std::stoull(given);
-}
+std::uint64_t seeds() { return static_cast<std::uint64_t>(rounds(27, 1'000)); }
 
 /// A machine, what the control takes it for, and how it is measured.
 class Case {

@@ -1,8 +1,8 @@
 #include <array>
-#include <cstdlib>
 
 #include "machine/random.hpp"
 #include "probing_bench.hpp"
+#include "support/deep.hpp"
 
 /// Datums set in random planes on random machines: the point then reads its target there. Where it
 /// lies follows from rotations that are written down here once more.
@@ -36,11 +36,7 @@ Vec3 turned_back(const Vec3& angles, Vec3 v) {
   return v;
 }
 
-/// FITGAUGE_SEEDS=1000 tries as many planes.
-std::uint64_t seeds() {
-  const char* given = std::getenv("FITGAUGE_SEEDS");
-  return given == nullptr ? 250 : std::stoull(given);
-}
+std::uint64_t seeds() { return static_cast<std::uint64_t>(rounds(250, 1'000)); }
 
 /// A preset with a basic rotation in space, a plane in it, shifts before and behind it, and a
 /// machine that can stand square to the plane.

@@ -1,52 +1,11 @@
 #include <algorithm>
 
-#include "run_fixture.hpp"
+#include "workshop.hpp"
 
 /// Machining cycles as motion: positions, depths and feeds worked out by hand from the steps the
 /// control's manuals give.
 namespace fitgauge::interpreter {
 namespace {
-
-using Lines = std::vector<std::string>;
-
-/// A control with a cutter 5 of radius 4 over X+10 Y+10 Z+50, where each body begins.
-class Workshop : public Control {
- public:
-  Workshop() {
-    machine::ToolSetup cutter;
-    cutter.row = {.number = 5, .name = "MILL", .l = 100, .r = 4};
-    cutter.row.teeth = 2;
-    setup.machine.tools.push_back(cutter);
-  }
-
-  /// What the machine does after that, without trailing zeros and without the words that stay.
-  Lines path(const std::string& body) {
-    program("TOOL CALL 5 Z S1000 F500\nL X+10 Y+10 Z+50 R0 FMAX\n" + body);
-    last = run();
-    Lines moves;
-    for (std::string line : tracing->lines()) {
-      if (!line.starts_with("L ") && !line.starts_with("ARC ") && !line.starts_with("DWELL")) {
-        continue;
-      }
-      for (auto at = line.find(".0000"); at != std::string::npos; at = line.find(".0000")) {
-        line.erase(at, 5);
-      }
-      moves.push_back(std::move(line));
-    }
-    if (!moves.empty()) moves.erase(moves.begin());
-    return moves;
-  }
-  /// The heights and feeds of a hole in X+10 Y+10.
-  Lines hole(const std::string& body) {
-    Lines moves = path(body + "\nCYCL CALL");
-    for (std::string& line : moves) {
-      if (const auto at = line.find("X+10 Y+10 "); at != std::string::npos) line.erase(at, 10);
-    }
-    return moves;
-  }
-
-  RunResult last;
-};
 
 TEST_CASE("200 goes back to the clearance and down to it above what is drilled") {
   Workshop mill;
@@ -179,7 +138,7 @@ TEST_CASE("pockets and slots follow their finished contour at each depth") {
 
 TEST_CASE("262 mills the thread as a helix at its pitch") {
   Workshop mill;
-  CHECK(mill.path("CYCL DEF 262 THREAD Q335=20 Q239=+1.5 Q201=-6 Q355=0 Q253=750 Q351=+1 Q200=2 "
+  CHECK(mill.path("CYCL DEF 262 THREAD Q335=20 Q239=+1.5 Q201=-6 Q355=1 Q253=750 Q351=+1 Q200=2 "
                   "Q203=+0 Q204=0 Q207=200\nCYCL CALL") ==
         Lines{"L X+10 Y+10 Z+2 FMAX", "L X+10 Y+10 Z-6 F750",
               "ARC X+16 Y+10 Z-6 CC X+13 Y+10 Z-6 +180 F200",
