@@ -29,7 +29,7 @@ inline std::string verdict_words() {
   return schema::words({"good", "rework", "reject", "indeterminate"});
 }
 inline std::string feature_words() { return schema::words({"hole", "shaft"}); }
-inline std::string rule_words() { return schema::words({"simple", "guard_band"}); }
+inline std::string rule_words() { return schema::words({"simple", "guard_band", "conformance"}); }
 inline std::string source_words() { return schema::words({"gauge", "simulation"}); }
 
 }  // namespace fitgauge::api

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "gauging/conformance.hpp"
+
 namespace fitgauge::gauging {
 namespace {
 
@@ -26,6 +28,17 @@ Verdict verdict(Feature feature, Wide upper, Wide lower, Wide measured, Wide gua
   return Verdict::Indeterminate;
 }
 
+/// By the probability of conformance; outside, the nearer limit tells rework from reject.
+Verdict conformance_verdict(Feature feature, const ConformanceLimits& limits, Length measured,
+                            const DecisionRule& rule) {
+  const double wanted = rule.probability().value();
+  const Length u = rule.standard_uncertainty();
+  if (conformance_probability(limits, measured, u) >= wanted) return Verdict::Good;
+  if (nonconformance_probability(limits, measured, u) < wanted) return Verdict::Indeterminate;
+  const bool nearer_upper = limits.upper - measured < measured - limits.lower;
+  return nearer_upper ? above(feature) : below(feature);
+}
+
 }  // namespace
 
 GaugingResult gauge(Feature feature, Length upper_limit, Length lower_limit, Length measured,
@@ -37,10 +50,14 @@ GaugingResult gauge(Feature feature, Length upper_limit, Length lower_limit, Len
       guarded ? Wide{rule.standard_uncertainty().count()} * rule.coverage_factor().millionths()
               : Wide{0};
   GaugingResult result;
-  result.verdict = verdict(feature, upper_limit.count() * kMillion, lower_limit.count() * kMillion,
-                           measured.count() * kMillion, guard);
   if (measured > upper_limit) result.excess = measured - upper_limit;
   if (measured < lower_limit) result.excess = measured - lower_limit;
+  if (rule.kind() == DecisionRule::Kind::Conformance) {
+    result.verdict = conformance_verdict(feature, {upper_limit, lower_limit}, measured, rule);
+    return result;
+  }
+  result.verdict = verdict(feature, upper_limit.count() * kMillion, lower_limit.count() * kMillion,
+                           measured.count() * kMillion, guard);
   return result;
 }
 

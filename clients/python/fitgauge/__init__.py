@@ -45,7 +45,7 @@ Size = Union[Decimal, int, str]  # in the unit that the field's name ends with
 Parameter = Union[Decimal, int, str, datetime, None]  # of a query; None is left out
 Text = Union[str, bytes]
 VerdictWord = Literal["good", "rework", "reject", "indeterminate"]
-RuleWord = Literal["simple", "guard_band"]
+RuleWord = Literal["simple", "guard_band", "conformance"]
 FeatureWord = Literal["hole", "shaft"]
 RunStatus = Literal["queued", "running", "completed", "stopped", "failed", "limit_exceeded", "cancelled"]
 
@@ -733,11 +733,13 @@ class Client:
         return self._compute("/v1/uncertainty", body)
 
     def verdict(self, designation: str, measured_mm: Size, *, rule: RuleWord | None = None,
-                uncertainty_um: Size | None = None, coverage_factor: Size | None = None) -> Verdict:
-        """Judges a value and stores nothing. `rule` is simple or guard_band, which needs `uncertainty_um`."""
+                uncertainty_um: Size | None = None, coverage_factor: Size | None = None,
+                probability: Size | None = None, **temperatures: Parameter) -> Verdict:
+        """Judges a value and stores nothing. `rule` is simple, or guard_band or conformance, which need
+        `uncertainty_um`. `temperatures` correct to 20 degrees: `temperature_c` with `part_material`, say."""
         return self._get(_path("verdicts", designation), {
             "measured_mm": measured_mm, "rule": rule, "uncertainty_um": uncertainty_um,
-            "coverage_factor": coverage_factor})
+            "coverage_factor": coverage_factor, "probability": probability, **temperatures})
 
     def tables(self) -> dict[str, Any]:
         """The revision in use, and the classes of the hole and the shaft table."""

@@ -138,9 +138,14 @@ void add_limits_schemas(Schemas& schemas) {
   add_limit_gauge(schemas);
   add_press_fit(schemas);
   const schema::Fields rule = schema::optional({
+      {"corrected_mm", schema::number(),
+       "The size at 20 °C, which decides, where an expansion is given"},
       {"rule", rule_words(), "Where it is not simple"},
       {"uncertainty_um", schema::number(), "Standard uncertainty u of the rule"},
-      {"coverage_factor", schema::number(), "k of the rule"},
+      {"coverage_factor", schema::number(), "k of guard_band"},
+      {"probability", schema::number(0.5, 1), "Of conformance: what a good part has at least"},
+      {"conformance_probability", schema::number(0, 1), "Of the part, to 1e-9"},
+      {"guard_band_um", schema::number(), "Of conformance: inside both limits"},
   });
   schemas.push_back({"Verdict", schema::object(limits_fields() + verdict_fields() + rule,
                                                Others::Allowed, kVerdict)});

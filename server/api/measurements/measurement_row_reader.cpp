@@ -135,10 +135,11 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
     case RowField::Rule:
       if (const auto rule = text(field, value)) {
         const auto kind = gauging::rule_from_word(*rule);
-        if (kind) {
+        if (kind && *kind != gauging::DecisionRule::Kind::Conformance) {
           draft_.rule = *kind;
         } else {
-          report(ErrorCode::FieldInvalid, kRowFields[field].name, "rule is simple or guard_band");
+          report(ErrorCode::FieldInvalid, kRowFields[field].name,
+                 "rule of a stored measurement is simple or guard_band");
         }
       }
       break;

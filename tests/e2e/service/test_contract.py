@@ -122,6 +122,9 @@ class Answers(ContractTest):
         self.expect("getFit", 200, hole="25H7", shaft="g6")
         self.expect("getFitAsOne", 200, fit="25H7/g6")
         self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="guard_band", uncertainty_um=1)
+        self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=1,
+                    temperature_c=23, part_material="steel")
+        self.expect("getVerdict", 422, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=9)
         self.expect("listTables", 200)
         column = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": "-3"}]}
         for table, name in (("Hole", "SHOP"), ("Shaft", "shop")):

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "gauging/conformance.hpp"
+
 using namespace fitgauge;
 using namespace fitgauge::gauging;
 using iso286::Feature;
@@ -91,4 +93,36 @@ TEST_CASE("the words of verdicts and rules read back") {
   CHECK(rule_from_word("guard_band") == DecisionRule::Kind::GuardBand);
   CHECK(rule_from_word(word(DecisionRule::Kind::Simple)) == DecisionRule::Kind::Simple);
   CHECK_FALSE(rule_from_word(""));
+}
+
+TEST_CASE("conformance is good, indeterminate or bad by the probability of the true value") {
+  // 25 H7 with u = 2 um, one limit far away: g = 1.6448536 * 2 um (JCGM 106, table 1).
+  const DecisionRule rule = *DecisionRule::conformance(um("2"));
+  CHECK(hole("25.00329", rule).verdict == Verdict::Good);
+  CHECK(hole("25.003289", rule).verdict == Verdict::Indeterminate);
+  CHECK(hole("25.01771", rule).verdict == Verdict::Good);
+  CHECK(hole("25.017711", rule).verdict == Verdict::Indeterminate);
+  CHECK(hole("24.996711", rule).verdict == Verdict::Indeterminate);
+  CHECK(hole("24.99671", rule).verdict == Verdict::Rework);
+  CHECK(hole("25.02429", rule).verdict == Verdict::Reject);
+  CHECK(hole("25.024289", rule) == GaugingResult{Verdict::Indeterminate, um("3.289")});
+  CHECK(shaft("24.9968", rule).verdict == Verdict::Rework);
+
+  const ConformanceLimits limits{mm("25.021"), mm("25")};
+  CHECK(*guard_band_factor(um("21"), um("2"), 0.95) == doctest::Approx(1.6448536).epsilon(1e-7));
+  CHECK(conformance_probability(limits, mm("25"), um("2")) == doctest::Approx(0.5));
+  // Both limits two standard uncertainties away.
+  CHECK(conformance_probability(limits, mm("25.0105"), um("5.25")) ==
+        doctest::Approx(0.9544997361));
+}
+
+TEST_CASE("an uncertainty too large for the tolerance leaves no value good") {
+  CHECK(guard_band_factor(um("21"), um("5.3"), 0.95));
+  CHECK_FALSE(guard_band_factor(um("21"), um("5.4"), 0.95));  // 10.5 / 1.96 = 5.357
+  CHECK(DecisionRule::conformance(Length()).error().code == ErrorCode::RuleInvalid);
+  for (const std::int64_t millionths : {0, 499'999, 1'000'000}) {
+    CHECK(ConformanceProbability::from_millionths(millionths).error().code ==
+          ErrorCode::RuleInvalid);
+  }
+  CHECK(*guard_band_factor(um("21"), um("2"), 0.5) == doctest::Approx(0).epsilon(1e-6));
 }
