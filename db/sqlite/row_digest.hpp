@@ -37,6 +37,8 @@ inline constexpr SealedTable kIdempotentAnswers{
 inline constexpr SealedTable kFileRevisions{"file_revisions", "revision",
                                             "path, path_key, content, modified_at, caller"};
 inline constexpr SealedTable kSetups{"setups", "name", "name, text, modified_at, caller"};
+inline constexpr SealedTable kDocuments{"documents", "name",
+                                        "kind, name, text, modified_at, caller"};
 inline constexpr SealedTable kRuns{
     "runs", "id", "status, program, program_key, request, result, created_at, finished_at, caller"};
 inline constexpr SealedTable kRunTraces{"run_traces", "run", "run, trace"};

@@ -10,6 +10,7 @@ Stores::Stores(sqlite::Connection& connection, const Clock& clock,
       keys(connection),
       files(connection),
       setups(connection),
+      documents(connection),
       runs(connection),
       events(connection) {}
 

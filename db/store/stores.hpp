@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "base/clock.hpp"
+#include "store/documents_store.hpp"
 #include "store/events_store.hpp"
 #include "store/files_store.hpp"
 #include "store/idempotency_store.hpp"
@@ -31,6 +32,7 @@ struct Stores {
   KeysStore keys;
   FilesStore files;
   SetupsStore setups;
+  DocumentsStore documents;
   RunsStore runs;
   EventsStore events;
 };

@@ -13,6 +13,7 @@
 #include "api/service/openapi.hpp"
 #include "api/service/page_resource.hpp"
 #include "api/service/service_resource.hpp"
+#include "api/statistics/documents_resource.hpp"
 #include "api/statistics/statistics_resource.hpp"
 #include "api/statistics/stored_statistics_resource.hpp"
 #include "api/statistics/uncertainty_resource.hpp"
@@ -33,6 +34,7 @@ http::RouteTable make_routes(const Services& services) {
   add_statistics_routes(routes, services);
   add_stored_statistics_routes(routes, services);
   add_uncertainty_routes(routes, services);
+  add_documents_routes(routes, services);
   add_files_routes(routes, services);
   add_setups_routes(routes, services);
   add_runs_routes(routes, services);

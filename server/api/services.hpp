@@ -11,6 +11,7 @@ class TableCatalog;
 class MeasurementService;
 class FileService;
 class SetupService;
+class DocumentService;
 class RunService;
 class EventService;
 }  // namespace fitgauge::app
@@ -26,6 +27,7 @@ struct Services {
   app::MeasurementService& measurements;
   app::FileService& files;
   app::SetupService& setups;
+  app::DocumentService& documents;
   app::RunService& runs;
   app::EventService& events;
   const Metrics& metrics;

@@ -75,6 +75,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
                                 .commit_each = options.commit_each});
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
   app->setups_ = std::make_unique<SetupService>(*app->database_, clock);
+  app->documents_ = std::make_unique<DocumentService>(*app->database_, clock);
   if (!options.attach) {
     app->runs_ =
         std::make_unique<RunService>(*app->database_, *app->tables_, clock,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/files/file_service.hpp"
+#include "app/measurements/document_service.hpp"
 #include "app/measurements/measurement_service.hpp"
 #include "app/runs/run_service.hpp"
 #include "app/runs/setup_service.hpp"
@@ -60,6 +61,7 @@ class Application {
   KeyService& keys() { return *keys_; }
   FileService& files() { return *files_; }
   SetupService& setups() { return *setups_; }
+  DocumentService& documents() { return *documents_; }
   /// @pre not attached.
   RunService& runs() { return *runs_; }
 
@@ -94,6 +96,7 @@ class Application {
   std::unique_ptr<KeyService> keys_;
   std::unique_ptr<FileService> files_;
   std::unique_ptr<SetupService> setups_;
+  std::unique_ptr<DocumentService> documents_;
   std::unique_ptr<RunService> runs_;
 };
 

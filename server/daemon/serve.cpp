@@ -193,6 +193,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .measurements = app.measurements(),
                                .files = app.files(),
                                .setups = app.setups(),
+                               .documents = app.documents(),
                                .runs = app.runs(),
                                .events = app.events(),
                                .metrics = metrics,

@@ -732,6 +732,37 @@ class Client:
         """The combined and expanded uncertainty of a budget."""
         return self._compute("/v1/uncertainty", body)
 
+    def uncertainties(self) -> list[dict[str, str]]:
+        """The stored budgets: `name` and `modified_at`."""
+        return self._get("/v1/uncertainties")["uncertainties"]
+
+    def put_uncertainty(self, name: str, budget: Mapping[str, Any]) -> dict[str, Any]:
+        """Stores a budget, in micrometres where a gauge uses it, and gives what `uncertainty` gives."""
+        return loads(self._put(_path("uncertainties", name), dumps(budget).encode(), "application/json").body)
+
+    def stored_uncertainty(self, name: str) -> dict[str, Any]:
+        """A budget as it was stored."""
+        return self._get(_path("uncertainties", name))
+
+    def delete_uncertainty(self, name: str) -> None:
+        self._perform(_Request("DELETE", _path("uncertainties", name), repeatable=True))
+
+    def gauges_in_use(self) -> list[dict[str, str]]:
+        """The gauges: `name` and `modified_at`."""
+        return self._get("/v1/gauges-in-use")["gauges"]
+
+    def put_gauge_in_use(self, name: str, calibration_due: str, uncertainty: str | None = None) -> bool:
+        """Stores until when a gauge is calibrated, and the name of its budget. Gives whether it is new."""
+        body = {"calibration_due": calibration_due, **({"uncertainty": uncertainty} if uncertainty else {})}
+        return self._put(_path("gauges-in-use", name), dumps(body).encode(), "application/json").status == 201
+
+    def gauge_in_use(self, name: str) -> dict[str, Any]:
+        """A gauge as it was stored."""
+        return self._get(_path("gauges-in-use", name))
+
+    def delete_gauge_in_use(self, name: str) -> None:
+        self._perform(_Request("DELETE", _path("gauges-in-use", name), repeatable=True))
+
     def verdict(self, designation: str, measured_mm: Size, *, rule: RuleWord | None = None,
                 uncertainty_um: Size | None = None, coverage_factor: Size | None = None,
                 probability: Size | None = None, **temperatures: Parameter) -> Verdict:

@@ -279,6 +279,19 @@ void add_uncertainty(Schemas& schemas) {
                       Fields{{"monte_carlo", simulated, "Where it was asked for", false}})});
 }
 
+void add_documents(Schemas& schemas) {
+  schemas.push_back(
+      {"GaugeInUse",
+       order({{"uncertainty", schema::text(200), "The name of its budget, in µm", false},
+              {"calibration_due", schema::text(), "A date, to its end in UTC, or an RFC 3339 time"},
+              {"comment", schema::text(2000), "", false}})});
+  const std::string named =
+      schema::object({{"name", schema::text(), ""}, {"modified_at", schema::time(), "In UTC"}});
+  schemas.push_back(
+      {"UncertaintyBudgetNames", schema::object({{"uncertainties", schema::array(named), ""}})});
+  schemas.push_back({"GaugeInUseNames", schema::object({{"gauges", schema::array(named), ""}})});
+}
+
 }  // namespace
 
 void add_statistics_schemas(Schemas& schemas) {
@@ -289,6 +302,7 @@ void add_statistics_schemas(Schemas& schemas) {
   add_gauge_studies(schemas);
   add_pairing(schemas);
   add_uncertainty(schemas);
+  add_documents(schemas);
 }
 
 }  // namespace fitgauge::api

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "api/statistics/computation.hpp"
 #include "api/wire/field_reader.hpp"
@@ -155,7 +156,9 @@ std::optional<Simulation> read_simulation(FieldReader& fields, std::size_t contr
   return simulation;
 }
 
-Result<std::string> uncertainty(const JsonValue& body) {
+}  // namespace
+
+Result<std::string> compute_uncertainty(const JsonValue& body) {
   FieldErrors errors;
   FieldReader fields(body, "", errors);
   metrology::Budget budget;
@@ -206,12 +209,10 @@ Result<std::string> uncertainty(const JsonValue& body) {
   return out;
 }
 
-}  // namespace
-
 void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services) {
   routes.push_back(route_of(
       services, {.pattern = "/v1/uncertainty",
-                 .compute = uncertainty,
+                 .compute = compute_uncertainty,
                  .summary = "Uncertainty budget: u_c, degrees of freedom, k, U",
                  .description = "By propagation, and by Monte Carlo where it is asked for.",
                  .operation = "combineUncertainties",

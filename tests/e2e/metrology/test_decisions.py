@@ -60,3 +60,44 @@ class Decisions(DaemonTest):
                       "temperature_c=25&part_expansion_um_per_m_k=-1"):
             with self.subTest(query):
                 self.assert_problem(self.daemon.get(f"{HOLE}25.01&{query}"), 400, "query.invalid")
+
+
+class Kept(DaemonTest):
+    BUDGET = {"contributions": [{"name": "ring", "standard_uncertainty": 0.3},
+                                {"name": "repeatability", "standard_uncertainty": 0.4}]}
+
+    def put(self, path, body, **headers):
+        return self.daemon.request("PUT", path, body, {k.replace("_", "-"): v for k, v in headers.items()})
+
+    def test_a_budget_is_kept_under_a_name(self):
+        path = "/v1/uncertainties/bore%20gauge%20%2F%20ring"
+        first = self.put(path, self.BUDGET)
+        self.assertEqual(first.status, 201, first)
+        self.assertAlmostEqual(first.json["combined_standard_uncertainty"], 0.5, places=15)
+        self.assertEqual(self.put(path, self.BUDGET).status, 200)
+        found = self.daemon.get(path)
+        self.assertEqual((found.json, found.headers["etag"]), (self.BUDGET, first.headers["etag"]))
+        self.assertEqual([u["name"] for u in self.daemon.get("/v1/uncertainties").json["uncertainties"]],
+                         ["bore gauge / ring"])
+        self.assert_problem(self.put(path, self.BUDGET, If_None_Match="*"), 412, "precondition.failed")
+        self.assert_problem(self.put(path, {"contributions": []}), 422, "request.invalid")
+        self.assertEqual(self.daemon.request("DELETE", path).status, 204)
+        self.assert_problem(self.daemon.request("DELETE", path), 404, "uncertainty.unknown")
+        self.assert_problem(self.daemon.get(path), 404, "uncertainty.unknown")
+
+    def test_a_gauge_in_use_names_its_budget_and_when_it_is_due(self):
+        self.put("/v1/uncertainties/plug", self.BUDGET)
+        path = "/v1/gauges-in-use/G-07"
+        body = {"uncertainty": "plug", "calibration_due": "2027-03-31"}
+        self.assertEqual([self.put(path, body).status for _ in range(2)], [201, 200])
+        self.assertEqual(self.daemon.get(path).json, body)
+        self.assertEqual(self.put(path, {"calibration_due": "2027-03-31T12:00:00+01:00"}).status, 200)
+        for wrong, pointer, code in (({**body, "uncertainty": "none"}, "/uncertainty", "uncertainty.unknown"),
+                                     ({**body, "calibration_due": "2027-02-30"}, "/calibration_due", "time.malformed"),
+                                     ({}, "/calibration_due", "field.missing"),
+                                     ({**body, "what": 1}, "/what", "field.unknown")):
+            with self.subTest(wrong):
+                problem = self.assert_problem(self.put(path, wrong), 422, "request.invalid")
+                self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]], [(pointer, code)])
+        self.assertEqual(self.daemon.request("DELETE", path).status, 204)
+        self.assert_problem(self.daemon.get(path), 404, "gauge.unknown")

@@ -69,6 +69,15 @@ class EveryRoute(ControlTest):
         self.assertEqual(len(pairs), 2)
         self.assertEqual(client.uncertainty({"contributions": [
             {"name": "a", "standard_uncertainty": 3}, {"name": "b", "standard_uncertainty": 4}]})["combined_standard_uncertainty"], 5)
+        budget = {"contributions": [{"name": "a", "standard_uncertainty": 1}]}
+        self.assertEqual(client.put_uncertainty("plug", budget)["combined_standard_uncertainty"], 1)
+        self.assertEqual(client.stored_uncertainty("plug"), budget)
+        self.assertEqual([found["name"] for found in client.uncertainties()], ["plug"])
+        self.assertTrue(client.put_gauge_in_use("G-07", "2027-03-31", "plug"))
+        self.assertEqual(client.gauge_in_use("G-07"), {"calibration_due": "2027-03-31", "uncertainty": "plug"})
+        self.assertEqual([found["name"] for found in client.gauges_in_use()], ["G-07"])
+        client.delete_gauge_in_use("G-07")
+        client.delete_uncertainty("plug")
         pressed = client.press_fit({"joint_diameter_mm": 50, "length_mm": 40, "max_interference_um": 40,
                                     "hub": {"outer_diameter_mm": 100}, "shaft": {}})
         self.assertAlmostEqual(float(pressed["at_max_interference"]["pressure_mpa"]), 63, places=9)

@@ -211,6 +211,17 @@ class Answers(ContractTest):
             self.expect("assessStoredCapability", 200, characteristic="figures", subgroups=subgroups)
             self.expect("makeStoredControlChart", 200, characteristic="figures", subgroups=subgroups, rules="1,2,3,4")
         self.expect("assessStoredCapability", 422, characteristic="none")
+        budget = {"contributions": [{"name": "a", "standard_uncertainty": 2}]}
+        for status in (201, 200):
+            self.expect("putUncertainty", status, budget, name="plug")
+            self.expect("putGaugeInUse", status, {"uncertainty": "plug", "calibration_due": "2027-03-31", "comment": "x"},
+                        name="G-07")
+        for kind, plural in (("Uncertainty", "Uncertainties"), ("GaugeInUse", "GaugesInUse")):
+            self.expect(f"list{plural}", 200)
+            name = "plug" if kind == "Uncertainty" else "G-07"
+            self.expect(f"get{kind}", 200, name=name)
+            self.expect(f"delete{kind}", 204, name=name)
+            self.expect(f"delete{kind}", 404, name=name)
         self.assert_seen("ValueSummary", "Anova", "Capability", "CapabilityIndex", "ControlChart", "Type1Study", "VariationStudy",
                          "LinearityStudy", "StabilityStudy", "Pairing", "Uncertainty", without={})
 

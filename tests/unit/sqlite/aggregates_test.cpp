@@ -110,6 +110,24 @@ TEST_CASE("control files keep their case, compare without it, and keep every rev
   });
 }
 
+TEST_CASE("documents are stored by kind and name") {
+  Fixture fixture;
+  with_stores(fixture, [](Stores& stores) {
+    DocumentsStore& documents = stores.documents;
+    const auto gauge = DocumentKind::GaugeInUse;
+    CHECK(documents.put({.kind = gauge, .name = "G-07", .text = "{}"}));
+    CHECK_FALSE(documents.put({.kind = gauge, .name = "G-07", .text = "1", .modified_at_ns = 2}));
+    CHECK(documents.put({.kind = gauge, .name = "A", .text = "{}"}));
+    CHECK(documents.find(gauge, "G-07")->text == "1");
+    CHECK_FALSE(documents.find(DocumentKind::Uncertainty, "G-07").has_value());
+    REQUIRE(documents.list(gauge).size() == 2);
+    CHECK(documents.list(gauge)[0].name == "A");
+    CHECK(documents.list(DocumentKind::Uncertainty).empty());
+    CHECK(documents.remove(gauge, "G-07"));
+    CHECK_FALSE(documents.remove(gauge, "G-07"));
+  });
+}
+
 TEST_CASE("setups are stored by name") {
   Fixture fixture;
   with_stores(fixture, [](Stores& stores) {

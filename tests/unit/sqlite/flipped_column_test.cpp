@@ -46,6 +46,11 @@ struct Everything : Fixture {
     stores.files.put({.path = "A.H", .content = "one", .modified_at_ns = 1, .caller = "press-3"});
     stores.files.put({.path = "a.h", .content = "two", .modified_at_ns = 2, .caller = "press-3"});
     stores.setups.put({.name = "s", .text = "{}", .modified_at_ns = 1, .caller = "press-3"});
+    stores.documents.put({.kind = DocumentKind::GaugeInUse,
+                          .name = "G-07",
+                          .text = "{}",
+                          .modified_at_ns = 1,
+                          .caller = "press-3"});
     stores.events.append("table_changed", "{}", 1);
     const std::int64_t run = stores.runs.create(
         {.program = "TNC:\\a.h", .request = "{}", .created_at_ns = 1, .caller = "press-3"});

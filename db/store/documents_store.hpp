@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fitgauge::store {
+
+namespace sqlite {
+class Connection;
+}
+
+/// The codes are stored: never change one, never use one again.
+enum class DocumentKind : std::uint8_t { Uncertainty = 1, GaugeInUse = 2 };
+
+struct Document {
+  DocumentKind kind = DocumentKind::Uncertainty;
+  std::string name{};
+  std::string text{};  ///< opaque here
+  std::int64_t modified_at_ns = 0;
+  std::optional<std::string> caller{};
+};
+
+/// Documents by kind and name.
+class DocumentsStore {
+ public:
+  explicit DocumentsStore(sqlite::Connection& connection);
+  ~DocumentsStore();
+
+  bool put(const Document& document);  ///< @returns whether it is new
+  bool remove(DocumentKind kind, std::string_view name);
+  std::optional<Document> find(DocumentKind kind, std::string_view name) const;
+  std::vector<Document> list(DocumentKind kind) const;  ///< by name, with their texts
+
+ private:
+  struct Statements;
+  std::unique_ptr<Statements> statements_;
+};
+
+}  // namespace fitgauge::store

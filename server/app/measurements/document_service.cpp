@@ -1,0 +1,102 @@
+#include "app/measurements/document_service.hpp"
+
+#include "store/database.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+store::DocumentKind stored_kind(DocumentKind kind) {
+  return kind == DocumentKind::Uncertainty ? store::DocumentKind::Uncertainty
+                                           : store::DocumentKind::GaugeInUse;
+}
+
+std::string called(DocumentKind kind, const std::string& name) {
+  return (kind == DocumentKind::Uncertainty ? "uncertainty budget '" : "gauge in use '") + name +
+         "'";
+}
+
+Error unknown_document(DocumentKind kind, const std::string& name) {
+  return {
+      kind == DocumentKind::Uncertainty ? ErrorCode::UncertaintyUnknown : ErrorCode::GaugeUnknown,
+      "there is no " + called(kind, name)};
+}
+
+/// Whether the document may be changed. @errors PreconditionFailed
+Result<void> check_change(const DocumentService::Precondition& precondition, DocumentKind kind,
+                          const std::string& name, const std::optional<store::Document>& current) {
+  if (!precondition ||
+      precondition(current ? std::optional<std::string_view>(current->text) : std::nullopt)) {
+    return {};
+  }
+  return Error{ErrorCode::PreconditionFailed,
+               called(kind, name) +
+                   " is not in the state that the request's precondition names: read it again"};
+}
+
+NamedDocument named_document(store::Document document) {
+  return {.name = std::move(document.name),
+          .text = std::move(document.text),
+          .modified_at = {document.modified_at_ns}};
+}
+
+}  // namespace
+
+void DocumentService::write(Change change, Done<bool> done) {
+  database_.writer().submit(
+      [change = std::move(change),
+       at = clock_.now().nanoseconds](store::Stores& stores) -> Result<bool> {
+        const store::DocumentKind kind = stored_kind(change.kind);
+        const auto allowed = check_change(change.precondition, change.kind, change.name,
+                                          stores.documents.find(kind, change.name));
+        if (!allowed) return allowed.error();
+        if (change.uncertainty &&
+            !stores.documents.find(store::DocumentKind::Uncertainty, *change.uncertainty)) {
+          return unknown_document(DocumentKind::Uncertainty, *change.uncertainty);
+        }
+        return stores.documents.put({.kind = kind,
+                                     .name = change.name,
+                                     .text = change.text,
+                                     .modified_at_ns = at,
+                                     .caller = change.caller});
+      },
+      std::move(done));
+}
+
+void DocumentService::read(DocumentKind kind, std::string name, Done<NamedDocument> done) {
+  database_.readers().submit(
+      [kind, name = std::move(name)](const store::Stores& stores) -> Result<NamedDocument> {
+        auto found = stores.documents.find(stored_kind(kind), name);
+        if (!found) return unknown_document(kind, name);
+        return named_document(*std::move(found));
+      },
+      std::move(done));
+}
+
+void DocumentService::remove(DocumentKind kind, std::string name, Precondition precondition,
+                             Done<bool> done) {
+  database_.writer().submit(
+      [kind, name = std::move(name),
+       precondition = std::move(precondition)](store::Stores& stores) -> Result<bool> {
+        const auto current = stores.documents.find(stored_kind(kind), name);
+        if (!current) return unknown_document(kind, name);
+        if (const auto allowed = check_change(precondition, kind, name, current); !allowed) {
+          return allowed.error();
+        }
+        return stores.documents.remove(stored_kind(kind), name);
+      },
+      std::move(done));
+}
+
+void DocumentService::list(DocumentKind kind, Done<std::vector<NamedDocument>> done) {
+  database_.readers().submit(
+      [kind](const store::Stores& stores) -> Result<std::vector<NamedDocument>> {
+        std::vector<NamedDocument> documents;
+        for (store::Document& document : stores.documents.list(stored_kind(kind))) {
+          documents.push_back(named_document(std::move(document)));
+        }
+        return documents;
+      },
+      std::move(done));
+}
+
+}  // namespace fitgauge::app
