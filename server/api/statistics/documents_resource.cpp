@@ -225,7 +225,7 @@ void add_document_routes(std::vector<http::Route>& routes, const Services& servi
       .operation = "get" + operation,
       .tag = "statistics",
       .outcomes = {{.meaning = "As it was stored", .schema = schema}},
-      .refusals = {404},
+      .refusals = {404, 412},
   });
   add_precondition_parameters(routes.back().parameters);
   routes.push_back({
