@@ -179,7 +179,7 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .operation = "getFile",
       .tag = "files",
       .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
-      .refusals = {404},
+      .refusals = {404, 412},
   });
   add_precondition_parameters(routes.back().parameters);
   routes.push_back({

@@ -136,7 +136,7 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
       .operation = "getSetup",
       .tag = "setups",
       .outcomes = {{.meaning = "The setup", .schema = "Setup"}},
-      .refusals = {404},
+      .refusals = {404, 412},
   });
   add_precondition_parameters(routes.back().parameters);
   routes.push_back({
