@@ -27,19 +27,19 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
   if (config.control_listen.empty()) return Control();
   const auto address = http::parse_listen_address(config.control_listen);
   if (!address) return address.error();
-  virtual_control::VirtualControlOptions options{
-      .link = {.host = address->host, .port = address->port},
-      .model = config.control_model,
-      .is_writable = config.control_write,
-      .setup = machine_of(config, services),
-      .start =
-          [&services, setup = config.control_setup](const interpreter::ControlPath& program) {
-            return api::start_program(services, program, setup);
-          },
-      .sent_away =
-          [](std::string_view peer, std::string_view why) {
-            log_warning("control_client_sent_away", fmt::format("{}: {}", peer, why));
-          }};
+  virtual_control::VirtualControlOptions options;
+  options.link.host = address->host;
+  options.link.port = address->port;
+  options.model = config.control_model;
+  options.is_writable = config.control_write;
+  options.setup = machine_of(config, services);
+  options.start = [&services,
+                   setup = config.control_setup](const interpreter::ControlPath& program) {
+    return api::start_program(services, program, setup);
+  };
+  options.sent_away = [](std::string_view peer, std::string_view why) {
+    log_warning("control_client_sent_away", fmt::format("{}: {}", peer, why));
+  };
   auto control = virtual_control::VirtualControl::start(std::move(options), app);
   if (!control) return control.error();
   log_info("control_listening",
