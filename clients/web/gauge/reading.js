@@ -31,7 +31,7 @@ export function readLine(text, { burst = false, prefixes = PREFIXES } = {}) {
   const value = parseMeasured(line);
   if (value !== null) return { kind: 'value', text: value };
   if (parseDesignation(line) && !EXPONENT.test(line)) return { kind: 'job', text: line };
-  if (burst && NAME.test(line) && !LIKE_A_READING.test(line)) return { kind: 'field', name: 'part_id', text: line };
+  if (burst && NAME.test(line) && !LIKE_A_READING.test(line) && !EXPONENT.test(line)) return { kind: 'field', name: 'part_id', text: line };
   return { kind: 'nothing', text: line };
 }
 

@@ -6,6 +6,10 @@ import { VERDICTS } from '../verdict.js';
 /** Values farther out than this many tolerances are drawn at the edge. */
 const FARTHEST = 3;
 
+/** What a record was measured against: a size and class, or the limits of a drawing. */
+export const sizeOf = (record) => record.designation
+  ?? `${record.nominal_mm} ${[record.upper_deviation_um, record.lower_deviation_um].map((um) => (um > 0 ? `+${um}` : um)).join('/')} µm`;
+
 export const pointOf = (record) => ({
   record,
   deviation: nmFromUm(record.deviation_um),
@@ -13,12 +17,12 @@ export const pointOf = (record) => ({
   lower: nmFromUm(record.lower_deviation_um),
 });
 
-/** The range of the vertical axis. */
-export function rangeOf(points) {
+/** The range of the vertical axis. @param others values in nm that are to be seen too */
+export function rangeOf(points, others = []) {
   const upper = Math.max(...points.map((point) => point.upper));
   const lower = Math.min(...points.map((point) => point.lower));
   const tolerance = Math.max(upper - lower, 1);
-  const near = points.map(({ deviation }) => Math.min(Math.max(deviation, lower - FARTHEST * tolerance), upper + FARTHEST * tolerance));
+  const near = [...points.map(({ deviation }) => deviation), ...others].map((deviation) => Math.min(Math.max(deviation, lower - FARTHEST * tolerance), upper + FARTHEST * tolerance));
   const high = Math.max(upper, ...near);
   const low = Math.min(lower, ...near);
   const margin = (high - low) / 12;

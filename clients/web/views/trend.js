@@ -1,50 +1,66 @@
-/** The last values as they come in: run chart, histogram, counts. */
+/** The control chart of the newest values as they come in: is it stable, is it capable. */
 
 import { getJson, url } from '../api.js';
-import { field, h } from '../dom.js';
+import { field, h, refill } from '../dom.js';
 import { follow } from '../events.js';
-import { umText } from '../exact.js';
-import { dateTime, explain, number, signed, t } from '../i18n.js';
+import { dateTime, explain, number, t } from '../i18n.js';
 import { Latest } from '../latest.js';
-import { go } from '../route.js';
+import { fragment, go } from '../route.js';
+import { controlChartFigure, rulesAt } from '../trend/control_chart.js';
+import { capability, controlChart } from '../trend/figures.js';
 import { newestValues } from '../trend/recent_values.js';
-import { runChart } from '../trend/run_chart.js';
-import { countVerdicts, pointOf, statisticsOf } from '../trend/series.js';
-import { distanceText, measuredText, verdictMark, verdictShape, VERDICTS } from '../verdict.js';
+import { pointOf, sizeOf } from '../trend/series.js';
+import { capabilityTiles, countTiles } from '../trend/tiles.js';
+import { distanceText, measuredText, verdictMark } from '../verdict.js';
 
-const COUNTS = [50, 100, 200, 500];
+const COUNTS = [50, 100, 200, 500, 1000];
+const RULES = [1, 2, 3, 4];
 const ROWS = 12;
 /** Many events make one drawing. */
-const DRAW_MS = 50;
+const DRAW_MS = 120;
 
 export function mount(main, route) {
   const leaving = new AbortController();
-  const latest = new Latest(leaving.signal);
+  const loading = new Latest(leaving.signal);
+  const computing = new Latest(leaving.signal);
+  const { options } = route;
   const select = (name, onchange) => h('select', { id: `trend-${name}`, onchange });
-  const characteristic = select('characteristic', () => { wanted = ''; load(); });
-  const designation = select('designation', () => { wanted = designation.value; draw(); });
-  const count = select('count', load);
-  const chart = h('figure');
+  const characteristic = select('characteristic', () => { wanted = ''; sizes.clear(); frozen = null; load(); });
+  const designation = select('designation', () => { wanted = designation.value; frozen = null; load(); });
+  const count = select('count', () => load());
+  const rules = RULES.map((rule) => h('input', { type: 'checkbox', value: rule, checked: (options.rules ?? '1234').includes(rule), onchange: () => compute() }));
+  const freeze = h('button', { type: 'button', onclick: () => toggleFrozen() });
+  const chart = h('figure', { tabindex: 0, 'aria-label': t('trend.browse'), onkeydown: (event) => browse(event) });
   const tiles = h('dl.tiles');
+  const indices = h('div.indices');
+  const detail = h('div.detail', { role: 'status' });
   const note = h('p.note', { role: 'alert' });
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('recent.title') });
-  let wanted = route.options.designation ?? '';
-  let records = [];
-  let timer = 0;
   const offered = new Set();
+  const sizes = new Set();
+  let wanted = options.designation ?? '';
+  let frozen = options.centre && options.sd ? { centre: Number(options.centre), standard_deviation: Number(options.sd) } : null;
+  let records = [];
+  let points = [];
+  let figures = { chart: null, indices: null };
+  let picked = null;
+  let timer = 0;
 
-  count.append(...COUNTS.map((each) => option(each, String(each), each === (Number(route.options.count) || 100))));
+  count.append(...COUNTS.map((each) => option(each, String(each), each === (Number(options.count) || 100))));
   main.replaceChildren(h('div.desk.trend', h('h1.unseen', { tabindex: -1 }, t('view.trend')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('field.characteristic'), characteristic),
       field(t('job.designation'), designation), field(t('trend.count'), count)),
-    note, tiles, h('div.sheet', chart), table));
+    note, h('div.sums', tiles, indices),
+    h('div.sheet', chart, detail,
+      h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
+    table));
 
   /** The choices; what the URL names is offered even when nothing has it yet. */
   async function offer() {
     const { groups } = await getJson(url(['measurements', 'summary'], { group_by: 'characteristic' }), { signal: leaving.signal });
     characteristic.append(option('', t('trend.all'), true));
-    for (const name of [route.options.characteristic, ...groups.map((group) => group.characteristic)]) offerOne(name);
-    characteristic.value = route.options.characteristic ?? '';
+    for (const name of [options.characteristic, ...groups.map((group) => group.characteristic)]) offerOne(name);
+    characteristic.value = options.characteristic ?? '';
   }
 
   function offerOne(name) {
@@ -53,49 +69,99 @@ export function mount(main, route) {
     characteristic.append(option(name, name, false));
   }
 
-  const filter = () => ({ characteristic: characteristic.value });
+  /** A drawing's own limits have no designation that the service could look for. */
+  const filter = () => ({ characteristic: characteristic.value, designation: wanted.includes('/') ? '' : wanted });
   const matches = (record) => !characteristic.value || record.characteristic === characteristic.value;
 
   async function load() {
     try {
-      const newest = await latest.run((signal) => newestValues(filter(), Number(count.value), signal));
+      let newest = await loading.run((signal) => newestValues(filter(), Number(count.value), signal));
       if (!newest) return;
+      for (const record of newest) sizes.add(sizeOf(record));
+      // Chosen once: a chart that follows whatever is measured last hops from size to size.
+      if (!wanted && newest.length) {
+        wanted = sizeOf(newest.at(-1));
+        if (sizes.size > 1) newest = await loading.run((signal) => newestValues(filter(), Number(count.value), signal)) ?? newest;
+      }
       records = newest;
       note.textContent = '';
+      picked = null;
+      await compute();
+    } catch (problem) {
+      note.textContent = explain(problem);
+    }
+  }
+
+  /** Asks the service for the figures of what is shown, then draws both together. */
+  async function compute() {
+    points = records.filter((record) => !wanted || sizeOf(record) === wanted).map(pointOf);
+    const chosen = rules.filter((input) => input.checked).map((input) => Number(input.value));
+    try {
+      const answers = await computing.run((signal) => (points.length
+        ? Promise.all([controlChart(points, { rules: chosen, frozen }, signal), capability(points, signal)]) : [null, null]));
+      if (!answers) return;
+      figures = { chart: answers[0], indices: answers[1] };
       draw();
     } catch (problem) {
       note.textContent = explain(problem);
     }
   }
 
-  function offerDesignations() {
-    const names = [...new Set([...records.map((record) => record.designation ?? ''), wanted].filter(Boolean))].sort();
-    // Chosen once: a chart that follows whatever is measured last hops from size to size.
-    wanted ||= records.at(-1)?.designation ?? '';
-    const chosen = wanted;
-    designation.replaceChildren(...names.map((name) => option(name, number(name), name === chosen)));
+  function remembered() {
+    go({
+      view: 'trend',
+      options: {
+        characteristic: characteristic.value, designation: wanted, count: count.value,
+        rules: rules.filter((input) => input.checked).map((input) => input.value).join(''),
+        ...(frozen && { centre: frozen.centre, sd: frozen.standard_deviation }),
+      },
+    }, { refine: true });
   }
 
   function draw() {
-    offerDesignations();
-    const points = records.filter((record) => !designation.value || record.designation === designation.value).map(pointOf);
-    go({ view: 'trend', options: { characteristic: characteristic.value, designation: designation.value, count: count.value } }, { refine: true });
+    refill(designation, [...new Set([...sizes, wanted].filter(Boolean))].sort().map((name) => option(name, number(name), name === wanted)));
+    designation.value = wanted;
+    remembered();
+    const computable = Boolean(figures.chart);
+    freeze.disabled = !computable && !frozen;
+    freeze.textContent = t(frozen ? 'trend.thaw' : 'trend.freeze');
     if (!points.length) {
       chart.replaceChildren(h('p.empty', t('trend.empty')));
-      tiles.replaceChildren();
-      table.replaceChildren();
+      for (const place of [tiles, indices, detail, table]) place.replaceChildren();
       return;
     }
-    chart.replaceChildren(runChart(points, Math.max(chart.clientWidth, 320)));
-    tiles.replaceChildren(...summary(points));
+    drawChart();
+    tiles.replaceChildren(...countTiles(points));
+    indices.replaceChildren(...capabilityTiles(figures.indices, points, figures.chart));
     table.replaceChildren(lastRows(points));
   }
 
-  function drawSoon() {
-    timer ||= setTimeout(() => {
-      timer = 0;
-      draw();
-    }, DRAW_MS);
+  function drawChart() {
+    if (!points.length) return;
+    chart.replaceChildren(controlChartFigure(points, figures.chart, { width: Math.max(chart.clientWidth, 300), picked, onPick: pick }));
+    refill(detail, picked === null ? h('p.aside', priceText()) : pointDetail(points[picked], rulesAt(figures.chart, 'i').get(picked)));
+  }
+
+  /** What the rules cost: points to a false alarm. */
+  const priceText = () => (figures.chart?.average_run_length
+    ? t('trend.price', { points: String(Math.round(figures.chart.average_run_length)) }) : t('trend.pick'));
+
+  function pick(index) {
+    picked = index;
+    drawChart();
+  }
+
+  function browse(event) {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!step || !points.length) return;
+    event.preventDefault();
+    pick(Math.min(Math.max((picked ?? points.length) + step, 0), points.length - 1));
+  }
+
+  function toggleFrozen() {
+    const own = figures.chart?.charts.find(({ name }) => name === 'i');
+    frozen = frozen || !own ? null : { centre: own.centre, standard_deviation: figures.chart.standard_deviation };
+    compute();
   }
 
   function arrived(event) {
@@ -105,11 +171,18 @@ export function mount(main, route) {
     note.textContent = '';
     offerOne(record.characteristic);
     if (!matches(record) || records.some(({ id }) => id === record.id)) return null;
+    sizes.add(sizeOf(record));
+    wanted ||= sizeOf(record);
+    if (sizeOf(record) !== wanted) return null;
     records = [...records.filter(({ id }) => id !== record.correction_of), record].slice(-Number(count.value));
-    return drawSoon();
+    timer ||= setTimeout(() => {
+      timer = 0;
+      compute();
+    }, DRAW_MS);
+    return null;
   }
 
-  const resized = new ResizeObserver(() => records.length && drawSoon());
+  const resized = new ResizeObserver(() => drawChart());
   resized.observe(chart);
   offer().then(load, (problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); })
     .then(() => follow(leaving.signal, arrived));
@@ -126,17 +199,12 @@ function option(value, text, selected) {
   return element;
 }
 
-function summary(points) {
-  const counts = countVerdicts(points);
-  const { mean, deviation } = statisticsOf(points);
-  const tile = (shape, term, value) => h('div', h('dt', shape, term), h('dd', value));
-  const um = (nm) => `${signed(umText(Math.round(nm / 10) * 10))} µm`;
-  return [
-    ...VERDICTS.filter((verdict) => verdict !== 'indeterminate' || counts[verdict])
-      .map((verdict) => tile(verdictShape(verdict), t(`verdict.${verdict}`), String(counts[verdict]))),
-    tile(null, t('trend.mean'), um(mean)),
-    tile(null, t('trend.deviation'), Number.isFinite(deviation) ? um(deviation).replace('+', '') : '–'),
-  ];
+/** The record of one point. */
+function pointDetail({ record }, broken) {
+  return h('div.line', verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)),
+    record.part_id && h('a', { href: fragment({ view: 'parts', options: { part_id: record.part_id } }) }, record.part_id),
+    h('span.aside', [record.characteristic, record.machine, record.operator, record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
+    broken && h('span.stability.doubt', t('trend.broken', { rules: [...broken].join(', ') })));
 }
 
 function lastRows(points) {

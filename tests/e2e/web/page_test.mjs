@@ -13,7 +13,7 @@ const FOLDER = 'clients/web';
 const LARGEST_BYTES = 150000;
 const SMALLEST_TARGET = 44;
 const VIEWS = {
-  gauge: '#/gauge/25H7', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', programs: '#/programs/nc_prog/8255.h?setup=bore',
+  gauge: '#/gauge/25H7', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', parts: '#/parts', programs: '#/programs/nc_prog/8255.h?setup=bore',
   tables: '#/tables/hole?find=25+H',
 };
 
@@ -59,6 +59,7 @@ describe('the page', () => {
     }
     if (view === 'fit') await page.waitForSelector('.class-zones :checked');
     if (view === 'trend') await page.waitForSelector('.point');
+    if (view === 'parts') await page.waitForSelector('.records tbody tr');
     if (view === 'tables') await page.waitForSelector('.grid');
     if (view === 'programs') {
       await page.waitForFunction(() => document.querySelector('.run select')?.value === 'bore');

@@ -184,6 +184,66 @@ describe('the trend', () => {
     assert.deepEqual(await counts(), [22, 0, 9]);
     await picture(page, 'trend', { fullPage: true });
   });
+
+  it('is a control chart: limits, broken rules by number, indices that are grey while they mean nothing', async () => {
+    // Montgomery, Introduction to Statistical Quality Control, the individuals of example 6.5 (viscosity of
+    // primer paint), as micrometres above 33 mm; the book has centre 33.52, MR 0.48, limits 34.80 and 32.24.
+    const viscosity = [33.75, 33.05, 34.00, 33.81, 33.46, 34.02, 33.68, 33.27, 33.49, 33.20, 33.62, 33.00, 33.54, 33.12, 33.84];
+    await daemon.send('POST', '/v1/measurements', viscosity.map((value, i) => ({
+      nominal_mm: 33, feature: 'hole', upper_um: 36, lower_um: 31, measured_mm: (33 + value / 1000).toFixed(5), characteristic: 'paint', part_id: `P-${i + 1}`,
+    })));
+    page = await open(browser, daemon, '#/trend?characteristic=paint');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 15);
+    const texts = () => page.$$eval('.control-chart text', (all) => all.map((text) => text.textContent));
+    for (const label of ['33.52', '34.8', '32.24', '0.48']) assert.ok((await texts()).some((text) => Math.abs(Number(text) - Number(label)) < 0.011), `${label} in ${await texts()}`);
+    assert.equal(await page.$('.control-chart .broken'), null);
+    assert.match(await page.textContent('.stability.doubt'), /n = 15/);
+    await page.click('.rules button');
+    await page.waitForFunction(() => /centre=33\.5/.test(location.hash));
+    await daemon.send('POST', '/v1/measurements', { nominal_mm: 33, feature: 'hole', upper_um: 36, lower_um: 31, measured_mm: '33.0358', characteristic: 'paint', part_id: 'P-16' });
+    await page.waitForSelector('.control-chart .broken');
+    assert.match(await page.textContent('.stability.doubt'), /Not stable: rule 1 at P-16/);
+    assert.ok((await texts()).some((text) => Math.abs(Number(text) - 33.52) < 0.011), 'frozen limits stay');
+    assert.ok(await page.$('.tiles.in-doubt'));
+    await page.focus('.trend figure');
+    await page.keyboard.press('ArrowLeft');
+    assert.match(await page.textContent('.detail'), /P-16.*breaks rule 1/);
+    await page.uncheck('.rules input[value="1"]');
+    await page.waitForFunction(() => !document.querySelector('.control-chart .broken'));
+    await picture(page, 'trend-control', { fullPage: true });
+  });
+});
+
+describe('the parts', () => {
+  it('answer show me part SN-17: every characteristic with its corrections, and a certificate', async () => {
+    const record = await (await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.05', part_id: 'SN-17', characteristic: 'bore-A', order: 'WO-9', gauge: 'G-07', uncertainty_um: '0.8' })).json();
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 70 }, (_, i) => ({ designation: '25 H7', measured_mm: '25.01', part_id: `SN-1${i}x`, order: 'WO-9' })));
+    await daemon.send('POST', `/v1/measurements/${record.id}/corrections`, { measured_mm: '25.005', reason: 'slipped' });
+    await daemon.send('POST', '/v1/measurements', { nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0, measured_mm: '8.05', part_id: 'SN-17', characteristic: 'slot', order: 'WO-9' });
+    page = await open(browser, daemon, '#/parts?order=WO-9');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 50);
+    await page.click('.parts button:has-text("Show more")');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 72);
+    assert.match(await page.textContent('.records tbody tr'), /SN-17slot/); // the newest first
+    await page.click('.records a:has-text("SN-17")');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 3);
+    assert.equal(hash(), '#/parts?part_id=SN-17&history=all');
+    const history = await page.$$eval('.records tbody tr', (all) => all.map((row) => [row.className, row.textContent]));
+    assert.deepEqual(history.map(([name]) => name), ['', '', 'corrected']);
+    assert.match(history[1][1], /correction.*slipped/);
+    assert.match(history[2][1], /Reject.*25\.050/);
+    await page.click('.parts button:has-text("Certificate")');
+    await page.waitForSelector('.certificate tbody tr');
+    const rows = await page.$$eval('.certificate tbody tr', (all) => all.map((row) => row.textContent));
+    assert.equal(rows.length, 2); // what was corrected is not certified
+    assert.match(rows.find((text) => /bore-A/.test(text)), /Ø 25 H7.*25\.000 to 25\.021.*25\.005\+5 µmGood/);
+    assert.match(rows.find((text) => /slot/.test(text)), /8\.000 to 8\.036.*8\.050\+50 µmReject/);
+    await page.setViewportSize({ width: 660, height: 900 });
+    await page.emulateMedia({ media: 'print' });
+    assert.equal(await page.isVisible('.records'), false);
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true);
+    await picture(page, 'certificate-print', { fullPage: true });
+  });
 });
 
 describe('the programs', () => {

@@ -1,0 +1,44 @@
+/** What the service computes of a row of values: control chart, rules, capability. */
+
+import { request, url } from '../api.js';
+import { Decimal } from '../exact.js';
+
+const RULES = [1, 2, 3, 4];
+/** Below this many values an index says little (Q-DAS and AIAG ask for 25 subgroups and more). */
+export const FEWEST = 25;
+
+const post = async (what, body, signal) => (await request('POST', url(['statistics', what]), { body, signal })).json();
+
+/** Deviations in µm as the service printed them: nothing is rounded on the way. */
+const valuesOf = (points) => points.map(({ record }) => new Decimal(String(record.deviation_um)));
+
+/**
+ * Individuals and moving range, with the violations of the rules chosen.
+ * @param frozen {centre, standard_deviation} in µm of an earlier stretch, or null
+ * @returns null for fewer than two values, or where they do not differ
+ */
+export async function controlChart(points, { rules = RULES, frozen = null }, signal) {
+  if (points.length < 2) return null;
+  const known = frozen && { centre: frozen.centre, standard_deviation: frozen.standard_deviation };
+  return orNull(post('chart', { kind: 'i_mr', values: valuesOf(points), rules, ...known }, signal));
+}
+
+/** Cp, Cpk, Pp, Ppk with their intervals; null where they have no meaning: other limits among the values, too few of them. */
+export async function capability(points, signal) {
+  const [{ record }] = points;
+  const same = points.every(({ upper, lower }) => upper === points[0].upper && lower === points[0].lower);
+  if (!same || points.length < 2) return null;
+  return orNull(post('capability', {
+    values: valuesOf(points), lower: new Decimal(String(record.lower_deviation_um)), upper: new Decimal(String(record.upper_deviation_um)),
+  }, signal));
+}
+
+/** Values without spread have no figures; that is no error of the page. */
+async function orNull(answer) {
+  try {
+    return await answer;
+  } catch (problem) {
+    if (problem.status === 422) return null;
+    throw problem;
+  }
+}

@@ -1,0 +1,50 @@
+/** What the values come to: verdicts, mean, spread, and whether the process is stable and capable. */
+
+import { h } from '../dom.js';
+import { umText } from '../exact.js';
+import { number, signed, t } from '../i18n.js';
+import { verdictShape, VERDICTS } from '../verdict.js';
+import { FEWEST } from './figures.js';
+import { countVerdicts, statisticsOf } from './series.js';
+
+const INDICES = ['cp', 'cpk', 'pp', 'ppk'];
+
+const tile = (shape, term, value, hint) => h('div', h('dt', shape, term), h('dd', value), hint && h('dd.hint', hint));
+
+export function countTiles(points) {
+  const counts = countVerdicts(points);
+  const { mean, deviation } = statisticsOf(points);
+  const um = (nm) => `${signed(umText(Math.round(nm / 10) * 10))} µm`;
+  return [
+    ...VERDICTS.filter((verdict) => verdict !== 'indeterminate' || counts[verdict])
+      .map((verdict) => tile(verdictShape(verdict), t(`verdict.${verdict}`), String(counts[verdict]))),
+    tile(null, t('trend.mean'), um(mean)),
+    tile(null, t('trend.deviation'), Number.isFinite(deviation) ? um(deviation).replace('+', '') : '–'),
+  ];
+}
+
+/** The indices with their 95 % interval and n. Never green: grey, and with the reason, while they mean little. */
+export function capabilityTiles(figures, points, chart) {
+  if (!figures) return [h('p.aside', t('trend.no_capability'))];
+  const doubt = doubtOf(points, chart);
+  const index = (value) => number(value.toFixed(2));
+  return [
+    h('dl', { class: doubt ? 'tiles in-doubt' : 'tiles' }, INDICES.filter((name) => figures[name]?.value != null).map((name) => {
+      const { value, lower, upper } = figures[name];
+      const interval = lower != null && upper != null && t('trend.interval', { lower: index(lower), upper: index(upper) });
+      return tile(null, name.replace('c', 'C').replace(/^p/, 'P'), index(value), interval);
+    })),
+    h('p', { class: doubt ? 'stability doubt' : 'stability' }, doubt || t('trend.stable', { count: points.length })),
+  ];
+}
+
+/** Why the indices say little of what comes: '' where they do. */
+function doubtOf(points, chart) {
+  const first = [...(chart?.violations ?? [])].filter(({ chart: name }) => name === 'i').sort((one, other) => other.index - one.index)[0];
+  if (first) {
+    return t('trend.unstable', { rule: first.rule, part: points[first.index].record.part_id ?? t('trend.value_number', { number: first.index + 1 }) });
+  }
+  if (chart?.violations.length) return t('trend.unstable_range');
+  if (points.length < FEWEST) return t('trend.too_few', { count: points.length, fewest: FEWEST });
+  return '';
+}

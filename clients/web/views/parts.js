@@ -1,0 +1,96 @@
+/** The parts: what was measured at which, found by part, order or whatever else a record says; the newest first. */
+
+import { getJson, url } from '../api.js';
+import { field, h } from '../dom.js';
+import { dateTime, explain, number, signed, t } from '../i18n.js';
+import { Latest } from '../latest.js';
+import { fragment, go } from '../route.js';
+import { certificate } from '../parts/certificate.js';
+import { limitsText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
+
+const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator'];
+const PAGE = 50;
+
+export function mount(main, route) {
+  const leaving = new AbortController();
+  const latest = new Latest(leaving.signal);
+  const inputs = Object.fromEntries(FIELDS.map((name) => [name,
+    h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', onchange: () => search() })]));
+  for (const name of FIELDS) inputs[name].value = route.options[name] ?? '';
+  const verdict = h('select', { name: 'verdict', onchange: () => search() }, ['', ...VERDICTS].map((word) =>
+    h('option', { value: word, selected: word === (route.options.verdict ?? '') }, word ? t(`verdict.${word}`) : t('parts.any'))));
+  const corrected = h('input', { type: 'checkbox', checked: route.options.history === 'all', onchange: () => search() });
+  const note = h('p.note', { role: 'status' });
+  const rows = h('tbody');
+  const table = h('div.scroll.records', { tabindex: 0, role: 'region', 'aria-label': t('view.parts') },
+    h('table', h('thead', h('tr', ['field.part_id', 'field.characteristic', 'trend.verdict', 'trend.value', 'parts.deviation', 'parts.limits', 'parts.by', 'trend.time']
+      .map((name) => h('th', { scope: 'col' }, t(name))))), rows));
+  const more = h('button', { type: 'button', hidden: true, onclick: () => read() }, t('parts.more'));
+  const exported = h('a.button', { download: 'measurements.csv' }, t('parts.csv'));
+  const certify = h('button', { type: 'button', onclick: () => showCertificate() }, t('parts.certificate'));
+  const sheet = h('div');
+  const replaced = new Set();
+  let after = '';
+
+  main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
+    h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
+      FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict),
+      h('label.choice', corrected, h('span', t('parts.history'))),
+      h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
+    h('p.actions', certify, exported), note, table, h('p.actions', more), sheet));
+
+  const filter = () => ({
+    ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
+  });
+
+  function search() {
+    go({ view: 'parts', options: filter() }, { refine: true });
+    after = '';
+    rows.replaceChildren();
+    sheet.replaceChildren();
+    exported.href = url(['measurements'], { ...filter(), format: 'csv' });
+    certify.disabled = !inputs.part_id.value.trim() && !inputs.order.value.trim();
+    return read();
+  }
+
+  async function read() {
+    try {
+      const page = await latest.run((signal) => getJson(url(['measurements'], { ...filter(), sort: 'newest', limit: PAGE, after }), { signal }));
+      if (!page) return;
+      // A correction is newer than what it corrects, so it was read before.
+      for (const { correction_of: old } of page.measurements) if (old) replaced.add(old);
+      rows.append(...page.measurements.map((record) => row(record, replaced.has(record.id))));
+      after = page.next ?? '';
+      more.hidden = !after;
+      note.textContent = rows.children.length ? '' : t('parts.none');
+      table.hidden = !rows.children.length;
+    } catch (problem) {
+      note.textContent = explain(problem);
+    }
+  }
+
+  async function showCertificate() {
+    note.textContent = '';
+    try {
+      sheet.replaceChildren(await certificate({ part_id: inputs.part_id.value.trim(), order: inputs.order.value.trim() }, leaving.signal));
+      sheet.querySelector('h2').focus();
+    } catch (problem) {
+      note.textContent = explain(problem);
+    }
+  }
+
+  search();
+  return () => leaving.abort();
+}
+
+function row(record, isReplaced) {
+  const { part_id: part } = record;
+  return h('tr', { class: isReplaced && 'corrected' },
+    h('td', part ? h('a', { href: fragment({ view: 'parts', options: { part_id: part, history: 'all' } }) }, part) : '–'),
+    h('td', record.characteristic ?? '', h('span.aside', record.designation ? `Ø ${number(record.designation)}` : '')),
+    h('td', verdictMark(record.verdict), (isReplaced || record.correction_of)
+      && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.reason].filter(Boolean).join(' · '))),
+    h('td.number', measuredText(record)), h('td.number', `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
+    h('td', [record.operator, record.machine, record.gauge].filter(Boolean).join(' · ')),
+    h('td', dateTime(new Date(record.measured_at))));
+}
