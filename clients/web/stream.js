@@ -27,8 +27,8 @@ export async function* eventsOf(response) {
 }
 
 /**
- * Follows a stream until `signal`, coming back with the id of the last event after every break. Resolves
- * at the end, or once the key is refused.
+ * Follows a stream until `signal`, coming back with the id of the last event after every break. Without an
+ * id to begin after, `resync` comes first. Resolves at the end, or once the key is refused.
  */
 export async function followStream(path, { key, last, signal, onEvent }) {
   let wait = 250;
@@ -42,6 +42,8 @@ export async function followStream(path, { key, last, signal, onEvent }) {
       });
       if (response.status === 401) return;
       if (response.ok) {
+        // What came between the first reading of a list and this moment is in no event.
+        if (!last) onEvent({ type: 'resync', data: '{}' });
         for await (const event of eventsOf(response)) {
           wait = 250;
           last = event.id ?? last;

@@ -16,11 +16,11 @@ class Stream {
     this.key = key;
   }
 
-  /** @param last the id of the last event this tab had, if any: one that missed some is told to read anew */
+  /** @param last the id of the last event this tab had, if any: one that may have missed some is told to read anew */
   join(port, last) {
     this.#ports.add(port);
     if (!this.#ending) this.#last ??= last;
-    if (last && last !== this.#last) port.postMessage({ event: { type: 'resync', id: this.#last, data: '{}' } });
+    if (this.#ending && last !== this.#last) port.postMessage({ event: { type: 'resync', id: this.#last, data: '{}' } });
     if (!this.#ending) this.#run();
   }
 

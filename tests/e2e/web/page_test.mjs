@@ -157,7 +157,7 @@ describe('the page', () => {
 
   /** What can be used but is smaller than a finger. */
   const smallTargets = (page) => page.evaluate((smallest) => [...document.querySelectorAll('a, button, input, select, summary, textarea')]
-    .map((element) => element.closest('label:has([type="radio"])') ?? element)
+    .map((element) => element.closest('label:has([type="radio"], [type="checkbox"])') ?? element)
     .filter((element) => !element.matches('.unseen, .skip') && element.checkVisibility())
     .map((element) => ({ element, box: element.getBoundingClientRect() }))
     .filter(({ box }) => box.height < smallest || box.width < smallest)
@@ -207,7 +207,7 @@ describe('the page', () => {
   it('asks for a key where the service wants one, and uses it for events too', async () => {
     const locked = await new Daemon('--auth', 'read-open').start();
     try {
-      const key = locked.command('key', 'create', '--name', 'station', '--role', 'operator');
+      const key = await locked.key('station', 'operator');
       const page = await open(browser, locked, '#/gauge/25H7');
       await page.waitForSelector('.echo .figures');
       await page.keyboard.type('25.0131\n');

@@ -240,7 +240,7 @@ describe('a station in an unfriendly browser', () => {
 
   it('gives a value to the station that a gauge typed into the dialog for keys', async () => {
     const daemon = await new Daemon('--auth', 'read-open').start();
-    const key = daemon.command('key', 'create', '--name', 'station', '--role', 'operator').split(/\s/).at(-1);
+    const key = await daemon.key('station', 'operator');
     const page = await open(browser, daemon, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
     await page.keyboard.type('25.011\n');

@@ -54,6 +54,16 @@ export class Daemon {
     return execFileSync(FITGAUGED, [...args, '--data', path.join(this.folder, 'data')], { encoding: 'utf8' }).trim();
   }
 
+  /** A new API key, which the service has taken up. */
+  async key(name, role) {
+    const key = this.command('key', 'create', '--name', name, '--role', role).split(/\s/).at(-1);
+    const known = async () => (await fetch(`${this.url}/v1/measurements`, { headers: { Authorization: `Bearer ${key}` } })).ok;
+    for (const until = Date.now() + LONGEST_START_MS; !await known(); await sleep(50)) {
+      if (Date.now() > until) throw new Error('the service does not take up a new key');
+    }
+    return key;
+  }
+
   async json(target) {
     return (await fetch(this.url + target)).json();
   }
