@@ -40,7 +40,7 @@ struct Diagnostic {
   SourceRange range{};                   ///< columns in characters; within one physical line
   std::optional<std::uint32_t> block{};  ///< its number as written
   std::string source{};                  ///< the physical line
-  bool is_unreadable = false;  ///< the line is no Klartext and is kept as an ERROR block
+  bool is_unreadable = false;            ///< the line is no Klartext and is kept as an ERROR block
   std::vector<DiagnosticNote> notes{};
 };
 

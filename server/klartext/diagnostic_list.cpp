@@ -15,9 +15,7 @@ constexpr std::size_t kMostDiagnostics = 200;
 /// A longer line is cut: two hundred findings in a line of megabytes must stay small.
 constexpr std::size_t kLongestShownLine = 1000;
 
-std::string_view shown(std::string_view line) {
-  return first_characters(line, kLongestShownLine);
-}
+std::string_view shown(std::string_view line) { return first_characters(line, kLongestShownLine); }
 
 }  // namespace
 

@@ -90,7 +90,8 @@ Result<std::int64_t> parse_measurement_id(std::string_view text) {
 
 Result<std::int64_t> parse_run_id(std::string_view text) {
   if (const auto id = parse_id(kRunPrefix, text)) return *id;
-  return Error{ErrorCode::RunUnknown, "there is no run '" + std::string(first_characters(text, 40)) + "'"};
+  return Error{ErrorCode::RunUnknown,
+               "there is no run '" + std::string(first_characters(text, 40)) + "'"};
 }
 
 }  // namespace fitgauge::app

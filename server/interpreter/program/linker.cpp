@@ -161,9 +161,8 @@ class Linker {
     } else if (std::holds_alternative<klartext::EndProgram>(statement)) {
       writer_.add({.op = Op::End});
     } else if (const auto* cycle = std::get_if<klartext::Cycle>(&statement)) {
-      writer_.add({.op = Op::Statement,
-                   .a = index,
-                   .b = static_cast<std::uint32_t>(parts_.cycles.size())});
+      writer_.add(
+          {.op = Op::Statement, .a = index, .b = static_cast<std::uint32_t>(parts_.cycles.size())});
       parts_.cycles.push_back(bind_cycle(program_, *cycle));
     } else {
       collect_reference(block);
@@ -297,11 +296,10 @@ LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
                    [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
   file.memory_bytes = memory_of(parsed.program, parts);
   const auto has_error = [&](bool tolerant) {
-    return std::any_of(file.diagnostics.begin(), file.diagnostics.end(),
-                       [tolerant](const auto& diagnostic) {
-                         return diagnostic.severity == Severity::Error &&
-                                !(tolerant && diagnostic.is_unreadable);
-                       });
+    return std::any_of(
+        file.diagnostics.begin(), file.diagnostics.end(), [tolerant](const auto& diagnostic) {
+          return diagnostic.severity == Severity::Error && !(tolerant && diagnostic.is_unreadable);
+        });
   };
   if (has_error(true)) return file;
   file.with_error_blocks =

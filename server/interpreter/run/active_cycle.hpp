@@ -40,8 +40,8 @@ struct ActiveCycle {
   /// Numbers for FN 18 ID 10: the last call-active cycle and the last TCH PROBE.
   int number = -1;
   int last_probing = -1;
-  std::vector<machine::Vec3> pattern{};  ///< PATTERN DEF: X, Y, and in Z its surface
-  std::vector<klartext::Label> contours{};          ///< cycle 14
+  std::vector<machine::Vec3> pattern{};               ///< PATTERN DEF: X, Y, and in Z its surface
+  std::vector<klartext::Label> contours{};            ///< cycle 14
   std::optional<MachiningDefinition> contour_data{};  ///< cycle 20
 };
 

@@ -31,7 +31,7 @@ struct RunOptions {
   /// Lines that are no Klartext are ERROR blocks, which fail when they are reached (decision 32);
   /// otherwise they refuse the program.
   bool keeps_unreadable = false;
-  bool decimal_comma = true;  ///< of FN 15
+  bool decimal_comma = true;                                          ///< of FN 15
   klartext::MaskLanguage language = klartext::MaskLanguage::English;  ///< of the control's dialog
 };
 

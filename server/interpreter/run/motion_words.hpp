@@ -22,9 +22,9 @@ struct Coordinate {
 /// An M function with what follows it: `M140 MB50 F750`, `M128 F1000`.
 struct MCall {
   int number = 0;
-  std::optional<double> length{};       ///< MB, mm
-  bool to_limit = false;                ///< MB MAX
-  std::optional<machine::Feed> feed{};  ///< of M140
+  std::optional<double> length{};        ///< MB, mm
+  bool to_limit = false;                 ///< MB MAX
+  std::optional<machine::Feed> feed{};   ///< of M140
   const ControlPath* program = nullptr;  ///< that stands for it in the setup
 };
 

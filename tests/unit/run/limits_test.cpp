@@ -170,7 +170,8 @@ TEST_CASE("a block that lasts ends at the limit of time, wherever it stands") {
   for (const Row& row : rows) {
     CAPTURE(row.what);
     const RunResult result = control.run("TOOL CALL 30 Z\n" + row.body);
-    CHECK(outcome(result).find("the run has taken its limit of 0.005 seconds") != std::string::npos);
+    CHECK(outcome(result).find("the run has taken its limit of 0.005 seconds") !=
+          std::string::npos);
   }
 }
 
