@@ -9,7 +9,6 @@
 #include "api/wire/request_facts.hpp"
 #include "app/runs/run_service.hpp"
 #include "app/runs/setup_service.hpp"
-#include "base/digest.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -25,21 +24,6 @@ Result<std::string> name_of(const http::Request& request) {
   if (!name.empty() && name.size() <= kLongestName && printable) return std::string(name);
   return Error{ErrorCode::PathMalformed,
                "the name of a setup has 1 to 100 bytes without / and \\ and control characters"};
-}
-
-/// Strong: texts that differ in a byte have different tags.
-std::string etag(std::string_view text) {
-  constexpr std::size_t kTagDigits = 32;
-  return '"' + to_hex(sha256(text)).substr(0, kTagDigits) + '"';
-}
-
-app::SetupService::Precondition precondition_of(const http::Request& request) {
-  Preconditions conditions = preconditions_of(request);
-  if (!conditions.any()) return {};
-  return [conditions = std::move(conditions)](std::optional<std::string_view> text) {
-    if (!text) return conditions.hold(std::nullopt);
-    return conditions.hold(etag(*text));
-  };
 }
 
 /// Decoding may take long (a surface of many points), so it is not done on an I/O thread.
@@ -63,8 +47,9 @@ void put_setup(const Services& services, const http::Request& request, http::Res
         const auto caller = caller_name(request);
         services.setups.write(
             name, std::string(request.body()),
-            caller ? std::optional<std::string>(*caller) : std::nullopt, precondition_of(request),
-            [shared, tag = etag(request.body())](Result<bool> created) {
+            caller ? std::optional<std::string>(*caller) : std::nullopt,
+            text_precondition_of(request),
+            [shared, tag = etag_of_text(request.body())](Result<bool> created) {
               if (!created) return shared->fail(created.error());
               shared->answer(http::Response(*created ? 201 : 200).with("ETag", tag));
             });
@@ -77,7 +62,7 @@ void get_setup(const Services& services, const http::Request& request, http::Res
                        [if_match = preconditions_of(request).if_match,
                         shared = share(std::move(responder))](Result<app::NamedSetup> setup) {
                          if (!setup) return shared->fail(setup.error());
-                         const std::string tag = etag(setup->text);
+                         const std::string tag = etag_of_text(setup->text);
                          if (!Preconditions{.if_match = if_match}.hold(tag))
                            return shared->fail(other_state());
                          http::Response response(200, "application/json", std::move(setup->text));
@@ -88,7 +73,7 @@ void get_setup(const Services& services, const http::Request& request, http::Res
 
 void delete_setup(const Services& services, const http::Request& request,
                   http::Responder responder) {
-  services.setups.remove(std::string(*request.text("name")), precondition_of(request),
+  services.setups.remove(std::string(*request.text("name")), text_precondition_of(request),
                          [shared = share(std::move(responder))](const Result<bool>& removed) {
                            if (!removed) return shared->fail(removed.error());
                            shared->answer(http::Response(204));

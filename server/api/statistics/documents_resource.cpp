@@ -12,7 +12,6 @@
 #include "app/measurements/document_service.hpp"
 #include "app/runs/run_service.hpp"
 #include "base/clock.hpp"
-#include "base/digest.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -99,26 +98,12 @@ Result<std::string> document_name(const http::Request& request) {
   return Error{ErrorCode::PathMalformed, "a name has 1 to 200 bytes without control characters"};
 }
 
-/// Strong: texts that differ in a byte have different tags.
-std::string document_tag(std::string_view text) {
-  constexpr std::size_t kTagDigits = 32;
-  return '"' + to_hex(sha256(text)).substr(0, kTagDigits) + '"';
-}
-
-app::DocumentService::Precondition document_precondition(const http::Request& request) {
-  Preconditions conditions = preconditions_of(request);
-  if (!conditions.any()) return {};
-  return [conditions = std::move(conditions)](std::optional<std::string_view> text) {
-    return text ? conditions.hold(document_tag(*text)) : conditions.hold(std::nullopt);
-  };
-}
-
 http::Response written(bool created, std::string answer, std::string_view text) {
   const int status = created ? 201 : 200;
   http::Response response = answer.empty()
                                 ? http::Response(status)
                                 : http::Response(status, "application/json", std::move(answer));
-  return std::move(response).with("ETag", document_tag(text));
+  return std::move(response).with("ETag", etag_of_text(text));
 }
 
 /// A budget may ask for a simulation, which takes long.
@@ -141,7 +126,7 @@ void put_document(const Services& services, const http::Request& request,
              .text = std::string(request.body()),
              .caller = caller ? std::optional<std::string>(*caller) : std::nullopt,
              .uncertainty = checked->uncertainty,
-             .precondition = document_precondition(request)},
+             .precondition = text_precondition_of(request)},
             [&request, shared, answer = std::move(checked->answer)](Result<bool> created) {
               if (created) return shared->answer(written(*created, answer, request.body()));
               const bool of_budget = created.error().code == ErrorCode::UncertaintyUnknown;
@@ -159,7 +144,7 @@ void get_document(const Services& services, const http::Request& request,
       [if_match = preconditions_of(request).if_match,
        shared = share(std::move(responder))](Result<app::NamedDocument> document) {
         if (!document) return shared->fail(document.error());
-        const std::string tag = document_tag(document->text);
+        const std::string tag = etag_of_text(document->text);
         if (!Preconditions{.if_match = if_match}.hold(tag)) return shared->fail(other_state());
         http::Response response(200, "application/json", std::move(document->text));
         response.etag = tag;
@@ -171,7 +156,7 @@ template <const KindOfDocument& kKind>
 void remove_document(const Services& services, const http::Request& request,
                      http::Responder responder) {
   services.documents.remove(kKind.kind, std::string(*request.text("name")),
-                            document_precondition(request),
+                            text_precondition_of(request),
                             [shared = share(std::move(responder))](const Result<bool>& removed) {
                               if (!removed) return shared->fail(removed.error());
                               shared->answer(http::Response(204));

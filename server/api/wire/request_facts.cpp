@@ -1,8 +1,10 @@
 #include "api/wire/request_facts.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "api/service/caller.hpp"
+#include "base/digest.hpp"
 #include "base/text.hpp"
 #include "http/field_list.hpp"
 
@@ -114,6 +116,19 @@ std::optional<std::string_view> caller_name(const http::Request& request) {
   const auto* caller = request.caller<Caller>();
   if (caller == nullptr || caller->name.empty()) return std::nullopt;
   return std::string_view(caller->name);
+}
+
+std::string etag_of_text(std::string_view text) {
+  constexpr std::size_t kTagDigits = 32;
+  return '"' + to_hex(sha256(text)).substr(0, kTagDigits) + '"';
+}
+
+TextPrecondition text_precondition_of(const http::Request& request) {
+  Preconditions conditions = preconditions_of(request);
+  if (!conditions.any()) return {};
+  return [conditions = std::move(conditions)](std::optional<std::string_view> text) {
+    return text ? conditions.hold(etag_of_text(*text)) : conditions.hold(std::nullopt);
+  };
 }
 
 }  // namespace fitgauge::api

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,6 +39,13 @@ struct Preconditions {
   bool hold(std::optional<std::string_view> etag) const;
 };
 Preconditions preconditions_of(const http::Request& request);
+
+/// Strong: texts that differ in a byte have different tags.
+std::string etag_of_text(std::string_view text);
+/// Decides on the current text, none where there is none; empty when the request has no condition.
+using TextPrecondition = std::function<bool(std::optional<std::string_view> text)>;
+TextPrecondition text_precondition_of(const http::Request& request);
+
 /// The header parameters of the routes that honour them.
 void add_precondition_parameters(std::vector<http::Parameter>& parameters);
 
