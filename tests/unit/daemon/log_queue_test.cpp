@@ -111,7 +111,8 @@ TEST_CASE("requests leave room for what matters more") {
   REQUIRE(lost > 0);
   queue.push("the disk is full\n", Kind::Other);
   CHECK(queue.lost() == lost);
-  CHECK(pipe.read_until("the disk is full\n").ends_with("the disk is full\n"));
+  // What was lost is said behind it, maybe in the same read.
+  CHECK(pipe.read_until("the disk is full\n").find("the disk is full\n") != std::string::npos);
 }
 
 TEST_CASE("a reader that never comes back does not hold the end") {
