@@ -5,6 +5,7 @@
 
 #include "cli/bash_completion.hpp"
 #include "cli/completion_scripts.hpp"
+#include "cli/control_commands.hpp"
 #include "cli/figure_commands.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/limits_commands.hpp"
@@ -229,6 +230,37 @@ void add_setups(CLI::App& app, Action& chosen) {
       [](const Context& context, const Words& words) { return run_setups_rm(context, words[0]); });
 }
 
+void add_control(CLI::App& app, Action& chosen) {
+  CLI::App* control = app.add_subcommand("control", "A HEIDENHAIN control over LSV-2");
+  control->require_subcommand(1);
+  add_words(*control, "ls", "List a folder of a control", chosen, {"address", "directory"}, 1,
+            [](const Context& context, const Words& words) {
+              return run_control_ls(context, words[0], words[1]);
+            });
+  const auto got = std::make_shared<ControlGetOptions>();
+  CLI::App* get = add_command(*control, "get", "Fetch a file: control get tnc TNC:/log.txt", chosen,
+                              got, run_control_get);
+  get->add_option("address", got->address, "The control: HOST or HOST:PORT")->required();
+  get->add_option("path", got->path, "Path on the control")->required();
+  get->add_option("file", got->file, "File it goes to, else its name here; - is standard output");
+  get->add_flag("--force", got->force, "Replace a file that is there");
+  const auto put = std::make_shared<ControlPutOptions>();
+  CLI::App* send = add_command(*control, "put", "Send files: control put tnc part.h TNC:/nc_prog/",
+                               chosen, put, run_control_put);
+  send->add_option("paths", put->words, "The control, files, then the path or the folder/ they get")
+      ->required()
+      ->expected(3, CLI::detail::expected_max_vector_size);
+  send->add_flag("--force", put->force, "Replace a file that is on the control");
+  add_words(*control, "run", "Run a program of a virtual control", chosen, {"address", "program"},
+            2, [](const Context& context, const Words& words) {
+              return run_control_run(context, words[0], words[1]);
+            });
+  add_words(*control, "state", "Mode, program, axes and errors of a control", chosen, {"address"},
+            1, [](const Context& context, const Words& words) {
+              return run_control_state(context, words[0]);
+            });
+}
+
 void add_runs(CLI::App& app, Action& chosen) {
   CLI::App* runs = app.add_subcommand("runs", "The runs of NC programs");
   runs->require_subcommand(1);
@@ -311,6 +343,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_figures(app, chosen);
   add_setups(app, chosen);
   add_runs(app, chosen);
+  add_control(app, chosen);
   add_tables(app, chosen);
   add_watch(app, chosen);
   add_about(app, chosen);

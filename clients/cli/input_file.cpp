@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <memory>
 #include <utility>
 
@@ -62,6 +63,16 @@ Outcome<std::string> read_file(const std::string& path) {
     bytes.resize(size + *count);
     if (*count == 0) return bytes;
   }
+}
+
+Outcome<void> may_replace(const std::string& path, bool force) {
+  if (force || path == "-" || ::access(path.c_str(), F_OK) != 0) return {};
+  if (::isatty(STDIN_FILENO) == 1) {
+    fmt::print(stderr, "fitgauge: {} is there already: replace it? [y/N] ", path);
+    std::string line;
+    if (std::getline(std::cin, line) && (line == "y" || line == "Y")) return {};
+  }
+  return Failure{ExitCode::LocalFile, path + ": is there already; --force replaces it"};
 }
 
 Outcome<void> write_file(const std::string& path, std::string_view bytes) {

@@ -35,6 +35,10 @@ class InputFile {
 /// The whole of a file, or of standard input for `-`. @errors LocalFile
 Outcome<std::string> read_file(const std::string& path);
 
+/// Nothing here is replaced without a yes: of the one who looks on, or by `force`.
+/// @errors LocalFile when nobody says yes.
+Outcome<void> may_replace(const std::string& path, bool force);
+
 /// Writes a file in one piece, or standard output for `-`. @errors LocalFile
 Outcome<void> write_file(const std::string& path, std::string_view bytes);
 

@@ -1,9 +1,6 @@
 #include "cli/nc_commands.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <iostream>
 
 #include "base/text.hpp"
 #include "cli/address.hpp"
@@ -70,17 +67,6 @@ Failure refused_run(const Context& context, const Answer& answer) {
   return failure;
 }
 
-/// Nothing here is replaced without a yes: of the one who looks on, or of --force.
-Outcome<void> may_write(const GetOptions& options, const std::string& file) {
-  if (options.force || file == "-" || ::access(file.c_str(), F_OK) != 0) return {};
-  if (::isatty(STDIN_FILENO) == 1) {
-    fmt::print(stderr, "fitgauge: {} is there already: replace it? [y/N] ", file);
-    std::string line;
-    if (std::getline(std::cin, line) && (line == "y" || line == "Y")) return {};
-  }
-  return Failure{ExitCode::LocalFile, file + ": is there already; --force replaces it"};
-}
-
 }  // namespace
 
 void print_messages(const JsonValue& run) {
@@ -136,7 +122,7 @@ Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options) 
       options.file.empty() ? std::string(base_name(options.path)) : options.file;
   const auto answer = send(context, {.target = file_target(options.path)});
   if (!answer) return answer.error();
-  if (const auto allowed = may_write(options, file); !allowed) return allowed.error();
+  if (const auto allowed = may_replace(file, options.force); !allowed) return allowed.error();
   const auto written = write_file(file, answer->body);
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }

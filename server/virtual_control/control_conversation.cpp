@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "control_link/virtual_names.hpp"
 #include "virtual_control/disk_path.hpp"
 #include "virtual_control/plc_memory.hpp"
 #include "virtual_control/screen_dump.hpp"
@@ -114,7 +115,7 @@ ControlConversation::Reply ControlConversation::reply(const ReadVersion& request
   const ControlModel& model = state_.model;
   const std::string name(model.name);
   const std::string software(model.nc_software);
-  const std::string plc = "fitgauge";
+  const std::string plc(kVirtualPlc);
   const std::string options = "0000000000000000";
   if (!request.which) {
     PayloadWriter texts;

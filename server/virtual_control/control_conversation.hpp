@@ -21,10 +21,6 @@
 
 namespace fitgauge::virtual_control {
 
-/// The machine parameter that stands for the NC start key, which LSV-2 does not have: a program's
-/// path written to it starts the program, an empty text stops it.
-inline constexpr std::string_view kRunParameter = "Fitgauge.program";
-
 /// What all clients share.
 struct ControlState {
   const ControlModel& model;

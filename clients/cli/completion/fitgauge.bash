@@ -4,7 +4,7 @@
 _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
-  local commands='limits fit gauge measure list export summary capability chart correct nc setups runs tables watch version completion'
+  local commands='limits fit gauge measure list export summary capability chart correct nc setups runs control tables watch version completion'
   COMPREPLY=()
 
   # What the option before takes.
@@ -65,6 +65,11 @@ _fitgauge() {
         '') options='ls show get cancel' ;;
         ls) options='--status --program --limit --after' ;;
       esac ;;
+    control)
+      case ${words[1]-} in
+        '') options='ls get put run state' ;;
+        get | put) options=--force ;;
+      esac ;;
     watch) options='--source --after --count' ;;
     completion) ((${#words[@]} > 1)) || options='bash fish zsh' ;;
     tables)
@@ -82,7 +87,7 @@ _fitgauge() {
       esac ;;
   esac
   case ${words[*]} in
-    measure | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    measure | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | control\ put\ * | control\ get\ *\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

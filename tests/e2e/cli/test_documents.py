@@ -10,8 +10,9 @@ from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 
 COMMANDS = ("limits", "fit", "gauge", "measure", "list", "export", "summary", "capability", "chart", "correct", "nc", "setups", "runs",
-            "tables", "watch", "version", "completion")
-SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables", "setups", "runs")] + [
+            "control", "tables", "watch", "version", "completion")
+SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables", "setups", "runs", "control")] + [
+    ("control", name) for name in ("ls", "get", "put", "run", "state")] + [
     ("setups", name) for name in ("ls", "put", "get", "rm")] + [
     ("runs", name) for name in ("ls", "show", "get", "cancel")] + [
     ("nc", name) for name in ("ls", "put", "get", "check", "run")] + [("tables", "export")]
@@ -75,6 +76,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(completions("nc", ""), {"check", "run", "put", "get", "ls"})
         self.assertEqual(completions("setups", ""), {"ls", "put", "get", "rm"})
         self.assertEqual(completions("runs", ""), {"ls", "show", "get", "cancel"})
+        self.assertEqual(completions("control", ""), {"ls", "get", "put", "run", "state"})
         self.assertEqual(completions("--server", "x", "--json", "tables", ""), {"export"})
 
     def test_every_option_is_offered_where_it_is_taken(self):
@@ -119,7 +121,7 @@ class Completion(unittest.TestCase):
     def test_files_are_offered_where_a_file_is_wanted(self):
         folder = str(ROOT / "docs/man") + "/"
         pages = {folder + "fitgauge.1", folder + "fitgauged.8"}
-        for words in (("measure",), ("nc", "put"), ("nc", "put", "x"), ("--key-file",),
+        for words in (("measure",), ("nc", "put"), ("nc", "put", "x"), ("--key-file",), ("control", "put", "tnc"),
                       ("nc", "run", "x", "--setup-file")):
             with self.subTest(words):
                 self.assertEqual(completions(*words, folder + "f"), pages)

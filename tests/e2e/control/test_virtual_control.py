@@ -1,13 +1,11 @@
 """The virtual control over LSV-2: files, machine and refusals as its wire facts have them."""
 
 import random
-import re
 import struct
-import time
 import unittest
 
 from support.daemon import Daemon, DaemonTest
-from support.lsv2 import Client, Refused, telegram, text
+from support.lsv2 import Client, Refused, control_port, telegram, text, wait_for
 
 WRITABLE = ("--control-listen", "127.0.0.1:0", "--control-write")
 LOOP = ("BEGIN PGM LOOP MM\nTOOL CALL 30 Z\nLBL 2\nLBL 1\nL X+10 Y+20 R0 FMAX\nL X-10 R0 F500\n"
@@ -16,22 +14,6 @@ LOOP = ("BEGIN PGM LOOP MM\nTOOL CALL 30 Z\nLBL 2\nLBL 1\nL X+10 Y+20 R0 FMAX\nL
 LOGGING = ('BEGIN PGM LOGS MM\nQ1 = 25.013\nFN 16: F-PRINT TNC:\\nc_prog\\LINE.A / TNC:\\nc_prog\\OUT.TXT\n'
            "LBL 1\nL Z+100 R0 FMAX\nL Z+90 R0 FMAX\nFN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM LOGS MM\n")
 MASK = '"DIAMETER %8.3f", Q1;\nM_CLOSE;\n'
-
-
-def wait_for(what, seconds=30):
-    """What `what` gives as soon as it is true."""
-    deadline = time.monotonic() + seconds
-    while not (found := what()):
-        if time.monotonic() > deadline:
-            raise AssertionError("it did not come")
-        time.sleep(0.01)
-    return found
-
-
-def control_port(daemon, starts=1):
-    """Of its last start; the log is written a moment after it."""
-    listening = r'"event":"control_listening","detail":"[^"]* on port (\d+)'
-    return int(wait_for(lambda: re.findall(listening, daemon.log)[starts - 1:])[0])
 
 
 class ControlTest(DaemonTest):

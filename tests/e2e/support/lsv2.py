@@ -1,7 +1,25 @@
 """A client of LSV-2 on a raw socket: telegrams as a control's peers send them, and nothing of ours."""
 
+import re
 import socket
 import struct
+import time
+
+
+def wait_for(what, seconds=30):
+    """What `what` gives as soon as it is true."""
+    deadline = time.monotonic() + seconds
+    while not (found := what()):
+        if time.monotonic() > deadline:
+            raise AssertionError("it did not come")
+        time.sleep(0.01)
+    return found
+
+
+def control_port(daemon, starts=1):
+    """Of its last start; the log is written a moment after it."""
+    listening = r'"event":"control_listening","detail":"[^"]* on port (\d+)'
+    return int(wait_for(lambda: re.findall(listening, daemon.log)[starts - 1:])[0])
 
 
 class Refused(Exception):

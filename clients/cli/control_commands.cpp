@@ -1,0 +1,360 @@
+#include "cli/control_commands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+#include "base/clock.hpp"
+#include "base/text.hpp"
+#include "cli/address.hpp"
+#include "cli/input_file.hpp"
+#include "cli/json_value.hpp"
+#include "control_link/link_client.hpp"
+#include "control_link/virtual_names.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+using control_link::ControlError;
+using control_link::LinkClient;
+using control_link::LinkFailure;
+using control_link::ProgramState;
+using control_link::ReadRunInformation;
+using control_link::Transfer;
+
+constexpr std::size_t kMostEntries = 100'000;
+constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+constexpr std::size_t kMostErrors = 100;
+constexpr std::chrono::milliseconds kStateInterval{200};
+
+Failure failure_of(const LinkFailure& failure) {
+  switch (failure.kind) {
+    case LinkFailure::Kind::Refused: return {ExitCode::Refused, failure.message};
+    case LinkFailure::Kind::Unfit: return {ExitCode::LocalFile, failure.message};
+    default: return {ExitCode::NoAnswer, failure.message};
+  }
+}
+
+/// The same about a file.
+Failure failure_of(const std::string& path, const LinkFailure& failure) {
+  Failure named = failure_of(failure);
+  named.message = path + ": " + named.message;
+  return named;
+}
+
+Outcome<void> log_in(LinkClient& control, std::initializer_list<std::string_view> logins) {
+  for (const std::string_view login : logins) {
+    if (const auto done = control.login(login); !done) return failure_of(done.error());
+  }
+  return {};
+}
+
+/// A connection with INSPECT, the largest buffer, and these logins.
+Outcome<LinkClient> connect(const std::string& address,
+                            std::initializer_list<std::string_view> logins) {
+  const auto parsed = control_link::parse_control_address(address);
+  if (!parsed) {
+    return Failure{
+        ExitCode::Usage,
+        fmt::format("'{}' is no address of a control: write HOST or HOST:PORT", address)};
+  }
+  auto control = LinkClient::connect({.address = *parsed});
+  if (!control) return failure_of(control.error());
+  if (const auto done = log_in(*control, {"INSPECT"}); !done) return done.error();
+  if (const auto agreed = control->agree_buffer(); !agreed) return failure_of(agreed.error());
+  if (const auto done = log_in(*control, logins); !done) return done.error();
+  return *std::move(control);
+}
+
+/// What a control keeps as lines: programs and tables.
+Transfer transfer_of(std::string_view path) {
+  constexpr std::array<std::string_view, 8> kLines{".h", ".i", ".t",   ".tch",
+                                                   ".d", ".p", ".tab", ".pnt"};
+  const bool is_lines = std::any_of(kLines.begin(), kLines.end(), [path](std::string_view ending) {
+    return path.size() > ending.size() &&
+           ascii_iequals(path.substr(path.size() - ending.size()), ending);
+  });
+  return is_lines ? Transfer::Lines : Transfer::Binary;
+}
+
+std::string_view name_of(std::uint16_t mode) {
+  constexpr std::array<std::string_view, 5> kNames{"manual", "mdi", "reference run", "single block",
+                                                   "automatic"};
+  return mode < kNames.size() ? kNames.at(mode) : "unknown";
+}
+
+std::string_view name_of(ProgramState state) {
+  switch (state) {
+    case ProgramState::Started: return "started";
+    case ProgramState::Stopped: return "stopped";
+    case ProgramState::Finished: return "finished";
+    case ProgramState::Cancelled: return "cancelled";
+    case ProgramState::Interrupted: return "interrupted";
+    case ProgramState::Failed: return "failed";
+    case ProgramState::FailureCleared: return "failure cleared";
+    case ProgramState::Idle: return "idle";
+  }
+  return "unknown";
+}
+
+/// All that `control state` says.
+struct MachineState {
+  control_link::ControlIdentity identity{};
+  std::uint16_t mode = 0;
+  ProgramState state = ProgramState::Idle;
+  control_link::ProgramStack program{};
+  control_link::AxisTexts axes{};
+  control_link::Overrides overrides{};
+  std::vector<control_link::Fault> errors{};
+};
+
+/// Asks for one thing; what the control does not tell stays as it is.
+template <class Answer>
+Outcome<void> ask_for(LinkClient& control, std::uint16_t which, Answer& into) {
+  auto answer = control.ask<Answer>(ReadRunInformation{which});
+  if (answer) {
+    into = *std::move(answer);
+  } else if (answer.error().kind != LinkFailure::Kind::Refused) {
+    return failure_of(answer.error());
+  }
+  return {};
+}
+
+Outcome<std::vector<control_link::Fault>> read_errors(LinkClient& control) {
+  std::vector<control_link::Fault> errors;
+  for (auto which = ReadRunInformation::kFirstError; errors.size() < kMostErrors;
+       which = ReadRunInformation::kNextError) {
+    auto error = control.ask<control_link::Fault>(ReadRunInformation{which});
+    if (!error) {
+      // Without a further error, or at a control that does not tell them.
+      if (error.error().kind == LinkFailure::Kind::Refused) break;
+      return failure_of(error.error());
+    }
+    errors.push_back(*std::move(error));
+  }
+  return errors;
+}
+
+Outcome<MachineState> read_state(LinkClient& control) {
+  MachineState machine;
+  auto identity = control.identity();
+  if (!identity) return failure_of(identity.error());
+  machine.identity = *std::move(identity);
+  control_link::State mode;
+  control_link::State state{static_cast<std::uint16_t>(ProgramState::Idle)};
+  control_link::Axes axes;
+  if (const auto got = ask_for(control, ReadRunInformation::kMode, mode); !got) return got.error();
+  if (const auto got = ask_for(control, ReadRunInformation::kState, state); !got) {
+    return got.error();
+  }
+  if (const auto got = ask_for(control, ReadRunInformation::kProgram, machine.program); !got) {
+    return got.error();
+  }
+  if (const auto got = ask_for(control, ReadRunInformation::kAxes, axes); !got) return got.error();
+  if (const auto got = ask_for(control, ReadRunInformation::kOverride, machine.overrides); !got) {
+    return got.error();
+  }
+  machine.mode = mode.value;
+  machine.state = static_cast<ProgramState>(state.value);
+  machine.axes = std::move(axes.axes);
+  auto errors = read_errors(control);
+  if (!errors) return errors.error();
+  machine.errors = *std::move(errors);
+  return machine;
+}
+
+std::string json_array(const std::vector<std::string>& items) {
+  return fmt::format("[{}]", fmt::join(items, ","));
+}
+
+std::string state_json(const MachineState& machine) {
+  JsonObject axes;
+  for (std::size_t i = 0; i < machine.axes.names.size(); ++i) {
+    axes.add(machine.axes.names[i], machine.axes.positions[i]);
+  }
+  std::vector<std::string> errors;
+  for (const auto& error : machine.errors) {
+    errors.push_back(JsonObject()
+                         .add_raw("number", std::to_string(error.number))
+                         .add("text", error.text)
+                         .text());
+  }
+  const auto percent = [](std::uint32_t hundredths) {
+    return fmt::format("{}", hundredths / 100.0);
+  };
+  return JsonObject()
+      .add("control", machine.identity.control)
+      .add("nc_software", machine.identity.nc_software)
+      .add("plc", machine.identity.plc)
+      .add("mode", name_of(machine.mode))
+      .add("state", name_of(machine.state))
+      .add("program", machine.program.main)
+      .add("current", machine.program.current)
+      .add_raw("line", std::to_string(machine.program.line))
+      .add_raw("axes", axes.text())
+      .add_raw("feed_percent", percent(machine.overrides.feed))
+      .add_raw("spindle_percent", percent(machine.overrides.spindle))
+      .add_raw("rapid_percent", percent(machine.overrides.rapid))
+      .add_raw("errors", json_array(errors))
+      .text();
+}
+
+void print_state(const Context& context, const MachineState& machine) {
+  context.print("control    {}, NC software {}, PLC {}\n", machine.identity.control,
+                machine.identity.nc_software, machine.identity.plc);
+  context.print("mode       {}\n", name_of(machine.mode));
+  context.print("state      {}\n", name_of(machine.state));
+  if (!machine.program.main.empty()) {
+    context.print("program    {}\n", machine.program.main);
+    context.print("block      {} line {}\n", machine.program.current, machine.program.line);
+  }
+  context.print("axes      ");
+  for (std::size_t i = 0; i < machine.axes.names.size(); ++i) {
+    context.print(" {} {}", machine.axes.names[i], machine.axes.positions[i]);
+  }
+  context.print("\noverrides  feed {} %, spindle {} %, rapid {} %\n",
+                machine.overrides.feed / 100.0, machine.overrides.spindle / 100.0,
+                machine.overrides.rapid / 100.0);
+  for (const auto& error : machine.errors)
+    context.print("error      {}: {}\n", error.number, error.text);
+}
+
+/// Whether the control has a file of that name.
+Outcome<bool> is_there(LinkClient& control, const std::string& path) {
+  const auto found = control.file_information(path);
+  if (found) return true;
+  if (found.error().is_refusal(ControlError::NoFile)) return false;
+  return failure_of(path, found.error());
+}
+
+/// As the control writes it; a destination that ends with a stroke is a folder.
+std::string destination_of(const std::string& destination, const std::string& file) {
+  const bool is_folder = destination.ends_with('\\') || destination.ends_with('/');
+  return control_path(is_folder ? destination + std::string(base_name(file)) : destination);
+}
+
+Outcome<ProgramState> wait_for_end(LinkClient& control) {
+  for (;;) {
+    const auto state =
+        control.ask<control_link::State>(ReadRunInformation{ReadRunInformation::kState});
+    if (!state) return failure_of(state.error());
+    const auto shown = static_cast<ProgramState>(state->value);
+    if (shown != ProgramState::Started) return shown;
+    std::this_thread::sleep_for(kStateInterval);
+  }
+}
+
+}  // namespace
+
+Outcome<ExitCode> run_control_ls(const Context& context, const std::string& address,
+                                 const std::string& directory) {
+  auto control = connect(address, {"FILE"});
+  if (!control) return control.error();
+  const std::string path = directory.empty() ? "TNC:\\" : control_path(directory);
+  const auto entries = control->list(path, kMostEntries);
+  if (!entries) return failure_of(path, entries.error());
+  std::vector<std::string> rows;
+  for (const control_link::DirectoryEntry& entry : *entries) {
+    const bool is_folder = (entry.flags & (control_link::FileInformation::kDirectory |
+                                           control_link::FileInformation::kDirectoryOfItnc)) != 0;
+    const Timestamp modified{std::int64_t{entry.unix_time} * 1'000'000'000};
+    if (context.json) {
+      rows.push_back(JsonObject()
+                         .add("name", entry.name)
+                         .add_raw("folder", is_folder ? "true" : "false")
+                         .add_raw("size", std::to_string(entry.bytes))
+                         .add("modified_at", format_rfc3339(modified))
+                         .text());
+    } else {
+      context.print("{:>9}  {}  {}{}\n", entry.bytes, format_rfc3339(modified), entry.name,
+                    is_folder ? "\\" : "");
+    }
+  }
+  if (context.json)
+    context.print_document(JsonObject().add_raw("entries", json_array(rows)).text());
+  return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_control_get(const Context&, const ControlGetOptions& options) {
+  const std::string path = control_path(options.path);
+  const std::string file = options.file.empty() ? std::string(base_name(path)) : options.file;
+  auto control = connect(options.address, {"FILE"});
+  if (!control) return control.error();
+  const auto bytes = control->download(path, Transfer::Binary, kMostBytes);
+  if (!bytes) return failure_of(path, bytes.error());
+  if (const auto allowed = may_replace(file, options.force); !allowed) return allowed.error();
+  const auto written = write_file(file, *bytes);
+  return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
+}
+
+Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOptions& options) {
+  const std::string& destination = options.words.back();
+  const std::vector<std::string> files(options.words.begin() + 1, options.words.end() - 1);
+  if (files.size() > 1 && !destination.ends_with('\\') && !destination.ends_with('/')) {
+    return Failure{ExitCode::Usage,
+                   fmt::format("several files go into a folder: write {}/", destination)};
+  }
+  auto control = connect(options.words.front(), {"FILE"});
+  if (!control) return control.error();
+  for (const std::string& file : files) {
+    const auto bytes = read_file(file);
+    if (!bytes) return bytes.error();
+    const std::string path = destination_of(destination, file);
+    if (!options.force) {
+      const auto there = is_there(*control, path);
+      if (!there) return there.error();
+      if (*there) {
+        return Failure{ExitCode::Refused,
+                       path + ": is on the control already; --force replaces it"};
+      }
+    }
+    const auto sent = control->upload(path, *bytes, transfer_of(path));
+    if (!sent) return failure_of(path, sent.error());
+    if (!context.json) context.print("{}  {} bytes\n", path, bytes->size());
+  }
+  return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_control_run(const Context& context, const std::string& address,
+                                  const std::string& program) {
+  auto control = connect(address, {});
+  if (!control) return control.error();
+  const auto identity = control->identity();
+  if (!identity) return failure_of(identity.error());
+  if (identity->plc != control_link::kVirtualPlc) {
+    return Failure{ExitCode::Refused,
+                   fmt::format("{} at {} is a real control, and LSV-2 has no NC start: start the "
+                               "program at the machine",
+                               identity->control, address)};
+  }
+  if (const auto done = log_in(*control, {"FILE", "DNC", "PLCDEBUG"}); !done) return done.error();
+  const std::string path = control_path(program);
+  const auto started = control->tell(control_link::WriteMachineParameter{
+      .name = std::string(control_link::kRunParameter), .value = path});
+  if (!started) return failure_of(path, started.error());
+  const auto state = wait_for_end(*control);
+  if (!state) return state.error();
+  const auto errors = read_errors(*control);
+  if (!errors) return errors.error();
+  for (const auto& error : *errors) context.note(fmt::format("{}: {}", error.number, error.text));
+  if (*state != ProgramState::Finished) {
+    return Failure{ExitCode::ProgramFailed, fmt::format("{} ended as {}", path, name_of(*state))};
+  }
+  if (!context.json) context.print("{} {}\n", path, name_of(*state));
+  return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_control_state(const Context& context, const std::string& address) {
+  auto control = connect(address, {"DNC"});
+  if (!control) return control.error();
+  const auto machine = read_state(*control);
+  if (!machine) return machine.error();
+  if (context.json) {
+    context.print_document(state_json(*machine));
+  } else {
+    print_state(context, *machine);
+  }
+  return ExitCode::Good;
+}
+
+}  // namespace fitgauge::cli
