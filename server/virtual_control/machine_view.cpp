@@ -49,9 +49,11 @@ ControlError refusal_of(const Error& error) {
 
 }  // namespace
 
-/// A program that has begun switches the control to automatic, whoever started it.
+/// A program that has begun switches the control to automatic, whoever started it. One that was
+/// started here counts from then on, though it may have to wait for a worker.
 std::shared_ptr<app::ActiveRun> MachineView::newest() {
   auto run = runs_.newest();
+  if (started_ != nullptr && (run == nullptr || run->id() < started_->id())) run = started_;
   if (run != nullptr && run->id() != seen_run_) {
     seen_run_ = run->id();
     mode_ = Mode::Automatic;
@@ -123,7 +125,8 @@ control_link::ControlResult<std::shared_ptr<app::ActiveRun>> MachineView::start(
   if (run != nullptr && is_under_way(run->state())) return ControlError::WrongMode;
   auto started = start_(program);
   if (!started) return refusal_of(started.error());
-  return *std::move(started);
+  started_ = *std::move(started);
+  return started_;
 }
 
 void MachineView::stop() {

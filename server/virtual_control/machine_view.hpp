@@ -52,6 +52,7 @@ class MachineView {
   const StartProgram start_;
   control_link::Mode mode_ = control_link::Mode::Manual;
   std::int64_t seen_run_ = 0;
+  std::shared_ptr<app::ActiveRun> started_;  ///< the last one that a client has started
 };
 
 }  // namespace fitgauge::virtual_control
