@@ -95,7 +95,7 @@ void Verifier::check_schema() {
 void Verifier::check_tables() {
   const TablesStore& tables = session_.stores.tables;
   for (const TableRevision& revision : tables.list()) {
-    revisions_.insert(revision.number);
+    if (!revisions_.insert(revision.number).second) continue;
     const auto loaded = tables.load(revision.number);
     if (loaded && loaded->computed != revision.digest) {
       note(fmt::format("table revision {} differs from its digest", revision.id));
@@ -151,7 +151,11 @@ void Verifier::check_measurement(const MeasurementRow& row) {
   } else if (hasher_(last_hash_, row.id, row) != row.hash) {
     note(fmt::format("measurement {} was altered: its hash is another", row.id));
   }
-  if (row.table_revision && !revisions_.contains(*row.table_revision)) {
+  const auto is_unknown = [&] {
+    return row.table_revision && !revisions_.contains(*row.table_revision);
+  };
+  if (is_unknown()) check_tables();  // they may have changed since
+  if (is_unknown()) {
     note(fmt::format("measurement {} names table revision {}, which is not there", row.id,
                      *row.table_revision));
   }

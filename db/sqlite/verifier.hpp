@@ -29,6 +29,7 @@ class Verifier {
  private:
   void check_file();
   void check_schema();
+  /// The revisions that are new since the last call.
   void check_tables();
   /// What has a digest of its own, and the files' revisions in force.
   void check_rows();

@@ -5,6 +5,8 @@
 
 #include "fixture.hpp"
 #include "sqlite/connection.hpp"
+#include "sqlite/session.hpp"
+#include "sqlite/verifier.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -189,6 +191,30 @@ TEST_CASE("what is derived from the measurements is derived again") {
     fixture.tamper("UPDATE measurement_nodes SET max_measured_at = 1 WHERE node = 1");
   }
   CHECK_FALSE(fixture.findings().empty());
+}
+
+TEST_CASE("tables that change while rows are being read are known") {
+  VerifyFixture fixture;
+  Session session(fixture.options, fixture.clock, sqlite::Mode::Read);
+  const MeasurementCheck no_check;
+  Verifier verifier(session, no_check);
+  bool has_changed = false;
+  const auto finding = verifier.first_altered_row([&] {
+    if (std::exchange(has_changed, true)) return true;
+    const auto revision = fixture.write([](Stores& stores) {
+      return stores.tables.import(
+          {.content = {.cells = {{"it", "IT7", 18, 30, 22}}}, .source = "test", .parent = 1}, 2);
+    });
+    REQUIRE(revision.has_value());
+    MeasurementRow row = sample_row();
+    row.basis = Basis::Iso286;
+    row.tolerance_class = "H7";
+    row.table_revision = revision->number;
+    REQUIRE(fixture.append(row).has_value());
+    return true;
+  });
+  CHECK(has_changed);
+  CHECK_MESSAGE(!finding, finding.value_or(""));
 }
 
 TEST_CASE("damage is found before somebody asks for the row") {
