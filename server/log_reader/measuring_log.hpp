@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/length.hpp"
+
+namespace fitgauge::log_reader {
+
+/// The control's date and time of day; it says no time zone.
+struct LocalTime {
+  int year = 0;
+  int month = 0;
+  int day = 0;
+  int hour = 0;
+  int minute = 0;
+  int second = 0;
+
+  friend bool operator==(const LocalTime&, const LocalTime&) = default;
+};
+
+/// What being out of tolerance means.
+enum class Role : std::uint8_t {
+  Hole,      ///< too small is rework, too large is reject
+  Shaft,     ///< too large is rework, too small is reject
+  Position,  ///< either side is reject
+};
+
+/// What a log says of one characteristic. Lengths are those of the digits; of INCH to the nearest
+/// nanometre.
+struct LogValue {
+  std::string name;       ///< "Diameter", "Centre, main axis"; another one as the log has it
+  bool is_length = true;  ///< else degrees or a figure, of which only `printed` tells
+  Role role = Role::Hole;
+  std::optional<Length> nominal{};
+  std::optional<Length> upper{};  ///< limits: both or none
+  std::optional<Length> lower{};
+  Length measured{};
+  std::string printed{};  ///< the measured value as the log has it
+};
+
+/// One log of one call of a cycle.
+struct MeasuringLog {
+  int cycle = 0;
+  std::string program{};
+  std::optional<LocalTime> time{};
+  bool inch = false;
+  std::vector<LogValue> values{};  ///< in the order of the log
+  std::string text{};              ///< of this log alone, as it was fetched
+};
+
+struct Unread {
+  std::size_t line = 0;  ///< from 1
+  std::string why{};
+};
+
+/// All that a file tells.
+struct Reading {
+  std::vector<MeasuringLog> logs{};
+  std::vector<Unread> unread{};  ///< what no reader understands; the rest is read all the same
+  bool is_unfinished = false;    ///< the last log has no end yet: the cycle may still write it
+};
+
+/// Logs of cycles 420 to 431 as text, one behind the other, in English or German, as HEIDENHAIN's
+/// manuals print them and as our simulation writes them; UTF-8 or Windows-1252. A whole file of
+/// something else is one Unread.
+Reading read_text_logs(std::string_view bytes);
+
+/// Logs of cycles 444, 451, 452 and 453 as HTML: a section a touched point, or a measurement.
+/// Of 444 the deviation along the normal is a value with limits; of the kinematics all figures.
+Reading read_html_logs(std::string_view bytes);
+
+/// By what it is: HTML or text.
+Reading read_logs(std::string_view bytes);
+
+}  // namespace fitgauge::log_reader

@@ -1,0 +1,45 @@
+// Bytes as a file of a control, and, up to a first NUL, as a pattern for the rest: every value has
+// a measured text, limits come in pairs around it in order, and the text of a log reads as itself.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "log_reader/pattern.hpp"
+
+using namespace fitgauge::log_reader;
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  for (const auto& read : {&read_logs, &read_text_logs, &read_html_logs}) {
+    const Reading reading = read(bytes);
+    for (const MeasuringLog& log : reading.logs) {
+      require(log.cycle > 0 && !log.values.empty());
+      for (const LogValue& value : log.values) {
+        require(value.upper.has_value() == value.lower.has_value());
+        require(!value.upper || (value.nominal && value.is_length));
+      }
+    }
+  }
+  for (const MeasuringLog& log : read_text_logs(bytes).logs) {
+    const Reading again = read_text_logs(log.text);
+    require(again.logs.size() == 1 && again.logs[0].values.size() == log.values.size());
+  }
+  const std::size_t end = bytes.find('\0');
+  if (end == std::string_view::npos) return 0;
+  const auto pattern = Pattern::parse(bytes.substr(0, end));
+  if (!pattern) return 0;
+  for (const PatternResult& result : pattern->read(bytes.substr(end + 1)).results) {
+    require(result.fields.contains("measured_mm") && !result.text.empty());
+  }
+  return 0;
+}
