@@ -14,9 +14,9 @@
 namespace fitgauge::store {
 namespace {
 
-constexpr std::array kTables = {kTableSets,     kTableRevisions, kApiKeys,   kIdempotentAnswers,
-                                kFileRevisions, kSetups,         kDocuments, kRuns,
-                                kRunTraces,     kRunFiles,       kEvents};
+constexpr std::array kTables = {kTableSets,     kTableRevisions, kApiKeys, kIdempotentAnswers,
+                                kFileRevisions, kDocuments,      kRuns,    kRunTraces,
+                                kRunFiles,      kEvents};
 
 void add_value(CanonicalDigest& digest, sqlite3_value* value) {
   const auto size = [&] { return static_cast<std::size_t>(sqlite3_value_bytes(value)); };

@@ -36,7 +36,6 @@ inline constexpr SealedTable kIdempotentAnswers{
     "key, caller, method, path, body_digest, status, content_type, location, body, expires_at"};
 inline constexpr SealedTable kFileRevisions{"file_revisions", "revision",
                                             "path, path_key, content, modified_at, caller"};
-inline constexpr SealedTable kSetups{"setups", "name", "name, text, modified_at, caller"};
 inline constexpr SealedTable kDocuments{"documents", "name",
                                         "kind, name, text, modified_at, caller"};
 inline constexpr SealedTable kRuns{

@@ -9,7 +9,6 @@ Stores::Stores(sqlite::Connection& connection, const Clock& clock,
       idempotency(connection, clock, idempotency_retention),
       keys(connection),
       files(connection),
-      setups(connection),
       documents(connection),
       runs(connection),
       events(connection) {}

@@ -10,7 +10,6 @@
 #include "store/keys_store.hpp"
 #include "store/measurements_store.hpp"
 #include "store/runs_store.hpp"
-#include "store/setups_store.hpp"
 #include "store/tables_store.hpp"
 
 namespace fitgauge::store {
@@ -31,7 +30,6 @@ struct Stores {
   IdempotencyStore idempotency;
   KeysStore keys;
   FilesStore files;
-  SetupsStore setups;
   DocumentsStore documents;
   RunsStore runs;
   EventsStore events;

@@ -6,6 +6,7 @@
 #include "api/limits/limits_resource.hpp"
 #include "api/limits/verdicts_resource.hpp"
 #include "api/measurements/measurements_resource.hpp"
+#include "api/plans/plans_resource.hpp"
 #include "api/runs/runs_resource.hpp"
 #include "api/runs/setups_resource.hpp"
 #include "api/service/cycles_resource.hpp"
@@ -35,6 +36,7 @@ http::RouteTable make_routes(const Services& services) {
   add_stored_statistics_routes(routes, services);
   add_uncertainty_routes(routes, services);
   add_documents_routes(routes, services);
+  add_plans_routes(routes, services);
   add_files_routes(routes, services);
   add_setups_routes(routes, services);
   add_runs_routes(routes, services);

@@ -11,6 +11,7 @@ void add_limits_schemas(Schemas& schemas);
 void add_statistics_schemas(Schemas& schemas);
 void add_measurement_schemas(Schemas& schemas);
 void add_table_schemas(Schemas& schemas);
+void add_plan_schemas(Schemas& schemas);
 void add_file_schemas(Schemas& schemas);
 void add_run_schemas(Schemas& schemas);
 void add_cycle_schemas(Schemas& schemas);

@@ -10,7 +10,6 @@ namespace fitgauge::app {
 class TableCatalog;
 class MeasurementService;
 class FileService;
-class SetupService;
 class DocumentService;
 class RunService;
 class EventService;
@@ -26,7 +25,6 @@ struct Services {
   app::TableCatalog& tables;
   app::MeasurementService& measurements;
   app::FileService& files;
-  app::SetupService& setups;
   app::DocumentService& documents;
   app::RunService& runs;
   app::EventService& events;

@@ -74,7 +74,6 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
       MeasurementServiceOptions{.most_waiting = options.write_queue,
                                 .commit_each = options.commit_each});
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
-  app->setups_ = std::make_unique<SetupService>(*app->database_, clock);
   app->documents_ = std::make_unique<DocumentService>(*app->database_, clock);
   if (!options.attach) {
     app->runs_ =

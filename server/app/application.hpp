@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "app/files/file_service.hpp"
-#include "app/measurements/document_service.hpp"
 #include "app/measurements/measurement_service.hpp"
 #include "app/runs/run_service.hpp"
-#include "app/runs/setup_service.hpp"
 #include "app/service/commit_signal.hpp"
+#include "app/service/document_service.hpp"
 #include "app/service/event_service.hpp"
 #include "app/service/key_service.hpp"
 #include "app/service/readiness.hpp"
@@ -60,7 +59,6 @@ class Application {
   EventService& events() { return *events_; }
   KeyService& keys() { return *keys_; }
   FileService& files() { return *files_; }
-  SetupService& setups() { return *setups_; }
   DocumentService& documents() { return *documents_; }
   /// @pre not attached.
   RunService& runs() { return *runs_; }
@@ -95,7 +93,6 @@ class Application {
   std::unique_ptr<EventService> events_;
   std::unique_ptr<KeyService> keys_;
   std::unique_ptr<FileService> files_;
-  std::unique_ptr<SetupService> setups_;
   std::unique_ptr<DocumentService> documents_;
   std::unique_ptr<RunService> runs_;
 };

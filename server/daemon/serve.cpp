@@ -192,7 +192,6 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   const api::Services services{.tables = app.tables(),
                                .measurements = app.measurements(),
                                .files = app.files(),
-                               .setups = app.setups(),
                                .documents = app.documents(),
                                .runs = app.runs(),
                                .events = app.events(),

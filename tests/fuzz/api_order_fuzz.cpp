@@ -12,7 +12,7 @@ using namespace fitgauge::api;
 
 namespace {
 
-Result<app::NamedSetup> no_setup(const std::string& name) {
+Result<app::NamedDocument> no_setup(const std::string& name) {
   return Error{ErrorCode::SetupUnknown, "there is no setup " + name};
 }
 

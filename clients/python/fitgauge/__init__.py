@@ -929,6 +929,23 @@ class Client:
         answer = self._perform(_Request("POST", _control_path(path) + "?action=check"))
         return loads(answer.body)["diagnostics"]
 
+    # Plans
+
+    def plans(self) -> list[dict[str, Any]]:
+        """`part`, `name`, how many `characteristics`, and `modified_at` of each plan."""
+        return self._get("/v1/plans")["plans"]
+
+    def plan(self, part: str) -> dict[str, Any]:
+        """What is measured at a part, in order."""
+        return self._get(_path("plans", part))
+
+    def put_plan(self, part: str, plan: Mapping[str, Any]) -> bool:
+        """Stores a plan; True when it is new."""
+        return self._put(_path("plans", part), dumps(plan).encode(), "application/json").status == 201
+
+    def delete_plan(self, part: str) -> None:
+        self._perform(_Request("DELETE", _path("plans", part)))
+
     # Setups and runs
 
     def setups(self) -> list[dict[str, str]]:

@@ -5,7 +5,7 @@
  */
 
 import { h } from '../dom.js';
-import { LARGEST_NM, mmText, nmFromMm } from '../exact.js';
+import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
 import { BurstWatch, readLine } from './reading.js';
 
@@ -20,11 +20,12 @@ export class Entry {
    * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}
    * @param onValue takes {text, correcting}: the exact decimal, and the record it corrects
    * @param onJob takes a designation, and resolves to whether there is such a one; @param onField takes (name, text, correcting)
+   * @param isName tells whether a text names something known, such as a plan; @param onTyped is told of the first character
    * @param onOpen takes what was typed and is not taken as it is
    * @param onDropped takes the decimal of a value that was asked about and not kept
    */
-  constructor({ job, prefixes, onValue, onJob, onField, onOpen, onDropped }) {
-    Object.assign(this, { job, prefixes, onValue, onJob, onField, onOpen, onDropped });
+  constructor({ job, prefixes, onValue, onJob, onField, isName, onTyped, onOpen, onDropped }) {
+    Object.assign(this, { job, prefixes, onValue, onJob, onField, isName, onTyped, onOpen, onDropped });
     this.lastEnter = -Infinity;
     this.asked = null;
     this.correcting = null;
@@ -95,6 +96,7 @@ export class Entry {
     const typed = this.input.value.trim();
     if (typed === '') return this.#refuse(t('entry.empty'));
     if (this.correcting?.what === 'part_id') return this.#finish(() => this.onField('part_id', this.#withoutPrefix(typed), this.correcting.record));
+    if (!this.correcting && parseMeasured(typed) === null && this.isName(typed)) return this.#finish(() => this.onField('part_id', typed));
     const read = readLine(typed, { burst: this.burst.isBurst(typed), prefixes: this.prefixes() });
     if (read.kind === 'value') return this.#judge(read.text);
     if (this.correcting) return this.#refuse(t('entry.malformed', { typed }));
@@ -172,6 +174,7 @@ export class Entry {
 
   #typed() {
     this.unchanged = false;
+    if (this.input.value) this.onTyped();
     if (this.input.value === '') this.burst.reset();
     if (this.asked) this.onDropped(this.asked);
     this.asked = null;

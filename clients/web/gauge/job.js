@@ -4,7 +4,7 @@ import { explain, number, t } from '../i18n.js';
 import { field, h } from '../dom.js';
 import { getJson, url } from '../api.js';
 import { parseDesignation } from '../designation.js';
-import { nmFromUm, parseMeasured } from '../exact.js';
+import { nmFromMm, nmFromUm, parseMeasured } from '../exact.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, toleranceText } from '../verdict.js';
 import { PREFIXES } from './reading.js';
@@ -107,6 +107,22 @@ export class Job {
     return this.input.value.trim();
   }
 
+  /** Gauges a characteristic of a plan from now on. */
+  follow(one, limits) {
+    this.own = limits;
+    this.limits = null;
+    this.input.value = one.designation ?? (limits ? '' : `${one.nominal_mm}${one.tolerance_class}`);
+    this.inputs.characteristic.value = one.name;
+    // What a plan does not name is measured with the station's own gauge, not with that of the one before.
+    if (this.inputs.gauge.value !== this.planGauge) this.ownGauge = this.inputs.gauge.value;
+    this.planGauge = one.gauge ?? this.ownGauge;
+    this.inputs.gauge.value = this.planGauge;
+    this.rule.value = one.rule ?? 'simple';
+    this.uncertainty.value = one.uncertainty_um ?? '';
+    this.uncertainty.disabled = this.rule.value === 'simple';
+    this.#look();
+  }
+
   get part() {
     return this.inputs.part_id.value.trim();
   }
@@ -125,7 +141,7 @@ export class Job {
 
   /** What the next value is judged by: {text, nominal_nm, limits, uncertainty}, or {reason} why it can't be. */
   current() {
-    const parsed = parseDesignation(this.designation);
+    const parsed = this.own ? { own: this.own, nominal_nm: nmFromMm(this.own.nominal_mm) } : parseDesignation(this.designation);
     if (!parsed) return { reason: this.designation ? t('error.designation.malformed') : t('job.missing') };
     if (this.reason) return { reason: this.reason };
     const job = { ...parsed, limits: this.limits };
@@ -181,6 +197,11 @@ export class Job {
     clearTimeout(this.timer);
     const typed = this.designation;
     const parsed = parseDesignation(typed);
+    if (typed) this.own = null;
+    if (this.own) {
+      this.#show(this.own, '');
+      return;
+    }
     if (!parsed) {
       this.#show(null, typed ? t('error.designation.malformed') : '');
       return;
@@ -204,7 +225,7 @@ export class Job {
 
   #understood(limits) {
     return [
-      h('strong', `Ø ${number(limits.designation)}`),
+      h('strong', limits.designation ? `Ø ${number(limits.designation)}` : number(limits.nominal_mm)),
       h('span', t(`feature.${limits.feature}`)),
       h('span.figures', limitsText(limits)),
       h('span', t('limits.tolerance', { um: toleranceText(limits) })),

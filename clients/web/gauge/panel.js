@@ -17,9 +17,10 @@ export class Panel {
     this.element = h('section.verdict', { role: 'status', 'aria-live': 'polite', 'aria-atomic': 'true', 'aria-label': t('panel.label') });
   }
 
-  /** Nothing was judged yet of what is gauged now: {limits, part}. */
-  next({ limits, part }) {
-    const text = !limits ? t('panel.no_job') : part ? t('panel.measure_part', { part }) : t('panel.measure');
+  /** Nothing was judged yet of what is gauged now: {limits, part}, of a plan its characteristic, or that it is finished. */
+  next({ limits, part, characteristic, finished }) {
+    const what = [part, characteristic].filter(Boolean).join(' · ');
+    const text = !limits ? t('panel.no_job') : finished ? t('panel.next_part') : what ? t('panel.measure_part', { part: what }) : t('panel.measure');
     this.#show('idle', [word(text), limits && limitStrip(limits)]);
   }
 
@@ -43,12 +44,14 @@ export class Panel {
     ], true);
   }
 
-  judged(record) {
+  /** @param reaction what the plan says is to be done about one that is not good */
+  judged(record, reaction) {
     this.#show(record.verdict, [
       verdictShape(record.verdict),
       h('div.said', word(t(`verdict.${record.verdict}`)), about(record),
         h('p.measured', `${measuredText(record)} mm`),
-        h('p.distance', distanceText(record))),
+        h('p.distance', distanceText(record)),
+        reaction && record.verdict !== 'good' && h('p.reaction', reaction)),
       limitStrip(record),
     ]);
   }

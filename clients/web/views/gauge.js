@@ -8,6 +8,7 @@ import { Arrivals } from '../gauge/arrivals.js';
 import { Entry } from '../gauge/entry.js';
 import { FIELDS, Job } from '../gauge/job.js';
 import { Panel } from '../gauge/panel.js';
+import { ownLimits, Plan } from '../gauge/plan.js';
 import { Recent } from '../gauge/recent.js';
 import { explain, t } from '../i18n.js';
 import { queue } from '../queue.js';
@@ -18,6 +19,7 @@ const GAP_MS = 120;
 
 export function mount(main, route) {
   const leaving = new AbortController();
+  let partBefore = route.options.part_id ?? '';
   const panel = new Panel();
   const job = new Job({
     designation: route.path[0] ?? '', options: route.options,
@@ -28,7 +30,9 @@ export function mount(main, route) {
     prefixes: () => job.prefixes,
     onValue: (value) => post(value),
     onJob: (designation) => job.adopt(designation),
-    onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text }) : job.set(name, text)),
+    onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text }) : setField(name, text)),
+    isName: (text) => plan.knows(text),
+    onTyped: () => { if (stepped) next(); },
     onOpen: (typed) => panel.open(typed),
     onDropped: (text) => recent.set({
       key: `dropped-${performance.now()}`, state: 'dropped', shown: shownOf(text), reason: t('recent.dropped_why'),
@@ -37,12 +41,37 @@ export function mount(main, route) {
   const recent = new Recent({ onCorrect: (record, what) => entry.correct(record, what) });
   const arrivals = new Arrivals();
 
-  const next = () => panel.next({ limits: job.limits, part: job.part });
+  const plan = new Plan({ onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part) });
+  let stepped = false;
+
+  const next = () => {
+    stepped = false;
+    panel.next({ limits: job.limits, part: job.part, characteristic: plan.finished ? '' : plan.current?.name, finished: plan.finished });
+  };
+
+  async function choosePlan(part) {
+    await plan.load(part);
+    stepped = false;
+    jobChanged(true);
+    entry.focus();
+  }
+
+  /** A part number that has a plan is no part: it says what is measured from now on. */
+  function setField(name, text) {
+    if (name === 'part_id' && plan.knows(text)) choosePlan(text);
+    else job.set(name, text);
+  }
 
   /** A verdict stands for one part and one size: another one begins without. */
   function jobChanged(another) {
     const path = job.designation ? [job.designation] : [];
-    go({ view: 'gauge', path, options: job.options }, { refine: true });
+    go({ view: 'gauge', path, options: { ...job.options, plan: plan.part, ...(plan.part && { gauge: job.ownGauge }) } }, { refine: true });
+    if (job.part !== partBefore) {
+      partBefore = job.part;
+      plan.begin();
+      stepped = false;
+    }
+    if (stepped) return;
     if (another || panel.state === undefined || panel.state === 'idle') next();
   }
 
@@ -56,16 +85,23 @@ export function mount(main, route) {
   }
 
   function bodyOf(text) {
-    const { text: designation, uncertainty } = job.current();
+    const { text: designation, own, uncertainty } = job.current();
     const given = FIELDS.map((name) => [name, job.inputs[name].value.trim()]).filter(([, value]) => value);
     const rule = uncertainty ? { rule: 'guard_band', uncertainty_um: new Decimal(uncertainty) } : {};
-    return { designation, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...rule };
+    const limits = own ? {
+      nominal_mm: new Decimal(String(own.nominal_mm)), feature: own.feature,
+      upper_um: new Decimal(String(own.upper_deviation_um)), lower_um: new Decimal(String(own.lower_deviation_um)),
+    } : { designation };
+    return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...rule };
   }
 
   function post({ text, correcting }) {
     if (correcting) return correct(correcting, text);
     job.renew();
-    return send(url(['measurements']), bodyOf(text), shownOf(text), true);
+    send(url(['measurements']), bodyOf(text), { ...shownOf(text), reaction: plan.current?.reaction }, true);
+    stepped = Boolean(plan.current);
+    plan.step();
+    return undefined;
   }
 
   function correct(record, measured, fields = {}) {
@@ -89,9 +125,10 @@ export function mount(main, route) {
   addEventListener('strayline', ({ detail }) => entry.take(detail), { signal });
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
     recent.set({ key, state: 'stored', shown, record });
+    if ((record.part_id ?? '') === job.part) plan.judged(record.characteristic, record.verdict);
     if (shown.late) arrivals.stored(record);
     // A verdict that comes late is no verdict of the part that lies there now.
-    if (!shown.late) panel.judged(record);
+    if (!shown.late) panel.judged(record, shown.reaction);
     else if (!queue.size) next();
   }, { signal });
   queue.addEventListener('refused', ({ detail: { entry: { key, shown }, problem } }) => {
@@ -116,9 +153,10 @@ export function mount(main, route) {
   addEventListener('focus', () => document.activeElement === document.body && entry.focus(), { signal });
 
   main.replaceChildren(h('div.gauge', h('h1.unseen', { tabindex: -1 }, t('view.gauge')),
-    h('div.station', job.element, entry.element, arrivals.element, panel.element), recent.element));
+    h('div.station', plan.element, job.element, entry.element, arrivals.element, panel.element), recent.element));
   remember('gauge');
   job.start();
+  plan.list().then(() => route.options.plan && choosePlan(route.options.plan));
   if (job.designation) entry.focus();
   else job.input.focus();
   return () => leaving.abort();

@@ -34,7 +34,10 @@ Result<app::RunOrder> read_order(const Services& services, const std::string& pr
   if (!tables) return tables.error();
   return decode_run_order(
       body_of(program, setup),
-      [&services](const std::string& name) { return services.setups.wait_for(name); }, **tables);
+      [&services](const std::string& name) {
+        return services.documents.wait_for(app::DocumentKind::Setup, name);
+      },
+      **tables);
 }
 
 Result<std::shared_ptr<app::ActiveRun>> start(const Services& services,
@@ -66,7 +69,8 @@ Result<T> prepared(app::RunService& runs, const Work& work) {
 Result<machine::Setup> machine_of_setup(const Services& services, const std::string& name) {
   return prepared<machine::Setup>(services.runs, [&]() -> Result<machine::Setup> {
     if (!name.empty()) {
-      if (const auto found = services.setups.wait_for(name); !found) return found.error();
+      if (const auto found = services.documents.wait_for(app::DocumentKind::Setup, name); !found)
+        return found.error();
     }
     auto order = read_order(services, "TNC:\\none.h", name);
     if (!order) return order.error();

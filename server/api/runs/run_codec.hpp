@@ -26,7 +26,4 @@ std::string run_page_json(const app::RunService::Page& page);
 std::string diagnostics_json(const std::vector<klartext::Diagnostic>& diagnostics);
 void write_diagnostics(JsonWriter& json, const std::vector<klartext::Diagnostic>& diagnostics);
 
-/// Writes a value that was read as it was written, without blanks.
-void write_json(JsonWriter& json, const JsonValue& value);
-
 }  // namespace fitgauge::api

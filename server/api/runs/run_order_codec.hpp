@@ -7,7 +7,7 @@
 #include "api/wire/json_value.hpp"
 #include "app/runs/control_tables.hpp"
 #include "app/runs/run_report.hpp"
-#include "app/runs/setup_service.hpp"
+#include "app/service/document_service.hpp"
 
 namespace fitgauge::api {
 
@@ -15,7 +15,7 @@ inline constexpr std::int64_t kMostBlocks = 100'000'000;
 inline constexpr double kMostSeconds = 60;
 
 /// Finds a named setup; may wait.
-using FindSetup = std::function<Result<app::NamedSetup>(const std::string& name)>;
+using FindSetup = std::function<Result<app::NamedDocument>(const std::string& name)>;
 
 /// Reads the body of POST /v1/runs. The order's request is the body with a named setup put in
 /// place, so that it can be sent again.

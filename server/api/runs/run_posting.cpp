@@ -98,7 +98,9 @@ Result<app::RunOrder> read_order(const SharedPosting& posting) {
   if (!tables) return tables.error();
   auto order = decode_run_order(
       *std::move(body),
-      [&posting](const std::string& name) { return posting->services.setups.wait_for(name); },
+      [&posting](const std::string& name) {
+        return posting->services.documents.wait_for(app::DocumentKind::Setup, name);
+      },
       **tables);
   if (!order) return order;
   if (auto loaded =

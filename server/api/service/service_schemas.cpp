@@ -40,8 +40,13 @@ void add_cycle_schemas(Schemas& schemas) {
 void add_service_schemas(Schemas& schemas) {
   schemas.push_back(
       {"Resync", schema::object({{"detail", schema::text(), "Read the lists again"}})});
-  schemas.push_back({"Event", schema::one_of({schema::ref("Measurement"),
-                                              schema::ref("RunFinished"), schema::ref("Resync")})});
+  schemas.push_back({"TableChanged",
+                     schema::object({{"feature", feature_words(), "Whose table"},
+                                     {"tolerance_class", schema::text(), "The column that changed"},
+                                     {"table_revision", schema::text(), "In force from now on"}})});
+  schemas.push_back(
+      {"Event", schema::one_of({schema::ref("Measurement"), schema::ref("RunFinished"),
+                                schema::ref("TableChanged"), schema::ref("Resync")})});
   schemas.push_back({"Live", schema::object({{"status", schema::words({"live"}), ""}},
                                             Others::Allowed, R"({"status":"live"})")});
   schemas.push_back({"Ready", schema::object({

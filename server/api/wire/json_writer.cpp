@@ -158,4 +158,25 @@ void append_json_string(std::string& out, std::string_view text) {
   out += '"';
 }
 
+void write_json(JsonWriter& json, const JsonValue& value) {
+  switch (value.kind) {
+    case JsonValue::Kind::Null: json.null(); break;
+    case JsonValue::Kind::Boolean: json.value(value.boolean); break;
+    case JsonValue::Kind::Number: json.raw(value.text); break;
+    case JsonValue::Kind::String: json.value(value.text); break;
+    case JsonValue::Kind::Array:
+      json.begin_array();
+      for (const JsonValue& item : value.items) write_json(json, item);
+      json.end_array();
+      break;
+    case JsonValue::Kind::Object:
+      json.begin_object();
+      for (const auto& [name, member] : value.members) {
+        write_json(json.key(name), member);
+      }
+      json.end_object();
+      break;
+  }
+}
+
 }  // namespace fitgauge::api

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "api/wire/json_value.hpp"
 #include "base/length.hpp"
 
 namespace fitgauge::api {
@@ -63,5 +64,8 @@ class JsonWriter {
 
 /// `text` as a JSON string with its quotes.
 void append_json_string(std::string& out, std::string_view text);
+
+/// A value as it was read: numbers keep their digits.
+void write_json(JsonWriter& json, const JsonValue& value);
 
 }  // namespace fitgauge::api

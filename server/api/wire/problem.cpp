@@ -37,6 +37,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::CycleUnknown:
     case ErrorCode::UncertaintyUnknown:
     case ErrorCode::GaugeUnknown:
+    case ErrorCode::PlanUnknown:
     case ErrorCode::MeasurementUnknown: return 404;
     case ErrorCode::MethodNotAllowed: return 405;
     case ErrorCode::NotAcceptable: return 406;

@@ -35,7 +35,8 @@ std::optional<EventPosition> parse_event_id(std::string_view text);
 
 /// One event, with a measurement or a payload; views, valid during the visitor's call.
 struct Event {
-  std::string_view type;  ///< `measurement.recorded`, `verdict.reject`, `run.finished`
+  /// `measurement.recorded`, `verdict.reject`, `run.finished`, `table.changed`
+  std::string_view type;
   EventPosition id;
   const Measurement* measurement = nullptr;
   std::string_view payload{};  ///< JSON

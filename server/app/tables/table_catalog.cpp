@@ -12,6 +12,7 @@ namespace fitgauge::app {
 namespace {
 
 constexpr std::string_view kStandardSource = "ISO 286-1:2010 and ISO 286-2:2010, tables/data";
+constexpr std::string_view kChangedEvent = "table.changed";
 
 TableState failed(const store::TableRevision& revision, std::vector<Error> findings) {
   return {.tables = nullptr, .number = revision.number, .findings = std::move(findings)};
@@ -59,6 +60,12 @@ Result<store::LoadedTables> load_or_import(store::Stores& stores, Timestamp now)
     return imported.error();
   }
   return stores.tables.load_latest().value();
+}
+
+/// What a reader of events is told; the name of a column needs no escape in JSON.
+std::string change_text(const TableCatalog::ColumnName& column, std::string_view revision) {
+  return fmt::format(R"({{"feature":"{}","tolerance_class":"{}","table_revision":"{}"}})",
+                     word(column.feature), column.name, revision);
 }
 
 auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature feature,
@@ -116,7 +123,9 @@ void TableCatalog::put_column(iso286::CustomColumn column,
   if (const auto checked = iso286::check_custom_column(column); !checked) {
     return done(checked.error());
   }
+  ColumnName name{column.feature, column.name};
   change(
+      std::move(name),
       [column = std::move(column)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
         const auto found = find_column(columns, column.feature, column.name);
         const bool created = found == columns.end();
@@ -133,7 +142,9 @@ void TableCatalog::put_column(iso286::CustomColumn column,
 void TableCatalog::remove_column(iso286::Feature feature, std::string name,
                                  std::optional<std::vector<std::string>> condition,
                                  Callback<ColumnStored> done) {
+  ColumnName removed{feature, name};
   change(
+      std::move(removed),
       [feature,
        name = std::move(name)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
         const auto found = find_column(columns, feature, name);
@@ -147,14 +158,16 @@ void TableCatalog::remove_column(iso286::Feature feature, std::string name,
       std::move(condition), std::move(done));
 }
 
-void TableCatalog::change(Edit edit, std::optional<std::vector<std::string>> condition,
+void TableCatalog::change(ColumnName column, Edit edit,
+                          std::optional<std::vector<std::string>> condition,
                           Callback<ColumnStored> done) {
   struct Changed {
     bool created = false;
-    store::LoadedTables loaded;
+    store::TableRevision revision;
+    std::shared_ptr<const TableState> state;
   };
   database_.writer().submit(
-      [this, edit = std::move(edit),
+      [this, column = std::move(column), edit = std::move(edit),
        condition = std::move(condition)](store::Stores& stores) -> Result<Changed> {
         const auto latest = stores.tables.load_latest().value();
         if (condition && std::find(condition->begin(), condition->end(), latest.revision.id) ==
@@ -167,19 +180,24 @@ void TableCatalog::change(Edit edit, std::optional<std::vector<std::string>> con
         auto data = from_store(latest.content).value();
         const auto created = edit(data.custom_columns);
         if (!created) return created.error();
+        const std::int64_t now = clock_.now().nanoseconds;
         const auto imported = stores.tables.import({.content = to_store(data),
                                                     .source = "custom column",
                                                     .parent = latest.revision.number,
                                                     .caller = {}},
-                                                   clock_.now().nanoseconds);
+                                                   now);
         if (!imported) return imported.error();
-        return Changed{*created, stores.tables.load_latest().value()};
+        auto loaded = stores.tables.load_latest().value();
+        stores.events.append(kChangedEvent, change_text(column, loaded.revision.id), now);
+        // Audited here, so that nothing is left to do between the commit and the first reader.
+        auto audited = std::make_shared<const TableState>(audit(loaded));
+        return Changed{*created, std::move(loaded.revision), std::move(audited)};
       },
       [this, done = std::move(done)](Result<Changed> changed) {
         if (!changed) return done(changed.error());
-        const store::TableRevision& revision = changed->loaded.revision;
+        const store::TableRevision& revision = changed->revision;
         remember(revision.number, revision.id);
-        state_.set(std::make_shared<const TableState>(audit(changed->loaded)));
+        state_.set(std::move(changed->state));
         done(ColumnStored{changed->created, revision.id});
       });
 }

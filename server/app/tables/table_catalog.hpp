@@ -51,11 +51,16 @@ class TableCatalog {
   /// StorageUnavailable.
   void at_revision(std::string revision, Callback<Tables> done);
 
+  struct ColumnName {
+    iso286::Feature feature = iso286::Feature::Hole;
+    std::string name;
+  };
   struct ColumnStored {
     bool created = false;  ///< no custom column of that name stood there before
     std::string revision;
   };
-  /// Stores the column in a new revision; from then on every reader sees it.
+  /// Stores the column in a new revision; from then on every reader sees it, and the event
+  /// `table.changed` says so.
   /// @param condition the revisions a change may follow (If-Match), or none for any.
   /// @errors TableRowsInvalid, PreconditionFailed, StorageUnavailable, StorageBusy.
   void put_column(iso286::CustomColumn column, std::optional<std::vector<std::string>> condition,
@@ -77,7 +82,7 @@ class TableCatalog {
       : database_(database), clock_(clock) {}
 
   using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
-  void change(Edit edit, std::optional<std::vector<std::string>> condition,
+  void change(ColumnName column, Edit edit, std::optional<std::vector<std::string>> condition,
               Callback<ColumnStored> done);
   void remember(std::int64_t number, std::string_view id);
 

@@ -88,6 +88,19 @@ class Events(DaemonTest):
                          {"measured_mm": 25.02, "reason": "x"})
         self.assertEqual(reader.event()[1]["correction_of"], record["id"])
 
+    def test_a_changed_table_is_an_event_and_already_in_force(self):
+        reader = self.reader().begin()
+        column = "/v1/tables/shaft/classes/press2"
+        rows = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": 3}]}
+        for method, body in (("PUT", rows), ("DELETE", None)):
+            self.daemon.request(method, column, body)
+            kind, change = reader.event()
+            self.assertEqual((kind, change["feature"], change["tolerance_class"]), ("table.changed", "shaft", "press2"))
+            self.assertEqual(self.daemon.request("GET", "/readyz").json["table_revision"], change["table_revision"])
+        self.assertEqual(self.daemon.request("DELETE", column).status, 404)
+        record = self.daemon.measure(PART).json
+        self.assertEqual(reader.event(), ("measurement.recorded", record))  # what was refused is none
+
     def test_a_reader_that_comes_back_misses_nothing_and_reads_nothing_twice(self):
         reader = self.reader().begin()
         rows = [{**PART, "part_id": f"SN-{i}", "measured_mm": 25.03 if i % 3 == 0 else 25.01}

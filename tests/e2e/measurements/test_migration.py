@@ -46,6 +46,7 @@ def take_back_newest_migration(database):
     known = sorted((ROOT / "db" / "migrations").glob("*.sql"))
     old = database.with_suffix(".old")
     with contextlib.closing(sqlite3.connect(old)) as made:
+        made.create_function("row_digest", -1, lambda *values: bytes(32), deterministic=True)
         for number, file in enumerate(known[:-1], 1):
             made.executescript(file.read_text())
             made.execute("INSERT INTO schema_migrations VALUES (?, ?, ?, 0)",

@@ -156,6 +156,11 @@ class EveryRoute(ControlTest):
             client.cancel_run(run["id"])
         self.assertEqual([r["id"] for r in client.runs(status="cancelled", page=1)], [endless["id"]])
         client.delete_setup("hole-good")
+        plan = {"characteristics": [{"name": "bore-A", "designation": "25 H7"}]}
+        self.assertTrue(client.put_plan("4711/A", plan))
+        self.assertEqual(client.plan("4711/A"), {"part": "4711/A", **plan})
+        self.assertEqual([(each["part"], each["characteristics"]) for each in client.plans()], [("4711/A", 1)])
+        client.delete_plan("4711/A")
         client.delete_file("some/file 1.h")
         with self.assertRaises(fitgauge.NotFound):
             client.file("some/file 1.h")

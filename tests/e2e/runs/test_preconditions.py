@@ -51,6 +51,10 @@ class Preconditions(DaemonTest):
     def test_files(self):
         self.check_resource("/v1/files/nc_prog/e.h", (PROGRAM % n for n in range(100)))
 
+    def test_plans(self):
+        plan = ('{"characteristics":[{"name":"a","designation":"%d H7"}]}' % n for n in range(1, 100))
+        self.check_resource("/v1/plans/4711", plan)
+
     def test_setups(self):
         self.check_resource("/v1/setups/mill", (f'{{"seed":{n}}}' for n in range(1, 100)))
 

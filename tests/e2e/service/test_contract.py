@@ -39,12 +39,16 @@ END PGM HOLE MM
 SETUP = {"machine": {"axes": {"C": {"on": "table"}}}, "workpiece": {"features": [
     {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]},
     {"type": "bore", "center_mm": [50, 40], "diameter_mm": 25.013}]}}
+PLAN = {"part": "4711-A", "name": "Housing", "characteristics": [
+    {"name": "bore-A", "designation": "25 H7", "gauge": "G-07"},
+    {"name": "slot", "nominal_mm": 8, "feature": "hole", "upper_um": 36, "lower_um": 0, "reaction": "Stop"}]}
 HINTS = {
     "designation": ["25H7", "25 g6", "10,5 h6", "3150 H7", "0.5 t6", "7H"], "hole": ["25H7", "H7"],
     "shaft": ["g6", "s6", "H7"], "fit": ["25H7/g6", "25H7"], "tolerance_class": ["H7", "js6", "H19"],
     "nominal_mm": [25, "25", 10.5, 3151], "measured_mm": [25.01, "25.013"], "name": ["H7", "g6x", "SHOP", "m3"],
     "id": ["m1", "m2", "r1", "m999999", "x"], "number": [421, 400, 9999], "path": ["nc_prog/hole.h", "nc_prog/no.h", "a b.h"],
     "program": ["TNC:\\nc_prog\\hole.h", "TNC:\\nc_prog\\no.h"], "setup": ["m3", SETUP], "action": ["check"],
+    "part": ["4711-A", "no plan"],
     "If-Match": ['"x"', "*"], "Idempotency-Key": ["k1", "k2"], "Prefer": ["return=minimal", "respond-async"],
     "seconds": [1], "after": ["m1", "x"], "revision": ["1-x"]}
 ENDLESS = {"followEvents", "followRun"}
@@ -239,6 +243,11 @@ class Answers(ContractTest):
         self.expect("getSetup", 200, name="m4")
         self.expect("listSetups", 200)
         self.expect("deleteSetup", 204, name="m4")
+        self.expect("putPlan", 201, PLAN, part="4711-A")
+        self.expect("putPlan", 200, PLAN, part="4711-A")
+        self.expect("getPlan", 200, part="4711-A")
+        self.expect("listPlans", 200)
+        self.expect("deletePlan", 204, part="4711-A")
         order = {"program": "TNC:\\nc_prog\\hole.h", "setup": SETUP, "parameters": {"Q1": 25, "QS1": "H7"},
                  "limits": {"blocks": 1000, "seconds": 5}, "on_stop": "end", "unreadable": "refuse"}
         run = self.expect("postRun", 201, order).json

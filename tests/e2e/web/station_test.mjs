@@ -254,3 +254,80 @@ describe('a station in an unfriendly browser', () => {
     await daemon.cleanup();
   });
 });
+
+describe('a plan', () => {
+  let browser;
+  let daemon;
+  let page;
+  const PLAN = { name: 'Housing', characteristics: [
+    { name: 'bore-A', designation: '25 H7', gauge: 'G-07', reaction: 'Stop and tell the setter' },
+    { name: 'slot', nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: -4 },
+    { name: 'journal', nominal_mm: '30', tolerance_class: 'k6', rule: 'guard_band', uncertainty_um: 1 },
+  ] };
+
+  before(async () => {
+    browser = await launch();
+    daemon = await new Daemon().start();
+    await daemon.send('PUT', '/v1/plans/4711-A', PLAN);
+  });
+  after(async () => {
+    await browser.close();
+    await daemon.cleanup();
+  });
+
+  const line = async (text) => { await page.keyboard.type(`${text}\n`); await sleep(320); };
+  const progress = (text) => page.waitForFunction((wanted) => document.querySelector('.plan .progress')?.textContent === wanted, text);
+  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
+
+  it('is taken up by a scan of its part number, and each value steps on', async () => {
+    page = await open(browser, daemon, '#/gauge?gauge=own-gauge');
+    await page.waitForSelector('.plan select:visible');
+    await page.click('.verdict');
+    await line('4711-A');
+    await progress('1 of 3');
+    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
+    assert.equal(await page.inputValue('[name="part_id"]'), '');
+    await line('SN-00017');
+    assert.equal(await page.inputValue('[name="part_id"]'), 'SN-00017');
+    assert.match(await page.textContent('.verdict .word'), /SN-00017 · bore-A/);
+    await line('25.03');
+    await verdict('reject');
+    await progress('2 of 3');
+    assert.match(await page.textContent('.verdict'), /SN-00017 · bore-A.*Stop and tell the setter/);
+    await picture(page, 'gauge-plan');
+    await page.keyboard.type('8'); // the next value begins: the verdict of the one before is taken back
+    await verdict('idle');
+    await line('.02');
+    await verdict('good');
+    await progress('3 of 3');
+    await line('30.003');
+    await verdict('indeterminate');
+    await progress('All 3 measured');
+    await line('SN-00018');
+    await progress('1 of 3');
+    assert.equal(await page.$$eval('.tiles-of-plan .shape', (shapes) => shapes.length), 0);
+    const records = await daemon.stored();
+    assert.deepEqual(records.map(({ part_id, characteristic, verdict: word, gauge }) => [part_id, characteristic, word, gauge]), [
+      ['SN-00017', 'bore-A', 'reject', 'G-07'], ['SN-00017', 'slot', 'good', 'own-gauge'], ['SN-00017', 'journal', 'indeterminate', 'own-gauge']]);
+    assert.deepEqual([records[1].basis, records[1].upper_limit_mm, records[1].lower_limit_mm], ['explicit', 8.036, 7.996]);
+    await close(page);
+  });
+
+  it('comes back with the address, also while the service is away, and its steps can be chosen', async () => {
+    page = await open(browser, daemon, '#/gauge?plan=4711-A');
+    await progress('1 of 3');
+    await page.click('.tiles-of-plan li:nth-child(2) button');
+    await progress('2 of 3');
+    await page.waitForFunction(() => /8/.test(document.querySelector('.echo')?.textContent));
+    await page.focus('#value');
+    await daemon.stop();
+    await line('8.036');
+    await page.waitForSelector('.verdict[data-provisional]');
+    await progress('3 of 3');
+    await daemon.start();
+    await page.waitForSelector('.link[data-state="up"]');
+    assert.equal((await daemon.stored()).at(-1).characteristic, 'slot');
+    page.errors.length = 0;
+    await close(page);
+  });
+});

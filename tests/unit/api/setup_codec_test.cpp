@@ -138,8 +138,8 @@ TEST_CASE("what contradicts itself or names nothing is refused with its pointer"
 }
 
 TEST_CASE("an order is read with its setup, by name or in place") {
-  const auto find = [](const std::string& name) -> Result<app::NamedSetup> {
-    if (name == "mill") return app::NamedSetup{name, R"({"seed": 12})", {}};
+  const auto find = [](const std::string& name) -> Result<app::NamedDocument> {
+    if (name == "mill") return app::NamedDocument{name, R"({"seed": 12})", {}};
     return Error{ErrorCode::SetupUnknown, "there is no setup '" + name + "'"};
   };
   const auto read = [&](std::string_view text) {

@@ -89,20 +89,24 @@ TEST_CASE("a file is checked as what its extension says: program, mask or table"
 
 TEST_CASE("a named setup is kept as it was written") {
   Service service;
-  SetupService& setups = service->setups();
+  DocumentService& documents = service->documents();
+  constexpr auto kSetup = DocumentKind::Setup;
   const auto write = [&](std::string text) {
-    return wait_for<bool>(
-        [&](auto done) { setups.write("mill", std::move(text), {}, {}, std::move(done)); });
+    return wait_for<bool>([&](auto done) {
+      documents.write({.kind = kSetup, .name = "mill", .text = std::move(text)}, std::move(done));
+    });
   };
   CHECK(write("{}").value());
   CHECK_FALSE(write("{\"seed\": 7}").value());
-  CHECK(setups.wait_for("mill")->text == "{\"seed\": 7}");
-  const auto listed =
-      wait_for<std::vector<NamedSetup>>([&](auto done) { setups.list(std::move(done)); });
+  CHECK(documents.wait_for(kSetup, "mill")->text == "{\"seed\": 7}");
+  const auto listed = wait_for<std::vector<NamedDocument>>(
+      [&](auto done) { documents.list(kSetup, std::move(done)); });
   REQUIRE(listed->size() == 1);
   CHECK((*listed)[0].name == "mill");
-  CHECK(wait_for<bool>([&](auto done) { setups.remove("mill", {}, std::move(done)); }).has_value());
-  CHECK(setups.wait_for("mill").error().code == ErrorCode::SetupUnknown);
+  CHECK(wait_for<bool>([&](auto done) {
+          documents.remove(kSetup, "mill", {}, std::move(done));
+        }).has_value());
+  CHECK(documents.wait_for(kSetup, "mill").error().code == ErrorCode::SetupUnknown);
 }
 
 }  // namespace

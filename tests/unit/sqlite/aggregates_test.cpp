@@ -125,22 +125,9 @@ TEST_CASE("documents are stored by kind and name") {
     CHECK(documents.list(DocumentKind::Uncertainty).empty());
     CHECK(documents.remove(gauge, "G-07"));
     CHECK_FALSE(documents.remove(gauge, "G-07"));
-  });
-}
-
-TEST_CASE("setups are stored by name") {
-  Fixture fixture;
-  with_stores(fixture, [](Stores& stores) {
-    SetupsStore& setups = stores.setups;
-    CHECK(setups.put({.name = "bore", .text = "{}", .modified_at_ns = 1}));
-    CHECK_FALSE(setups.put({.name = "bore", .text = "{\"seed\":1}", .modified_at_ns = 2}));
-    CHECK(setups.put({.name = "a", .text = "{}"}));
-    CHECK(setups.find("bore")->text == "{\"seed\":1}");
-    CHECK_FALSE(setups.find("Bore").has_value());
-    REQUIRE(setups.list().size() == 2);
-    CHECK(setups.list()[0].name == "a");
-    CHECK(setups.remove("bore"));
-    CHECK_FALSE(setups.remove("bore"));
+    CHECK(documents.put({.kind = DocumentKind::Setup, .name = "a", .text = "{}"}));
+    CHECK(documents.put({.kind = DocumentKind::Plan, .name = "a", .text = "{}"}));
+    CHECK_FALSE(documents.find(DocumentKind::Setup, "A").has_value());
   });
 }
 

@@ -45,7 +45,6 @@ struct Everything : Fixture {
     REQUIRE(stores.keys.revoke("press-4", 9).has_value());
     stores.files.put({.path = "A.H", .content = "one", .modified_at_ns = 1, .caller = "press-3"});
     stores.files.put({.path = "a.h", .content = "two", .modified_at_ns = 2, .caller = "press-3"});
-    stores.setups.put({.name = "s", .text = "{}", .modified_at_ns = 1, .caller = "press-3"});
     stores.documents.put({.kind = DocumentKind::GaugeInUse,
                           .name = "G-07",
                           .text = "{}",
@@ -140,7 +139,7 @@ TEST_CASE("a changed row is not told to a reader") {
   Everything sample;
   const Column changed[] = {{"idempotent_answers", "body"}, {"runs", "result"},
                             {"run_traces", "trace"},        {"run_files", "content"},
-                            {"file_revisions", "content"},  {"setups", "text"}};
+                            {"file_revisions", "content"},  {"documents", "text"}};
   {
     sqlite::Connection connection(sample.directory.file(), sqlite::Mode::Write);
     for (const Column& column : changed) connection.execute(flip(column));
@@ -161,7 +160,8 @@ TEST_CASE("a changed row is not told to a reader") {
   CHECK(refused([](const Stores& stores) { stores.runs.trace(1); }));
   CHECK(refused([](const Stores& stores) { stores.runs.file(1, "LOG.TXT"); }));
   CHECK(refused([](const Stores& stores) { stores.files.find("A.H"); }));
-  CHECK(refused([](const Stores& stores) { stores.setups.find("s"); }));
+  CHECK(refused(
+      [](const Stores& stores) { stores.documents.find(DocumentKind::GaugeInUse, "G-07"); }));
   CHECK_FALSE(refused([](const Stores& stores) { stores.keys.list(); }));
   CHECK(sample.database->health().state == HealthState::Damaged);
 }

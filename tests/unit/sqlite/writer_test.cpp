@@ -65,7 +65,7 @@ TEST_CASE("an error of one job undoes its own changes and no other's") {
   });
   submit(
       [](Stores& stores) -> Result<int> {
-        stores.setups.put({.name = "s", .text = "{}"});
+        stores.documents.put({.kind = DocumentKind::Setup, .name = "s", .text = "{}"});
         throw std::logic_error("a bug");
       },
       [](const Result<int>& outcome) {
@@ -74,8 +74,9 @@ TEST_CASE("an error of one job undoes its own changes and no other's") {
       });
   delivered.wait();
   CHECK(fixture.last_id() == 1);
-  CHECK_FALSE(*fixture.read(
-      [](const Stores& stores) -> Result<bool> { return !stores.setups.list().empty(); }));
+  CHECK_FALSE(*fixture.read([](const Stores& stores) -> Result<bool> {
+    return !stores.documents.list(DocumentKind::Setup).empty();
+  }));
 }
 
 TEST_CASE("what arrives during a commit is the next batch, and all of it is kept") {

@@ -1,24 +1,40 @@
-#include "app/measurements/document_service.hpp"
+#include "app/service/document_service.hpp"
+
+#include <fmt/format.h>
 
 #include "store/database.hpp"
 
 namespace fitgauge::app {
 namespace {
 
-store::DocumentKind stored_kind(DocumentKind kind) {
-  return kind == DocumentKind::Uncertainty ? store::DocumentKind::Uncertainty
-                                           : store::DocumentKind::GaugeInUse;
+/// What differs between the kinds.
+struct Facts {
+  store::DocumentKind stored;
+  std::string_view noun;
+  ErrorCode unknown;
+};
+
+Facts facts_of(DocumentKind kind) {
+  using Stored = store::DocumentKind;
+  switch (kind) {
+    case DocumentKind::Uncertainty:
+      return {Stored::Uncertainty, "uncertainty budget", ErrorCode::UncertaintyUnknown};
+    case DocumentKind::GaugeInUse:
+      return {Stored::GaugeInUse, "gauge in use", ErrorCode::GaugeUnknown};
+    case DocumentKind::Setup: return {Stored::Setup, "setup", ErrorCode::SetupUnknown};
+    case DocumentKind::Plan: break;
+  }
+  return {Stored::Plan, "plan", ErrorCode::PlanUnknown};
 }
 
+store::DocumentKind stored_kind(DocumentKind kind) { return facts_of(kind).stored; }
+
 std::string called(DocumentKind kind, const std::string& name) {
-  return (kind == DocumentKind::Uncertainty ? "uncertainty budget '" : "gauge in use '") + name +
-         "'";
+  return fmt::format("{} '{}'", facts_of(kind).noun, name);
 }
 
 Error unknown_document(DocumentKind kind, const std::string& name) {
-  return {
-      kind == DocumentKind::Uncertainty ? ErrorCode::UncertaintyUnknown : ErrorCode::GaugeUnknown,
-      "there is no " + called(kind, name)};
+  return {facts_of(kind).unknown, "there is no " + called(kind, name)};
 }
 
 /// Whether the document may be changed. @errors PreconditionFailed
@@ -37,6 +53,13 @@ NamedDocument named_document(store::Document document) {
   return {.name = std::move(document.name),
           .text = std::move(document.text),
           .modified_at = {document.modified_at_ns}};
+}
+
+Result<NamedDocument> find(const store::Stores& stores, DocumentKind kind,
+                           const std::string& name) {
+  auto found = stores.documents.find(stored_kind(kind), name);
+  if (!found) return unknown_document(kind, name);
+  return named_document(*std::move(found));
 }
 
 }  // namespace
@@ -63,13 +86,9 @@ void DocumentService::write(Change change, Done<bool> done) {
 }
 
 void DocumentService::read(DocumentKind kind, std::string name, Done<NamedDocument> done) {
-  database_.readers().submit(
-      [kind, name = std::move(name)](const store::Stores& stores) -> Result<NamedDocument> {
-        auto found = stores.documents.find(stored_kind(kind), name);
-        if (!found) return unknown_document(kind, name);
-        return named_document(*std::move(found));
-      },
-      std::move(done));
+  database_.readers().submit([kind, name = std::move(name)](
+                                 const store::Stores& stores) { return find(stores, kind, name); },
+                             std::move(done));
 }
 
 void DocumentService::remove(DocumentKind kind, std::string name, Precondition precondition,
@@ -97,6 +116,11 @@ void DocumentService::list(DocumentKind kind, Done<std::vector<NamedDocument>> d
         return documents;
       },
       std::move(done));
+}
+
+Result<NamedDocument> DocumentService::wait_for(DocumentKind kind, const std::string& name) {
+  return database_.readers().wait(
+      [kind, &name](const store::Stores& stores) { return find(stores, kind, name); });
 }
 
 }  // namespace fitgauge::app

@@ -16,8 +16,8 @@ class Database;
 
 namespace fitgauge::app {
 
-/// What is kept under a name beside the measurements.
-enum class DocumentKind : std::uint8_t { Uncertainty, GaugeInUse };
+/// What is kept as a text under a name.
+enum class DocumentKind : std::uint8_t { Uncertainty, GaugeInUse, Setup, Plan };
 
 /// A document as it was written.
 struct NamedDocument {
@@ -26,8 +26,10 @@ struct NamedDocument {
   Timestamp modified_at;
 };
 
-/// Uncertainty budgets and gauges in use. Nothing blocks; `done` comes exactly once, on a storage
-/// thread or, when refused at once, on the caller's. Thread-safe.
+/// Uncertainty budgets, gauges in use, machine setups and plans. Nothing but `wait_for` blocks;
+/// `done` comes exactly once, on a storage thread or, when refused at once, on the caller's.
+/// Thread-safe. A name that is not there is UncertaintyUnknown, GaugeUnknown, SetupUnknown or
+/// PlanUnknown.
 class DocumentService {
  public:
   template <class T>
@@ -52,11 +54,14 @@ class DocumentService {
   /// Gives whether the name is new. @errors UncertaintyUnknown: of `uncertainty`;
   ///   PreconditionFailed, StorageUnavailable, StorageBusy.
   void write(Change change, Done<bool> done);
-  /// @errors UncertaintyUnknown, GaugeUnknown, StorageUnavailable.
+  /// @errors what is said of a name that is not there, StorageUnavailable.
   void read(DocumentKind kind, std::string name, Done<NamedDocument> done);
-  /// @errors UncertaintyUnknown, GaugeUnknown, PreconditionFailed, StorageUnavailable, StorageBusy.
+  /// @errors as read; PreconditionFailed, StorageBusy.
   void remove(DocumentKind kind, std::string name, Precondition precondition, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
+
+  /// As read, for threads that may wait.
+  Result<NamedDocument> wait_for(DocumentKind kind, const std::string& name);
 
  private:
   store::Database& database_;

@@ -1,0 +1,123 @@
+/** What is measured at a part, in order: the plan of a part number, which of its characteristics is next, and how each was. */
+
+import { getJson, url } from '../api.js';
+import { h, refill } from '../dom.js';
+import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
+import { number, signed, t } from '../i18n.js';
+import { readJson, store } from '../stored.js';
+import { verdictShape } from '../verdict.js';
+
+const KEPT_PLAN = 'plan';
+const KEPT_LIST = 'plans';
+
+/** What a characteristic is measured against, for people: Ø 25 H7, or 40 +0.1/-0.1. */
+export const sizeText = (one) => {
+  if (one.designation) return `Ø ${number(one.designation)}`;
+  if (one.tolerance_class) return `Ø ${number(one.nominal_mm)} ${one.tolerance_class}`;
+  return `${number(one.nominal_mm)} ${[one.upper_um, one.lower_um].map((um) => signed(mmText(nmFromUm(um), 0))).join('/')}`;
+};
+
+/** The limits of a drawing, as the service gives those of a class. */
+export function ownLimits(one) {
+  if (one.upper_um === undefined) return null;
+  const [nominal, upper, lower] = [nmFromMm(one.nominal_mm), nmFromUm(one.upper_um), nmFromUm(one.lower_um)];
+  return {
+    nominal_mm: one.nominal_mm, feature: one.feature, upper_deviation_um: one.upper_um, lower_deviation_um: one.lower_um, basis: 'explicit',
+    upper_limit_mm: mmText(nominal + upper, 0), lower_limit_mm: mmText(nominal + lower, 0), tolerance_um: umText(upper - lower),
+  };
+}
+
+export class Plan {
+  /** @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none */
+  constructor({ onStep, onChoose }) {
+    this.onStep = onStep;
+    this.at = 0;
+    this.verdicts = [];
+    this.select = h('select', { onchange: () => onChoose(this.select.value), 'aria-label': t('plan.label') });
+    this.progress = h('p.progress', { role: 'status' });
+    this.tiles = h('ol.tiles-of-plan');
+    this.element = h('section.plan', { 'aria-label': t('plan.label'), hidden: true }, h('div.line', this.select, this.progress), this.tiles);
+  }
+
+  /** Asks which plans there are; keeps the list for when the service is away. */
+  async list() {
+    try {
+      this.known = (await getJson(url(['plans']))).plans;
+      store(KEPT_LIST, JSON.stringify(this.known));
+    } catch {
+      this.known = readJson(KEPT_LIST, []);
+    }
+    this.#draw();
+  }
+
+  /** Whether a text that was typed or scanned is a part number with a plan. */
+  knows(text) {
+    return (this.known ?? []).some((plan) => plan.part === text);
+  }
+
+  get part() {
+    return this.plan?.part ?? '';
+  }
+
+  /** The characteristic to measure, or undefined without a plan. */
+  get current() {
+    return this.plan?.characteristics[this.at];
+  }
+
+  /** Takes up the plan of a part number; without one there is none. @returns whether there is one */
+  async load(part) {
+    const kept = `${KEPT_PLAN}.${part}`;
+    try {
+      this.plan = part ? await getJson(url(['plans', part])) : undefined;
+      if (part) store(kept, JSON.stringify(this.plan));
+    } catch (problem) {
+      this.plan = problem.status === undefined ? readJson(kept, undefined) : undefined;
+    }
+    this.begin();
+    return Boolean(this.plan);
+  }
+
+  /** Another part: from the first characteristic on. */
+  begin() {
+    this.verdicts = [];
+    this.go(0);
+  }
+
+  /** A value of the current characteristic is on its way: the next one, after the last the first. */
+  step() {
+    if (!this.plan) return;
+    this.finished = this.at === this.plan.characteristics.length - 1;
+    this.go(this.finished ? 0 : this.at + 1, this.finished);
+  }
+
+  /** Notes how a characteristic was, by its name. */
+  judged(name, verdict) {
+    const at = this.plan?.characteristics.findIndex((one) => one.name === name) ?? -1;
+    if (at < 0) return;
+    this.verdicts[at] = verdict;
+    this.#draw();
+  }
+
+  go(at, finished = false) {
+    this.at = at;
+    this.finished = finished;
+    this.#draw();
+    if (this.plan) this.onStep(this.current);
+  }
+
+  #draw() {
+    const known = this.known ?? [];
+    this.element.hidden = known.length === 0 && !this.plan;
+    refill(this.select, h('option', { value: '' }, t('plan.none')),
+      known.map(({ part, name }) => h('option', { value: part, selected: part === this.part }, [part, name].filter(Boolean).join(' · '))));
+    this.select.value = this.part;
+    const list = this.plan?.characteristics ?? [];
+    const text = !list.length ? '' : this.finished ? t('plan.finished', { count: list.length }) : t('plan.progress', { at: this.at + 1, count: list.length });
+    if (this.progress.textContent !== text) this.progress.textContent = text;
+    refill(this.tiles, list.map((one, i) => h('li', h('button', {
+      type: 'button', 'aria-current': i === this.at && !this.finished && 'step', onclick: () => this.go(i),
+    }, this.verdicts[i] ? [verdictShape(this.verdicts[i]), h('span.unseen', t(`verdict.${this.verdicts[i]}`))] : null,
+    h('span', one.name), h('span.aside', sizeText(one))))));
+    this.tiles.querySelector('[aria-current]')?.scrollIntoView?.({ block: 'nearest', inline: 'nearest' });
+  }
+}

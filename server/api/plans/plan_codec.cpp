@@ -1,0 +1,134 @@
+#include "api/plans/plan_codec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "api/measurements/measurement_row_reader.hpp"
+#include "api/wire/field_reader.hpp"
+#include "api/wire/json_writer.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::size_t kLongestText = 200;
+constexpr std::size_t kLongestReaction = 2000;
+constexpr std::size_t kMostCharacteristics = 500;
+constexpr std::int64_t kLargestSubgroup = 25;
+
+/// What a measurement of the characteristic gets as it stands here.
+constexpr std::array<std::string_view, 10> kMeasurementFields = {
+    "designation", "nominal_mm", "tolerance_class", "feature",         "upper_um",
+    "lower_um",    "gauge",      "uncertainty_um",  "coverage_factor", "rule"};
+
+void check_length(FieldReader& reader, std::string_view name,
+                  const std::optional<std::string>& text, std::size_t longest) {
+  if (text && text->size() > longest) {
+    reader.report(ErrorCode::FieldTooLong, name, fmt::format("at most {} bytes", longest));
+  }
+}
+
+void read_text(FieldReader& reader, std::string_view name, std::size_t longest) {
+  check_length(reader, name, reader.optional_text(name), longest);
+}
+
+void read_own_fields(FieldReader& reader, std::set<std::string>& names) {
+  const auto name = reader.text("name");
+  check_length(reader, "name", name, kLongestText);
+  if (name && name->empty()) reader.report(ErrorCode::FieldInvalid, "name", "a name is not empty");
+  if (name && !names.insert(*name).second) {
+    reader.report(ErrorCode::FieldConflict, "name",
+                  "another characteristic of the plan has this name");
+  }
+  reader.integer_or("subgroup_size", 1, 1, kLargestSubgroup);
+  read_text(reader, "frequency", kLongestText);
+  read_text(reader, "picture", kLongestText);
+  read_text(reader, "reaction", kLongestReaction);
+}
+
+/// Judges some value as a measurement of the characteristic would be.
+void check_limits(const JsonValue& characteristic, std::size_t index,
+                  const iso286::ToleranceTables& tables, FieldErrors& errors) {
+  FieldErrors found;
+  MeasurementRowReader row(tables, Timestamp{}, std::nullopt, found);
+  row.begin(index);
+  row.field("measured_mm", {.kind = RawValue::Kind::Number, .text = "1"});
+  for (const std::string_view name : kMeasurementFields) {
+    if (const JsonValue* value = characteristic.find(name)) row.field(name, raw_value(*value));
+  }
+  row.end();
+  const auto error = found.take();
+  if (!error) return;
+  for (const Error& each : error->details) {
+    errors.add(each.code, "/characteristics" + each.where, each.message);
+  }
+}
+
+void read_characteristic(const JsonValue& value, std::size_t index,
+                         const iso286::ToleranceTables& tables, std::set<std::string>& names,
+                         FieldErrors& errors) {
+  FieldReader reader(value, pointer_to("/characteristics", index), errors);
+  if (!value.is(JsonValue::Kind::Object)) return;
+  for (const std::string_view name : kMeasurementFields) reader.optional(name);
+  read_own_fields(reader, names);
+  reader.refuse_unknown();
+  check_limits(value, index, tables, errors);
+}
+
+void read_characteristics(const JsonValue& list, const iso286::ToleranceTables& tables,
+                          FieldReader& plan, FieldErrors& errors) {
+  if (list.items.empty() || list.items.size() > kMostCharacteristics) {
+    plan.report(ErrorCode::FieldInvalid, "characteristics",
+                fmt::format("a plan has 1 to {} characteristics", kMostCharacteristics));
+    return;
+  }
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    read_characteristic(list.items[i], i, tables, names, errors);
+  }
+}
+
+std::string stored_text(const JsonValue& body, std::string_view part) {
+  std::string text;
+  JsonWriter json(text);
+  json.begin_object().member("part", part);
+  for (const auto& [name, value] : body.members) {
+    if (name != "part") write_json(json.key(name), value);
+  }
+  json.end_object();
+  return text;
+}
+
+}  // namespace
+
+Result<std::string> read_plan(const JsonValue& body, std::string_view part,
+                              const iso286::ToleranceTables& tables) {
+  FieldErrors errors;
+  FieldReader plan(body, "", errors);
+  if (body.is(JsonValue::Kind::Object)) {
+    const auto named = plan.optional_text("part");
+    if (named && *named != part) {
+      plan.report(ErrorCode::FieldConflict, "part", "the path names another part number");
+    }
+    read_text(plan, "name", kLongestText);
+    if (const JsonValue* list = plan.array("characteristics")) {
+      read_characteristics(*list, tables, plan, errors);
+    }
+    plan.refuse_unknown();
+  }
+  if (auto error = errors.take()) return std::move(*error);
+  return stored_text(body, part);
+}
+
+Result<PlanHead> read_plan_head(std::string_view text) {
+  const auto plan = parse_stored_json(text, "plan");
+  if (!plan) return plan.error();
+  const JsonValue* name = plan->find("name");
+  const JsonValue* list = plan->find("characteristics");
+  return PlanHead{.name = name != nullptr ? name->text : std::string(),
+                  .characteristics = list != nullptr ? list->items.size() : 0};
+}
+
+}  // namespace fitgauge::api

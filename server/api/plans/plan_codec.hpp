@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "api/wire/json_value.hpp"
+#include "iso286/tolerance_tables.hpp"
+
+// A plan: what is measured at a part, in order.
+
+namespace fitgauge::api {
+
+/// Checks a plan and gives the text it is stored and answered as: `part` first, the rest as
+/// written. Every characteristic is one a measurement could have: its limits exist, its rule has
+/// what it needs, its name is its own.
+/// @errors RequestInvalid with every bad field.
+Result<std::string> read_plan(const JsonValue& body, std::string_view part,
+                              const iso286::ToleranceTables& tables);
+
+/// What a list says of a stored plan.
+struct PlanHead {
+  std::string name;  ///< empty without one
+  std::size_t characteristics = 0;
+};
+/// @errors StorageCorrupt.
+Result<PlanHead> read_plan_head(std::string_view text);
+
+}  // namespace fitgauge::api

@@ -1,0 +1,212 @@
+#include "api/service/document_routes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "api/handlers.hpp"
+#include "api/statistics/exact_reader.hpp"
+#include "api/wire/request_facts.hpp"
+#include "app/runs/run_service.hpp"
+#include "base/clock.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using Handler = void (*)(const Services&, const KindOfDocument&, const http::Request&,
+                         http::Responder);
+
+http::AsyncHandler of_kind(const Services& services, const KindOfDocument& kind, Handler handler) {
+  return [&services, &kind, handler](const http::Request& request, http::Responder responder) {
+    handler(services, kind, request, std::move(responder));
+  };
+}
+
+std::string_view parameter_name(const KindOfDocument& kind) {
+  return kind.parameter.substr(0, kind.parameter.find('*'));
+}
+
+std::string name_in_path(const KindOfDocument& kind, const http::Request& request) {
+  return std::string(*request.text(parameter_name(kind)));
+}
+
+std::string names_allowed(const KindOfDocument& kind) {
+  return fmt::format("1 to {} bytes without {}control characters", kind.longest_name,
+                     kind.names_with_slashes ? "" : "/ and \\ and ");
+}
+
+/// What a name may be, so that it stands in a path and in a message as it is.
+Result<std::string> name_to_write(const KindOfDocument& kind, const http::Request& request) {
+  std::string name = name_in_path(kind, request);
+  const bool printable = std::none_of(name.begin(), name.end(), [&](char c) {
+    return static_cast<unsigned char>(c) < ' ' || c == '\x7f' ||
+           (!kind.names_with_slashes && (c == '/' || c == '\\'));
+  });
+  if (!name.empty() && name.size() <= kind.longest_name && printable) return name;
+  return Error{ErrorCode::PathMalformed, fmt::format("the {} of {} has {}", parameter_name(kind),
+                                                     kind.one, names_allowed(kind))};
+}
+
+http::Response written(bool created, std::string answer, std::string_view tag) {
+  const int status = created ? 201 : 200;
+  http::Response response = answer.empty()
+                                ? http::Response(status)
+                                : http::Response(status, "application/json", std::move(answer));
+  return std::move(response).with("ETag", std::string(tag));
+}
+
+void write(const Services& services, const KindOfDocument& kind, std::string name,
+           CheckedDocument checked, const http::Request& request, const SharedResponder& shared) {
+  const auto caller = caller_name(request);
+  std::string tag = etag_of_text(checked.text);
+  services.documents.write(
+      {.kind = kind.kind,
+       .name = std::move(name),
+       .text = std::move(checked.text),
+       .caller = caller ? std::optional<std::string>(*caller) : std::nullopt,
+       .uncertainty = std::move(checked.uncertainty),
+       .precondition = text_precondition_of(request)},
+      [shared, tag = std::move(tag), answer = std::move(checked.answer)](Result<bool> created) {
+        if (created) return shared->answer(written(*created, answer, tag));
+        const bool of_budget = created.error().code == ErrorCode::UncertaintyUnknown;
+        shared->fail(of_budget ? at_member("uncertainty", created.error()) : created.error());
+      });
+}
+
+/// Checking may take long: a simulation of a budget, a setup's surface of many points.
+void put(const Services& services, const KindOfDocument& kind, const http::Request& request,
+         http::Responder responder) {
+  auto name = name_to_write(kind, request);
+  if (!name) return responder.fail(name.error());
+  const SharedResponder shared = share(std::move(responder));
+  services.runs.prepare(
+      [&services, &kind, &request, name = *std::move(name), shared] {
+        auto checked = kind.check(services, name, request.body());
+        if (!checked) return shared->fail(checked.error());
+        write(services, kind, name, *std::move(checked), request, shared);
+      },
+      [shared](Error error) { shared->fail(std::move(error)); });
+}
+
+void get(const Services& services, const KindOfDocument& kind, const http::Request& request,
+         http::Responder responder) {
+  services.documents.read(
+      kind.kind, name_in_path(kind, request),
+      [if_match = preconditions_of(request).if_match,
+       shared = share(std::move(responder))](Result<app::NamedDocument> document) {
+        if (!document) return shared->fail(document.error());
+        const std::string tag = etag_of_text(document->text);
+        if (!Preconditions{.if_match = if_match}.hold(tag)) return shared->fail(other_state());
+        http::Response response(200, "application/json", std::move(document->text));
+        response.etag = tag;
+        shared->answer(std::move(response));
+      });
+}
+
+void remove(const Services& services, const KindOfDocument& kind, const http::Request& request,
+            http::Responder responder) {
+  services.documents.remove(kind.kind, name_in_path(kind, request), text_precondition_of(request),
+                            [shared = share(std::move(responder))](const Result<bool>& removed) {
+                              if (!removed) return shared->fail(removed.error());
+                              shared->answer(http::Response(204));
+                            });
+}
+
+Result<std::string> list_of(const KindOfDocument& kind,
+                            const std::vector<app::NamedDocument>& documents) {
+  std::string body;
+  JsonWriter json(body);
+  json.begin_object().key(kind.member).begin_array();
+  for (const app::NamedDocument& document : documents) {
+    json.begin_object();
+    if (auto described = kind.describe(json, document); !described) return described.error();
+    json.member("modified_at", format_rfc3339(document.modified_at)).end_object();
+  }
+  json.end_array().end_object();
+  return body;
+}
+
+void list(const Services& services, const KindOfDocument& kind, const http::Request&,
+          http::Responder responder) {
+  services.documents.list(kind.kind, [&kind, shared = share(std::move(responder))](
+                                         Result<std::vector<app::NamedDocument>> documents) {
+    if (!documents) return shared->fail(documents.error());
+    auto body = list_of(kind, *documents);
+    if (!body) return shared->fail(body.error());
+    shared->answer({200, "application/json", *std::move(body)});
+  });
+}
+
+}  // namespace
+
+Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& document) {
+  json.member("name", document.name);
+  return {};
+}
+
+void add_document_routes(std::vector<http::Route>& routes, const Services& services,
+                         const KindOfDocument& kind) {
+  const http::Parameter name{
+      .name = std::string(parameter_name(kind)),
+      .place = http::ParameterPlace::Path,
+      .description = fmt::format("Of {}: {}", kind.one, names_allowed(kind))};
+  const std::string pattern = fmt::format("{}/{{{}}}", kind.path, kind.parameter);
+  const std::string tag(kind.tag);
+  const std::string operation(kind.operation);
+  const std::string schema(kind.schema);
+  const std::string answered(kind.answered);
+  routes.push_back({
+      .pattern = std::string(kind.path),
+      .handler = of_kind(services, kind, list),
+      .summary = fmt::format("The {}", kind.many),
+      .access = "viewer",
+      .operation = fmt::format("list{}", kind.operations),
+      .tag = tag,
+      .outcomes = {{.meaning = "In the order of their names",
+                    .schema = std::string(kind.list_schema)}},
+  });
+  routes.push_back({
+      .pattern = pattern,
+      .handler = of_kind(services, kind, get),
+      .summary = fmt::format("Read {} as it was stored", kind.one),
+      .parameters = {name},
+      .access = "viewer",
+      .operation = "get" + operation,
+      .tag = tag,
+      .outcomes = {{.meaning = "As it was stored", .schema = schema}},
+      .refusals = {404, 412},
+  });
+  add_precondition_parameters(routes.back().parameters);
+  routes.push_back({
+      .method = http::Method::Put,
+      .pattern = pattern,
+      .handler = of_kind(services, kind, put),
+      .summary = fmt::format("Store {}: {}", kind.one, kind.contents),
+      .parameters = {name},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json"},
+               .schema = std::string(kind.body_schema)},
+      .access = "admin",
+      .operation = "put" + operation,
+      .tag = tag,
+      .outcomes = {{.meaning = "It is replaced", .schema = answered},
+                   {.status = 201, .meaning = "It is new", .schema = answered}},
+      .refusals = {412},
+  });
+  add_precondition_parameters(routes.back().parameters);
+  routes.push_back({
+      .method = http::Method::Delete,
+      .pattern = pattern,
+      .handler = of_kind(services, kind, remove),
+      .summary = fmt::format("Delete {}", kind.one),
+      .parameters = {name},
+      .access = "admin",
+      .operation = "delete" + operation,
+      .tag = tag,
+      .outcomes = {{.status = 204, .meaning = "It is gone"}},
+      .refusals = {404, 412},
+  });
+  add_precondition_parameters(routes.back().parameters);
+}
+
+}  // namespace fitgauge::api

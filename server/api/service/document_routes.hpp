@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/services.hpp"
+#include "api/wire/json_writer.hpp"
+#include "app/service/document_service.hpp"
+#include "base/result.hpp"
+#include "http/route.hpp"
+
+// Whatever is kept as a text under a name has the same four routes, tags and preconditions.
+
+namespace fitgauge::api {
+
+/// A body that was read.
+struct CheckedDocument {
+  std::string text{};                        ///< what is kept, and what a GET answers
+  std::string answer{};                      ///< to its PUT; empty: nothing
+  std::optional<std::string> uncertainty{};  ///< a budget that must be there
+};
+
+/// Writes what a list says of a document, but for its time.
+/// @errors StorageCorrupt.
+using DescribeDocument = Result<void> (*)(JsonWriter& json, const app::NamedDocument& document);
+Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& document);
+
+/// What differs between the kinds.
+struct KindOfDocument {
+  app::DocumentKind kind{};
+  std::string_view path{};       ///< of the list
+  std::string_view parameter{};  ///< of a document's path
+  std::string_view one{};        ///< as a sentence names it
+  std::string_view contents{};   ///< what stands in it
+  std::string_view many{};
+  std::string_view member{};       ///< of the list's answer
+  std::string_view tag{};          ///< group of operations
+  std::string_view operation{};    ///< after get, put, delete
+  std::string_view operations{};   ///< after list
+  std::string_view schema{};       ///< of what is stored
+  std::string_view body_schema{};  ///< of what is sent
+  std::string_view list_schema{};
+  std::string_view answered{};  ///< schema of what a PUT answers; empty: nothing
+  std::size_t longest_name = 200;
+  bool names_with_slashes = true;
+  DescribeDocument describe = describe_by_name;
+  /// Runs on a thread that may wait. @errors whatever is wrong with the body.
+  Result<CheckedDocument> (*check)(const Services& services, const std::string& name,
+                                   std::string_view body){};
+};
+
+/// @param kind is static.
+void add_document_routes(std::vector<http::Route>& routes, const Services& services,
+                         const KindOfDocument& kind);
+
+}  // namespace fitgauge::api
