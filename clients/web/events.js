@@ -45,6 +45,10 @@ export async function follow(signal, onEvent) {
   look();
 }
 
+/** Calls `renew` whenever the tables may have changed, until `signal`. */
+export const followTables = (signal, renew) =>
+  follow(signal, ({ type }) => { if (type === 'table.changed' || type === 'resync') renew(); });
+
 /** A port to the worker of this browser; null where there is none. */
 function sharedPort() {
   if (!globalThis.SharedWorker) return null;

@@ -19,7 +19,10 @@ function preferred() {
 const locale = () => (language === 'en' ? 'en-GB' : language);
 
 export async function loadLanguage(wanted = preferred()) {
-  words = { ...en, ...(await import(`./lang/${wanted}.js`)).default };
+  // What the service says is English already.
+  const files = wanted === 'en' ? [] : [`./lang/${wanted}_codes.js`, `./lang/${wanted}.js`];
+  const texts = await Promise.all(files.map((file) => import(file)));
+  words = Object.assign({}, en, ...texts.map((text) => text.default));
   language = wanted;
   document.documentElement.lang = wanted;
 }
@@ -50,15 +53,18 @@ export function time(date) {
   return date.toLocaleTimeString(locale(), { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
 }
 
-export function dateTime(date) {
-  return `${date.toLocaleDateString(locale(), { day: 'numeric', month: 'short', year: 'numeric' })}, ${time(date)}`;
-}
+export const date = (day) => day.toLocaleDateString(locale(), { day: 'numeric', month: 'short', year: 'numeric' });
+export const dateTime = (moment) => `${date(moment)}, ${time(moment)}`;
 
-/** Why a call failed, in the reader's language where the page knows the reason. */
+/** Why a call failed, in the reader's language, with the field it is about. */
 export function explain(problem) {
   if (problem instanceof TypeError || problem instanceof DOMException) return t('error.away');
   if (!problem.status) return problem.message;
-  const codes = [problem.errors[0]?.code, problem.code];
-  const known = codes.find((code) => has(`error.${code}`));
-  return known ? t(`error.${known}`) : problem.reason;
+  const [first] = problem.errors;
+  const known = [first?.code, problem.code].find((code) => has(`error.${code}`));
+  if (!known) return problem.reason;
+  return [t(`error.${known}`), language !== 'en' && known === first?.code && first.pointer].filter(Boolean).join(' ');
 }
+
+/** What a check found, in the reader's language; without a text of its own the service's. */
+export const findingText = ({ code, message }) => (has(`finding.${code}`) ? t(`finding.${code}`) : message);

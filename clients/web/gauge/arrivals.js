@@ -3,7 +3,7 @@
  * is not good named, until somebody has touched it. Kept in the browser, so that a reload hides nothing.
  */
 
-import { h } from '../dom.js';
+import { h, refill } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { readJson, store } from '../stored.js';
 import { distanceText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
@@ -47,7 +47,7 @@ export class Arrivals {
     const parts = VERDICTS.filter((verdict) => verdicts[verdict])
       .map((verdict) => h('strong', { class: verdict }, t(`arrived.${verdict}`, { count: verdicts[verdict] })));
     if (refused) parts.push(h('strong.reject', t('arrived.refused', { count: refused })));
-    this.element.replaceChildren(
+    refill(this.element,
       h('p', t('arrived.stored', { count: stored }), ' ', parts.flatMap((part, i) => (i ? [', ', part] : [part]))),
       h('button', { type: 'button', onclick: () => this.#seen() }, t('arrived.seen')),
       bad.length > 0 && h('ol', bad.map((each) => this.#item(each))));

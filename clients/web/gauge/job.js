@@ -3,15 +3,15 @@
 import { explain, number, t } from '../i18n.js';
 import { field, h } from '../dom.js';
 import { getJson, url } from '../api.js';
+import { Latest } from '../latest.js';
 import { parseDesignation } from '../designation.js';
 import { nmFromMm, nmFromUm, parseMeasured } from '../exact.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, toleranceText } from '../verdict.js';
+import { gaugeInUse, gaugeNames, gaugeText } from './in_use.js';
 import { PREFIXES } from './reading.js';
 
 const ECHO_MS = 150;
-/** Limits that are older are asked for again: somebody may have stored a column of the shop's own. */
-const RENEW_MS = 60_000;
 const COVERAGE = 2;
 const KEPT_LIMITS = 'limits';
 const KEPT_PREFIXES = 'prefixes';
@@ -46,6 +46,9 @@ export class Job {
       if (this.prefixInputs[name]) this.prefixInputs[name].value = prefix;
     }
     this.given = h('p.aside');
+    this.gaugeNote = h('p.gauge-note', { role: 'status' });
+    this.gauges = h('datalist', { id: 'gauges-in-use' });
+    this.inputs.gauge.setAttribute('list', 'gauges-in-use');
     this.more = h('details.more', h('summary', t('job.more')),
       h('div.fields', SIDE_FIELDS.map((name) => field(t(`field.${name}`), this.inputs[name])),
         field(t('field.rule'), this.rule), field(t('field.uncertainty_um'), this.uncertainty)),
@@ -59,15 +62,17 @@ export class Job {
         onDone();
       },
     }, h('div.line', field(t('field.part_id'), this.inputs.part_id), field(t('job.designation'), this.input), this.echo),
-    h('div.more-line', this.more, this.given),
+    h('div.more-line', this.more, this.given, this.gaugeNote), this.gauges,
     h('button.unseen', { type: 'submit', tabindex: -1 }, t('entry.judge')));
     this.uncertainty.disabled = this.rule.value === 'simple';
     this.gauged = this.#gauged();
   }
 
   /** Begins to say how the designation is understood. */
-  start() {
+  start(leaving) {
+    this.asking = new Latest(leaving);
     this.#look();
+    gaugeNames(leaving).then((names) => this.gauges.replaceChildren(...names.map((name) => h('option', { value: name }))), () => {});
   }
 
   /** Leaves the room to the verdict. */
@@ -157,23 +162,42 @@ export class Job {
     return typed === null || (typed.split('.')[1] ?? '').length > 3 ? NaN : COVERAGE * nmFromUm(typed);
   }
 
-  /** Asks again for limits that are held for long. */
+  /** Asks again for the limits held: somebody may have stored a column of the shop's own. */
   renew() {
-    if (this.limits && Date.now() - this.heldSince > RENEW_MS) this.#look();
+    if (this.limits) this.#look();
   }
 
   #gauged() {
-    return JSON.stringify([this.designation, this.part, this.inputs.characteristic.value.trim()]);
+    const { upper_limit_mm: upper, lower_limit_mm: lower } = this.limits ?? {};
+    return JSON.stringify([this.designation, this.part, this.inputs.characteristic.value.trim(), upper, lower]);
   }
 
   #changed() {
     const given = Object.entries(this.options).filter(([name, value]) => value && name !== 'part_id');
     this.given.textContent = given.map(([name, value]) =>
       (name === 'rule' ? t(`rule.${value}`) : `${t(`field.${name}`)} ${value}`)).join(' · ');
+    this.#lookAtGauge();
     const gauged = this.#gauged();
     const another = gauged !== this.gauged;
     this.gauged = gauged;
     this.onChange(another);
+  }
+
+  /** Says until when the gauge is calibrated; a guard band without an uncertainty takes that of the gauge. */
+  #lookAtGauge() {
+    const name = this.inputs.gauge.value.trim();
+    if (name === this.gaugeShown || !this.asking) return;
+    this.gaugeShown = name;
+    this.gaugeNote.textContent = '';
+    this.asking.run((signal) => gaugeInUse(name, signal)).then((gauge) => {
+      if (gauge === undefined) return;
+      this.gaugeNote.textContent = gauge ? gaugeText(gauge) : '';
+      this.gaugeNote.classList.toggle('overdue', Boolean(gauge?.overdue));
+      if (!gauge?.uncertainty_um || this.rule.value === 'simple' || ![this.filled, ''].includes(this.uncertainty.value.trim())) return;
+      this.filled = gauge.uncertainty_um;
+      this.uncertainty.value = this.filled;
+      this.#changed();
+    }, (problem) => { this.gaugeNote.textContent = explain(problem); });
   }
 
   #keepPrefixes() {
@@ -189,6 +213,7 @@ export class Job {
 
   #ruleChanged() {
     this.uncertainty.disabled = this.rule.value === 'simple';
+    this.gaugeShown = undefined;
     this.#changed();
   }
 
@@ -216,7 +241,6 @@ export class Job {
 
   #show(limits, reason) {
     this.limits = limits;
-    this.heldSince = Date.now();
     this.reason = reason;
     this.echo.classList.toggle('wrong', reason !== '');
     this.echo.replaceChildren(...(limits ? this.#understood(limits) : [reason || (this.designation ? '' : t('job.missing'))]));

@@ -46,6 +46,9 @@ export default {
   'rule.simple': 'Einfache Annahme',
   'rule.guard_band': 'Schutzabstand, k = 2',
 
+  'gauge.due': '{gauge} kalibriert bis {date}',
+  'gauge.overdue': 'Die Kalibrierung von {gauge} war am {date} fällig.',
+
   'entry.label': 'Messwert',
   'entry.judge': 'Prüfen',
   'entry.empty': 'Zuerst einen Wert eingeben.',

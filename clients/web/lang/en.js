@@ -46,6 +46,9 @@ export default {
   'rule.simple': 'Simple acceptance',
   'rule.guard_band': 'Guard band, k = 2',
 
+  'gauge.due': '{gauge} calibrated until {date}',
+  'gauge.overdue': 'Calibration of {gauge} was due on {date}.',
+
   'entry.label': 'Measured value',
   'entry.judge': 'Judge',
   'entry.empty': 'Type a value first.',

@@ -46,6 +46,9 @@ export default {
   'rule.simple': 'Accettazione semplice',
   'rule.guard_band': 'Banda di guardia, k = 2',
 
+  'gauge.due': '{gauge} tarato fino al {date}',
+  'gauge.overdue': 'La taratura di {gauge} scadeva il {date}.',
+
   'entry.label': 'Valore misurato',
   'entry.judge': 'Giudica',
   'entry.empty': 'Inserire prima un valore.',

@@ -46,6 +46,9 @@ export default {
   'rule.simple': 'Eenvoudige aanvaarding',
   'rule.guard_band': 'Veiligheidsband, k = 2',
 
+  'gauge.due': '{gauge} gekalibreerd tot {date}',
+  'gauge.overdue': 'De kalibratie van {gauge} was op {date} nodig.',
+
   'entry.label': 'Meetwaarde',
   'entry.judge': 'Keuren',
   'entry.empty': 'Typ eerst een waarde.',

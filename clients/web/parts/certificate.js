@@ -3,6 +3,7 @@
 import { getJson, url } from '../api.js';
 import { connection } from '../connection.js';
 import { h } from '../dom.js';
+import { gaugeInUse, gaugeText } from '../gauge/in_use.js';
 import { dateTime, has, number, signed, t } from '../i18n.js';
 import { limitsText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
 
@@ -16,6 +17,8 @@ export async function certificate(of, signal) {
   if (!records.length) throw new Error(t('parts.none'));
   const counts = VERDICTS.map((word) => [word, records.filter(({ verdict }) => verdict === word).length]).filter(([, count]) => count);
   const revisions = [...new Set(records.map((record) => record.table_revision).filter(Boolean))];
+  const names = [...new Set(records.map(({ gauge }) => gauge).filter(Boolean))];
+  const gauges = (await Promise.all(names.map((name) => gaugeInUse(name, signal)))).filter(Boolean);
   return h('article.certificate', { 'aria-labelledby': 'certificate-title' },
     h('header', h('h2', { id: 'certificate-title', tabindex: -1 }, t('certificate.title')),
       h('button.primary', { type: 'button', onclick: () => print() }, t('certificate.print'))),
@@ -24,6 +27,7 @@ export async function certificate(of, signal) {
     h('p.result', counts.map(([word, count]) => h('span', verdictMark(word), ` ${count}`))),
     h('div.rows', { tabindex: 0, role: 'region', 'aria-label': t('certificate.title') },
       h('table', h('thead', h('tr', HEAD.map((name) => h('th', { scope: 'col' }, t(name))))), h('tbody', records.map(row)))),
+    gauges.length > 0 && h('ul.gauges', gauges.map((gauge) => h('li', { class: gauge.overdue && 'overdue' }, gaugeText(gauge)))),
     h('p.aside', t('certificate.basis', { revisions: revisions.join(', ') || '–' })),
     h('div.signatures', ['certificate.inspected', 'certificate.approved'].map((name) => h('p', t(name)))));
 }

@@ -1,7 +1,7 @@
 /** A program's text with line numbers; what a check found stands below the line it is about. */
 
 import { h } from '../dom.js';
-import { t } from '../i18n.js';
+import { findingText, t } from '../i18n.js';
 import { relative } from './disk.js';
 
 const MOST_LINES = 3000;
@@ -23,4 +23,5 @@ export function sourceText(path, text, diagnostics) {
 }
 
 const finding = (each) => h('p', { class: `finding ${each.severity}` },
-  h('strong', t(`programs.severity.${each.severity}`)), ` ${each.message} `, h('span.aside', each.code));
+  h('strong', t(`programs.severity.${each.severity}`)), ` ${findingText(each)} `,
+  findingText(each) !== each.message && h('span.aside', { lang: 'en' }, each.message), h('span.aside', each.code));

@@ -3,6 +3,7 @@
 import { getJson, url } from '../api.js';
 import { parseFit } from '../designation.js';
 import { field, h, refill } from '../dom.js';
+import { followTables } from '../events.js';
 import { mmText, nmFromMm, nmFromUm, parseMeasured, umText } from '../exact.js';
 import { ClassMap } from '../fit/class_map.js';
 import { clearanceBar } from '../fit/clearance_bar.js';
@@ -77,12 +78,18 @@ export function mount(main, route) {
     const designation = `${number(state.size)} ${state.hole}/${state.shaft}`;
     typed.value = designation;
     remembered();
+    refill(preferred, preferredFits(state, pick));
+    ask();
+  }
+
+  /** What the tables say now, which may have changed. */
+  function ask() {
+    if (!state.size) return;
     latest.run(async (signal) => {
       const fit = await getJson(url(['fits', `${state.size}${state.hole}`, state.shaft]), { signal });
       note.textContent = '';
       await draw(fit, signal);
     }).catch((problem) => nothing(explain(problem)));
-    refill(preferred, preferredFits(state, pick));
     for (const feature of FEATURES) classMaps[feature]?.show(nmFromMm(state.size), state[feature]);
   }
 
@@ -118,6 +125,7 @@ export function mount(main, route) {
   resized.observe(figure);
   refresh();
   drawMaps().catch((problem) => { note.textContent = explain(problem); });
+  followTables(leaving.signal, ask);
   return () => {
     leaving.abort();
     resized.disconnect();

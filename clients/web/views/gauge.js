@@ -5,6 +5,7 @@ import { connection } from '../connection.js';
 import { h } from '../dom.js';
 import { Decimal, judge, nmFromMm, toJson } from '../exact.js';
 import { Arrivals } from '../gauge/arrivals.js';
+import { followTables } from '../events.js';
 import { Entry } from '../gauge/entry.js';
 import { FIELDS, Job } from '../gauge/job.js';
 import { Panel } from '../gauge/panel.js';
@@ -97,7 +98,6 @@ export function mount(main, route) {
 
   function post({ text, correcting }) {
     if (correcting) return correct(correcting, text);
-    job.renew();
     send(url(['measurements']), bodyOf(text), { ...shownOf(text), reaction: plan.current?.reaction }, true);
     stepped = Boolean(plan.current);
     plan.step();
@@ -155,7 +155,8 @@ export function mount(main, route) {
   main.replaceChildren(h('div.gauge', h('h1.unseen', { tabindex: -1 }, t('view.gauge')),
     h('div.station', plan.element, job.element, entry.element, arrivals.element, panel.element), recent.element));
   remember('gauge');
-  job.start();
+  job.start(leaving.signal);
+  followTables(leaving.signal, () => job.renew());
   plan.list().then(() => route.options.plan && choosePlan(route.options.plan));
   if (job.designation) entry.focus();
   else job.input.focus();

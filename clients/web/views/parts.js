@@ -2,6 +2,7 @@
 
 import { getJson, url } from '../api.js';
 import { field, h } from '../dom.js';
+import { downloadLink } from '../download.js';
 import { dateTime, explain, number, signed, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
@@ -26,7 +27,7 @@ export function mount(main, route) {
     h('table', h('thead', h('tr', ['field.part_id', 'field.characteristic', 'trend.verdict', 'trend.value', 'parts.deviation', 'parts.limits', 'parts.by', 'trend.time']
       .map((name) => h('th', { scope: 'col' }, t(name))))), rows));
   const more = h('button', { type: 'button', hidden: true, onclick: () => read() }, t('parts.more'));
-  const exported = h('a.button', { download: 'measurements.csv' }, t('parts.csv'));
+  const exported = downloadLink({ download: 'measurements.csv' }, t('parts.csv'), (reason) => { note.textContent = reason; });
   const certify = h('button', { type: 'button', onclick: () => showCertificate() }, t('parts.certificate'));
   const sheet = h('div');
   const replaced = new Set();

@@ -2,8 +2,10 @@
 
 import { get, url } from '../api.js';
 import { copyText, field, h, refill } from '../dom.js';
+import { downloadLink } from '../download.js';
 import { parseDesignation } from '../designation.js';
 import { nmFromMm, parseMeasured } from '../exact.js';
+import { followTables } from '../events.js';
 import { explain, number, signed, t } from '../i18n.js';
 import { go } from '../route.js';
 import { classNames, isoClass, tableRows } from '../tables/catalogue.js';
@@ -17,6 +19,7 @@ const MOST_CLASSES = 24;
 const FEATURES = ['hole', 'shaft'];
 
 export function mount(main, route) {
+  const leaving = new AbortController();
   let feature = FEATURES.includes(route.path[0]) ? route.path[0] : 'hole';
   let names = null;
   let shown = { classes: [], sizes: [] };
@@ -25,12 +28,13 @@ export function mount(main, route) {
   const note = h('p.note', { role: 'status' });
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('view.tables') });
   const features = h('div.switch', { role: 'group', 'aria-label': t('tables.feature') });
+  const whole = downloadLink({ id: 'whole-table' }, t('tables.whole'), (reason) => { note.textContent = reason; });
   const own = new OwnColumns({ onChange: () => reload(), onShow: (name) => { find.value = name; refresh(); } });
 
   main.replaceChildren(h('div.desk.tables', h('h1.unseen', { tabindex: -1 }, t('view.tables')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, features, field(t('tables.find'), find),
       h('button', { type: 'button', onclick: copy }, t('tables.copy')),
-      h('a.button', { href: '/v1/tables/hole?format=csv', download: 'hole.csv', id: 'whole-table' }, t('tables.whole'))),
+      whole),
     note, table, own.element));
 
   /** Numbers in the search are sizes, the rest are classes or letters that classes begin with. */
@@ -91,7 +95,6 @@ export function mount(main, route) {
     refill(features, FEATURES.map((each) => h('button', {
       type: 'button', 'aria-pressed': String(each === feature), onclick: () => { feature = each; reload(); },
     }, t(`tables.${each}`))));
-    const whole = main.querySelector('#whole-table');
     whole.href = url(['tables', feature], { format: 'csv' });
     whole.download = `${feature}.csv`;
   }
@@ -108,6 +111,8 @@ export function mount(main, route) {
   }
 
   reload();
+  followTables(leaving.signal, reload);
+  return () => leaving.abort();
 }
 
 function grid(rows, classes, own) {

@@ -255,6 +255,54 @@ describe('a station in an unfriendly browser', () => {
   });
 });
 
+describe('a gauge in use', () => {
+  let browser;
+  let daemon;
+
+  before(async () => {
+    browser = await launch();
+    daemon = await new Daemon().start();
+    await daemon.send('PUT', '/v1/uncertainties/plug', { contributions: [{ name: 'ring', standard_uncertainty: 0.3 }, { name: 'repeatability', standard_uncertainty: 0.4 }] });
+    await daemon.send('PUT', '/v1/gauges-in-use/G-07', { uncertainty: 'plug', calibration_due: '2099-03-31' });
+    await daemon.send('PUT', '/v1/gauges-in-use/G-08', { calibration_due: '2020-03-31' });
+  });
+  after(async () => {
+    await browser.close();
+    await daemon.cleanup();
+  });
+
+  it('is offered, says until when it is calibrated, and gives a guard band its uncertainty', async () => {
+    const page = await open(browser, daemon, '#/gauge/25H7?gauge=G-07&rule=guard_band');
+    const says = (text) => page.waitForFunction((wanted) => document.querySelector('.gauge-note').textContent === wanted, text);
+    await says('G-07 calibrated until 31 Mar 2099 · u = 0.5 µm');
+    assert.equal(await page.inputValue('[name="uncertainty_um"]'), '0.5');
+    assert.deepEqual(await page.$$eval('#gauges-in-use option', (names) => names.map((name) => name.value)), ['G-07', 'G-08']);
+    await page.waitForSelector('.echo .figures');
+    await page.focus('#value');
+    await page.keyboard.type('25.0205\n'); // nearer to the limit than 2 u
+    await page.waitForSelector('.verdict[data-verdict="indeterminate"]');
+    await page.click('.more summary');
+    await page.fill('[name="gauge"]', 'G-08');
+    await page.keyboard.press('Tab');
+    await says('Calibration of G-08 was due on 31 Mar 2020.');
+    assert.ok(await page.$('.gauge-note.overdue'));
+    await page.fill('[name="gauge"]', 'some other');
+    await page.keyboard.press('Tab');
+    await says('');
+    await close(page);
+  });
+
+  it('stands on the certificate with its uncertainty and its date', async () => {
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', part_id: 'SN-3', gauge: 'G-07' });
+    const page = await open(browser, daemon, '#/parts?part_id=SN-3');
+    await page.click('.parts button:has-text("Certificate")');
+    await page.waitForSelector('.certificate .gauges');
+    assert.equal(await page.textContent('.certificate .gauges'), 'G-07 calibrated until 31 Mar 2099 · u = 0.5 µm');
+    await picture(page, 'certificate', { fullPage: true });
+    await close(page);
+  });
+});
+
 describe('a plan', () => {
   let browser;
   let daemon;

@@ -246,6 +246,29 @@ describe('the parts', () => {
   });
 });
 
+describe('what is saved as a file', () => {
+  it('is saved with the key where one is needed', async () => {
+    const locked = await new Daemon('--auth', 'read-open').start();
+    try {
+      const key = await locked.key('quality', 'operator');
+      await fetch(`${locked.url}/v1/measurements`, {
+        method: 'POST', body: '{"designation":"25 H7","measured_mm":25.02,"part_id":"SN-1"}', headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` } });
+      page = await open(browser, locked, '#/parts');
+      await page.fill('dialog input', key);
+      await page.press('dialog input', 'Enter');
+      await page.waitForSelector('.records tbody tr');
+      for (const [view, link, what] of [['parts', 'a:has-text("All of it as CSV")', /SN-1/], ['tables', '#whole-table', /H7/]]) {
+        await page.click(`#views a[href^="#/${view}"]`);
+        await page.waitForSelector('.records tbody tr, .grid td');
+        const [download] = await Promise.all([page.waitForEvent('download'), page.click(link)]);
+        assert.match(fs.readFileSync(await download.path(), 'utf8'), what);
+      }
+    } finally {
+      await locked.cleanup();
+    }
+  });
+});
+
 describe('the programs', () => {
   before(() => daemon.send('PUT', '/v1/setups/hole-good', fs.readFileSync(`${EXAMPLE}/setups/hole-good.json`, 'utf8')));
 
@@ -364,6 +387,26 @@ describe('the tables', () => {
     await page.click('.own-list [aria-label]');
     await page.waitForFunction(() => !/H8/.test(document.querySelector('.own-list').textContent));
     assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'iso286');
+  });
+
+  it('change on every screen when a column is stored elsewhere', async () => {
+    const screens = [
+      ['#/gauge/25H9', () => /25\.000 to 25\.052/.test(document.querySelector('.echo')?.textContent), () => /24\.900 to 25\.100/.test(document.querySelector('.echo')?.textContent)],
+      ['#/fit/25H9/h6', () => /\+52 \/ 0/.test(document.querySelector('.result')?.textContent), () => /\+100 \/ −100/.test(document.querySelector('.result')?.textContent)],
+      ['#/tables/hole?find=25+H9', () => document.querySelector('.grid td span')?.textContent === '+52', () => document.querySelector('.grid td span')?.textContent === '+100'],
+    ];
+    const pages = [];
+    for (const [address, standard] of screens) {
+      pages.push(await open(browser, daemon, address));
+      await pages.at(-1).waitForFunction(standard);
+    }
+    const column = { rows: [{ over_mm: 18, up_to_mm: 30, upper_um: 100, lower_um: -100 }] };
+    await daemon.send('PUT', '/v1/tables/hole/classes/H9', column);
+    for (const [i, [, , changed]] of screens.entries()) await pages[i].waitForFunction(changed);
+    await daemon.send('DELETE', '/v1/tables/hole/classes/H9');
+    for (const [i, [, standard]] of screens.entries()) await pages[i].waitForFunction(standard);
+    page = pages.pop();
+    for (const other of pages) await close(other);
   });
 
   it('take columns of the shop’s own and give them back', async () => {
