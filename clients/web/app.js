@@ -9,7 +9,7 @@ import { queue } from './queue.js';
 import { currentRoute, lastOf, remember } from './route.js';
 import { forget, readStored, store } from './stored.js';
 
-const VIEWS = ['gauge', 'fit', 'trend', 'parts', 'programs', 'tables'];
+const VIEWS = ['gauge', 'fit', 'trend', 'overview', 'parts', 'programs', 'tables'];
 const main = document.getElementById('main');
 const printed = document.getElementById('printed');
 const viewOf = (route) => (VIEWS.includes(route.view) ? route.view : VIEWS[0]);

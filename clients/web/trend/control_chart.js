@@ -1,4 +1,4 @@
-/** Individuals between their specification and control limits, the moving range below, the histogram beside. */
+/** Individuals or means of subgroups with their control limits, the spread below, the histogram beside. */
 
 import { s } from '../dom.js';
 import { NM_PER_UM, umText } from '../exact.js';
@@ -10,11 +10,12 @@ const HEIGHT = { values: 340, ranges: 120 };
 const TOP = 22;
 const AXIS = 30;
 const LEFT = 58;
-const RIGHT = 46;
+const RIGHT = 56;
 const HISTOGRAM = 150;
 /** Narrower figures have no histogram beside them. */
 const WIDE = 620;
 
+const SPREADS = { mr: 'MR', r: 'R', s: 's' };
 const MARKS = {
   good: 'M0-4.5a4.5 4.5 0 1 1 0 9a4.5 4.5 0 1 1 0-9z',
   rework: 'M0-7L7 6H-7z',
@@ -24,14 +25,18 @@ const MARKS = {
 
 const round = (value) => Math.round(10 * value) / 10;
 const um = (value) => number(umText(Math.round(value * 100) * 10));
-const chartOf = (chart, name) => chart?.charts.find((each) => each.name === name);
+/** The chart of the location comes first, that of the spread second. */
+const locationOf = (chart) => chart?.charts[0];
+const spreadOf = (chart) => chart?.charts[1];
 
 /**
+ * @param points what is drawn, one by one; means have `members`, and no limits of size, which are for single values
+ * @param singles the values one by one, for the histogram
  * @param chart of the service (deviations in µm), or null
  * @param width in CSS pixels
  * @param onPick takes the index of a point
  */
-export function controlChartFigure(points, chart, { width, picked, onPick }) {
+export function controlChartFigure(points, singles, chart, { width, picked, onPick }) {
   const wide = width >= WIDE;
   const right = width - RIGHT - (wide ? HISTOGRAM : 0);
   const x = (i) => round(LEFT + 12 + (right - LEFT - 24) * (points.length > 1 ? i / (points.length - 1) : 0.5));
@@ -43,30 +48,31 @@ export function controlChartFigure(points, chart, { width, picked, onPick }) {
     onPick(Math.min(Math.max(near, 0), points.length - 1));
   };
   return s('svg.control-chart', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': t('trend.chart', { count: points.length }), onclick: pick },
-    values(points, chart, x, right, wide && { from: right + RIGHT, to: width - 8 }),
-    chart && ranges(chartOf(chart, 'mr'), points.length, x, right),
+    values(points, singles, chart, x, right, wide && { from: right + RIGHT, to: width - 8 }),
+    chart && ranges(spreadOf(chart), points.length, x, right),
     axis(points, x, right, height),
     picked !== null && points[picked] && s('path.picked', { d: `M${x(picked)} ${TOP - 8}V${height - AXIS}` }));
 }
 
-function values(points, chart, x, right, beside) {
-  const own = chartOf(chart, 'i');
+function values(points, singles, chart, x, right, beside) {
+  const own = locationOf(chart);
+  const ofMeans = Boolean(points[0].members);
   const control = own ? [own.upper_limit, own.lower_limit].map((value) => value * NM_PER_UM) : [];
-  const range = rangeOf(points, control);
+  const range = rangeOf(points, [...control, ...singles.map(({ deviation }) => deviation)]);
   const bottom = HEIGHT.values - 18;
   const y = (nm) => round(TOP + (bottom - TOP) * (range.high - Math.min(Math.max(nm, range.low), range.high)) / (range.high - range.low));
-  const broken = rulesAt(chart, 'i');
+  const broken = rulesAt(chart);
   const at = (i) => [x(i), y(points[i].deviation)];
   return s('g',
     s('text.unit', { x: LEFT - 10, y: 12, 'text-anchor': 'end' }, 'µm'),
-    s('path.limit', { d: steps(points, 'upper', x, y, right) }), s('path.limit', { d: steps(points, 'lower', x, y, right) }),
+    !ofMeans && [s('path.limit', { d: steps(points, 'upper', x, y, right) }), s('path.limit', { d: steps(points, 'lower', x, y, right) })],
     label(LEFT - 10, y(range.upper), signed(umText(range.upper)), 'end'), label(LEFT - 10, y(range.lower), signed(umText(range.lower)), 'end'),
     own && controlLines(own, (value) => y(value * NM_PER_UM), right, [y(range.upper), y(range.lower)]),
     s('path.run', { d: points.map((_, i) => `${i ? 'L' : 'M'}${at(i).join(' ')}`).join('') }),
     [...broken].map(([i]) => s('circle.broken', { cx: at(i)[0], cy: at(i)[1], r: 9 })),
     points.map(({ record }, i) => s('path.point', { d: MARKS[record.verdict], transform: `translate(${at(i).join(' ')})`, 'data-verdict': record.verdict })),
     spaced([...broken], x).map(([i, rules]) => s('text.rule', { x: at(i)[0], y: at(i)[1] - 13, 'text-anchor': 'middle' }, [...rules].join(','))),
-    beside && histogram(points, range, y, beside, { top: TOP, bottom }));
+    beside && histogram(singles, range, y, beside, { top: TOP, bottom }));
 }
 
 function ranges(own, count, x, right) {
@@ -77,7 +83,7 @@ function ranges(own, count, x, right) {
   // The first value has no range: the row begins one later.
   const first = count - own.points.length;
   return s('g.ranges',
-    s('text.unit', { x: LEFT - 10, y: top - 4, 'text-anchor': 'end' }, 'MR'),
+    s('text.unit', { x: LEFT - 10, y: top - 4, 'text-anchor': 'end' }, SPREADS[own.name]),
     s('path.axis', { d: `M${LEFT} ${bottom}H${right}` }),
     controlLines({ ...own, lower_limit: null }, y, right, []),
     s('path.run', { d: own.points.map((value, i) => `${i ? 'L' : 'M'}${x(i + first)} ${y(value)}`).join('') }),
@@ -98,8 +104,9 @@ function controlLines(own, y, right, taken) {
 
 const label = (x, y, text, anchor) => s('text', { x, y: y + 4.5, 'text-anchor': anchor }, text);
 
-/** {index: rules broken there} of one chart. */
-export function rulesAt(chart, name) {
+/** {index: rules broken there} of the chart of the location. */
+export function rulesAt(chart) {
+  const name = locationOf(chart)?.name;
   const broken = new Map();
   for (const { chart: where, rule, index } of chart?.violations ?? []) {
     if (where === name) broken.set(index, new Set([...(broken.get(index) ?? []), rule]));

@@ -12,24 +12,28 @@ const post = async (what, body, signal) => (await request('POST', url(['statisti
 /** Deviations in µm as the service printed them: nothing is rounded on the way. */
 const valuesOf = (points) => points.map(({ record }) => new Decimal(String(record.deviation_um)));
 
+/** Values one by one, or subgroup by subgroup where `groups` are given. */
+const dataOf = (points, groups) => (groups ? { subgroups: groups.map(valuesOf) } : { values: valuesOf(points) });
+
 /**
- * Individuals and moving range, with the violations of the rules chosen.
+ * The charts of a kind (i_mr, xbar_r, xbar_s), with the violations of the rules chosen.
+ * @param groups of points, all of one size; null for individuals
  * @param frozen {centre, standard_deviation} in µm of an earlier stretch, or null
  * @returns null for fewer than two values, or where they do not differ
  */
-export async function controlChart(points, { rules = RULES, frozen = null }, signal) {
-  if (points.length < 2) return null;
+export async function controlChart(points, { kind, groups = null, rules = RULES, frozen = null }, signal) {
+  if ((groups ?? points).length < 2) return null;
   const known = frozen && { centre: frozen.centre, standard_deviation: frozen.standard_deviation };
-  return orNull(post('chart', { kind: 'i_mr', values: valuesOf(points), rules, ...known }, signal));
+  return orNull(post('chart', { kind, ...dataOf(points, groups), rules, ...known }, signal));
 }
 
 /** Cp, Cpk, Pp, Ppk with their intervals; null where they have no meaning: other limits among the values, too few of them. */
-export async function capability(points, signal) {
+export async function capability(points, groups, signal) {
   const [{ record }] = points;
   const same = points.every(({ upper, lower }) => upper === points[0].upper && lower === points[0].lower);
-  if (!same || points.length < 2) return null;
+  if (!same || (groups ?? points).length < 2) return null;
   return orNull(post('capability', {
-    values: valuesOf(points), lower: new Decimal(String(record.lower_deviation_um)), upper: new Decimal(String(record.upper_deviation_um)),
+    ...dataOf(points, groups), lower: new Decimal(String(record.lower_deviation_um)), upper: new Decimal(String(record.upper_deviation_um)),
   }, signal));
 }
 

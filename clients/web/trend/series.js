@@ -17,6 +17,33 @@ export const pointOf = (record) => ({
   lower: nmFromUm(record.lower_deviation_um),
 });
 
+/**
+ * Points by their subgroup, in order: {groups, left}. Groups of another size than most, such as one that is
+ * still being measured or was cut at the beginning, are left out.
+ */
+export function subgroupsOf(points) {
+  const named = new Map();
+  for (const point of points) {
+    const { subgroup } = point.record;
+    if (subgroup) named.set(subgroup, [...(named.get(subgroup) ?? []), point]);
+  }
+  const sizes = new Map();
+  for (const { length } of named.values()) if (length > 1) sizes.set(length, (sizes.get(length) ?? 0) + 1);
+  const [size] = [...sizes].sort(([one, few], [other, many]) => many - few || other - one)[0] ?? [];
+  const groups = [...named.values()].filter(({ length }) => length === size);
+  return { groups, left: points.length - groups.length * (size ?? 0) };
+}
+
+/** A subgroup as one point: its mean, with the verdict that is worst in it. */
+export function meanPoint(members) {
+  const worst = ['reject', 'rework', 'indeterminate', 'good'].find((word) => members.some(({ record }) => record.verdict === word));
+  const last = members.at(-1);
+  return {
+    ...last, members, deviation: members.reduce((sum, { deviation }) => sum + deviation, 0) / members.length,
+    record: { ...last.record, part_id: last.record.subgroup, verdict: worst },
+  };
+}
+
 /** The range of the vertical axis. @param others values in nm that are to be seen too */
 export function rangeOf(points, others = []) {
   const upper = Math.max(...points.map((point) => point.upper));

@@ -24,9 +24,9 @@ export function countTiles(points) {
 }
 
 /** The indices with their 95 % interval and n. Never green: grey, and with the reason, while they mean little. */
-export function capabilityTiles(figures, points, chart) {
+export function capabilityTiles(figures, points, chart, drawn = points) {
   if (!figures) return [h('p.aside', t('trend.no_capability'))];
-  const doubt = doubtOf(points, chart);
+  const doubt = doubtOf(points, chart, drawn);
   const index = (value) => number(value.toFixed(2));
   return [
     h('dl', { class: doubt ? 'tiles in-doubt' : 'tiles' }, INDICES.filter((name) => figures[name]?.value != null).map((name) => {
@@ -34,15 +34,16 @@ export function capabilityTiles(figures, points, chart) {
       const interval = lower != null && upper != null && t('trend.interval', { lower: index(lower), upper: index(upper) });
       return tile(null, name.replace('c', 'C').replace(/^p/, 'P'), index(value), interval);
     })),
-    h('p', { class: doubt ? 'stability doubt' : 'stability' }, doubt || t('trend.stable', { count: points.length })),
+    h('p', { class: doubt ? 'stability doubt' : 'stability' }, doubt || t('trend.stable', { count: drawn.flatMap((point) => point.members ?? point).length })),
   ];
 }
 
 /** Why the indices say little of what comes: '' where they do. */
-function doubtOf(points, chart) {
-  const first = [...(chart?.violations ?? [])].filter(({ chart: name }) => name === 'i').sort((one, other) => other.index - one.index)[0];
+function doubtOf(points, chart, drawn) {
+  const location = chart?.charts[0].name;
+  const first = [...(chart?.violations ?? [])].filter(({ chart: name }) => name === location).sort((one, other) => other.index - one.index)[0];
   if (first) {
-    return t('trend.unstable', { rule: first.rule, part: points[first.index].record.part_id ?? t('trend.value_number', { number: first.index + 1 }) });
+    return t('trend.unstable', { rule: first.rule, part: drawn[first.index].record.part_id ?? t('trend.value_number', { number: first.index + 1 }) });
   }
   if (chart?.violations.length) return t('trend.unstable_range');
   if (points.length < FEWEST) return t('trend.too_few', { count: points.length, fewest: FEWEST });

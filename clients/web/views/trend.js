@@ -3,18 +3,20 @@
 import { getJson, url } from '../api.js';
 import { field, h, refill } from '../dom.js';
 import { follow } from '../events.js';
-import { dateTime, explain, number, t } from '../i18n.js';
+import { umText } from '../exact.js';
+import { dateTime, explain, number, signed, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
 import { controlChartFigure, rulesAt } from '../trend/control_chart.js';
 import { capability, controlChart } from '../trend/figures.js';
 import { newestValues } from '../trend/recent_values.js';
-import { pointOf, sizeOf } from '../trend/series.js';
+import { meanPoint, pointOf, sizeOf, subgroupsOf } from '../trend/series.js';
 import { capabilityTiles, countTiles } from '../trend/tiles.js';
 import { distanceText, measuredText, verdictMark } from '../verdict.js';
 
 const COUNTS = [50, 100, 200, 500, 1000];
 const RULES = [1, 2, 3, 4];
+const KINDS = ['i_mr', 'xbar_r', 'xbar_s'];
 const ROWS = 12;
 /** Many events make one drawing. */
 const DRAW_MS = 120;
@@ -28,6 +30,7 @@ export function mount(main, route) {
   const characteristic = select('characteristic', () => { wanted = ''; sizes.clear(); frozen = null; load(); });
   const designation = select('designation', () => { wanted = designation.value; frozen = null; load(); });
   const count = select('count', () => load());
+  const kind = select('kind', () => { frozen = null; picked = null; compute(); });
   const rules = RULES.map((rule) => h('input', { type: 'checkbox', value: rule, checked: (options.rules ?? '1234').includes(rule), onchange: () => compute() }));
   const freeze = h('button', { type: 'button', onclick: () => toggleFrozen() });
   const chart = h('figure', { tabindex: 0, 'aria-label': t('trend.browse'), onkeydown: (event) => browse(event) });
@@ -42,14 +45,19 @@ export function mount(main, route) {
   let frozen = options.centre && options.sd ? { centre: Number(options.centre), standard_deviation: Number(options.sd) } : null;
   let records = [];
   let points = [];
+  let drawn = [];
+  let left = 0;
   let figures = { chart: null, indices: null };
   let picked = null;
   let timer = 0;
 
   count.append(...COUNTS.map((each) => option(each, String(each), each === (Number(options.count) || 100))));
+  kind.append(...KINDS.map((each) => option(each, t(`trend.kind.${each}`), each === options.kind)));
+  const kindField = field(t('trend.kind'), kind);
+  kindField.hidden = true;
   main.replaceChildren(h('div.desk.trend', h('h1.unseen', { tabindex: -1 }, t('view.trend')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('field.characteristic'), characteristic),
-      field(t('job.designation'), designation), field(t('trend.count'), count)),
+      field(t('job.designation'), designation), field(t('trend.count'), count), kindField),
     note, h('div.sums', tiles, indices),
     h('div.sheet', chart, detail,
       h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
@@ -95,12 +103,19 @@ export function mount(main, route) {
   /** Asks the service for the figures of what is shown, then draws both together. */
   async function compute() {
     points = records.filter((record) => !wanted || sizeOf(record) === wanted).map(pointOf);
+    const found = subgroupsOf(points);
+    // Without subgroups there is nothing to choose.
+    kindField.hidden = found.groups.length < 2;
+    const groups = kindField.hidden || kind.value === 'i_mr' ? null : found.groups;
     const chosen = rules.filter((input) => input.checked).map((input) => Number(input.value));
     try {
       const answers = await computing.run((signal) => (points.length
-        ? Promise.all([controlChart(points, { rules: chosen, frozen }, signal), capability(points, signal)]) : [null, null]));
+        ? Promise.all([controlChart(points, { kind: groups ? kind.value : 'i_mr', groups, rules: chosen, frozen }, signal), capability(points, groups, signal)]) : [null, null]));
       if (!answers) return;
       figures = { chart: answers[0], indices: answers[1] };
+      drawn = groups ? groups.map(meanPoint) : points;
+      left = groups ? found.left : 0;
+      if (picked !== null && !drawn[picked]) picked = null;
       draw();
     } catch (problem) {
       note.textContent = explain(problem);
@@ -111,7 +126,7 @@ export function mount(main, route) {
     go({
       view: 'trend',
       options: {
-        characteristic: characteristic.value, designation: wanted, count: count.value,
+        characteristic: characteristic.value, designation: wanted, count: count.value, kind: kind.value === 'i_mr' ? '' : kind.value,
         rules: rules.filter((input) => input.checked).map((input) => input.value).join(''),
         ...(frozen && { centre: frozen.centre, sd: frozen.standard_deviation }),
       },
@@ -132,14 +147,14 @@ export function mount(main, route) {
     }
     drawChart();
     tiles.replaceChildren(...countTiles(points));
-    indices.replaceChildren(...capabilityTiles(figures.indices, points, figures.chart));
+    indices.replaceChildren(...capabilityTiles(figures.indices, points, figures.chart, drawn));
     table.replaceChildren(lastRows(points));
   }
 
   function drawChart() {
     if (!points.length) return;
-    chart.replaceChildren(controlChartFigure(points, figures.chart, { width: Math.max(chart.clientWidth, 300), picked, onPick: pick }));
-    refill(detail, picked === null ? h('p.aside', priceText()) : pointDetail(points[picked], rulesAt(figures.chart, 'i').get(picked)));
+    chart.replaceChildren(controlChartFigure(drawn, points, figures.chart, { width: Math.max(chart.clientWidth, 300), picked, onPick: pick }));
+    refill(detail, picked === null ? h('p.aside', [left && t('trend.left_out', { count: left }), priceText()].filter(Boolean).join(' ')) : pointDetail(drawn[picked], rulesAt(figures.chart).get(picked)));
   }
 
   /** What the rules cost: points to a false alarm. */
@@ -153,13 +168,13 @@ export function mount(main, route) {
 
   function browse(event) {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    if (!step || !points.length) return;
+    if (!step || !drawn.length) return;
     event.preventDefault();
-    pick(Math.min(Math.max((picked ?? points.length) + step, 0), points.length - 1));
+    pick(Math.min(Math.max((picked ?? drawn.length) + step, 0), drawn.length - 1));
   }
 
   function toggleFrozen() {
-    const own = figures.chart?.charts.find(({ name }) => name === 'i');
+    const own = figures.chart?.charts[0];
     frozen = frozen || !own ? null : { centre: own.centre, standard_deviation: figures.chart.standard_deviation };
     compute();
   }
@@ -200,11 +215,16 @@ function option(value, text, selected) {
 }
 
 /** The record of one point. */
-function pointDetail({ record }, broken) {
+function pointDetail({ record, members, deviation }, broken) {
+  const marks = broken && h('span.stability.doubt', t('trend.broken', { rules: [...broken].join(', ') }));
+  if (members) {
+    return h('div.line', verdictMark(record.verdict), h('strong', `x̄ = ${signed(umText(Math.round(deviation)))} µm`), h('span', record.subgroup),
+      h('span.aside', members.map((each) => `${measuredText(each.record)} mm`).join(' · ')), marks);
+  }
   return h('div.line', verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)),
     record.part_id && h('a', { href: fragment({ view: 'parts', options: { part_id: record.part_id } }) }, record.part_id),
     h('span.aside', [record.characteristic, record.machine, record.operator, record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
-    broken && h('span.stability.doubt', t('trend.broken', { rules: [...broken].join(', ') })));
+    marks);
 }
 
 function lastRows(points) {

@@ -24,6 +24,7 @@ void answer_with(const Services& services, const http::Request& request, http::R
                  Figure figure) {
   auto query = measurement_query(request);
   if (!query) return responder.fail(query.error());
+  if (const auto last = request.integer("last")) query->last = static_cast<std::size_t>(*last);
   const SharedResponder shared = share(std::move(responder));
   services.runs.prepare(
       [&services, shared, query = *std::move(query), figure = std::move(figure)] {
@@ -183,6 +184,10 @@ std::vector<http::Parameter> with_filters(std::vector<http::Parameter> own) {
                  .type = http::Words{{"use", "ignore"}},
                  .description = "use when absent: by `subgroup` where the values name one; ignore "
                                 "takes them one by one"});
+  constexpr std::int64_t kMostOfLast = 1'000'000;
+  own.push_back({.name = "last",
+                 .type = http::Integer{.min = 1, .max = kMostOfLast},
+                 .description = "Only so many of the newest that match"});
   parameters.insert(parameters.end(), own.begin(), own.end());
   return parameters;
 }

@@ -102,7 +102,14 @@ Result<std::int64_t> MeasurementService::read_values(const MeasurementQuery& que
   while (after) {
     auto next = database_.readers().wait(
         [&](const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
-          if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
+          if (!filter.as_of_id) {
+            filter.as_of_id = stores.measurements.last_id();
+            if (query.last) {
+              const auto first = stores.measurements.first_of_newest(filter, *query.last);
+              if (!first) return std::optional<std::int64_t>();
+              after = *first - 1;
+            }
+          }
           Result<void> taken;
           const auto more = stores.measurements.list_values(
               filter, *after, kRowsAJob, [&](const store::MeasuredValue& value) {

@@ -90,6 +90,18 @@ class Stored(DaemonTest):
         ewma = self.find("chart", "characteristic=mixed&kind=ewma&lambda=1")
         self.assertEqual(ewma["charts"][0]["points"], [74.002, 74.007])
 
+    def test_the_newest_alone(self):
+        self.store("worn", ["74.049", "74.001", "74.002", "74.004"])
+        self.store("another", ["74.03"])
+        found = self.find("capability", "characteristic=worn&last=3")
+        sent = self.daemon.post("/v1/statistics/capability", {"values": ["74.001", "74.002", "74.004"], "lower": "73.95", "upper": "74.05"}).json
+        self.assertEqual(found["selection"]["count"], 3)
+        self.assertAlmostEqual(found["cpk"]["value"], sent["cpk"]["value"], places=12)
+        self.assertEqual(self.find("chart", "characteristic=worn&last=100")["charts"],
+                         self.find("chart", "characteristic=worn")["charts"])
+        self.assert_problem(self.daemon.get("/v1/measurements/chart?characteristic=none&last=3"), 422, "statistics.too_few")
+        self.assert_problem(self.daemon.get("/v1/measurements/chart?last=0"), 400, "query.invalid")
+
     def test_a_correction_counts_in_place_of_what_it_corrects(self):
         answer = self.store("mended", ["74.001", "74.002", "75"])
         body = {"measured_mm": "74.003", "reason": "misread"}

@@ -13,7 +13,7 @@ const FOLDER = 'clients/web';
 const LARGEST_BYTES = 150000;
 const SMALLEST_TARGET = 44;
 const VIEWS = {
-  gauge: '#/gauge/25H7', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', parts: '#/parts', programs: '#/programs/nc_prog/8255.h?setup=bore',
+  gauge: '#/gauge/25H7', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', overview: '#/overview', parts: '#/parts', programs: '#/programs/nc_prog/8255.h?setup=bore',
   tables: '#/tables/hole?find=25+H',
 };
 
@@ -41,7 +41,7 @@ describe('the page', () => {
       await daemon.send('PUT', `/v1/files/nc_prog/${name}`, fs.readFileSync(`clients/nc/8255/${name}`, 'utf8'), 'text/plain');
     }
     await daemon.send('PUT', '/v1/setups/bore', fs.readFileSync('clients/nc/8255/setups/hole-good.json', 'utf8'));
-    await daemon.send('POST', '/v1/measurements', ['24.999', '25.0131', '25.02', '25.0215'].map((text) => ({ designation: '25 H7', measured_mm: text })));
+    await daemon.send('POST', '/v1/measurements', ['24.999', '25.0131', '25.02', '25.0215'].map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'bore-A' })));
   });
   after(async () => {
     await browser.close();
@@ -59,6 +59,7 @@ describe('the page', () => {
     }
     if (view === 'fit') await page.waitForSelector('.class-zones :checked');
     if (view === 'trend') await page.waitForSelector('.point');
+    if (view === 'overview') await page.waitForSelector('.overview [data-settled]');
     if (view === 'parts') await page.waitForSelector('.records tbody tr');
     if (view === 'tables') await page.waitForSelector('.grid');
     if (view === 'programs') {

@@ -10,10 +10,10 @@ import { Daemon } from './support/daemon.mjs';
 const SMALLEST_LETTERING = 12;
 const PHONE = { width: 390, height: 844 };
 const VIEWS = {
-  gauge: '#/gauge/25H7?part_id=SN-1&order=WO-17&operator=42', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', parts: '#/parts?order=WO-17',
+  gauge: '#/gauge/25H7?part_id=SN-1&order=WO-17&operator=42', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', overview: '#/overview', parts: '#/parts?order=WO-17',
   programs: '#/programs/nc_prog/8255.h?setup=bore', tables: '#/tables/hole?find=25+H',
 };
-const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.point', parts: '.records tbody tr', programs: '.source li', tables: '.grid' };
+const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.point', overview: '.overview [data-settled]', parts: '.records tbody tr', programs: '.source li', tables: '.grid' };
 
 describe('the reach of the page', () => {
   let browser;
@@ -75,7 +75,7 @@ describe('the reach of the page', () => {
   it('keeps the focus where it was, and moves it to a new view', async () => {
     const page = await openView('gauge');
     const focused = () => page.evaluate(() => document.activeElement.textContent || document.activeElement.tagName);
-    for (const [view, title] of [['fit', 'Fit'], ['tables', 'Tables'], ['parts', 'Parts'], ['programs', 'Programs'], ['trend', 'Trend']]) {
+    for (const [view, title] of [['fit', 'Fit'], ['tables', 'Tables'], ['overview', 'Overview'], ['parts', 'Parts'], ['programs', 'Programs'], ['trend', 'Trend']]) {
       await page.focus(`#views a[href^="#/${view}"]`);
       await page.keyboard.press('Enter');
       await page.waitForFunction((name) => document.querySelector('main h1').textContent === name, title);

@@ -212,6 +212,60 @@ describe('the trend', () => {
     await page.waitForFunction(() => !document.querySelector('.control-chart .broken'));
     await picture(page, 'trend-control', { fullPage: true });
   });
+
+  it('charts the means of subgroups, and leaves out one that is still being measured', async () => {
+    // Piston rings (Montgomery), 25 samples of five, as R's qcc has them: means 74.001176 between 73.98805 and
+    // 74.01431, ranges 0.02276 below 0.04812; with s 0.00924 below 0.0193.
+    const samples = fs.readFileSync('tests/reference/piston_rings.txt', 'utf8').trim().split('\n').slice(0, 25).map((line) => line.trim().split(/\s+/));
+    const ring = (measured_mm, subgroup) => ({ nominal_mm: 74, feature: 'hole', upper_um: 50, lower_um: -50, measured_mm, characteristic: 'ring', subgroup });
+    await daemon.send('POST', '/v1/measurements', [...samples.flatMap((sample, i) => sample.map((value) => ring(value, `S-${i + 1}`))), ring('74.001', 'S-26')]);
+    page = await open(browser, daemon, '#/trend?characteristic=ring&count=200');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 126);
+    const near = (label) => page.waitForFunction((wanted) => [...document.querySelectorAll('.control-chart text')]
+      .some((text) => Math.abs(Number(text.textContent.replace('−', '-')) - wanted) < 0.06), label);
+    await page.selectOption('#trend-kind', 'xbar_r');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 25);
+    for (const label of [1.18, 14.31, -11.95, 22.76, 48.12]) await near(label);
+    assert.match(await page.textContent('.detail'), /1 values of incomplete subgroups/);
+    assert.ok(await page.$('.ranges .unit:text("R")'));
+    await page.focus('.trend figure');
+    await page.keyboard.press('ArrowLeft');
+    await page.waitForFunction(() => /S-25.*74\.013/.test(document.querySelector('.detail').textContent));
+    await picture(page, 'trend-means', { fullPage: true });
+    await page.selectOption('#trend-kind', 'xbar_s');
+    for (const label of [1.18, 14.36, -12.01, 9.24, 19.3]) await near(label);
+    assert.match(hash(), /kind=xbar_s/);
+    await daemon.send('POST', '/v1/measurements', ['74.002', '74.003', '74.001', '74.0'].map((value) => ring(value, 'S-26')));
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 26);
+    await close(page);
+    page = await open(browser, daemon, '#/trend?characteristic=ring&count=200&kind=xbar_s');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 26);
+  });
+});
+
+describe('the overview', () => {
+  it('shows every characteristic of a machine or a plan, the worst first, as the values come in', async () => {
+    const values = (characteristic, middle, spread, count = 40) => Array.from({ length: count }, (_, i) => ({
+      designation: '25 H7', measured_mm: (middle + spread * Math.sin(i * 2.4)).toFixed(4), characteristic, machine: 'OV-1' }));
+    await daemon.send('POST', '/v1/measurements', [...values('ov-fine', 25.0105, 0.002), ...values('ov-edge', 25.019, 0.003), ...values('ov-few', 25.01, 0.001, 5)]);
+    await daemon.send('PUT', '/v1/plans/OV-PLAN', { characteristics: ['ov-fine', 'ov-new'].map((name) => ({ name, designation: '25 H7' })) });
+    page = await open(browser, daemon, '#/overview?machine=OV-1');
+    const order = (names) => page.waitForFunction((wanted) => [...document.querySelectorAll('.overview tbody th')].map((cell) => cell.textContent).join() === wanted, names.join());
+    await order(['ov-edge', 'ov-fine', 'ov-few']);
+    const { ppk } = await daemon.json('/v1/measurements/capability?characteristic=ov-edge&machine=OV-1');
+    assert.match(await page.textContent('.overview tbody tr'), new RegExp(`^ov-edge40[^]*${ppk.value.toFixed(2)}`.replace('.', '\\.')));
+    assert.ok(await page.$('.overview tbody tr:last-child .index.in-doubt'), 'five values are no index');
+    await picture(page, 'overview', { fullPage: true });
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 5 }, () => ({ designation: '25 H7', measured_mm: '25.09', characteristic: 'ov-fine', machine: 'OV-1' })));
+    await page.waitForFunction(() => /ov-fine45/.test(document.querySelector('.overview tbody tr').textContent));
+    assert.match(await page.textContent('.overview tbody tr'), /Not stable/);
+    await page.selectOption('#overview-plan', 'OV-PLAN');
+    await order(['ov-fine', 'ov-new']);
+    assert.match(await page.textContent('.overview tbody tr:last-child'), /No values yet/);
+    await page.click('.overview tbody a');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 45);
+    assert.match(hash(), /^#\/trend\?characteristic=ov-fine/);
+  });
 });
 
 describe('the parts', () => {

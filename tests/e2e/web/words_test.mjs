@@ -91,6 +91,7 @@ describe('the words', () => {
       await page.focus('.trend figure');
       await page.keyboard.press('ArrowLeft');
     }],
+    'the overview': ['#/overview', (page) => page.waitForSelector('.overview [data-settled]')],
     'the parts': ['#/parts?order=WO-17', (page) => page.waitForSelector('.records tbody tr')],
     'a part': ['#/parts?part_id=SN-7', (page) => page.waitForSelector('.records tbody tr')],
     'the programs': ['#/programs/nc_prog/82.h', async (page) => {

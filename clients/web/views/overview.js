@@ -1,0 +1,132 @@
+/** Every characteristic of a part number or a machine, the worst first, as the values come in. */
+
+import { getJson, url } from '../api.js';
+import { field, h, refill } from '../dom.js';
+import { follow } from '../events.js';
+import { explain, number, t } from '../i18n.js';
+import { Latest } from '../latest.js';
+import { bySeverity, isDoubtful, LAST, standingOf } from '../overview/standing.js';
+import { fragment, go } from '../route.js';
+import { FEWEST } from '../trend/figures.js';
+import { verdictShape, VERDICTS } from '../verdict.js';
+
+const HEAD = ['field.characteristic', 'certificate.count', 'trend.verdict', 'overview.index', 'overview.process'];
+/** Many events make one reading. */
+const GATHER_MS = 500;
+
+export function mount(main, route) {
+  const leaving = new AbortController();
+  const latest = new Latest(leaving.signal);
+  const plan = h('select', { id: 'overview-plan', onchange: () => load() });
+  const machine = h('select', { id: 'overview-machine', onchange: () => load() });
+  const note = h('p.note', { role: 'alert' });
+  const rows = h('tbody');
+  const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('view.overview') },
+    h('table', h('thead', h('tr', HEAD.map((name) => h('th', { scope: 'col' }, t(name))))), rows));
+  const empty = h('p.empty', { hidden: true }, t('trend.empty'));
+  let standings = new Map();
+  let changed = new Set();
+  let timer = 0;
+
+  main.replaceChildren(h('div.desk.overview', h('h1.unseen', { tabindex: -1 }, t('view.overview')),
+    h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('plan.label'), plan), field(t('field.machine'), machine)),
+    note, h('p.aside', t('overview.what', { count: LAST, fewest: FEWEST })), empty, table));
+
+  async function offer() {
+    const [{ plans }, { groups }] = await Promise.all([getJson(url(['plans']), { signal: leaving.signal }),
+      getJson(url(['measurements', 'summary'], { group_by: 'machine' }), { signal: leaving.signal })]);
+    const choices = (select, none, values, chosen) => {
+      const all = [...new Set([...values, chosen].filter(Boolean))];
+      refill(select, h('option', { value: '' }, none), all.map((value) => h('option', { value, selected: value === chosen }, value)));
+    };
+    choices(plan, t('overview.characteristics'), plans.map(({ part }) => part), route.options.plan);
+    choices(machine, t('overview.machines'), groups.map((group) => group.machine), route.options.machine);
+  }
+
+  /** The names to be shown: those of the plan, or all there are values of. */
+  async function namesOf(signal) {
+    if (plan.value) return (await getJson(url(['plans', plan.value]), { signal })).characteristics.map(({ name }) => name);
+    const { groups } = await getJson(url(['measurements', 'summary'], { group_by: 'characteristic', machine: machine.value }), { signal });
+    return groups.map(({ characteristic }) => characteristic).filter(Boolean);
+  }
+
+  async function load() {
+    go({ view: 'overview', options: { plan: plan.value, machine: machine.value } }, { refine: true });
+    table.toggleAttribute('data-settled', false);
+    try {
+      await latest.run(async (signal) => {
+        const names = await namesOf(signal);
+        const found = await standingsOf(names, signal);
+        standings = new Map(names.map((name, i) => [name, found[i]]));
+        draw();
+      });
+      note.textContent = '';
+    } catch (problem) {
+      note.textContent = explain(problem);
+    }
+  }
+
+  const standingsOf = (names, signal) => Promise.all(names.map((name) => standingOf({ characteristic: name, machine: machine.value }, signal)));
+
+  function draw() {
+    const sorted = [...standings].sort(([, one], [, other]) => bySeverity(one, other));
+    empty.hidden = sorted.length > 0;
+    table.hidden = !sorted.length;
+    refill(rows, sorted.map(([name, standing]) => row(name, standing)));
+    table.toggleAttribute('data-settled', true);
+  }
+
+  function arrived(event) {
+    if (event.type === 'resync') return load();
+    if (event.type !== 'measurement.recorded') return null;
+    const { characteristic, machine: where } = JSON.parse(event.data);
+    if (!characteristic || (machine.value && machine.value !== where) || (plan.value && !standings.has(characteristic))) return null;
+    changed.add(characteristic);
+    timer ||= setTimeout(renew, GATHER_MS);
+    return null;
+  }
+
+  async function renew() {
+    timer = 0;
+    const names = [...changed];
+    changed = new Set();
+    try {
+      const found = await standingsOf(names, leaving.signal);
+      names.forEach((name, i) => standings.set(name, found[i]));
+      draw();
+    } catch (problem) {
+      if (!leaving.signal.aborted) note.textContent = explain(problem);
+    }
+  }
+
+  offer().then(load).then(() => follow(leaving.signal, arrived))
+    .catch((problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); });
+  return () => {
+    leaving.abort();
+    clearTimeout(timer);
+  };
+
+  function row(name, standing) {
+    return h('tr',
+      h('th', { scope: 'row' }, h('a', { href: fragment({ view: 'trend', options: { characteristic: name } }) }, name)),
+      h('td.number', String(standing.count)), h('td', counts(standing)), h('td', indexOf(standing)), h('td', processOf(standing)));
+  }
+}
+
+const counts = ({ verdicts, count }) => (count ? h('span.counts', VERDICTS.filter((word) => verdicts[word]).map((word) =>
+  h('span.count', { 'data-verdict': word }, verdictShape(word), h('span.unseen', t(`verdict.${word}`)), ` ${verdicts[word]}`))) : '');
+
+function indexOf(standing) {
+  const { ppk } = standing;
+  if (!ppk) return '–';
+  const text = (value) => number(value.toFixed(2));
+  return h('span', { class: isDoubtful(standing) ? 'index in-doubt' : 'index' }, h('strong', text(ppk.value)),
+    ppk.lower != null && h('span.aside', t('trend.interval', { lower: text(ppk.lower), upper: text(ppk.upper) })));
+}
+
+function processOf({ count, stable }) {
+  if (!count) return t('overview.nothing');
+  if (stable === undefined) return t('overview.unknown');
+  if (!stable) return h('span.stability.doubt', t('overview.unstable'));
+  return count < FEWEST ? t('trend.too_few', { count, fewest: FEWEST }) : h('span.stability', t('overview.stable'));
+}
