@@ -99,6 +99,23 @@ class LeavesNoLog {
   bool kept_;
 };
 
+/// The first schema with a log.
+constexpr int kLogSchema = 12;
+
+/// Rows that are in the tree and no longer in the table were cut off: their ids would be given out
+/// again.
+Result<void> has_whole_log(sqlite::Connection& connection, const fs::path& file, int version) {
+  if (version < kLogSchema) return {};
+  const std::int64_t signed_rows = connection.query_integer("SELECT size FROM log");
+  const std::int64_t rows =
+      connection.query_integer("SELECT coalesce(max(id), 0) FROM measurements");
+  if (rows >= signed_rows) return {};
+  return Error{ErrorCode::StorageCorrupt,
+               fmt::format("{} has signed {} measurements and holds {}: the newest were cut off. "
+                           "Restore a backup in its place",
+                           file.string(), signed_rows, rows)};
+}
+
 /// Opens the existing file read-only, so that whatever is refused is also left untouched.
 Result<int> checked_version(const OpenOptions& options, const fs::path& file,
                             std::span<const sqlite::Migration> known) {
@@ -118,6 +135,9 @@ Result<int> checked_version(const OpenOptions& options, const fs::path& file,
       if (const Result<void> sound = check_file(file); !sound) return sound.error();
     }
     if (foreign) return *foreign;
+    if (options.access == Access::Serve) {
+      if (auto whole = has_whole_log(connection, file, version); !whole) return whole.error();
+    }
     return version;
   } catch (const StorageFailure& failure) {
     if (failure.error().code != ErrorCode::StorageCorrupt) throw;

@@ -13,13 +13,13 @@
 
 namespace fitgauge::store {
 
-/// Inserts measurements at the end of the chain: many rows a statement, and only the columns that
+/// Inserts measurements at the end: many rows a statement, and only the columns that
 /// one of them fills. A statement stepped for every row with every column takes half as long again.
 class MeasurementInsert {
  public:
   explicit MeasurementInsert(sqlite::Connection& connection) : connection_(connection) {}
 
-  /// @param rows linked to the end of the chain.
+  /// @param rows numbered on from the last.
   void append(std::span<const MeasurementRow> rows);
 
  private:

@@ -65,7 +65,7 @@ struct MeasurementsStore::Statements {
   explicit Statements(sqlite::Connection& c)
       : connection(c),
         insert(c),
-        newest(c, "SELECT id, hash FROM measurements ORDER BY id DESC LIMIT 1"),
+        newest(c, "SELECT id FROM measurements ORDER BY id DESC LIMIT 1"),
         by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
         correction(c, "SELECT id FROM measurements WHERE correction_of = ?"),
         revision(c, "SELECT 1 FROM table_revisions WHERE number = ?"),
@@ -73,12 +73,6 @@ struct MeasurementsStore::Statements {
         whole_rows(c, measurement_columns()),
         values(c, std::string(kValueColumns)),
         ids(c, "m.id") {}
-
-  MeasurementChain::End chain_end() {
-    Rows rows = newest.query();
-    if (!rows.next()) return {};
-    return {rows.get<std::int64_t>(0), rows.get<Digest>(1)};
-  }
 
   /// @errors as append
   Result<void> require_current(std::int64_t id) {
@@ -131,15 +125,7 @@ MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
     : statements_(std::make_unique<Statements>(connection)) {}
 MeasurementsStore::~MeasurementsStore() = default;
 
-Result<IdRange> MeasurementsStore::append(std::span<MeasurementRow> rows) {
-  MeasurementChain chain(chain_end());
-  const std::int64_t first = chain.end().id + 1;
-  chain.link(rows);
-  if (const Result<void> appended = append_linked(rows); !appended) return appended.error();
-  return IdRange{first, chain.end().id};
-}
-
-Result<void> MeasurementsStore::append_linked(std::span<const MeasurementRow> rows) {
+Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
   for (const MeasurementRow& row : rows) {
     if (row.correction_of) {
       if (Result<void> open = statements_->require_current(*row.correction_of); !open) {
@@ -154,8 +140,6 @@ Result<void> MeasurementsStore::append_linked(std::span<const MeasurementRow> ro
   }
   return {};
 }
-
-MeasurementChain::End MeasurementsStore::chain_end() const { return statements_->chain_end(); }
 
 bool MeasurementsStore::find(std::int64_t id, const Visitor& visit) const {
   Rows rows = statements_->by_id.query(id);
@@ -215,7 +199,10 @@ void MeasurementsStore::verify_index(const std::function<void(std::string)>& not
   statements_->indexer.verify(note);
 }
 
-std::int64_t MeasurementsStore::last_id() const { return chain_end().id; }
+std::int64_t MeasurementsStore::last_id() const {
+  Rows rows = statements_->newest.query();
+  return rows.next() ? rows.get<std::int64_t>(0) : 0;
+}
 
 Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFilter& filter,
                                                              TextField group_by,

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array kTables = {kTableSets,     kTableRevisions, kApiKeys, kIdempotentAnswers,
                                 kFileRevisions, kDocuments,      kRuns,    kRunTraces,
-                                kRunFiles,      kEvents};
+                                kRunFiles,      kEvents,         kLog,     kLogKeys};
 
 void add_value(CanonicalDigest& digest, sqlite3_value* value) {
   const auto size = [&] { return static_cast<std::size_t>(sqlite3_value_bytes(value)); };

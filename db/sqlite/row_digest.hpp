@@ -42,6 +42,8 @@ inline constexpr SealedTable kRuns{
     "runs", "id", "status, program, program_key, request, result, created_at, finished_at, caller"};
 inline constexpr SealedTable kRunTraces{"run_traces", "run", "run, trace"};
 inline constexpr SealedTable kRunFiles{"run_files", "run", "run, name_key, path, content"};
+inline constexpr SealedTable kLog{"log", "id", "origin, name, chained, size"};
+inline constexpr SealedTable kLogKeys{"log_keys", "number", "vkey, created_at"};
 inline constexpr SealedTable kEvents{"events", "id", "type, payload, created_at"};
 
 std::span<const SealedTable> sealed_tables();

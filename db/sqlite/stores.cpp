@@ -11,6 +11,7 @@ Stores::Stores(sqlite::Connection& connection, const Clock& clock,
       files(connection),
       documents(connection),
       runs(connection),
-      events(connection) {}
+      events(connection),
+      log(connection) {}
 
 }  // namespace fitgauge::store

@@ -45,6 +45,7 @@ class Verifier {
   VerifyReport report_;
   std::set<std::int64_t> revisions_;
   MeasurementHasher hasher_;
+  std::int64_t chained_ = 0;  ///< rows up to this one form a chain; later ones are the log's
   std::int64_t last_id_ = 0;
   Digest last_hash_{};
 };

@@ -54,8 +54,8 @@ class Database {
   Result<void> backup(const std::filesystem::path& file) const;
 
   /// Checks the file (every page, index and reference), the schema against this build's, each table
-  /// revision against its digest, the chain of measurement hashes, and with `check` what only the
-  /// caller can judge of each measurement. Blocks.
+  /// revision against its digest, the chain of the hashes from before the log, and with `check`
+  /// what only the caller can judge of each measurement. Blocks.
   Result<VerifyReport> verify(const MeasurementCheck& check = {}) const;
 
  private:

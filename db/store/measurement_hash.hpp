@@ -5,7 +5,7 @@
 
 namespace fitgauge::store {
 
-/// The chain of hashes that makes a later change of a measurement visible: each row's hash is the
+/// The chain of hashes of the rows that were stored before there was a log: each row's hash is the
 /// SHA-256 of the hash of the row before (32 zero bytes for the first) and the row's own id and
 /// fields in canonical encoding. Not thread-safe.
 class MeasurementHasher {

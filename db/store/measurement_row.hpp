@@ -19,7 +19,7 @@ enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2 };
 /// millionths. Texts are views: of the caller's memory until the job that appends them is done, or
 /// of the database's own while a visitor runs.
 struct MeasurementRow {
-  std::int64_t id = 0;  ///< rising; given with the hash
+  std::int64_t id = 0;  ///< rising without gaps
   Source source = Source::Gauge;
   std::int64_t measured_at_ns = 0;
   std::int64_t received_at_ns = 0;
@@ -60,7 +60,7 @@ struct MeasurementRow {
 
   std::optional<std::string_view> subgroup{};  ///< of a control chart
 
-  Digest hash{};  ///< given by MeasurementChain when the row is appended
+  Digest hash{};  ///< of its leaf in the log; of rows from before the log, MeasurementHasher's
 
   std::int64_t upper_limit_nm() const { return nominal_nm + upper_deviation_nm; }
   std::int64_t lower_limit_nm() const { return nominal_nm + lower_deviation_nm; }

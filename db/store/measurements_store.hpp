@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "store/measurement_chain.hpp"
 #include "store/measurement_filter.hpp"
 #include "store/measurement_row.hpp"
 #include "store/measurement_summary.hpp"
@@ -22,12 +21,6 @@ namespace sqlite {
 class Connection;
 }
 
-/// A run of ids: first to last, both included.
-struct IdRange {
-  std::int64_t first = 0;
-  std::int64_t last = 0;
-};
-
 /// What figures are computed from: a measured value, its limits and what it is grouped by.
 struct MeasuredValue {
   std::int64_t id = 0;
@@ -37,24 +30,17 @@ struct MeasuredValue {
   std::optional<std::string_view> subgroup{};  ///< the database's own while a visitor runs
 };
 
-/// Measurements, kept for ever: the database refuses UPDATE and DELETE. Rows carry a chain of
-/// SHA-256 hashes (MeasurementChain).
+/// Measurements, kept for ever: the database refuses UPDATE and DELETE.
 class MeasurementsStore {
  public:
   explicit MeasurementsStore(sqlite::Connection& connection);
   ~MeasurementsStore();
 
-  /// Appends rows in the order given. A row with `correction_of` must name the current row of its
-  /// chain.
+  /// Appends rows, which have their hash and the ids from last_id() + 1 on. A row with
+  /// `correction_of` must name one that was not corrected yet.
   /// @errors MeasurementUnknown when it names no row; MeasurementCorrected when that one was
   ///   corrected before.
-  Result<IdRange> append(std::span<MeasurementRow> rows);
-
-  /// The same of rows that a MeasurementChain has linked to chain_end() in the same transaction, on
-  /// another thread it may be: hashing takes a sixth of the time of appending.
-  Result<void> append_linked(std::span<const MeasurementRow> rows);
-
-  MeasurementChain::End chain_end() const;
+  Result<void> append(std::span<const MeasurementRow> rows);
 
   using Visitor = std::function<void(const MeasurementRow&)>;
 

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "store/health.hpp"
+#include "store/verify.hpp"
 
 namespace fitgauge::store {
 
@@ -39,6 +40,10 @@ struct OpenOptions {
   std::chrono::hours idempotency_retention{30 * 24};
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
   std::int64_t event_retention = 100'000;     ///< events kept for replay
+
+  /// What is wrong with a stored measurement, for the scrub. Called on its thread; may wait for the
+  /// application to be ready, and lives as long as the database.
+  MeasurementCheck check_measurement{};
 
   /// Called on the writer thread after each commit to call what it is given, which tells the jobs
   /// their outcomes. None: that is called by itself.

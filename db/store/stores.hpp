@@ -8,6 +8,7 @@
 #include "store/files_store.hpp"
 #include "store/idempotency_store.hpp"
 #include "store/keys_store.hpp"
+#include "store/log_store.hpp"
 #include "store/measurements_store.hpp"
 #include "store/runs_store.hpp"
 #include "store/tables_store.hpp"
@@ -33,6 +34,7 @@ struct Stores {
   DocumentsStore documents;
   RunsStore runs;
   EventsStore events;
+  LogStore log;
 };
 
 }  // namespace fitgauge::store

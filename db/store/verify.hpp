@@ -10,7 +10,7 @@
 
 namespace fitgauge::store {
 
-/// Judges one measurement; says what is wrong with it, or nothing.
+/// Judges one measurement; says what is wrong with it (`was altered …`), or nothing.
 using MeasurementCheck = std::function<std::optional<std::string>(const MeasurementRow& row)>;
 
 struct VerifyReport {

@@ -5,6 +5,7 @@
 #include "api/limits/gauges_resource.hpp"
 #include "api/limits/limits_resource.hpp"
 #include "api/limits/verdicts_resource.hpp"
+#include "api/log/log_resource.hpp"
 #include "api/measurements/measurements_resource.hpp"
 #include "api/plans/plans_resource.hpp"
 #include "api/runs/runs_resource.hpp"
@@ -32,6 +33,7 @@ http::RouteTable make_routes(const Services& services) {
   add_tables_routes(routes, services, cache);
   add_verdicts_routes(routes, services);
   add_measurements_routes(routes, services);
+  add_log_routes(routes, services);
   add_statistics_routes(routes, services);
   add_stored_statistics_routes(routes, services);
   add_uncertainty_routes(routes, services);

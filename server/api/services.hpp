@@ -8,6 +8,7 @@
 
 namespace fitgauge::app {
 class TableCatalog;
+class LogService;
 class MeasurementService;
 class FileService;
 class DocumentService;
@@ -23,6 +24,7 @@ class VerdictCounts;
 /// What the resources answer from; owned by the daemon, alive as long as the server.
 struct Services {
   app::TableCatalog& tables;
+  app::LogService& log;
   app::MeasurementService& measurements;
   app::FileService& files;
   app::DocumentService& documents;

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "app/log/log_check.hpp"
+#include "app/log/log_keys.hpp"
 #include "app/measurements/mapping.hpp"
 #include "store/database.hpp"
+#include "tlog/tile.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -35,13 +38,20 @@ store::OpenOptions options_of_store(const ApplicationOptions& options) {
 }
 
 /// Judges a stored measurement again by the limits and the rule stored with it.
-std::optional<std::string> check_verdict(const store::MeasurementRow& row) {
-  Measurement again = from_store(row, [](std::int64_t) { return std::string_view(); });
+std::optional<std::string> check_verdict(const store::MeasurementRow& row, const RowNames& names) {
+  Measurement again = from_store(row, names);
   const gauging::Verdict stored = again.result.verdict;
   judge(again);
   if (again.result.verdict == stored) return std::nullopt;
-  return fmt::format("measurement {} is stored as {} but its limits make it {}",
-                     measurement_id_text(row.id), word(stored), word(again.result.verdict));
+  return fmt::format("m{} is stored as {} but its limits make it {}", row.id, word(stored),
+                     word(again.result.verdict));
+}
+
+/// What verify says of a measurement that is altered, has a wrong verdict, or both.
+std::optional<std::string> finding_of(const std::optional<std::string>& altered,
+                                      const std::optional<std::string>& verdict) {
+  if (!verdict) return altered;
+  return fmt::format("{}: {}", altered.value_or("is wrong"), *verdict);
 }
 
 }  // namespace
@@ -50,8 +60,11 @@ Application::Application() = default;
 
 /// Who calls the services goes before them: the runs, the listeners of commits, the storage jobs.
 Application::~Application() {
+  stage_ = Stage::Closing;
+  stage_.notify_all();
   if (runs_) runs_->stop();
   committed_.stop();
+  if (log_) log_->stop();
   if (database_) database_->drain();
 }
 
@@ -59,31 +72,65 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
                                                        const Clock& clock) {
   std::unique_ptr<Application> app(new Application);
   store::OpenOptions open_options = options_of_store(options);
-  open_options.committed = [&signal = app->committed_] { signal.raise(); };
+  open_options.committed = [app = app.get()] {
+    app->committed_.raise();
+    if (app->stage_ == Stage::Open) app->log_->committed();
+  };
+  if (!options.attach) {
+    open_options.check_measurement = [app = app.get()](const store::MeasurementRow& row) {
+      app->stage_.wait(Stage::Opening);
+      return app->stage_ == Stage::Open ? app->check_leaf(row) : std::nullopt;
+    };
+  }
+  app->directory_ = options.directory;
   auto database = store::Database::open(open_options, clock);
   if (!database) return database.error();
   app->database_ = *std::move(database);
   auto tables = TableCatalog::open(*app->database_, clock);
   if (!tables) return tables.error();
   app->tables_ = *std::move(tables);
+  auto log = LogService::open(*app->database_, *app->tables_, clock,
+                              {.directory = options.directory,
+                               .name = options.origin_name,
+                               .attach = options.attach,
+                               .tell = options.log_told});
+  if (!log) return log.error();
+  app->log_ = *std::move(log);
+  const std::string_view origin = app->log_->origin();
   auto keys = KeyService::open(*app->database_, clock);
   if (!keys) return keys.error();
   app->keys_ = *std::move(keys);
   app->measurements_ = std::make_unique<MeasurementService>(
-      *app->database_, *app->tables_,
+      *app->database_, *app->tables_, origin,
       MeasurementServiceOptions{.most_waiting = options.write_queue,
                                 .commit_each = options.commit_each});
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
   app->documents_ = std::make_unique<DocumentService>(*app->database_, clock);
   if (!options.attach) {
     app->runs_ =
-        std::make_unique<RunService>(*app->database_, *app->tables_, clock,
+        std::make_unique<RunService>(*app->database_, *app->tables_, clock, origin,
                                      RunServiceOptions{.workers = options.run_workers,
                                                        .keeps_newest = options.keeps_newest_run});
   }
-  app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, app->committed_,
-                                                options.event_retention);
+  app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origin,
+                                                app->committed_, options.event_retention);
+  if (!options.attach) {
+    app->log_->start();
+  }
+  app->stage_ = Stage::Open;
+  app->stage_.notify_all();
   return app;
+}
+
+std::optional<tlog::Hash> Application::kept_node(const tlog::Node& node) const {
+  std::optional<tlog::Hash> kept;
+  const auto read = database_->readers().wait([&](const store::Stores& stores) -> Result<bool> {
+    stores.log.nodes(static_cast<int>(node.level / tlog::kTileHeight),
+                     static_cast<std::int64_t>(node.index), 1,
+                     [&](const Digest& hash) { kept = hash; });
+    return true;
+  });
+  return read ? kept : std::nullopt;
 }
 
 WriterFigures Application::writer() const {
@@ -109,14 +156,74 @@ Result<std::optional<Timestamp>> Application::newest_measurement() const {
 }
 
 Result<void> Application::backup(const std::filesystem::path& file) const {
-  return database_->backup(file);
+  // The checkpoint first: the copy that is made after it has all that it covers.
+  const auto checkpoint = read_small_file(directory_ / kCheckpointFile);
+  if (const auto copied = database_->backup(file); !copied) return copied;
+  if (!checkpoint || !*checkpoint) return {};
+  auto beside = file;
+  return replace_file(beside += ".checkpoint", **checkpoint, true);
 }
 
-Result<Application::Verification> Application::verify() const {
-  auto report = database_->verify(check_verdict);
+std::optional<std::string> Application::check_leaf(const store::MeasurementRow& row) const {
+  if (row.id <= log_->chained() || LeafMaker()(from_store(row, row_names())) == row.hash) {
+    return std::nullopt;
+  }
+  return altered_finding();
+}
+
+RowNames Application::row_names() const {
+  return {.revision_id = [this](std::int64_t number) { return tables_->revision_id(number); },
+          .origin = log_->origin()};
+}
+
+/// A revision that a daemon beside this process has stored since it was attached.
+std::string_view Application::later_revision(std::int64_t number,
+                                             std::map<std::int64_t, std::string>& later) const {
+  if (const auto known = later.find(number); known != later.end()) return known->second;
+  const auto read = database_->readers().wait([&](const store::Stores& stores) -> Result<bool> {
+    for (store::TableRevision& revision : stores.tables.list()) {
+      later.emplace(revision.number, std::move(revision.id));
+    }
+    return true;
+  });
+  return read ? std::string_view(later[number]) : std::string_view();
+}
+
+Result<Application::Verification> Application::verify(
+    const std::map<std::string, std::string>& checkpoints) const {
+  // The daemon's own checkpoint is read before the rows, so that they have all that it covers.
+  const auto own = read_small_file(directory_ / kCheckpointFile);
+  const auto facts = LogService::facts(*database_);
+  if (!facts && facts.error().code != ErrorCode::StorageCorrupt) return facts.error();
+  std::map<std::int64_t, std::string> later;
+  RowNames names = row_names();
+  names.revision_id = [&](std::int64_t number) -> std::string_view {
+    const std::string_view known = tables_->revision_id(number);
+    return known.empty() ? later_revision(number, later) : known;
+  };
+  if (!facts) {  // what the log says of itself is damaged: that is a finding, and there may be more
+    return verification_of(database_->verify([&](const store::MeasurementRow& row) {
+      return finding_of(std::nullopt, check_verdict(row, names));
+    }));
+  }
+  LogCheck log(*facts, names, [this](const tlog::Node& node) { return kept_node(node); });
+  if (own && *own && !(*own)->empty()) log.expect(std::string(kCheckpointFile), **own);
+  for (const auto& [place, note] : checkpoints) log.expect(place, note);
+  auto report = database_->verify([&](const store::MeasurementRow& row) {
+    return finding_of(log.add(row), check_verdict(row, names));
+  });
+  auto verification = verification_of(std::move(report));
+  if (!verification) return verification;
+  verification->head = log.head_text();
+  for (std::string& finding : log.finish()) verification->findings.push_back(std::move(finding));
+  return verification;
+}
+
+Result<Application::Verification> Application::verification_of(
+    Result<store::VerifyReport> report) const {
   if (!report) return report.error();
-  Verification verification{.measurements = report->measurements,
-                            .findings = std::move(report->findings)};
+  Verification verification{
+      .measurements = report->measurements, .findings = std::move(report->findings), .head = {}};
   for (const Error& finding : tables_->state()->findings) {
     verification.findings.push_back(finding.message);
   }

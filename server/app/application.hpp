@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "app/files/file_service.hpp"
+#include "app/log/log_service.hpp"
 #include "app/measurements/measurement_service.hpp"
 #include "app/runs/run_service.hpp"
 #include "app/service/commit_signal.hpp"
@@ -20,6 +23,12 @@
 #include "app/service/readiness.hpp"
 #include "app/service/writer_figures.hpp"
 #include "app/tables/table_catalog.hpp"
+
+namespace fitgauge::store {
+class Database;
+struct MeasurementRow;
+struct VerifyReport;
+}  // namespace fitgauge::store
 
 namespace fitgauge::app {
 
@@ -35,6 +44,7 @@ struct ApplicationOptions {
   std::int64_t idempotency_days = 30;
   std::int64_t run_retention_days = 90;  ///< 0: for ever
   std::int64_t event_retention = 100'000;
+  std::string origin_name = "station";  ///< of the log of a new data folder
   /// Calls what it is given, on the writer thread: the `done` of everything a commit has stored.
   std::function<void(const std::function<void()>&)> around_outcomes{};
   /// The storage's health has changed: `ok`, `checking`, `writes_failing` or `damaged`, and why.
@@ -42,6 +52,8 @@ struct ApplicationOptions {
   std::function<void(std::string_view state, const std::string& reason)> health_changed{};
   /// A storage job threw, which is a bug. As above.
   std::function<void(const std::string& what)> job_threw{};
+  /// What happens to the log: the event's name and a sentence. As above.
+  std::function<void(std::string_view event, const std::string& detail)> log_told{};
 };
 
 /// The service without its network: the database and one object per use case. Thread-safe once
@@ -55,6 +67,7 @@ class Application {
   ~Application();
 
   TableCatalog& tables() { return *tables_; }
+  LogService& log() { return *log_; }
   MeasurementService& measurements() { return *measurements_; }
   EventService& events() { return *events_; }
   KeyService& keys() { return *keys_; }
@@ -71,24 +84,37 @@ class Application {
   /// When the newest measurement was received; none before the first. @errors StorageUnavailable.
   Result<std::optional<Timestamp>> newest_measurement() const;
 
-  /// A consistent copy of the live database. @errors StorageUnavailable, also when the file exists.
+  /// A consistent copy of the live database, and beside it (`FILE.checkpoint`) the newest
+  /// checkpoint, which the copy covers. @errors StorageUnavailable, also when the file exists.
   Result<void> backup(const std::filesystem::path& file) const;
 
   struct Verification {
     std::int64_t measurements = 0;
     std::vector<std::string> findings;  ///< empty: all is well
+    std::string head;                   ///< the log as it was found: name, size and root
   };
-  /// Checks the file, the schema, every table revision, the chain of measurements, and that each
-  /// verdict follows from the stored limits.
-  Result<Verification> verify() const;
+  /// Checks the file, the schema, every table revision, the log against what this folder and
+  /// `checkpoints` (notes by what they are called) have signed, and that each verdict follows from
+  /// the stored limits.
+  Result<Verification> verify(const std::map<std::string, std::string>& checkpoints = {}) const;
 
  private:
   Application();
+  RowNames row_names() const;
+  std::string_view later_revision(std::int64_t number,
+                                  std::map<std::int64_t, std::string>& later) const;
+  Result<Verification> verification_of(Result<store::VerifyReport> report) const;
+  std::optional<std::string> check_leaf(const store::MeasurementRow& row) const;
+  std::optional<tlog::Hash> kept_node(const tlog::Node& node) const;
 
   // Declared in the order of construction: each member uses only those above it.
+  std::filesystem::path directory_;
   CommitSignal committed_;
+  enum class Stage { Opening, Open, Closing };
+  std::atomic<Stage> stage_ = Stage::Opening;
   std::unique_ptr<store::Database> database_;
   std::unique_ptr<TableCatalog> tables_;
+  std::unique_ptr<LogService> log_;
   std::unique_ptr<MeasurementService> measurements_;
   std::unique_ptr<EventService> events_;
   std::unique_ptr<KeyService> keys_;

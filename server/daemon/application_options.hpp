@@ -18,6 +18,7 @@ inline app::ApplicationOptions application_options(const Config& config) {
   options.run_retention_days = config.run_retention_days;
   options.event_retention = config.event_retention;
   options.keeps_newest_run = !config.control_listen.empty();
+  options.origin_name = config.origin_name;
   return options;
 }
 

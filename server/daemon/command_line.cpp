@@ -92,7 +92,11 @@ struct Commands {
     app.fallthrough();
     backup = app.add_subcommand("backup", "Write a consistent copy of the live database");
     backup->add_option("file", file, "The copy; must not exist")->required();
-    verify = app.add_subcommand("verify", "Check database, tables and every stored verdict");
+    verify = app.add_subcommand("verify", "Check database, tables, log and every stored verdict");
+    verify->add_option("--checkpoint", checkpoints,
+                       "A checkpoint that was kept elsewhere: the log must begin with it");
+    log_key = app.add_subcommand("log-key",
+                                 "Make a new key for the log, which signs from the next start on");
     key = app.add_subcommand("key", "Create, list and revoke API keys");
     key->require_subcommand(1);
     create = key->add_subcommand("create", "Create a key and show it once");
@@ -105,7 +109,8 @@ struct Commands {
 
   Result<int> run(const Config& config) const {
     if (*backup) return run_backup(config, file);
-    if (*verify) return run_verify(config);
+    if (*verify) return run_verify(config, checkpoints);
+    if (*log_key) return run_log_key(config);
     if (*create) return run_key_create(config, name, role);
     if (*revoke) return run_key_revoke(config, name);
     return run_key_list(config);
@@ -113,11 +118,13 @@ struct Commands {
 
   CLI::App* backup = nullptr;
   CLI::App* verify = nullptr;
+  CLI::App* log_key = nullptr;
   CLI::App* key = nullptr;
   CLI::App* create = nullptr;
   CLI::App* revoke = nullptr;
   CLI::App* list = nullptr;
   std::string file;
+  std::vector<std::string> checkpoints;
   std::string name;
   std::string role;
 };
@@ -139,7 +146,10 @@ int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& co
   }
   if (!app.get_subcommands().empty()) {
     const auto done = commands.run(*config);
-    return done ? *done : complain(done.error());
+    if (done) return *done;
+    complain(done.error());
+    // Findings of verify are 1: that it could not look is another thing.
+    return *commands.verify || done.error().code == ErrorCode::ConfigInvalid ? kUsage : kFailed;
   }
   open_log(config->log_level);
   const auto served = serve(*config, arguments.port_file);

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <system_error>
 
+#include "app/log/log_keys.hpp"
 #include "daemon/application_options.hpp"
 
 namespace fitgauge::daemon {
@@ -39,15 +43,35 @@ Result<int> run_backup(const Config& config, const std::string& file) {
   return 0;
 }
 
-Result<int> run_verify(const Config& config) {
+Result<int> run_verify(const Config& config, const std::vector<std::string>& checkpoints) {
+  std::map<std::string, std::string> notes;
+  for (const std::string& file : checkpoints) {
+    std::ifstream in(file, std::ios::binary);
+    notes[file] = {std::istreambuf_iterator<char>(in), {}};
+    if (!in.is_open() || in.bad()) {
+      return Error{ErrorCode::ConfigInvalid, "cannot read the checkpoint " + file};
+    }
+  }
   const auto app = attach(config);
   if (!app) return app.error();
-  const auto verification = (*app)->verify();
+  const auto verification = (*app)->verify(notes);
   if (!verification) return verification.error();
   for (const std::string& finding : verification->findings) std::cout << finding << '\n';
   std::cout << fmt::format("{} measurements checked, {} findings\n", verification->measurements,
                            verification->findings.size());
+  if (!verification->head.empty()) std::cout << verification->head << '\n';
+  if (checkpoints.empty()) {
+    std::cout << "without a checkpoint kept elsewhere (--checkpoint FILE) this cannot tell whether "
+                 "all of it was replaced\n";
+  }
   return verification->findings.empty() ? 0 : 1;
+}
+
+Result<int> run_log_key(const Config& config) {
+  const auto key = app::renew_log_key(config.data);
+  if (!key) return key.error();
+  std::cout << *key << '\n';
+  return 0;
 }
 
 Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "app/log/log_keys.hpp"
 #include "base/text.hpp"
 #include "virtual_control/control_model.hpp"
 
@@ -112,6 +113,9 @@ const std::vector<Setting>& settings() {
        .help = "Addresses to listen on, as host:port; port 0 takes a free one",
        .texts = &Config::listen},
       {.name = "data", .help = "Folder of the database", .text = &Config::data},
+      {.name = "origin-name",
+       .help = "What the log of a new data folder is called, as in plant-3/press-7",
+       .text = &Config::origin_name},
       {.name = "auth",
        .help = "Who needs a key: default is open on loopback addresses and read-open elsewhere",
        .text = &Config::auth,
@@ -275,6 +279,12 @@ Result<void> check(const Config& config) {
   if (config.listen.empty())
     return invalid("listen needs at least one address such as 127.0.0.1:8286");
   if (config.data.empty()) return invalid("data needs the folder of the database");
+  if (!app::is_origin_name(config.origin_name)) {
+    return invalid(
+        fmt::format("origin-name takes lower-case letters, digits, '.', '/' and '-', up to "
+                    "64 and a letter or digit first, not '{}'",
+                    config.origin_name));
+  }
   if (config.tls_cert.empty() != config.tls_key.empty()) {
     return invalid("tls-cert and tls-key go together: give both or neither");
   }

@@ -20,6 +20,7 @@ struct Config {
   std::string tls_key;
   std::string tls_client_ca;
   std::string log_level = "info";
+  std::string origin_name = "station";
   std::string durability = "group";
   std::int64_t io_threads = 1;
   std::int64_t reader_threads = 2;

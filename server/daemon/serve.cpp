@@ -162,6 +162,9 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   options.around_outcomes = answer_together;
   options.health_changed = log_health;
   options.job_threw = [](const std::string& what) { log_error("storage_job_threw", what); };
+  options.log_told = [](std::string_view event, const std::string& detail) {
+    event == "log_head" ? log_info(event, detail) : log_warning(event, detail);
+  };
   auto opened = app::Application::open(options, clock);
   if (!opened) return opened.error();
   app::Application& app = **opened;
@@ -190,6 +193,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
     write_process_metrics(out);
   });
   const api::Services services{.tables = app.tables(),
+                               .log = app.log(),
                                .measurements = app.measurements(),
                                .files = app.files(),
                                .documents = app.documents(),
@@ -225,6 +229,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                 fmt::format("{} of {}: the hard limit of open files allows no more", connections,
                             config.max_connections));
   }
+  log_info("log_head", app.log().head_text());
   for (const std::uint16_t port : server.ports())
     log_info("listening", fmt::format("port {}", port));
 

@@ -22,6 +22,14 @@ Hash empty_root();
 /// The same for many leaves and nodes in turn: the algorithm is set up once. Not thread-safe.
 class TreeHasher {
  public:
+  TreeHasher() = default;
+  // Nothing is kept between two hashes: a copy is as good as a new one.
+  TreeHasher(const TreeHasher&) {}
+  TreeHasher& operator=(const TreeHasher&) { return *this; }
+  TreeHasher(TreeHasher&&) noexcept = default;
+  TreeHasher& operator=(TreeHasher&&) noexcept = default;
+  ~TreeHasher() = default;
+
   Hash leaf(std::string_view data);
   Hash node(const Hash& left, const Hash& right);
 

@@ -889,6 +889,23 @@ class Client:
         return self._post(_path("measurements", measurement_id, "corrections"),
                                          dumps(correction).encode(), "application/json", idempotency_key)
 
+    def proof(self, measurement_id: str) -> dict[str, Any]:
+        """That a record stands in the log: `index`, `size`, `leaf`, `hashes` and the signed `checkpoint`, for
+        check_proof.py or another verifier."""
+        return self._get(_path("measurements", measurement_id, "proof"))
+
+    def checkpoint(self) -> str:
+        """The signed head of the log: keep one where those who can write the database cannot reach it."""
+        return self._bytes("/v1/log/checkpoint").decode()
+
+    def log_keys(self) -> list[str]:
+        """The keys that verify checkpoints (vkeys), the newest first."""
+        return self._bytes("/v1/log/key").decode().split()
+
+    def log_tile(self, path: str) -> bytes:
+        """A tile of the log as C2SP tlog-tiles names it: `0/000`, `entries/000.p/3`."""
+        return self._bytes("/v1/log/tile/" + path)
+
     def events(self, last_event_id: str | None = None, source: str | None = None) -> Iterator[Event]:
         """What happens, for ever: measurement.recorded, verdict.reject, run.finished. When the connection
         breaks it is made again, and goes on after the last event, or after `last_event_id` to begin with.

@@ -1,6 +1,7 @@
 #include "api/measurements/measurement_answer.hpp"
 
 #include "api/measurements/measurement_codec.hpp"
+#include "app/measurements/record.hpp"
 
 namespace fitgauge::api {
 
@@ -10,13 +11,16 @@ void MeasurementAnswer::expect(std::size_t body_size) {
 }
 
 void MeasurementAnswer::add(std::span<const app::Measurement> measurements) {
-  if (count_ == 0) first_id_ = measurements.front().id;
-  last_id_ = measurements.back().id;
+  const auto id_of = [](const app::Measurement& m) {
+    return app::measurement_id_text(m.id, m.origin);
+  };
+  if (count_ == 0) first_id_ = id_of(measurements.front());
+  last_id_ = id_of(measurements.back());
   if (lists_records()) {
     answer_.body += count_ == 0 ? R"({"measurements":[)" : ",";
     append_measurements(answer_.body, measurements);
   } else if (single_ && wanted_ != Preference::Minimal) {
-    append_measurement(answer_.body, measurements.front());
+    app::append_record(answer_.body, measurements.front());
   }
   count_ += static_cast<std::int64_t>(measurements.size());
   for (const app::Measurement& m : measurements) {
@@ -25,7 +29,7 @@ void MeasurementAnswer::add(std::span<const app::Measurement> measurements) {
 }
 
 app::Answer MeasurementAnswer::finish() {
-  if (single_) answer_.location = "/v1/measurements/" + app::measurement_id_text(first_id_);
+  if (single_) answer_.location = "/v1/measurements/" + first_id_;
   if (wanted_ == Preference::Minimal) {
     answer_.content_type.clear();
   } else if (lists_records()) {
@@ -34,8 +38,8 @@ app::Answer MeasurementAnswer::finish() {
     JsonWriter json(answer_.body);
     json.begin_object()
         .member("accepted", count_)
-        .member("first_id", app::measurement_id_text(first_id_))
-        .member("last_id", app::measurement_id_text(last_id_));
+        .member("first_id", first_id_)
+        .member("last_id", last_id_);
     write_verdict_counts(json, verdicts_[0], verdicts_[1], verdicts_[2], verdicts_[3]);
     json.end_object();
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "api/wire/request_facts.hpp"
 #include "app/measurements/measurement_service.hpp"
@@ -31,8 +32,8 @@ class MeasurementAnswer final : public app::Rendering {
   bool single_ = false;
   app::Answer answer_{
       .status = 201, .content_type = "application/json", .location = {}, .body = {}};
-  std::int64_t first_id_ = 0;
-  std::int64_t last_id_ = 0;
+  std::string first_id_;
+  std::string last_id_;
   std::int64_t count_ = 0;
   std::array<std::int64_t, 4> verdicts_{};
 };

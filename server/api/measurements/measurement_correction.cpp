@@ -153,7 +153,7 @@ void find_and_correct(const SharedPosting& posting, std::int64_t id) {
 
 void post_correction(const Services& services, const http::Request& request,
                      http::Responder responder) {
-  const auto id = app::parse_measurement_id(*request.text("id"));
+  const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
   post_once(services, request, std::move(responder),
             [id = *id](const SharedPosting& posting) { find_and_correct(posting, id); });

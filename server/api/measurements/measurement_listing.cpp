@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "api/measurements/measurement_codec.hpp"
+#include "app/measurements/record.hpp"
+#include "app/runs/run_service.hpp"
 #include "http/body_stream.hpp"
 
 namespace fitgauge::api {
@@ -36,7 +38,7 @@ std::string media_type(Form form) {
 
 void append_row(std::string& out, Form form, const app::Measurement& measurement) {
   if (form == Form::Csv) return append_measurement_csv(out, measurement);
-  append_measurement(out, measurement);
+  app::append_record(out, measurement);
   if (form == Form::Ndjson) out += '\n';
 }
 
@@ -48,19 +50,18 @@ struct Cursor {
 
 /// `m100.m250`: the rows after m100, in the state when m250 was the newest.
 std::string cursor_text(const app::ListPage& page) {
-  return fmt::format("{}.{}", app::measurement_id_text(*page.next),
-                     app::measurement_id_text(page.as_of));
+  return fmt::format("m{}.m{}", *page.next, page.as_of);
 }
 
 /// The id of a measurement is a cursor too: what was recorded after it.
-Result<Cursor> cursor_of(const http::Request& request) {
+Result<Cursor> cursor_of(const Services& services, const http::Request& request) {
   const auto text = request.text("after");
   if (!text) return Cursor();
   const std::size_t point = text->find('.');
-  const auto after = app::parse_measurement_id(text->substr(0, point));
+  const auto after = services.measurements.parse_id(text->substr(0, point));
   if (after && point == std::string_view::npos) return Cursor{.after = *after, .as_of = {}};
   if (after) {
-    const auto as_of = app::parse_measurement_id(text->substr(point + 1));
+    const auto as_of = services.measurements.parse_id(text->substr(point + 1));
     if (as_of) return Cursor{.after = *after, .as_of = *as_of};
   }
   return Error{ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
@@ -169,7 +170,8 @@ std::vector<http::Parameter> measurement_filter_parameters() {
   return parameters;
 }
 
-Result<app::MeasurementQuery> measurement_query(const http::Request& request) {
+Result<app::MeasurementQuery> measurement_query(const Services& services,
+                                                const http::Request& request) {
   app::MeasurementQuery query;
   for (std::size_t i = 0; i < app::kTextFilters.size(); ++i) {
     if (const auto text = request.text(app::kTextFilters[i])) query.texts[i].emplace(*text);
@@ -180,9 +182,8 @@ Result<app::MeasurementQuery> measurement_query(const http::Request& request) {
     query.designation = *std::move(designation);
   }
   if (const auto text = request.text("run_id")) {
-    const auto run = app::parse_run_id(*text);
-    if (!run)
-      return Error{ErrorCode::QueryInvalid, "run_id is the id of a run, as in r17", "run_id"};
+    const auto run = services.runs.parse_id(*text);
+    if (!run) return Error{ErrorCode::QueryInvalid, "run_id is the id of a run", "run_id"};
     query.run_id = *run;
   }
   if (const auto verdict = request.text("verdict")) {
@@ -200,11 +201,11 @@ Result<app::MeasurementQuery> measurement_query(const http::Request& request) {
 
 void list_measurements(const Services& services, const http::Request& request,
                        http::Responder responder) {
-  const auto cursor = cursor_of(request);
+  const auto cursor = cursor_of(services, request);
   if (!cursor) return responder.fail(cursor.error());
   const Form form = form_of(request);
   const auto limit = request.integer("limit");
-  auto query = measurement_query(request);
+  auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   query->as_of = cursor->as_of;
   query->newest_first = request.text("sort") == "newest";

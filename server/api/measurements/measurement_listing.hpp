@@ -13,7 +13,8 @@ std::vector<http::Parameter> measurement_filter_parameters();
 
 /// The query of a request to a route with these parameters.
 /// @errors QueryInvalid; DesignationMalformed and what else a designation may be.
-Result<app::MeasurementQuery> measurement_query(const http::Request& request);
+Result<app::MeasurementQuery> measurement_query(const Services& services,
+                                                const http::Request& request);
 
 /// GET /v1/measurements: a page with its cursor, or, as CSV or NDJSON without `limit`, all that
 /// match as a stream in constant memory.

@@ -8,13 +8,13 @@ namespace {
 using schema::Others;
 
 constexpr std::string_view kRecord =
-    R"({"id":"m1","source":"gauge","measured_at":"2026-11-20T07:00:00Z",)"
-    R"("received_at":"2026-11-20T07:00:01.25Z","designation":"25 H7","nominal_mm":25,)"
-    R"("tolerance_class":"H7","feature":"hole","upper_deviation_um":21,"lower_deviation_um":0,)"
-    R"("upper_limit_mm":25.021,"lower_limit_mm":25,"tolerance_um":21,)"
-    R"("size_range_mm":{"over":18,"up_to":30},"basis":"iso286","table_revision":"1-f0a85b3a",)"
-    R"("measured_mm":25.013,"deviation_um":13,"verdict":"good","excess_um":0,)"
-    R"("part_id":"SN-0001","characteristic":"bore-A","rule":"simple"})";
+    R"({"basis":"iso286","characteristic":"bore-A","designation":"25 H7","deviation_um":13,)"
+    R"("excess_um":0,"feature":"hole","id":"m1-5f0c9a3e77d21b40","lower_deviation_um":0,)"
+    R"("lower_limit_mm":25,"measured_at":"2026-11-20T07:00:00Z","measured_mm":25.013,)"
+    R"("nominal_mm":25,"part_id":"SN-0001","received_at":"2026-11-20T07:00:01.25Z",)"
+    R"("rule":"simple","size_range_mm":{"over":18,"up_to":30},"source":"gauge",)"
+    R"("table_revision":"1-f0a85b3a","tolerance_class":"H7","tolerance_um":21,)"
+    R"("upper_deviation_um":21,"upper_limit_mm":25.021,"verdict":"good"})";
 
 std::string given_json(const RowField& field) {
   switch (field.kind) {
@@ -118,16 +118,25 @@ void add_request_schemas(Schemas& schemas) {
 void add_measurement_schemas(Schemas& schemas) {
   add_request_schemas(schemas);
   schemas.push_back({"Measurement", schema::object(record_fields(), Others::Allowed, kRecord)});
+  schemas.push_back(
+      {"Proof",
+       schema::object({{"index", schema::count(), "Of the leaf, from 0"},
+                       {"size", schema::count(), "Of the tree in the checkpoint"},
+                       {"leaf", schema::text(), "SHA-256(0x00, the record in its RFC 8785 form)"},
+                       {"hashes", schema::array(schema::text()),
+                        "What stands beside the path to the root, from the leaf up (RFC 6962)"},
+                       {"checkpoint", schema::text(), "A signed note"}})});
   schemas.push_back({"VerdictCounts", verdict_counts()});
   schemas.push_back(
       {"Accepted",
-       schema::object({{"accepted", schema::count(), "How many were stored"},
-                       {"first_id", schema::text(), ""},
-                       {"last_id", schema::text(), ""},
-                       {"verdicts", schema::ref("VerdictCounts"), ""}},
-                      Others::Allowed,
-                      R"({"accepted":3,"first_id":"m2","last_id":"m4",)"
-                      R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0}})")});
+       schema::object(
+           {{"accepted", schema::count(), "How many were stored"},
+            {"first_id", schema::text(), ""},
+            {"last_id", schema::text(), ""},
+            {"verdicts", schema::ref("VerdictCounts"), ""}},
+           Others::Allowed,
+           R"({"accepted":3,"first_id":"m2-5f0c9a3e77d21b40","last_id":"m4-5f0c9a3e77d21b40",)"
+           R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0}})")});
   schemas.push_back(
       {"Measurements",
        schema::object({{"measurements", schema::array(schema::ref("Measurement")), ""}})});

@@ -7,6 +7,7 @@
 #include "api/measurements/measurement_listing.hpp"
 #include "api/measurements/measurement_posting.hpp"
 #include "app/measurements/measurement_service.hpp"
+#include "app/measurements/record.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -15,11 +16,11 @@ constexpr std::size_t kBodyLimit = std::size_t{32} << 20;
 
 void find_measurement(const Services& services, const http::Request& request,
                       http::Responder responder) {
-  const auto id = app::parse_measurement_id(*request.text("id"));
+  const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
   auto body = std::make_shared<std::string>();
   services.measurements.find(
-      *id, [body](const app::Measurement& measurement) { append_measurement(*body, measurement); },
+      *id, [body](const app::Measurement& measurement) { app::append_record(*body, measurement); },
       [body, responder = std::make_shared<http::Responder>(std::move(responder))](
           const Result<std::int64_t>& found) {
         if (!found) return responder->fail(found.error());
@@ -28,7 +29,7 @@ void find_measurement(const Services& services, const http::Request& request,
 }
 
 void summarise(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto query = measurement_query(request);
+  const auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   const std::string_view group_by = request.text("group_by").value_or("characteristic");
   services.measurements.summary(

@@ -1,5 +1,7 @@
 #include "api/runs/run_codec.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "api/runs/trace_codec.hpp"
@@ -27,11 +29,9 @@ void write_optional(JsonWriter& json, std::string_view name,
   }
 }
 
-void write_head(JsonWriter& json, std::int64_t id, app::RunState state, std::string_view program) {
-  json.begin_object()
-      .member("id", app::run_id_text(id))
-      .member("status", word(state))
-      .member("program", program);
+void write_head(JsonWriter& json, std::string_view id, app::RunState state,
+                std::string_view program) {
+  json.begin_object().member("id", id).member("status", word(state)).member("program", program);
 }
 
 void write_verdict(JsonWriter& json, const std::optional<gauging::Verdict>& verdict) {
@@ -130,7 +130,7 @@ std::string report_json(const app::RunReport& report) {
   const interpreter::RunResult& result = report.result;
   std::string out;
   JsonWriter json(out);
-  write_head(json, report.id, app::state_of(result.status), report.program);
+  write_head(json, report.id_text(), app::state_of(result.status), report.program);
   json.member("created_at", format_rfc3339(report.created_at))
       .member("finished_at", format_rfc3339(report.finished_at))
       .member("blocks_executed", result.blocks_executed);
@@ -180,7 +180,7 @@ std::uint64_t seed_of(const std::string& request) {
 std::string event_json(const app::RunReport& report) {
   std::string out;
   JsonWriter json(out);
-  write_head(json, report.id, app::state_of(report.result.status), report.program);
+  write_head(json, report.id_text(), app::state_of(report.result.status), report.program);
   json.member("finished_at", format_rfc3339(report.finished_at));
   write_verdict(json, report.result.verdict);
   json.end_object();
@@ -188,7 +188,7 @@ std::string event_json(const app::RunReport& report) {
 }
 
 /// The run object while there are no results.
-std::string unfinished_json(std::int64_t id, app::RunState state, std::string_view program,
+std::string unfinished_json(std::string_view id, app::RunState state, std::string_view program,
                             Timestamp created_at, std::uint64_t blocks,
                             const std::vector<std::string>& screen) {
   std::string out;
@@ -217,12 +217,12 @@ app::RunFormat run_format() {
 
 std::string unfinished_run_json(const app::ActiveRun& run) {
   const auto news = run.news(0);
-  return unfinished_json(run.id(), news.state, run.program(), run.created_at(), news.blocks,
+  return unfinished_json(run.id_text(), news.state, run.program(), run.created_at(), news.blocks,
                          news.lines);
 }
 
 std::string unfinished_run_json(const app::StoredRun& run) {
-  return unfinished_json(run.id, run.state, run.program, run.created_at, 0, {});
+  return unfinished_json(run.id_text(), run.state, run.program, run.created_at, 0, {});
 }
 
 std::string run_page_json(const app::RunService::Page& page) {
@@ -230,7 +230,7 @@ std::string run_page_json(const app::RunService::Page& page) {
   JsonWriter json(out);
   json.begin_object().key("runs").begin_array();
   for (const app::StoredRun& run : page.runs) {
-    write_head(json, run.id, run.state, run.program);
+    write_head(json, run.id_text(), run.state, run.program);
     json.member("created_at", format_rfc3339(run.created_at)).key("finished_at");
     if (run.finished_at) {
       json.value(format_rfc3339(*run.finished_at));
@@ -241,7 +241,7 @@ std::string run_page_json(const app::RunService::Page& page) {
   }
   json.end_array().key("next");
   if (page.next) {
-    json.value(app::run_id_text(*page.next));
+    json.value(fmt::format("r{}", *page.next));
   } else {
     json.null();
   }

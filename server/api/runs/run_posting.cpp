@@ -35,7 +35,7 @@ http::Response response_of(app::Answer answer) {
 /// report never changes.
 app::Answer accepted(const app::ActiveRun& run, bool at_once) {
   app::Answer answer{.status = 201, .content_type = {}, .location = {}, .body = {}};
-  answer.location = std::string(kRuns) + app::run_id_text(run.id());
+  answer.location = std::string(kRuns) + run.id_text();
   if (!at_once) return answer;
   answer.status = 202;
   answer.content_type = "application/json";
@@ -56,7 +56,8 @@ void replay(const SharedPosting& posting, app::Answer kept) {
         response_of(std::move(kept)).with("Idempotency-Replayed", "true"));
   }
   const std::string_view location = kept.location;
-  const auto id = app::parse_run_id(location.substr(std::min(kRuns.size(), location.size())));
+  const auto id =
+      posting->services.runs.parse_id(location.substr(std::min(kRuns.size(), location.size())));
   if (!id) {
     return posting->responder.fail(
         {ErrorCode::StorageCorrupt, "the answer kept under this Idempotency-Key names no run"});

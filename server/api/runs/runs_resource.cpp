@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::int64_t kDefaultLimit = 100;
 
-Result<std::int64_t> id_of(const http::Request& request) {
-  return app::parse_run_id(*request.text("id"));
+Result<std::int64_t> id_of(const Services& services, const http::Request& request) {
+  return services.runs.parse_id(*request.text("id"));
 }
 
 void answer(http::Responder& responder, Result<http::Response> response) {
@@ -29,7 +29,7 @@ void answer(http::Responder& responder, Result<http::Response> response) {
 template <class Answer>
 void with_run_json(const Services& services, const http::Request& request,
                    http::Responder responder, const Answer& answer_of) {
-  const auto id = id_of(request);
+  const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   if (const auto active = services.runs.active(*id)) {
     const auto end = active->news(0).end;
@@ -70,7 +70,7 @@ void get_parameters(const Services& services, const http::Request& request,
 
 void get_request(const Services& services, const http::Request& request,
                  http::Responder responder) {
-  const auto id = id_of(request);
+  const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   services.runs.find(*id, [shared = share(std::move(responder))](Result<app::StoredRun> run) {
     if (!run) return shared->fail(run.error());
@@ -86,7 +86,7 @@ std::string media_type_of(const std::string& path) {
 }
 
 void get_file(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto id = id_of(request);
+  const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   services.runs.file(
       *id, std::string(*request.text("name")),
@@ -97,7 +97,7 @@ void get_file(const Services& services, const http::Request& request, http::Resp
 }
 
 void get_trace(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto id = id_of(request);
+  const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const bool csv = request.response_type() == "text/csv";
   services.runs.trace(*id, [csv, shared = share(std::move(responder))](Result<std::string> trace) {
@@ -110,7 +110,7 @@ void get_trace(const Services& services, const http::Request& request, http::Res
 }
 
 void get_events(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto id = id_of(request);
+  const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const auto last = last_event_id(request);
   if (auto active = services.runs.active(*id)) {
@@ -123,27 +123,26 @@ void get_events(const Services& services, const http::Request& request, http::Re
   });
 }
 
-Error finished(std::int64_t id) {
-  return {ErrorCode::RunFinished,
-          "run '" + app::run_id_text(id) + "' is over and can no longer be cancelled"};
+Error finished(const std::string& id) {
+  return {ErrorCode::RunFinished, "run '" + id + "' is over and can no longer be cancelled"};
 }
 
 /// Answers when the run has ended, so that its status tells whether it was in time. A run that has
 /// ended may still be active until it is stored.
 void cancel_run(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto id = id_of(request);
+  const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const auto shared = share(std::move(responder));
   if (const auto active = services.runs.active(*id); active && !active->news(0).end) {
-    active->on_end([id = *id, shared](const Result<app::FinishedRun>& end) {
+    active->on_end([id = active->id_text(), shared](const Result<app::FinishedRun>& end) {
       if (!end) return shared->fail(end.error());
       if (end->state != app::RunState::Cancelled) return shared->fail(finished(id));
       shared->answer(http::Response(204));
     });
     return services.runs.cancel(active);
   }
-  services.runs.find(*id, [id = *id, shared](const Result<app::StoredRun>& run) {
-    shared->fail(run ? finished(id) : run.error());
+  services.runs.find(*id, [shared](const Result<app::StoredRun>& run) {
+    shared->fail(run ? finished(run->id_text()) : run.error());
   });
 }
 
@@ -157,7 +156,7 @@ void list_runs(const Services& services, const http::Request& request, http::Res
   }
   std::optional<std::int64_t> after;
   if (const auto cursor = request.text("after")) {
-    const auto id = app::parse_run_id(*cursor);
+    const auto id = services.runs.parse_id(*cursor);
     if (!id) {
       return responder.fail(
           {ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"});

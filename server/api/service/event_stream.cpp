@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "api/measurements/measurement_codec.hpp"
 #include "api/wire/event_text.hpp"
+#include "app/measurements/record.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -15,7 +15,7 @@ constexpr std::string_view kGap =
 std::string data_of(const app::Event& event) {
   if (event.measurement == nullptr) return std::string(event.payload);
   std::string data;
-  append_measurement(data, *event.measurement);
+  app::append_record(data, *event.measurement);
   return data;
 }
 

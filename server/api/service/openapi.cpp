@@ -181,11 +181,12 @@ constexpr std::string_view kResponses = R"({"Problem":{"description":"What is wr
                                         R"({"schema":{"$ref":"#/components/schemas/Problem"}}}}})";
 
 /// The groups of operations, in the order of a first reading.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kTags = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kTags = {{
     {"limits", "Limits of size, fits and verdicts (ISO 286-1)"},
     {"statistics", "The figures of a quality engineer, each with its source"},
     {"tables", "The tolerance tables and a shop's own columns"},
     {"measurements", "Judged measurements, stored for good"},
+    {"log", "Signed proof of what was stored"},
     {"plans", "What is measured at a part, in order"},
     {"files", "The control's disk: programs, masks and tables"},
     {"setups", "Machines with what lies on their tables"},

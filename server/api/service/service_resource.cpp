@@ -5,8 +5,10 @@
 #include "api/service/verdict_counts.hpp"
 #include "api/service/version.hpp"
 #include "api/wire/json_writer.hpp"
+#include "app/log/log_service.hpp"
 #include "app/service/readiness.hpp"
 #include "app/tables/table_catalog.hpp"
+#include "tlog/base64.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -20,6 +22,7 @@ Result<http::Response> ready(const Services& services) {
     return Error{first.code, first.message, first.where, std::move(readiness.findings)};
   }
   const auto tables = services.tables.state();
+  const auto head = services.log.head();
   std::string body;
   JsonWriter json(body);
   json.begin_object()
@@ -27,6 +30,12 @@ Result<http::Response> ready(const Services& services) {
       .member("version", kVersion)
       .member("database", readiness.database)
       .member("table_revision", std::string_view(tables->tables->revision().id))
+      .key("log")
+      .begin_object()
+      .member("name", head->checkpoint.origin)
+      .member("size", head->checkpoint.size)
+      .member("root", tlog::to_base64(head->checkpoint.root))
+      .end_object()
       .end_object();
   return http::Response(200, "application/json", std::move(body)).with("Cache-Control", "no-store");
 }

@@ -54,6 +54,11 @@ void add_service_schemas(Schemas& schemas) {
                                   {"version", schema::text(), ""},
                                   {"database", schema::text(), ""},
                                   {"table_revision", schema::text(), ""},
+                                  {"log",
+                                   schema::object({{"name", schema::text(), "Of its checkpoints"},
+                                                   {"size", schema::count(), "Measurements in it"},
+                                                   {"root", schema::text(), "Of its tree"}}),
+                                   "The newest signed head"},
                               })});
   const std::string entry = schema::object({
       {"pointer", schema::text(), "The place in the body (RFC 6901); rows count from 0"},

@@ -22,7 +22,7 @@ using Figure = std::function<Result<std::string>(ValueSelection&&, std::int64_t 
 /// Reads the values that the filters choose and computes from them, where both may take long.
 void answer_with(const Services& services, const http::Request& request, http::Responder responder,
                  Figure figure) {
-  auto query = measurement_query(request);
+  auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   if (const auto last = request.integer("last")) query->last = static_cast<std::size_t>(*last);
   const SharedResponder shared = share(std::move(responder));
@@ -54,9 +54,9 @@ void write_selection(JsonWriter& json, const SelectedValues& selected, std::int6
       .begin_object()
       .member("count", std::uint64_t{selected.count})
       .member("subgroups", std::uint64_t{selected.subgroups.size()})
-      .member("first_id", app::measurement_id_text(selected.first_id))
-      .member("last_id", app::measurement_id_text(selected.last_id))
-      .member("as_of", app::measurement_id_text(as_of))
+      .member("first_id", app::measurement_id_text(selected.first_id, selected.origin))
+      .member("last_id", app::measurement_id_text(selected.last_id, selected.origin))
+      .member("as_of", app::measurement_id_text(as_of, selected.origin))
       .member_mm("lower_limit_mm", selected.lower_limit)
       .member_mm("upper_limit_mm", selected.upper_limit)
       .end_object();
@@ -69,7 +69,8 @@ PointName name_in(const SelectedValues& selected) {
       json.member("subgroup", selected.subgroups[violation.index]);
     } else {
       const std::size_t later = violation.chart == "mr" ? 1 : 0;
-      json.member("id", app::measurement_id_text(selected.ids[violation.index + later]));
+      json.member("id",
+                  app::measurement_id_text(selected.ids[violation.index + later], selected.origin));
     }
   };
 }

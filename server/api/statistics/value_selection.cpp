@@ -31,13 +31,15 @@ metrology::Exact exact_mm(Length length) {
 Result<void> ValueSelection::add(const app::MeasuredValue& value) {
   const Limits limits{value.lower_limit, value.upper_limit};
   if (!limits_) limits_ = limits;
+  origin_ = value.origin;
   if (limits != *limits_) {
-    return Error{ErrorCode::LimitsMixed,
-                 fmt::format("{} has the limits {} to {} mm, {} has {} to {} mm: select values of "
-                             "one size by characteristic or designation",
-                             app::measurement_id_text(ids_.front()), format_mm(limits_->lower),
-                             format_mm(limits_->upper), app::measurement_id_text(value.id),
-                             format_mm(limits.lower), format_mm(limits.upper))};
+    return Error{
+        ErrorCode::LimitsMixed,
+        fmt::format("{} has the limits {} to {} mm, {} has {} to {} mm: select values of "
+                    "one size by characteristic or designation",
+                    app::measurement_id_text(ids_.front(), origin_), format_mm(limits_->lower),
+                    format_mm(limits_->upper), app::measurement_id_text(value.id, origin_),
+                    format_mm(limits.lower), format_mm(limits.upper))};
   }
   bytes_ += sizeof(Wide) + sizeof(std::int64_t);
   names_subgroups_ = names_subgroups_ || value.subgroup.has_value();
@@ -78,6 +80,7 @@ Result<SelectedValues> ValueSelection::selected() {
       .lower_limit = limits_->lower,
       .upper_limit = limits_->upper,
       .count = counts_.size(),
+      .origin = origin_,
       .first_id = ids_.front(),
       .last_id = ids_.back()};
 }
@@ -94,8 +97,8 @@ Result<SelectedValues> ValueSelection::by_subgroup() && {
   auto made = selected();
   if (!made) return made;
   if (ungrouped_) {
-    return unbalanced(
-        fmt::format("measurement {} names no subgroup", app::measurement_id_text(*ungrouped_)));
+    return unbalanced(fmt::format("measurement {} names no subgroup",
+                                  app::measurement_id_text(*ungrouped_, origin_)));
   }
   std::vector<std::size_t> sizes(names_.size());
   for (const std::uint32_t group : groups_) ++sizes[group];

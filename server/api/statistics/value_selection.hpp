@@ -24,6 +24,7 @@ struct SelectedValues {
   std::vector<std::int64_t> ids{};       ///< of the values, where they come one by one
   std::vector<std::string> subgroups{};  ///< the names of the subgroups, else
   std::size_t count = 0;
+  std::string_view origin{};  ///< of the ids
   std::int64_t first_id = 0;  ///< in storage order
   std::int64_t last_id = 0;
 };
@@ -63,6 +64,7 @@ class ValueSelection {
   const std::size_t most_bytes_;
   std::size_t bytes_ = 0;
   std::optional<Limits> limits_;
+  std::string_view origin_;
   std::vector<metrology::Wide> counts_;  ///< in nm
   std::vector<std::int64_t> ids_;
   bool names_subgroups_ = false;

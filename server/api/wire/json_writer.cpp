@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "api/wire/json_escape.hpp"
 #include "base/decimal.hpp"
+#include "base/json_escape.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -126,22 +126,6 @@ JsonWriter& JsonWriter::raw(std::string_view json) {
   separate();
   out_ += json;
   return *this;
-}
-
-char* write_escape(char* to, char c) {
-  constexpr std::string_view kHex = "0123456789abcdef";
-  const auto byte = static_cast<unsigned char>(c);
-  *to++ = '\\';
-  switch (byte) {
-    case '"':
-    case '\\': *to++ = c; break;
-    case '\n': *to++ = 'n'; break;
-    case '\r': *to++ = 'r'; break;
-    case '\t': *to++ = 't'; break;
-    default:
-      for (const char digit : {'u', '0', '0', kHex[byte >> 4], kHex[byte & 15]}) *to++ = digit;
-  }
-  return to;
 }
 
 void append_json_string(std::string& out, std::string_view text) {

@@ -140,6 +140,7 @@ store::StoredAnswer to_store(Answer answer) {
 
 store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t> revision) {
   store::MeasurementRow row;
+  row.id = m.id;
   row.source = to_store(m.source);
   row.measured_at_ns = m.measured_at.nanoseconds;
   row.received_at_ns = m.received_at.nanoseconds;
@@ -174,9 +175,10 @@ store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t>
   return row;
 }
 
-Measurement from_store(const store::MeasurementRow& row, const RevisionIds& revision_ids) {
+Measurement from_store(const store::MeasurementRow& row, const RowNames& names) {
   Measurement m;
   m.id = row.id;
+  m.origin = names.origin;
   m.source = row.source == store::Source::Gauge ? Source::Gauge : Source::Simulation;
   m.measured_at = {row.measured_at_ns};
   m.received_at = {row.received_at_ns};
@@ -193,7 +195,7 @@ Measurement from_store(const store::MeasurementRow& row, const RevisionIds& revi
     case store::Basis::Custom: m.basis = LimitsBasis::Custom; break;
     case store::Basis::Explicit: m.basis = LimitsBasis::Explicit; break;
   }
-  if (row.table_revision) m.table_revision = revision_ids(*row.table_revision);
+  if (row.table_revision) m.table_revision = names.revision_id(*row.table_revision);
   m.measured = Length::nanometres(row.measured_nm);
   m.standard_uncertainty = length_of(row.uncertainty_nm);
   if (row.coverage_factor) {

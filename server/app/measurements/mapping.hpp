@@ -21,9 +21,12 @@ Result<iso286::TableData> from_store(const store::TableContent& content);
 store::MeasurementRow to_store(const Measurement& measurement,
                                std::optional<std::int64_t> revision);
 
-/// The id text of a table revision's number; valid as long as the catalog.
-using RevisionIds = std::function<std::string_view(std::int64_t number)>;
-Measurement from_store(const store::MeasurementRow& row, const RevisionIds& revision_ids);
+/// What the numbers in a row are called outside; valid as long as the catalog.
+struct RowNames {
+  std::function<std::string_view(std::int64_t number)> revision_id;
+  std::string_view origin;  ///< of the data folder
+};
+Measurement from_store(const store::MeasurementRow& row, const RowNames& names);
 
 store::Verdict to_store(gauging::Verdict verdict);
 gauging::Verdict from_store(store::Verdict verdict);

@@ -1,5 +1,7 @@
 #include "app/measurements/measurement.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "base/text.hpp"
@@ -10,9 +12,14 @@ namespace {
 constexpr char kMeasurementPrefix = 'm';
 constexpr char kRunPrefix = 'r';
 
-std::string id_text(char prefix, std::int64_t id) { return prefix + std::to_string(id); }
+std::string id_text(char prefix, std::int64_t id, std::string_view origin) {
+  return fmt::format("{}{}-{}", prefix, id, origin);
+}
 
-std::optional<std::int64_t> parse_id(char prefix, std::string_view text) {
+std::optional<std::int64_t> parse_id(char prefix, std::string_view text, std::string_view origin) {
+  const std::size_t dash = text.find('-', 2);
+  if (dash != text.npos && text.substr(dash + 1) != origin) return std::nullopt;
+  text = text.substr(0, dash);
   std::int64_t id = 0;
   const char* const end = text.data() + text.size();
   const bool readable = text.size() > 1 && text.front() == prefix && text[1] != '0' &&
@@ -78,18 +85,22 @@ void judge(Measurement& measurement) {
                      measurement.measured, measurement.rule);
 }
 
-std::string measurement_id_text(std::int64_t id) { return id_text(kMeasurementPrefix, id); }
+std::string measurement_id_text(std::int64_t id, std::string_view origin) {
+  return id_text(kMeasurementPrefix, id, origin);
+}
 
-std::string run_id_text(std::int64_t id) { return id_text(kRunPrefix, id); }
+std::string run_id_text(std::int64_t id, std::string_view origin) {
+  return id_text(kRunPrefix, id, origin);
+}
 
-Result<std::int64_t> parse_measurement_id(std::string_view text) {
-  if (const auto id = parse_id(kMeasurementPrefix, text)) return *id;
+Result<std::int64_t> parse_measurement_id(std::string_view text, std::string_view origin) {
+  if (const auto id = parse_id(kMeasurementPrefix, text, origin)) return *id;
   return Error{ErrorCode::MeasurementUnknown,
                "there is no measurement '" + std::string(first_characters(text, 40)) + "'"};
 }
 
-Result<std::int64_t> parse_run_id(std::string_view text) {
-  if (const auto id = parse_id(kRunPrefix, text)) return *id;
+Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin) {
+  if (const auto id = parse_id(kRunPrefix, text, origin)) return *id;
   return Error{ErrorCode::RunUnknown,
                "there is no run '" + std::string(first_characters(text, 40)) + "'"};
 }

@@ -59,7 +59,8 @@ inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Mea
 /// One judged measurement, before and after it is stored. Its texts are views of the memory it was
 /// read from: the request's body, or the database's own page while a visitor runs.
 struct Measurement {
-  std::int64_t id = 0;  ///< 0 before it is stored
+  std::int64_t id = 0;      ///< 0 before it is stored
+  std::string_view origin;  ///< where it was stored: what its ids end with
   Source source = Source::Gauge;
   Timestamp measured_at;
   Timestamp received_at;
@@ -117,12 +118,14 @@ void apply_limits(Measurement& measurement, const Measurement& other);
 /// Judges the measured value by the limits and the rule that stand in the record.
 void judge(Measurement& measurement);
 
-/// The id as the outside sees it, opaque, and back. @errors MeasurementUnknown.
-std::string measurement_id_text(std::int64_t id);
-Result<std::int64_t> parse_measurement_id(std::string_view text);
-
-/// The same for a run. @errors RunUnknown.
-std::string run_id_text(std::int64_t id);
-Result<std::int64_t> parse_run_id(std::string_view text);
+/// The ids of measurements and runs as the outside sees them, opaque: `m17-5f0c9a3e77d21b40`. The
+/// origin makes them unique over all data folders. Without it (`m17`, as folders gave them before
+/// they had one) an id is one of this folder.
+/// @param origin of the data folder: 16 hexadecimal digits.
+std::string measurement_id_text(std::int64_t id, std::string_view origin);
+std::string run_id_text(std::int64_t id, std::string_view origin);
+/// @errors MeasurementUnknown, RunUnknown, also for the ids of another origin.
+Result<std::int64_t> parse_measurement_id(std::string_view text, std::string_view origin);
+Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin);
 
 }  // namespace fitgauge::app

@@ -2,10 +2,10 @@
 
 namespace fitgauge::app {
 
-std::optional<store::MeasurementChain::End> MeasurementFeed::chain_end() {
+std::optional<std::int64_t> MeasurementFeed::last_id() {
   std::unique_lock lock(mutex_);
-  wait(lock, [this] { return chain_end_.has_value(); });
-  return chain_end_;
+  wait(lock, [this] { return last_id_.has_value(); });
+  return last_id_;
 }
 
 void MeasurementFeed::put(Piece piece) {
@@ -29,8 +29,8 @@ Result<Answer> MeasurementFeed::outcome() {
   return *std::move(outcome_);
 }
 
-void MeasurementFeed::begin(const store::MeasurementChain::End& chain_end) {
-  change([&] { chain_end_ = chain_end; });
+void MeasurementFeed::begin(std::int64_t last_id) {
+  change([&] { last_id_ = last_id; });
 }
 
 Result<MeasurementFeed::Piece> MeasurementFeed::take() {

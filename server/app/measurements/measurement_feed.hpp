@@ -9,26 +9,28 @@
 #include <vector>
 
 #include "app/measurements/measurement_service.hpp"
-#include "store/measurement_chain.hpp"
+#include "store/measurement_row.hpp"
 
 namespace fitgauge::app {
 
 /// The measurements of one long request on their way from the thread that reads them to the writer,
 /// which stores the first ones while the last are still being read. Owns the pieces under way.
-/// Whatever needs no database is done on the reading side: it links the chain itself.
+/// Whatever needs no database is done on the reading side: it numbers the rows and makes
+/// their leaves itself.
 /// Thread-safe; each side is one thread. Neither waits for an end that has come: once the outcome
 /// is there the reading side waits for nothing more, and after finish() or fail() nor does the
 /// writer.
 class MeasurementFeed {
  public:
-  /// Linked to what was put before; their texts live until outcome() has returned.
+  /// Numbered on from what was put before; their texts live until outcome() has returned.
   using Piece = std::vector<store::MeasurementRow>;
 
   // The reading side.
 
-  /// Waits for the writer's turn. @returns what the first piece is linked to; none when the writer
+  /// Waits for the writer's turn. @returns the id before that of the first
+  /// row; none when the writer
   /// is done without having begun.
-  std::optional<store::MeasurementChain::End> chain_end();
+  std::optional<std::int64_t> last_id();
   /// Hands a piece over; waits while a few are under way already.
   void put(Piece piece);
   /// There is nothing more. @param answer to be kept, when the request has an idempotency key.
@@ -40,7 +42,7 @@ class MeasurementFeed {
 
   // The writer's side.
 
-  void begin(const store::MeasurementChain::End& chain_end);
+  void begin(std::int64_t last_id);
   /// The next piece, empty after the last. @errors that of fail().
   Result<Piece> take();
   Answer take_answer() { return std::move(*answer_); }
@@ -63,7 +65,7 @@ class MeasurementFeed {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Piece> pieces_;
-  std::optional<store::MeasurementChain::End> chain_end_;
+  std::optional<std::int64_t> last_id_;
   std::optional<Answer> answer_;
   std::optional<Error> error_;
   std::optional<Result<Answer>> outcome_;

@@ -9,15 +9,18 @@
 namespace fitgauge::app {
 namespace {
 
-void store_all(store::Stores& stores, std::vector<MeasurementQueue::Request>& requests) {
+void store_all(store::Stores& stores, std::string_view origin,
+               std::vector<MeasurementQueue::Request>& requests) {
   std::vector<store::MeasurementRow> rows;
   rows.reserve(requests.size());
-  for (const auto& request : requests) append_rows(rows, request.measurements, request.revision);
-  std::int64_t id = stores.measurements.append(rows).value().first;
+  LeafMaker leaves;
+  std::int64_t id = stores.measurements.last_id() + 1;
   for (auto& request : requests) {
-    id = number_from(id, request.measurements);
+    id = number_from(id, origin, request.measurements);
+    append_rows(rows, request.measurements, request.revision, leaves);
     request.answer = request.render(request.measurements);
   }
+  stores.measurements.append(rows).value();
 }
 
 }  // namespace
@@ -40,7 +43,7 @@ void MeasurementQueue::submit(const std::shared_ptr<Load>& load) {
   database_.writer().submit(
       [self = shared_from_this(), load](store::Stores& stores) -> Result<bool> {
         self->close(load);
-        store_all(stores, *load);
+        store_all(stores, self->origin_, *load);
         return true;
       },
       [self = shared_from_this(), load](const Result<bool>& stored) {

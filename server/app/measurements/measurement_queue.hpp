@@ -17,10 +17,15 @@ namespace fitgauge::app {
 /// when it closes.
 class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
  public:
+  /// @param origin of the data folder.
   /// @param most_waiting requests; one more is StorageBusy.
   /// @param each_apart every request is a job, and so a commit, of its own.
-  MeasurementQueue(store::Database& database, std::size_t most_waiting, bool each_apart)
-      : database_(database), most_waiting_(most_waiting), each_apart_(each_apart) {}
+  MeasurementQueue(store::Database& database, std::string_view origin, std::size_t most_waiting,
+                   bool each_apart)
+      : database_(database),
+        origin_(origin),
+        most_waiting_(most_waiting),
+        each_apart_(each_apart) {}
 
   struct Request {
     std::vector<Measurement> measurements;
@@ -42,6 +47,7 @@ class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
   void finish(Load& load, const Result<bool>& stored);
 
   store::Database& database_;
+  const std::string_view origin_;
   const std::size_t most_waiting_;
   const bool each_apart_;
   std::mutex mutex_;

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 
 #include "app/measurements/mapping.hpp"
@@ -20,45 +19,14 @@ namespace {
 /// there to have its first measurements ready.
 constexpr unsigned kLongRequests = 2;
 
-/// So many that their rows stay in the cache.
-constexpr std::size_t kAtATime = 128;
-
-/// The store knows ids as numbers: this error names them as the outside does.
-Error corrected_before(const store::Stores& stores, std::int64_t id) {
-  const auto newer = stores.measurements.corrected_by(id);
-  return {ErrorCode::MeasurementCorrected,
-          fmt::format("measurement {} was corrected by {}: correct that one",
-                      measurement_id_text(id), measurement_id_text(newer.value_or(0)))};
-}
-
-/// Stores the measurements of a request.
-/// @returns the id of the first.
-Result<std::int64_t> append(store::Stores& stores, std::span<const Measurement> measurements,
-                            std::optional<std::int64_t> revision) {
-  const std::int64_t first = stores.measurements.last_id() + 1;
-  std::vector<store::MeasurementRow> rows;
-  while (!measurements.empty()) {
-    const std::size_t count = std::min(measurements.size(), kAtATime);
-    rows.clear();
-    append_rows(rows, measurements.first(count), revision);
-    const auto ids = stores.measurements.append(rows);
-    if (!ids && ids.error().code == ErrorCode::MeasurementCorrected) {
-      return corrected_before(stores, *rows.front().correction_of);
-    }
-    if (!ids) return ids.error();
-    measurements = measurements.subspan(count);
-  }
-  return first;
-}
-
 /// Stores the pieces of a long request, from the thread that reads it.
 Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed) {
-  feed.begin(stores.measurements.chain_end());
+  feed.begin(stores.measurements.last_id());
   while (true) {
     const auto piece = feed.take();
     if (!piece) return piece.error();
     if (piece->empty()) return feed.take_answer();
-    const auto appended = stores.measurements.append_linked(*piece);
+    const auto appended = stores.measurements.append(*piece);
     if (!appended) return appended.error();
   }
 }
@@ -70,11 +38,13 @@ Error internal_error(const std::exception& bug) {
 }  // namespace
 
 MeasurementService::MeasurementService(store::Database& database, const TableCatalog& tables,
+                                       std::string_view origin,
                                        const MeasurementServiceOptions& options)
     : database_(database),
       tables_(tables),
-      queue_(
-          std::make_shared<MeasurementQueue>(database, options.most_waiting, options.commit_each)),
+      origin_(origin),
+      queue_(std::make_shared<MeasurementQueue>(database, origin, options.most_waiting,
+                                                options.commit_each)),
       long_requests_(std::make_unique<WorkerPool>(kLongRequests, options.most_waiting)) {}
 MeasurementService::~MeasurementService() = default;
 
@@ -114,18 +84,17 @@ void MeasurementService::record(std::vector<Measurement> measurements,
                                 const std::optional<IdempotencyScope>& scope, Render render,
                                 Done<Answer> done) {
   const auto revision = revision_of(measurements, tables_);
-  const bool is_small = measurements.size() <= kAtATime;
+  const bool is_small = measurements.size() <= kRowsAtATime;
   if (is_small && !scope && !measurements.front().correction_of) {
     return queue_->record({.measurements = std::move(measurements),
                            .revision = revision,
                            .render = std::move(render),
                            .done = std::move(done)});
   }
-  auto work = [measurements = std::move(measurements), revision,
+  auto work = [measurements = std::move(measurements), revision, origin = origin_,
                render = std::move(render)](store::Stores& stores) mutable -> Result<Answer> {
-    const auto first = append(stores, measurements, revision);
+    const auto first = append(stores, measurements, revision, origin);
     if (!first) return first.error();
-    number_from(*first, measurements);
     return render(measurements);
   };
   submit(scope, std::move(work), std::move(done));
@@ -134,29 +103,29 @@ void MeasurementService::record(std::vector<Measurement> measurements,
 Result<Answer> MeasurementService::record_while_reading(
     const Read& read, const std::optional<IdempotencyScope>& scope, Rendering& rendering) {
   const auto feed = std::make_shared<MeasurementFeed>();
-  std::optional<store::MeasurementChain> chain;
+  std::optional<std::int64_t> next_id;
+  LeafMaker leaves;
   const auto begin = [&] {
     submit(
         scope, [feed](store::Stores& stores) { return append_pieces(stores, *feed); },
         [feed](Result<Answer> outcome) { feed->end(std::move(outcome)); });
-    if (const auto end = feed->chain_end()) chain.emplace(*end);
+    if (const auto last_id = feed->last_id()) next_id = *last_id + 1;
   };
   bool begun = false;
   const auto take = [&](std::vector<Measurement> measurements) {
     if (!std::exchange(begun, true)) begin();
-    if (!chain) return;  // refused before a row was stored
-    number_from(chain->end().id + 1, measurements);
+    if (!next_id) return;  // refused before a row was stored
+    next_id = number_from(*next_id, origin_, measurements);
     MeasurementFeed::Piece piece;
     piece.reserve(measurements.size());
-    append_rows(piece, measurements, revision_of(measurements, tables_));
-    chain->link(piece);
+    append_rows(piece, measurements, revision_of(measurements, tables_), leaves);
     feed->put(std::move(piece));
     rendering.add(measurements);
   };
   Result<void> complete;
   try {
     complete = read(take);
-    if (complete && chain) feed->finish(rendering.finish());
+    if (complete && next_id) feed->finish(rendering.finish());
   } catch (const std::exception& bug) {
     complete = internal_error(bug);
   }

@@ -56,18 +56,23 @@ MeasuredValue measured_value(const store::MeasuredValue& value) {
 
 }  // namespace
 
+RowNames MeasurementService::row_names() const {
+  return {.revision_id = [this](std::int64_t number) { return tables_.revision_id(number); },
+          .origin = origin_};
+}
+
 void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t> done) {
   database_.readers().submit(
       [this, id, visit = std::move(visit)](const store::Stores& stores) -> Result<std::int64_t> {
-        const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
+        const RowNames names = row_names();
         const bool found = stores.measurements.find(id, [&](const store::MeasurementRow& row) {
-          Measurement measurement = from_store(row, ids);
+          Measurement measurement = from_store(row, names);
           measurement.corrected_by = stores.measurements.corrected_by(id);
           visit(measurement);
         });
         if (found) return id;
         return Error{ErrorCode::MeasurementUnknown,
-                     "there is no measurement '" + measurement_id_text(id) + "'"};
+                     "there is no measurement '" + measurement_id_text(id, origin_) + "'"};
       },
       std::move(done));
 }
@@ -85,10 +90,10 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
           if (!first) return ListPage{.next = std::nullopt, .as_of = *filter.as_of_id};
           if (order == store::ListOrder::OldestFirst) after = *first - 1;
         }
-        const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
+        const RowNames names = row_names();
         const auto next = stores.measurements.list(
             filter, after, limit,
-            [&](const store::MeasurementRow& row) { visit(from_store(row, ids)); }, order);
+            [&](const store::MeasurementRow& row) { visit(from_store(row, names)); }, order);
         return ListPage{.next = last ? std::nullopt : next, .as_of = *filter.as_of_id};
       },
       std::move(done));
@@ -113,7 +118,10 @@ Result<std::int64_t> MeasurementService::read_values(const MeasurementQuery& que
           Result<void> taken;
           const auto more = stores.measurements.list_values(
               filter, *after, kRowsAJob, [&](const store::MeasuredValue& value) {
-                if (taken) taken = visit(measured_value(value));
+                if (!taken) return;
+                MeasuredValue measured = measured_value(value);
+                measured.origin = origin_;
+                taken = visit(measured);
               });
           if (!taken) return taken.error();
           return more;

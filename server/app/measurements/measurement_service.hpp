@@ -21,6 +21,7 @@ class Database;
 namespace fitgauge::app {
 
 class MeasurementQueue;
+struct RowNames;
 class TableCatalog;
 class WorkerPool;
 
@@ -74,6 +75,7 @@ struct ListPage {
 /// What figures are computed from. The text is valid during the visitor's call.
 struct MeasuredValue {
   std::int64_t id = 0;
+  std::string_view origin{};  ///< of the data folder; outlives the value
   Length measured;
   Length lower_limit;
   Length upper_limit;
@@ -116,9 +118,15 @@ class Rendering {
 /// on a storage thread or, when refused at once, on the caller's. Thread-safe.
 class MeasurementService {
  public:
-  MeasurementService(store::Database& database, const TableCatalog& tables,
+  /// @param origin of the data folder; outlives the service.
+  MeasurementService(store::Database& database, const TableCatalog& tables, std::string_view origin,
                      const MeasurementServiceOptions& options);
   ~MeasurementService();
+
+  /// @errors MeasurementUnknown.
+  Result<std::int64_t> parse_id(std::string_view text) const {
+    return parse_measurement_id(text, origin_);
+  }
 
   template <class T>
   using Done = std::function<void(Result<T>)>;
@@ -177,11 +185,13 @@ class MeasurementService {
   void run(std::function<void()> work, const std::function<void(Error)>& failed);
 
  private:
+  RowNames row_names() const;
   template <class Work>
   void submit(const std::optional<IdempotencyScope>& scope, Work work, Done<Answer> done);
 
   store::Database& database_;
   const TableCatalog& tables_;
+  const std::string_view origin_;
   const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs
   const std::unique_ptr<WorkerPool> long_requests_;
 };

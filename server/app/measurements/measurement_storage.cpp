@@ -1,5 +1,7 @@
 #include "app/measurements/measurement_storage.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/measurements/mapping.hpp"
@@ -10,6 +12,15 @@ namespace {
 
 bool is_by_tables(const Measurement& m) { return m.basis != LimitsBasis::Explicit; }
 
+/// The store knows ids as numbers: this error names them as the outside does.
+Error corrected_before(const store::Stores& stores, std::int64_t id, std::string_view origin) {
+  const auto newer = stores.measurements.corrected_by(id);
+  return {
+      ErrorCode::MeasurementCorrected,
+      fmt::format("measurement {} was corrected by {}: correct that one",
+                  measurement_id_text(id, origin), measurement_id_text(newer.value_or(0), origin))};
+}
+
 }  // namespace
 
 std::optional<std::int64_t> revision_of(std::span<const Measurement> measurements,
@@ -19,15 +30,43 @@ std::optional<std::int64_t> revision_of(std::span<const Measurement> measurement
   return tables.revision_number(judged->table_revision);
 }
 
+std::int64_t number_from(std::int64_t first, std::string_view origin,
+                         std::span<Measurement> measurements) {
+  for (Measurement& measurement : measurements) {
+    measurement.id = first++;
+    measurement.origin = origin;
+  }
+  return first;
+}
+
 void append_rows(std::vector<store::MeasurementRow>& rows,
-                 std::span<const Measurement> measurements, std::optional<std::int64_t> revision) {
-  for (const Measurement& m : measurements) {
+                 std::span<const Measurement> measurements, std::optional<std::int64_t> revision,
+                 LeafMaker& leaves) {
+  const auto made = leaves(measurements);
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const Measurement& m = measurements[i];
     rows.push_back(to_store(m, is_by_tables(m) ? revision : std::nullopt));
+    rows.back().hash = made[i];
   }
 }
 
-std::int64_t number_from(std::int64_t first, std::span<Measurement> measurements) {
-  for (Measurement& measurement : measurements) measurement.id = first++;
+Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
+                            std::optional<std::int64_t> revision, std::string_view origin) {
+  const std::int64_t first = stores.measurements.last_id() + 1;
+  number_from(first, origin, measurements);
+  LeafMaker leaves;
+  std::vector<store::MeasurementRow> rows;
+  while (!measurements.empty()) {
+    const std::size_t count = std::min(measurements.size(), kRowsAtATime);
+    rows.clear();
+    append_rows(rows, measurements.first(count), revision, leaves);
+    const auto appended = stores.measurements.append(rows);
+    if (!appended && appended.error().code == ErrorCode::MeasurementCorrected) {
+      return corrected_before(stores, *rows.front().correction_of, origin);
+    }
+    if (!appended) return appended.error();
+    measurements = measurements.subspan(count);
+  }
   return first;
 }
 

@@ -1,28 +1,41 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "app/log/leaf.hpp"
 #include "app/measurements/measurement.hpp"
-#include "store/measurement_row.hpp"
+#include "store/stores.hpp"
 
 namespace fitgauge::app {
 
 class TableCatalog;
+
+/// So many that their rows stay in the cache.
+inline constexpr std::size_t kRowsAtATime = 128;
 
 /// The number of the revision that has judged measurements of one request, which is the same for
 /// all; none when all have explicit limits.
 std::optional<std::int64_t> revision_of(std::span<const Measurement> measurements,
                                         const TableCatalog& tables);
 
-/// Adds the rows that store the measurements; their texts are those of the measurements.
-void append_rows(std::vector<store::MeasurementRow>& rows,
-                 std::span<const Measurement> measurements, std::optional<std::int64_t> revision);
-
 /// Gives the measurements their ids. @returns the next id.
-std::int64_t number_from(std::int64_t first, std::span<Measurement> measurements);
+std::int64_t number_from(std::int64_t first, std::string_view origin,
+                         std::span<Measurement> measurements);
+
+/// Adds the rows that store the measurements, which have their ids; the rows' texts are theirs.
+void append_rows(std::vector<store::MeasurementRow>& rows,
+                 std::span<const Measurement> measurements, std::optional<std::int64_t> revision,
+                 LeafMaker& leaves);
+
+/// Numbers and stores measurements. @returns the id of the first.
+/// @errors MeasurementUnknown and MeasurementCorrected of a correction.
+Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
+                            std::optional<std::int64_t> revision, std::string_view origin);
 
 /// More waits to be stored than may.
 Error too_much_work();

@@ -11,6 +11,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/runs/live_state.hpp"
@@ -30,12 +31,14 @@ struct FinishedRun {
 /// what one throws is reported and stops neither the run nor the others.
 class ActiveRun {
  public:
-  ActiveRun(std::int64_t id, std::shared_ptr<const RunOrder> order, Timestamp created_at)
-      : id_(id), order_(std::move(order)), created_at_(created_at) {}
+  ActiveRun(std::int64_t id, std::string_view origin, std::shared_ptr<const RunOrder> order,
+            Timestamp created_at)
+      : id_(id), origin_(origin), order_(std::move(order)), created_at_(created_at) {}
   ActiveRun(const ActiveRun&) = delete;
   ActiveRun& operator=(const ActiveRun&) = delete;
 
   std::int64_t id() const { return id_; }
+  std::string id_text() const { return run_id_text(id_, origin_); }
   const RunOrder& order() const { return *order_; }
   const std::string& program() const { return order_->program.text(); }
   Timestamp created_at() const { return created_at_; }
@@ -87,6 +90,7 @@ class ActiveRun {
   void change(const Change& change);
 
   const std::int64_t id_;
+  const std::string_view origin_;
   const std::shared_ptr<const RunOrder> order_;
   const Timestamp created_at_;
   std::stop_source stop_;

@@ -30,6 +30,7 @@ Measurement record_of(const RunReport& report, const interpreter::Measurement& m
   record.texts.characteristic = size.characteristic;
   if (caller) record.caller = *caller;
   record.run_id = report.id;
+  record.origin = report.origin;
   record.cycle = measured.record.cycle;
   if (!size.limits) {
     // Nothing judges it: an uncertainty as wide as its limits makes it indeterminate.

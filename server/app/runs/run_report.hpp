@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "app/measurements/measurement.hpp"
 #include "base/clock.hpp"
 #include "machine/machine_setup.hpp"
 #include "machine/tracing_machine.hpp"
@@ -43,11 +45,14 @@ RunState state_of(interpreter::RunStatus status);
 /// A run that is over.
 struct RunReport {
   std::int64_t id = 0;
+  std::string_view origin{};  ///< of the data folder
   std::string program;
   interpreter::RunResult result{};
   std::uint64_t seed = 1;
   Timestamp created_at{};
   Timestamp finished_at{};
+
+  std::string id_text() const { return run_id_text(id, origin); }
 };
 
 /// The moves of a run, and the blocks they belong to.

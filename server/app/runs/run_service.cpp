@@ -4,6 +4,7 @@
 
 #include "app/files/file_check.hpp"
 #include "app/measurements/mapping.hpp"
+#include "app/measurements/measurement_storage.hpp"
 #include "app/runs/run_executor.hpp"
 #include "app/runs/run_measurements.hpp"
 #include "base/guarded.hpp"
@@ -52,8 +53,9 @@ RunState run_state(store::RunStatus status) {
   return RunState::Cancelled;
 }
 
-StoredRun stored_run(store::Run run) {
+StoredRun stored_run(store::Run run, std::string_view origin) {
   StoredRun stored{.id = run.id,
+                   .origin = origin,
                    .state = run_state(run.status),
                    .program = std::move(run.program),
                    .request = std::move(run.request),
@@ -64,8 +66,8 @@ StoredRun stored_run(store::Run run) {
   return stored;
 }
 
-Error unknown(std::int64_t id) {
-  return {ErrorCode::RunUnknown, "there is no run '" + run_id_text(id) + "'"};
+Error unknown_run(const std::string& id) {
+  return {ErrorCode::RunUnknown, "there is no run '" + id + "'"};
 }
 
 Error stopping() {
@@ -75,9 +77,10 @@ Error stopping() {
 }  // namespace
 
 RunService::RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
-                       RunServiceOptions options)
+                       std::string_view origin, RunServiceOptions options)
     : database_(database),
       clock_(clock),
+      origin_(origin),
       options_(options),
       live_tables_(tables),
       stored_(database),
@@ -106,6 +109,7 @@ Result<void> RunService::close_interrupted(RunState state) {
     if (!page) return page.error();
     for (const store::Run& run : page->runs) {
       const RunReport report{.id = run.id,
+                             .origin = origin_,
                              .program = run.program,
                              .result = unstarted(RunStatus::Failed, MessageKind::Error,
                                                  "the service ended before the run did; nothing "
@@ -208,8 +212,8 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
                        .caller = shared->caller};
   std::shared_ptr<ActiveRun> active;
   const auto create = [&](store::Stores& stores) -> Result<store::StoredAnswer> {
-    active =
-        std::make_shared<ActiveRun>(stores.runs.create(row), shared, Timestamp{row.created_at_ns});
+    active = std::make_shared<ActiveRun>(stores.runs.create(row), origin_, shared,
+                                         Timestamp{row.created_at_ns});
     return to_store(accepted(*active));
   };
   const auto created = scope ? database_.writer().wait_once(to_store(*scope), create)
@@ -253,6 +257,7 @@ void RunService::run(const std::shared_ptr<ActiveRun>& run) {
 
 void RunService::end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace) {
   const RunReport report{.id = active.id(),
+                         .origin = origin_,
                          .program = active.program(),
                          .result = std::move(result),
                          .seed = active.order().setup.seed,
@@ -307,12 +312,7 @@ Result<FinishedRun> RunService::keep(const RunReport& report, const RunTrace& tr
   for (const interpreter::WrittenFile& file : report.result.files) {
     files.push_back({.path = file.path.text(), .content = file.bytes});
   }
-  const std::vector<Measurement> measurements = measurements_of(report, caller);
-  std::vector<store::MeasurementRow> rows;
-  rows.reserve(measurements.size());
-  for (const Measurement& measurement : measurements) {
-    rows.push_back(to_store(measurement, std::nullopt));
-  }
+  std::vector<Measurement> measurements = measurements_of(report, caller);
   const auto store = [&](store::Stores& stores) -> Result<bool> {
     const std::int64_t now = report.finished_at.nanoseconds;
     const auto closed = stores.runs.finish(report.id,
@@ -322,7 +322,9 @@ Result<FinishedRun> RunService::keep(const RunReport& report, const RunTrace& tr
                                             .files = files},
                                            now);
     if (!closed) return closed.error();
-    if (const auto appended = stores.measurements.append(rows); !appended) return appended.error();
+    if (const auto first = append(stores, measurements, std::nullopt, origin_); !first) {
+      return first.error();
+    }
     stores.events.append(kFinishedEvent, event, now);
     return true;
   };
@@ -361,34 +363,34 @@ std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {
 
 void RunService::find(std::int64_t id, Done<StoredRun> done) {
   database_.readers().submit(
-      [id](const store::Stores& stores) -> Result<StoredRun> {
+      [this, id](const store::Stores& stores) -> Result<StoredRun> {
         auto run = stores.runs.find(id);
-        if (!run) return unknown(id);
-        return stored_run(*std::move(run));
+        if (!run) return unknown_run(run_id_text(id, origin_));
+        return stored_run(*std::move(run), origin_);
       },
       std::move(done));
 }
 
 void RunService::trace(std::int64_t id, Done<std::string> done) {
   database_.readers().submit(
-      [id](const store::Stores& stores) -> Result<std::string> {
+      [this, id](const store::Stores& stores) -> Result<std::string> {
         if (auto trace = stores.runs.trace(id)) return *std::move(trace);
-        if (!stores.runs.find(id)) return unknown(id);
-        return Error{ErrorCode::RunUnfinished,
-                     "run '" + run_id_text(id) + "' is not over; its trace comes with its end"};
+        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_));
+        return Error{ErrorCode::RunUnfinished, "run '" + run_id_text(id, origin_) +
+                                                   "' is not over; its trace comes with its end"};
       },
       std::move(done));
 }
 
 void RunService::file(std::int64_t id, std::string name, Done<File> done) {
   database_.readers().submit(
-      [id, name = std::move(name)](const store::Stores& stores) -> Result<File> {
+      [this, id, name = std::move(name)](const store::Stores& stores) -> Result<File> {
         if (auto file = stores.runs.file(id, name)) {
           return File{.path = std::move(file->path), .bytes = std::move(file->content)};
         }
-        if (!stores.runs.find(id)) return unknown(id);
+        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_));
         return Error{ErrorCode::FileUnknown,
-                     "run '" + run_id_text(id) + "' has written no file '" + name + "'"};
+                     "run '" + run_id_text(id, origin_) + "' has written no file '" + name + "'"};
       },
       std::move(done));
 }
@@ -398,13 +400,14 @@ void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::si
   store::RunFilter filter{.program = std::move(query.program)};
   if (query.state) filter.status = run_status(*query.state);
   database_.readers().submit(
-      [filter = std::move(filter), after, limit](const store::Stores& stores) -> Result<Page> {
+      [this, filter = std::move(filter), after,
+       limit](const store::Stores& stores) -> Result<Page> {
         store::RunsStore::Page found = stores.runs.list(filter, after, limit);
         Page page{.runs = {}, .next = found.next};
         for (store::Run& run : found.runs) {
           run.request.clear();
           run.result.clear();
-          page.runs.push_back(stored_run(std::move(run)));
+          page.runs.push_back(stored_run(std::move(run), origin_));
         }
         return page;
       },

@@ -31,12 +31,15 @@ struct RunServiceOptions {
 /// A run as the store has it.
 struct StoredRun {
   std::int64_t id = 0;
+  std::string_view origin;  ///< of the data folder
   RunState state = RunState::Queued;
   std::string program;
   std::string request;
   std::string report;  ///< empty until it is over
   Timestamp created_at;
   std::optional<Timestamp> finished_at;
+
+  std::string id_text() const { return run_id_text(id, origin); }
 };
 
 struct RunQuery {
@@ -52,8 +55,9 @@ class RunService {
   template <class T>
   using Done = std::function<void(Result<T>)>;
 
+  /// @param origin of the data folder; outlives the service.
   RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
-             RunServiceOptions options);
+             std::string_view origin, RunServiceOptions options);
   RunService(const RunService&) = delete;
   RunService& operator=(const RunService&) = delete;
   ~RunService();
@@ -104,6 +108,9 @@ class RunService {
 
   // From any thread.
 
+  /// @errors RunUnknown.
+  Result<std::int64_t> parse_id(std::string_view text) const { return parse_run_id(text, origin_); }
+
   /// The run while it is queued or under way, else null.
   std::shared_ptr<ActiveRun> active(std::int64_t id) const;
 
@@ -150,6 +157,7 @@ class RunService {
 
   store::Database& database_;
   const Clock& clock_;
+  const std::string_view origin_;
   const RunServiceOptions options_;
   LiveTables live_tables_;
   StoredDisk stored_;

@@ -46,9 +46,9 @@ class EventReader {
   }
 
   EventPosition read(EventPosition after, std::optional<Source> source, std::size_t limit,
-                     const RevisionIds& ids) {
+                     const RowNames& names) {
     position_ = after;
-    read_measurements(source, limit, ids);
+    read_measurements(source, limit, names);
     for (const store::Event& event : stores_.events.after(position_.stored, limit)) {
       position_.stored = event.id;
       visit_({.type = event.type, .id = position_, .payload = event.payload});
@@ -57,7 +57,7 @@ class EventReader {
   }
 
  private:
-  void read_measurements(std::optional<Source> source, std::size_t limit, const RevisionIds& ids) {
+  void read_measurements(std::optional<Source> source, std::size_t limit, const RowNames& names) {
     store::MeasurementFilter filter;
     filter.source = source ? std::optional(to_store(*source)) : std::nullopt;
     filter.history = true;
@@ -65,7 +65,7 @@ class EventReader {
     const auto after = position_.measurement - (position_.reject_is_due ? 1 : 0);
     const auto next = stores_.measurements.list(
         filter, after, limit,
-        [&](const store::MeasurementRow& row) { tell(from_store(row, ids)); });
+        [&](const store::MeasurementRow& row) { tell(from_store(row, names)); });
     // Rows of another source that were passed over need not be looked at again.
     position_.measurement = next.value_or(end);
     position_.reject_is_due = false;
@@ -118,8 +118,10 @@ void EventService::read(std::optional<EventPosition> after, std::optional<Source
         if (!reader.can_go_on(*after, retention_)) {
           return Page{.position = reader.newest(), .gap = true};
         }
-        const RevisionIds ids = [this](std::int64_t number) { return tables_.revision_id(number); };
-        return Page{.position = reader.read(*after, source, limit, ids)};
+        const RowNames names{
+            .revision_id = [this](std::int64_t number) { return tables_.revision_id(number); },
+            .origin = origin_};
+        return Page{.position = reader.read(*after, source, limit, names)};
       },
       std::move(done));
 }

@@ -46,9 +46,14 @@ struct Event {
 class EventService {
  public:
   /// @param retention how many measurements and how many stored events a reader may be behind.
-  EventService(store::Database& database, const TableCatalog& tables, CommitSignal& signal,
-               std::int64_t retention)
-      : database_(database), tables_(tables), signal_(signal), retention_(retention) {}
+  /// @param origin of the data folder; outlives the service.
+  EventService(store::Database& database, const TableCatalog& tables, std::string_view origin,
+               CommitSignal& signal, std::int64_t retention)
+      : database_(database),
+        tables_(tables),
+        origin_(origin),
+        signal_(signal),
+        retention_(retention) {}
 
   /// Where the reader is now.
   struct Page {
@@ -72,6 +77,7 @@ class EventService {
  private:
   store::Database& database_;
   const TableCatalog& tables_;
+  const std::string_view origin_;
   CommitSignal& signal_;
   std::int64_t retention_;
 };

@@ -75,11 +75,17 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return Seconds(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Appends rows with the next ids.
+Result<bool> append(Stores& stores, std::span<MeasurementRow> rows) {
+  std::int64_t id = stores.measurements.last_id();
+  for (MeasurementRow& row : rows) row.id = ++id;
+  if (const auto appended = stores.measurements.append(rows); !appended) return appended.error();
+  return true;
+}
+
 double insert_batch(Database& database, Sample& sample) {
   const auto start = std::chrono::steady_clock::now();
-  database.writer()
-      .wait([&](Stores& stores) { return stores.measurements.append(sample.rows); })
-      .value();
+  database.writer().wait([&](Stores& stores) { return append(stores, sample.rows); }).value();
   return seconds_since(start);
 }
 
@@ -90,9 +96,7 @@ double insert_singles(Database& database, Sample& sample) {
     clients.emplace_back([&, c] {
       for (std::size_t i = 0; i < kRowsPerClient; ++i) {
         const std::span row(&sample.rows[c * kRowsPerClient + i], 1);
-        database.writer()
-            .wait([row](Stores& stores) { return stores.measurements.append(row); })
-            .value();
+        database.writer().wait([row](Stores& stores) { return append(stores, row); }).value();
       }
     });
   }

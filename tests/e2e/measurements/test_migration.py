@@ -7,15 +7,21 @@ Some calls are made to fail by chance, which $SEED repeats; with FAULTS=all it i
 import contextlib
 import hashlib
 import itertools
+import json
 import os
 import random
 import shutil
 import sqlite3
 import subprocess
+import sys
 import time
 import unittest
 
 from support.daemon import ROOT, TRACEABLE, Daemon
+
+sys.path.insert(0, str(ROOT / "clients" / "python"))
+
+import check_proof  # noqa: E402
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
@@ -68,6 +74,36 @@ def take_back_newest_migration(database):
     return len(known)
 
 
+CHAINED = ("source measured_at received_at nominal_nm tolerance_class feature upper_deviation_nm lower_deviation_nm "
+           "size_over_nm size_up_to_nm basis table_revision measured_nm verdict rule uncertainty_nm coverage_factor "
+           "part_id characteristic work_order operation machine operator gauge temperature unit comment caller run_id "
+           "cycle correction_of correction_reason").split()
+
+
+def encoded(value):
+    """As db/store/canonical_digest.hpp says."""
+    if value is None:
+        return b"\0"
+    if isinstance(value, str):
+        return b"\1" + encoded(len(value.encode())) + value.encode()
+    count = (max(value, ~value).bit_length() + 8) // 8 if value else 0
+    return bytes([0x10 + count]) + value.to_bytes(count, "big", signed=True)
+
+
+def chain(database):
+    """Gives the rows the hashes they had before there was a log: each over the one before and its own fields."""
+    with contextlib.closing(sqlite3.connect(database)) as connection:
+        trigger, = connection.execute(
+            "SELECT sql FROM sqlite_schema WHERE name = 'measurements_are_not_updated'").fetchone()
+        connection.execute("DROP TRIGGER measurements_are_not_updated")
+        before = bytes(32)
+        for row, *fields in connection.execute(f"SELECT id, {', '.join(CHAINED)} FROM measurements ORDER BY id").fetchall():
+            before = hashlib.sha256(before + b"".join(map(encoded, [row, *fields]))).digest()
+            connection.execute("UPDATE measurements SET hash = ? WHERE id = ?", (before, row))
+        connection.execute(trigger)
+        connection.commit()
+
+
 @unittest.skipUnless(can_trace(), "needs strace and the right to trace")
 class Migration(unittest.TestCase):
     def start_with(self, fault, data=None):
@@ -99,10 +135,13 @@ class Migration(unittest.TestCase):
         return daemon, refused
 
     def check(self, daemon, rows):
-        """Without the fault it starts, has every row, and takes a new one."""
+        """Without the fault it starts, has every row, and takes a new one; old and new are proved."""
         daemon.start()
         self.assertEqual(len(daemon.stored()), rows)
         self.assertEqual(daemon.measure(PART).status, 201)
+        for record in (daemon.get(f"/v1/measurements/m{row}").text for row in (1, rows + 1)):
+            proof = daemon.get(f"/v1/measurements/{json.loads(record)['id']}/proof").json
+            self.assertIsNone(check_proof.check(record, proof, daemon.get("/v1/log/key").text.split()))
         verified = daemon.command("verify")
         self.assertEqual(verified.returncode, 0, verified.stdout)
         self.assertEqual(daemon.stop(), 0)
@@ -124,6 +163,8 @@ class Migration(unittest.TestCase):
         self.assertEqual(old.measure([PART] * 3).status, 201)
         self.assertEqual(old.stop(), 0)
         newest = take_back_newest_migration(old.database)
+        if sorted((ROOT / "db" / "migrations").glob("*.sql"))[-1].stem.endswith("_log"):
+            chain(old.database)
         count = 0
         for fault in faults():
             with self.subTest(fault):

@@ -73,10 +73,12 @@ class Stored(DaemonTest):
         found = self.find("chart", "characteristic=jump&rules=1")
         self.assertEqual(found["kind"], "i_mr")
         self.assertEqual(found["charts"][0]["points"], [float(value) for value in values])
-        first = int(answer["first_id"][1:])
+        first, origin = answer["first_id"][1:].split("-")
+        def named(index):
+            return f"m{int(first) + index}-{origin}"
         # The jump is the eighth value; its moving ranges are those to it and from it.
         self.assertEqual([(v["chart"], v["index"], v["id"]) for v in found["violations"]],
-                         [("i", 7, f"m{first + 7}"), ("mr", 6, f"m{first + 7}"), ("mr", 7, f"m{first + 8}")])
+                         [("i", 7, named(7)), ("mr", 6, named(7)), ("mr", 7, named(8))])
 
     def test_subgroups_may_be_interleaved(self):
         for value, subgroup in (("74.001", "a"), ("74.005", "b"), ("74.003", "a"), ("74.009", "b")):

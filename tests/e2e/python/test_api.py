@@ -112,6 +112,10 @@ class EveryRoute(ControlTest):
         self.assertEqual(len(list(client.measurements(part_id="SN-1", history="all"))), 2)
         self.assertEqual(list(client.measurements(from_=datetime(2026, 11, 20, 7, 0, 1, tzinfo=timezone.utc))), [])
         group, = client.summary(part_id="SN-1")
+        proof = client.proof(new["id"])
+        self.assertEqual(client.checkpoint().splitlines()[0], proof["checkpoint"].splitlines()[0])
+        self.assertTrue(client.log_keys()[0].startswith("fitgauge/station/"))
+        self.assertEqual(len(client.log_tile("0/000.p/2")), 64)
         self.assertEqual((group["count"], group["mean_mm"], group["standard_deviation_mm"]),
                          (1, Decimal("25.0185"), None))
         events = client.events(last_event_id="m0.e0")
@@ -167,7 +171,7 @@ class EveryRoute(ControlTest):
 
     def call_service(self, client):
         self.assertTrue(client.live())
-        self.assertEqual(client.wait_until_ready(), client.ready())
+        self.assertEqual(client.wait_until_ready()["database"], client.ready()["database"])
         with fitgauge.Client("http://127.0.0.1:1") as nobody, self.assertRaises(fitgauge.NoAnswer):
             nobody.wait_until_ready(timeout=0.2)
         self.assertEqual(client.ready()["version"], fitgauge.__version__)

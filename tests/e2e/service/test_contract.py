@@ -165,6 +165,10 @@ class Answers(ContractTest):
         self.expect("correctMeasurement", 201, {"measured_mm": 25.012, "reason": "misread"}, id=first)
         self.expect("correctMeasurement", 409, {"measured_mm": 25.012, "reason": "misread"}, id=first)
         self.expect("getMeasurement", 200, id=first)
+        self.expect("getProof", 200, id=first)
+        self.expect("getCheckpoint", 200)
+        self.expect("getLogKeys", 200)
+        self.expect("getTile", 200, path="entries/000.p/1")
         self.expect("listMeasurements", 200, history="all", limit=2)
         self.expect("listMeasurements", 200, headers={"Accept": "text/csv"})
         parameters = self.contract.operation("summariseMeasurements")[2]["parameters"]

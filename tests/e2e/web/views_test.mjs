@@ -395,7 +395,7 @@ describe('the programs', () => {
     const frame = await (await page.waitForSelector('.report iframe')).contentFrame();
     await frame.waitForSelector('table');
     assert.equal(await page.getAttribute('.report iframe', 'sandbox'), '');
-    assert.match(await page.getAttribute('.report iframe', 'src'), /^\/v1\/runs\/r\d+\/files\/TCHPR444/i);
+    assert.match(await page.getAttribute('.report iframe', 'src'), /^\/v1\/runs\/r\d+-[0-9a-f]{16}\/files\/TCHPR444/i);
     await picture(page, 'programs-444', { fullPage: true });
   });
 });

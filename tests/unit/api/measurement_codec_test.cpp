@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/measurements/record.hpp"
+
 using namespace fitgauge;
 using namespace fitgauge::api;
 
@@ -15,6 +17,7 @@ namespace {
 app::Measurement hole_25_h7() {
   app::Measurement m;
   m.id = 17;
+  m.origin = "5f0c9a3e77d21b40";
   m.nominal_size = Length::millimetres(25);
   m.class_name = "H7";
   m.deviations = {.upper = Length::micrometres(21), .lower = Length()};
@@ -28,24 +31,25 @@ app::Measurement hole_25_h7() {
 
 std::string record(const app::Measurement& m) {
   std::string out;
-  append_measurement(out, m);
+  app::append_record(out, m);
   return out;
 }
 
 }  // namespace
 
-TEST_CASE("a record has what was given, in the order of the contract") {
+TEST_CASE("a record has what was given, in the order of RFC 8785") {
   app::Measurement m = hole_25_h7();
   m.texts.part_id = "SN-1";
   m.temperature = 20'400'000;
-  CHECK(record(m) ==
-        R"({"id":"m17","source":"gauge","measured_at":"1970-01-01T00:00:00Z",)"
-        R"("received_at":"1970-01-01T00:00:00Z","designation":"25 H7","nominal_mm":25,)"
-        R"("tolerance_class":"H7","feature":"hole","upper_deviation_um":21,"lower_deviation_um":0,)"
-        R"("upper_limit_mm":25.021,"lower_limit_mm":25,"tolerance_um":21,)"
-        R"("size_range_mm":{"over":18,"up_to":30},"basis":"iso286","table_revision":"1-00000000",)"
-        R"("measured_mm":25.013,"deviation_um":13,"verdict":"good","excess_um":0,)"
-        R"("part_id":"SN-1","rule":"simple","temperature_c":20.4})");
+  CHECK(
+      record(m) ==
+      R"({"basis":"iso286","designation":"25 H7","deviation_um":13,"excess_um":0,)"
+      R"("feature":"hole","id":"m17-5f0c9a3e77d21b40","lower_deviation_um":0,"lower_limit_mm":25,)"
+      R"("measured_at":"1970-01-01T00:00:00Z","measured_mm":25.013,"nominal_mm":25,)"
+      R"("part_id":"SN-1","received_at":"1970-01-01T00:00:00Z","rule":"simple",)"
+      R"("size_range_mm":{"over":18,"up_to":30},"source":"gauge",)"
+      R"("table_revision":"1-00000000","temperature_c":20.4,"tolerance_class":"H7",)"
+      R"("tolerance_um":21,"upper_deviation_um":21,"upper_limit_mm":25.021,"verdict":"good"})");
 }
 
 TEST_CASE("records with the times and limits of the one before or others are as each by itself") {
@@ -75,7 +79,7 @@ TEST_CASE("every character of a text is written as a JSON string has it") {
   m.texts.comment = text;
   std::string quoted;
   append_json_string(quoted, text);
-  CHECK(record(m).find("\"comment\":" + quoted + ",\"rule\"") != std::string::npos);
+  CHECK(record(m).find("\"comment\":" + quoted + ",\"designation\"") != std::string::npos);
 }
 
 TEST_CASE("the longest numbers and texts of nothing but escapes have room") {

@@ -16,7 +16,7 @@ using namespace fitgauge::api;
 namespace {
 
 app::RunReport report() {
-  app::RunReport report{.id = 3, .program = "TNC:\\a.h"};
+  app::RunReport report{.id = 3, .origin = "5f0c9a3e77d21b40", .program = "TNC:\\a.h"};
   report.seed = 8;
   interpreter::RunResult& result = report.result;
   result.status = interpreter::RunStatus::Failed;
@@ -42,7 +42,7 @@ app::RunReport report() {
 TEST_CASE("a run is written with the fields of the contract") {
   const auto run = parse_json(run_format().report(report())).value();
   const auto text = [&](std::string_view name) { return run.find(name)->text; };
-  CHECK(text("id") == "r3");
+  CHECK(text("id") == "r3-5f0c9a3e77d21b40");
   CHECK(text("status") == "failed");
   CHECK(text("program") == "TNC:\\a.h");
   CHECK(text("blocks_executed") == "12");
@@ -121,7 +121,7 @@ TEST_CASE("the event of a run tells how it ended") {
   good.result.status = interpreter::RunStatus::Completed;
   good.result.verdict = gauging::Verdict::Good;
   const auto event = parse_json(run_format().event(good)).value();
-  CHECK(event.find("id")->text == "r3");
+  CHECK(event.find("id")->text == "r3-5f0c9a3e77d21b40");
   CHECK(event.find("status")->text == "completed");
   CHECK(event.find("verdict")->text == "good");
 }

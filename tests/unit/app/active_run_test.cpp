@@ -14,7 +14,7 @@ std::shared_ptr<const RunOrder> order() {
 }
 
 TEST_CASE("a follower is told once of what is new, and of nothing it has seen") {
-  ActiveRun run(1, order(), {});
+  ActiveRun run(1, "5f0c9a3e77d21b40", order(), {});
   const std::uint64_t seen = run.news(0).version;
   int woken = 0;
   const auto ticket = run.await(seen, [&] { ++woken; });
@@ -33,7 +33,7 @@ TEST_CASE("a follower is told once of what is new, and of nothing it has seen") 
 }
 
 TEST_CASE("the end is told to those who wait and to those who come later") {
-  ActiveRun run(1, order(), {});
+  ActiveRun run(1, "5f0c9a3e77d21b40", order(), {});
   std::vector<std::string> reports;
   const auto note = [&](const Result<FinishedRun>& end) { reports.push_back(end->report); };
   run.on_end(note);
@@ -47,7 +47,7 @@ TEST_CASE("the end is told to those who wait and to those who come later") {
 }
 
 TEST_CASE("a run is asked to stop") {
-  ActiveRun run(1, order(), {});
+  ActiveRun run(1, "5f0c9a3e77d21b40", order(), {});
   CHECK_FALSE(run.stop_token().stop_requested());
   run.cancel();
   CHECK(run.stop_token().stop_requested());

@@ -69,7 +69,7 @@ class Examples {
     set("QS1", std::string(tables().class_name(limits.class_id)));
     set("Q31", is_hole ? -10.0 : 15.0);
     for (const char* zero : {"Q11", "Q21", "Q41", "Q51"}) set(zero, 0.0);
-    ActiveRun run(1, std::make_shared<const RunOrder>(std::move(order)), {});
+    ActiveRun run(1, "5f0c9a3e77d21b40", std::make_shared<const RunOrder>(std::move(order)), {});
     return execute({projected_, programs_, clock_}, run).result;
   }
 

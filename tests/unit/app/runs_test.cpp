@@ -212,14 +212,13 @@ TEST_CASE("an answer is kept under its key with the run") {
   CHECK_FALSE(service.prepared([&] { return service->runs().kept_answer(scope); })->has_value());
   const auto started = service.prepared([&] {
     return service->runs().start(Service::order(), scope, [](const ActiveRun& run) {
-      return Answer{
-          .status = 201, .content_type = {}, .location = run_id_text(run.id()), .body = {}};
+      return Answer{.status = 201, .content_type = {}, .location = run.id_text(), .body = {}};
     });
   });
   REQUIRE(started.has_value());
   service.report_of(**started);
   const auto kept = service.prepared([&] { return service->runs().kept_answer(scope); });
-  CHECK((*kept)->location == run_id_text((*started)->id()));
+  CHECK((*kept)->location == (*started)->id_text());
   IdempotencyScope other = scope;
   other.body = "{ }";
   CHECK(service.prepared([&] { return service->runs().kept_answer(other); }).error().code ==

@@ -123,7 +123,7 @@ TEST_CASE("measurements acknowledged before a kill are there after it") {
       while (database.has_value()) {
         MeasurementRow row = sample_row();
         const auto ids = (*database)->writer().wait(
-            [&](Stores& stores) { return stores.measurements.append(std::span(&row, 1)); });
+            [&](Stores& stores) { return append_numbered(stores, std::span(&row, 1)); });
         if (ids && ::write(channel[1], &ids->last, sizeof ids->last) < 0) ::_exit(1);
       }
     });

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "store/database.hpp"
+#include "store/measurement_hash.hpp"
 
 namespace fitgauge::store::test {
 
@@ -67,6 +68,35 @@ inline MeasurementRow sample_row() {
   return row;
 }
 
+/// A run of ids: first to last, both included.
+struct IdRange {
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+};
+
+/// Stands for the leaf, which only the application can make.
+inline Digest hash_of(const MeasurementRow& row) { return MeasurementHasher()({}, row.id, row); }
+
+inline std::optional<std::string> check_hash(const MeasurementRow& row) {
+  return hash_of(row) == row.hash ? std::nullopt : std::optional<std::string>("was altered");
+}
+
+/// Appends rows with the next ids and their hashes.
+inline Result<IdRange> append_numbered(Stores& stores, std::span<const MeasurementRow> rows) {
+  std::vector<MeasurementRow> numbered(rows.begin(), rows.end());
+  const IdRange ids{.first = stores.measurements.last_id() + 1,
+                    .last = stores.measurements.last_id() + static_cast<std::int64_t>(rows.size())};
+  std::int64_t id = ids.first;
+  for (MeasurementRow& row : numbered) {
+    row.id = id++;
+    row.hash = hash_of(row);
+  }
+  if (const auto appended = stores.measurements.append(numbered); !appended) {
+    return appended.error();
+  }
+  return ids;
+}
+
 /// An open database in a directory of its own.
 struct Fixture {
   Fixture() { open(); }
@@ -89,8 +119,7 @@ struct Fixture {
   }
 
   Result<IdRange> append(std::span<const MeasurementRow> rows) {
-    std::vector<MeasurementRow> linked(rows.begin(), rows.end());
-    return write([&linked](Stores& stores) { return stores.measurements.append(linked); });
+    return write([rows](Stores& stores) { return append_numbered(stores, rows); });
   }
   Result<IdRange> append(const MeasurementRow& row) { return append(std::span(&row, 1)); }
 

@@ -5,6 +5,7 @@
 #include "fixture.hpp"
 #include "sqlite/connection.hpp"
 #include "store/measurement_fields.hpp"
+#include "store/measurement_hash.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;

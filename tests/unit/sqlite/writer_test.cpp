@@ -26,7 +26,7 @@ IdempotentRequest request(std::string key, std::string_view body = "body") {
 
 Result<StoredAnswer> store_one(Stores& stores) {
   MeasurementRow row = sample_row();
-  const auto ids = stores.measurements.append(std::span(&row, 1));
+  const auto ids = append_numbered(stores, std::span(&row, 1));
   if (!ids) return ids.error();
   return StoredAnswer{.status = 201,
                       .content_type = "application/json",
@@ -55,7 +55,7 @@ TEST_CASE("an error of one job undoes its own changes and no other's") {
   const auto append_then = [](const Result<int>& outcome) {
     return [outcome](Stores& stores) -> Result<int> {
       MeasurementRow row = sample_row();
-      REQUIRE(stores.measurements.append(std::span(&row, 1)).has_value());
+      REQUIRE(append_numbered(stores, std::span(&row, 1)).has_value());
       return outcome;
     };
   };
@@ -121,7 +121,7 @@ TEST_CASE("a full queue refuses, and a shutdown runs what is queued") {
     fixture.database->writer().submit(
         [](Stores& stores) {
           MeasurementRow row = sample_row();
-          return stores.measurements.append(std::span(&row, 1));
+          return append_numbered(stores, std::span(&row, 1));
         },
         [&](const Result<IdRange>& outcome) {
           if (outcome) {

@@ -1,6 +1,6 @@
-#include "api/measurements/record_text.hpp"
+#include "app/measurements/record_text.hpp"
 
-namespace fitgauge::api {
+namespace fitgauge::app {
 
 RecordText& RecordText::escaped(std::string_view text) {
   char* at = at_;
@@ -15,4 +15,4 @@ RecordText& RecordText::escaped(std::string_view text) {
   return *this;
 }
 
-}  // namespace fitgauge::api
+}  // namespace fitgauge::app

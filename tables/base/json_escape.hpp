@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace fitgauge::api {
+namespace fitgauge {
 
 /// Whether a character of a JSON string stands as an escape (RFC 8259, 7).
 constexpr bool needs_escape(char c) {
@@ -12,7 +12,8 @@ constexpr bool needs_escape(char c) {
 /// Room for one.
 inline constexpr std::size_t kEscapeRoom = 6;
 
-/// Writes it to where there is room. @returns its end.
+/// Writes it to where there is room, in the one spelling that RFC 8785 (3.2.2.2) allows.
+/// @returns its end.
 char* write_escape(char* to, char c);
 
-}  // namespace fitgauge::api
+}  // namespace fitgauge

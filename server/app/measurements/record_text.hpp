@@ -7,14 +7,14 @@
 #include <string>
 #include <string_view>
 
-#include "api/wire/json_escape.hpp"
+#include "base/json_escape.hpp"
 #include "base/length.hpp"
 #include "base/write_text.hpp"
 
-namespace fitgauge::api {
+namespace fitgauge::app {
 
 /// Writes at the end of a string in room that was taken beforehand, so that a piece costs its bytes
-/// and no more: for records that are written by the ten thousand. All else uses JsonWriter.
+/// and no more: for records that are written by the ten thousand. All else uses api::JsonWriter.
 class RecordText {
  public:
   /// @param room no fewer characters than will be written.
@@ -64,4 +64,4 @@ class RecordText {
   char* at_;
 };
 
-}  // namespace fitgauge::api
+}  // namespace fitgauge::app

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/measurements/measurement.hpp"
+#include "tlog/tree_hash.hpp"
+
+namespace fitgauge::app {
+
+/// Makes the leaves of the log: SHA-256(0x00 || the record as its POST answers it). Not
+/// thread-safe.
+class LeafMaker {
+ public:
+  /// @param measurements with their ids. @returns a leaf for each, valid until the next call.
+  std::span<const tlog::Hash> operator()(std::span<const Measurement> measurements);
+  tlog::Hash operator()(const Measurement& measurement) {
+    return (*this)({&measurement, 1}).front();
+  }
+
+ private:
+  std::string records_;
+  std::vector<tlog::Hash> leaves_;
+  tlog::TreeHasher hasher_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/log/leaf.hpp"
+#include "app/log/log_service.hpp"
+#include "app/measurements/mapping.hpp"
+#include "store/verify.hpp"
+#include "tlog/frontier.hpp"
+
+namespace fitgauge::app {
+
+/// What is said of a measurement whose record no longer gives its leaf.
+std::string altered_finding();
+
+/// Makes the log again from the records while they are read in the order of their ids, and holds it
+/// against what was stored and what was signed.
+class LogCheck {
+ public:
+  /// Gives the kept hash of a node of level 8, 16, …; none where there is none.
+  using KeptNodes = std::function<std::optional<tlog::Hash>(const tlog::Node&)>;
+
+  LogCheck(LogService::Facts facts, RowNames names, KeptNodes kept)
+      : facts_(std::move(facts)), names_(std::move(names)), kept_(std::move(kept)) {}
+
+  /// Takes a checkpoint to compare with. @param place what a finding calls it.
+  void expect(const std::string& place, std::string_view note);
+
+  /// What is wrong with the next measurement, if anything.
+  std::optional<std::string> add(const store::MeasurementRow& row);
+
+  /// What is wrong with the whole, after the last measurement.
+  std::vector<std::string> finish();
+
+  /// The size and the root of what was read, for people.
+  std::string head_text();
+
+ private:
+  struct Expected {
+    std::string place;
+    tlog::Checkpoint checkpoint;
+  };
+  void compare_nodes(unsigned completed);
+
+  const LogService::Facts facts_;
+  const RowNames names_;
+  const KeptNodes kept_;
+  LeafMaker leaf_;
+  tlog::Frontier frontier_;
+  std::multimap<std::uint64_t, Expected> expected_;  ///< by size
+  std::vector<std::string> findings_;
+  bool whole_ = true;  ///< no row was missing so far
+};
+
+}  // namespace fitgauge::app

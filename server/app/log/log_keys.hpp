@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "tlog/note_key.hpp"
+
+namespace fitgauge::app {
+
+/// The names of the log's files in the data folder.
+inline constexpr std::string_view kLogKeyFile = "fitgauge.log.key";
+inline constexpr std::string_view kCheckpointFile = "fitgauge.checkpoint";
+
+/// Whether a log may be called so: `[a-z0-9][a-z0-9./-]{0,63}`.
+bool is_origin_name(std::string_view name);
+
+/// The private keys of the file, one a line, the one in use first; none where there is no file.
+/// @errors KeyMalformed; StorageUnavailable when it cannot be read.
+Result<std::vector<tlog::SigningKey>> read_log_keys(const std::filesystem::path& folder);
+
+/// Replaces the file in one step; only its owner may read it.
+/// @errors StorageUnavailable.
+Result<void> write_log_keys(const std::filesystem::path& folder,
+                            const std::vector<tlog::SigningKey>& keys);
+
+/// Puts a new key before the one in use, which signs beside it once, at the next start.
+/// @returns the new public key. @errors StorageUnavailable when there is none yet; KeyMalformed.
+Result<std::string> renew_log_key(const std::filesystem::path& folder);
+
+/// Replaces a small file in one step. @param durably it is on disk when this returns.
+/// @errors StorageUnavailable.
+Result<void> replace_file(const std::filesystem::path& file, std::string_view content,
+                          bool durably);
+
+/// @errors StorageUnavailable when it is there and cannot be read. None where there is no file.
+Result<std::optional<std::string>> read_small_file(const std::filesystem::path& file);
+
+}  // namespace fitgauge::app

@@ -1,0 +1,92 @@
+#include "app/log/log_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/measurements/record.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+template <class Visit>
+void visit_rows(const store::Stores& stores, std::int64_t after, std::int64_t count, Visit visit) {
+  if (count <= 0) return;
+  const store::MeasurementFilter all{.source = std::nullopt, .history = true};
+  stores.measurements.list(all, after, static_cast<std::size_t>(count), visit);
+}
+
+}  // namespace
+
+std::vector<tlog::Hash> LogReader::leaves(std::int64_t after, std::int64_t count) {
+  std::vector<tlog::Hash> leaves;
+  leaves.reserve(static_cast<std::size_t>(count));
+  visit_rows(
+      stores_, after, std::min(count, chained_ - after),
+      [&](const store::MeasurementRow& row) { leaves.push_back(leaf_(from_store(row, names_))); });
+  const auto made = static_cast<std::int64_t>(leaves.size());
+  if (made < count) {
+    stores_.log.leaves(std::max(after, chained_), count - made,
+                       [&](const Digest& leaf) { leaves.push_back(leaf); });
+  }
+  return leaves;
+}
+
+std::vector<std::string> LogReader::records(std::int64_t after, std::int64_t count) const {
+  std::vector<std::string> records;
+  visit_rows(stores_, after, count, [&](const store::MeasurementRow& row) {
+    append_record(records.emplace_back(), from_store(row, names_));
+  });
+  return records;
+}
+
+std::vector<tlog::Hash> LogReader::hashes(unsigned tile_level, std::uint64_t first,
+                                          std::uint64_t count) {
+  const auto begin = static_cast<std::int64_t>(first);
+  const auto many = static_cast<std::int64_t>(count);
+  std::vector<tlog::Hash> hashes;
+  if (tile_level == 0) {
+    hashes = leaves(begin, many);
+  } else {
+    stores_.log.nodes(static_cast<int>(tile_level), begin, many,
+                      [&](const Digest& hash) { hashes.push_back(hash); });
+  }
+  if (hashes.size() != count) {
+    throw store::StorageFailure(
+        {ErrorCode::StorageCorrupt,
+         fmt::format("the log lacks hashes from {} on at level {}: restore a backup", first,
+                     tile_level * tlog::kTileHeight)});
+  }
+  return hashes;
+}
+
+tlog::Hash LogReader::node(const tlog::Node& node) {
+  const unsigned above = node.level % tlog::kTileHeight;
+  std::vector<tlog::Hash> level =
+      hashes(node.level / tlog::kTileHeight, node.index << above, std::uint64_t{1} << above);
+  for (; level.size() > 1; level.resize(level.size() / 2)) {
+    for (std::size_t i = 0; i < level.size() / 2; ++i) {
+      level[i] = hasher_.node(level[2 * i], level[2 * i + 1]);
+    }
+  }
+  return level.front();
+}
+
+std::string LogReader::tile(const tlog::Tile& tile) {
+  std::string bytes;
+  if (tile.kind == tlog::Tile::Kind::Hashes) {
+    for (const tlog::Hash& hash : hashes(tile.level, tile.begin(), tile.width)) {
+      bytes.append(reinterpret_cast<const char*>(hash.data()), hash.size());
+    }
+    return bytes;
+  }
+  for (const std::string& record : records(static_cast<std::int64_t>(tile.begin()), tile.width)) {
+    bytes += static_cast<char>(record.size() >> 8U);
+    bytes += static_cast<char>(record.size() & 0xFFU);
+    bytes += record;
+  }
+  return bytes;
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/log/leaf.hpp"
+#include "app/measurements/mapping.hpp"
+#include "store/stores.hpp"
+#include "tlog/frontier.hpp"
+#include "tlog/tile.hpp"
+
+namespace fitgauge::app {
+
+/// Reads the log in one state of the database: records, leaves and nodes. Used inside a read job.
+class LogReader {
+ public:
+  LogReader(const store::Stores& stores, const RowNames& names)
+      : stores_(stores), names_(names), chained_(stores.log.state().chained) {}
+
+  /// The leaves of the rows after `after`, at most `count`.
+  std::vector<tlog::Hash> leaves(std::int64_t after, std::int64_t count);
+
+  /// The records those leaves are of.
+  std::vector<std::string> records(std::int64_t after, std::int64_t count) const;
+
+  /// @pre the subtree is complete and within the size of the stored tree.
+  /// @throws store::StorageFailure when a node is not there.
+  tlog::Hash node(const tlog::Node& node);
+
+  /// The bytes of a tile (C2SP tlog-tiles). @pre as for node().
+  std::string tile(const tlog::Tile& tile);
+
+ private:
+  std::vector<tlog::Hash> hashes(unsigned tile_level, std::uint64_t first, std::uint64_t count);
+
+  const store::Stores& stores_;
+  const RowNames& names_;
+  const std::int64_t chained_;  ///< rows up to here do not carry their leaf: it is made again
+  LeafMaker leaf_;
+  tlog::TreeHasher hasher_;
+};
+
+}  // namespace fitgauge::app

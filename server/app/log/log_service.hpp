@@ -1,0 +1,151 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/result.hpp"
+#include "base/snapshot.hpp"
+#include "tlog/checkpoint.hpp"
+#include "tlog/frontier.hpp"
+
+namespace fitgauge::store {
+class Database;
+struct Stores;
+}  // namespace fitgauge::store
+
+namespace fitgauge::app {
+
+class TableCatalog;
+struct RowNames;
+
+struct LogOptions {
+  std::filesystem::path
+      directory;                 ///< of the database; the key and the newest checkpoint lie there
+  std::string name = "station";  ///< of the log, if this is its first start
+  bool attach = false;           ///< beside a running daemon: nothing is signed and nothing written
+  /// The event's name and a sentence, for the log of the service; called on any thread.
+  std::function<void(std::string_view event, const std::string& detail)> tell{};
+};
+
+/// The log of the data folder: a Merkle tree over its measurements that grows behind the commits,
+/// and its head, signed at most once a second. Writers never wait for it. Thread-safe.
+class LogService {
+ public:
+  /// Reads the log's name and keys, makes them at the first start, and signs what the tree has.
+  /// What was stored and is not in it follows in the background.
+  /// @errors StorageUnavailable, StorageCorrupt, KeyMalformed.
+  static Result<std::unique_ptr<LogService>> open(store::Database& database,
+                                                  const TableCatalog& tables, const Clock& clock,
+                                                  LogOptions options);
+  ~LogService();
+
+  /// What the ids of this folder end with: the first 16 hexadecimal digits of its origin.
+  std::string_view origin() const { return origin_; }
+  /// Rows up to this id, from before the log, do not carry their leaf.
+  std::int64_t chained() const { return chained_; }
+
+  /// Starts the thread that lets the tree grow, and tells the head once a day from then on.
+  void start();
+  void stop();
+  /// There may be new measurements. Called after each commit; does not block.
+  void committed();
+
+  struct Head {
+    tlog::Checkpoint checkpoint;
+    std::string note;  ///< the checkpoint, signed
+  };
+  /// @pre not attached.
+  std::shared_ptr<const Head> head() const { return head_.get(); }
+  std::string head_text() const;  ///< for people
+
+  /// The public keys, one a line, the newest first.
+  std::string verifier_keys() const;
+
+  template <class T>
+  using Done = std::function<void(Result<T>)>;
+
+  struct Proof {
+    std::uint64_t index = 0;
+    tlog::Hash leaf{};
+    std::vector<tlog::Hash> path;
+    std::shared_ptr<const Head> head;
+  };
+  /// That a measurement stands in the tree of a signed head. Waits up to 1.1 s for a head that has
+  /// it. @errors MeasurementUnknown, StorageUnavailable, StorageBusy.
+  void prove(std::int64_t id, Done<Proof> done);
+
+  struct TileBytes {
+    std::string bytes;
+    bool is_full = false;  ///< it never changes
+  };
+  /// @param path what stands behind `tile/`. @errors NotFound; those of storage.
+  void tile(std::string_view path, Done<TileBytes> done);
+
+  /// What verification needs to know of the log, as it is now.
+  struct Facts {
+    std::string name;
+    std::int64_t chained = 0;
+    std::int64_t size = 0;
+    std::vector<tlog::VerifierKey> keys;
+  };
+  static Result<Facts> facts(store::Database& database);
+
+ private:
+  using Steady = std::chrono::steady_clock;
+  struct Waiter {
+    std::int64_t id = 0;
+    Steady::time_point deadline;
+    Done<Proof> done;
+  };
+
+  LogService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+             LogOptions options);
+
+  Result<void> load();
+  Result<void> load_keys(const std::vector<std::string>& known);
+  void set_aside(std::string_view name, std::string_view why);
+  void look_at_older_checkpoint();
+  RowNames row_names() const;
+  void run(const std::stop_token& stop);
+  Steady::time_point next_wake() const;
+  Result<void> grow(const std::stop_token& stop);
+  struct Stretch;
+  Result<void> take_leaves(const std::stop_token& stop, Stretch& stretch);
+  void sign();
+  void tell(std::string_view event, const std::string& detail) const;
+  void end_waiters(std::unique_lock<std::mutex>& lock);
+  Result<Proof> read_proof(const store::Stores& stores, std::int64_t id);
+
+  store::Database& database_;
+  const TableCatalog& tables_;
+  const Clock& clock_;
+  const LogOptions options_;
+  std::string origin_;
+  std::string name_;
+  std::int64_t chained_ = 0;
+  std::vector<tlog::SigningKey> signers_;  ///< the key in use, and once the one before
+  Snapshot<std::string> verifier_keys_;
+  Snapshot<Head> head_;
+  tlog::Frontier frontier_;  ///< of the thread
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool dirty_ = true;
+  bool stopped_ = false;
+  Steady::time_point next_signing_{};
+  Steady::time_point next_telling_{};
+  std::vector<Waiter> waiters_;
+  std::jthread thread_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,25 @@
+#include "base/json_escape.hpp"
+
+#include <string_view>
+
+namespace fitgauge {
+
+char* write_escape(char* to, char c) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  *to++ = '\\';
+  switch (byte) {
+    case '"':
+    case '\\': *to++ = c; break;
+    case '\b': *to++ = 'b'; break;
+    case '\t': *to++ = 't'; break;
+    case '\n': *to++ = 'n'; break;
+    case '\f': *to++ = 'f'; break;
+    case '\r': *to++ = 'r'; break;
+    default:
+      for (const char digit : {'u', '0', '0', kHex[byte >> 4], kHex[byte & 15]}) *to++ = digit;
+  }
+  return to;
+}
+
+}  // namespace fitgauge
