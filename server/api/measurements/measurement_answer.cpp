@@ -1,7 +1,6 @@
 #include "api/measurements/measurement_answer.hpp"
 
 #include "api/measurements/measurement_codec.hpp"
-#include "app/measurements/record.hpp"
 
 namespace fitgauge::api {
 
@@ -10,7 +9,8 @@ void MeasurementAnswer::expect(std::size_t body_size) {
   if (wanted_ == Preference::Representation) answer_.body.reserve(kRecordPerRow * body_size);
 }
 
-void MeasurementAnswer::add(std::span<const app::Measurement> measurements) {
+void MeasurementAnswer::add(std::span<const app::Measurement> measurements,
+                            std::string_view records) {
   const auto id_of = [](const app::Measurement& m) {
     return app::measurement_id_text(m.id, m.origin);
   };
@@ -18,9 +18,9 @@ void MeasurementAnswer::add(std::span<const app::Measurement> measurements) {
   last_id_ = id_of(measurements.back());
   if (lists_records()) {
     answer_.body += count_ == 0 ? R"({"measurements":[)" : ",";
-    append_measurements(answer_.body, measurements);
+    answer_.body += records;
   } else if (single_ && wanted_ != Preference::Minimal) {
-    app::append_record(answer_.body, measurements.front());
+    answer_.body += records;
   }
   count_ += static_cast<std::int64_t>(measurements.size());
   for (const app::Measurement& m : measurements) {

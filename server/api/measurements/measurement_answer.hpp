@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "api/wire/request_facts.hpp"
 #include "app/measurements/measurement_service.hpp"
@@ -22,7 +23,7 @@ class MeasurementAnswer final : public app::Rendering {
   /// Takes room for the answer to a list of so many bytes.
   void expect(std::size_t body_size);
 
-  void add(std::span<const app::Measurement> measurements) override;
+  void add(std::span<const app::Measurement> measurements, std::string_view records) override;
   app::Answer finish() override;
 
  private:

@@ -1,7 +1,6 @@
 #include "api/measurements/measurement_codec.hpp"
 
 #include "api/wire/csv_reader.hpp"
-#include "app/measurements/record.hpp"
 #include "base/decimal.hpp"
 
 namespace fitgauge::api {
@@ -65,14 +64,6 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   text(m.correction_of ? app::measurement_id_text(*m.correction_of, m.origin) : "");
   append_csv_text(out, m.correction_reason.value_or(""));
   out += "\r\n";
-}
-
-void append_measurements(std::string& out, std::span<const Measurement> measurements) {
-  app::RecordWriter writer(out);
-  for (const Measurement& m : measurements) {
-    if (&m != &measurements.front()) out += ',';
-    writer.append(m);
-  }
 }
 
 void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,

@@ -13,9 +13,6 @@ namespace fitgauge::api {
 std::string measurement_csv_header();
 void append_measurement_csv(std::string& out, const app::Measurement& measurement);
 
-/// Appends records with a comma between two; none before the first.
-void append_measurements(std::string& out, std::span<const app::Measurement> measurements);
-
 /// Writes `"verdicts":{…}`.
 void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,
                           std::int64_t reject, std::int64_t indeterminate);

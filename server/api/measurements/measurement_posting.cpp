@@ -100,14 +100,12 @@ void record(const SharedPosting& posting, MeasurementBatch batch) {
   const Preference wanted = preference_of(posting->request);
   posting->services.measurements.record(
       std::move(batch.rows), posting->scope,
-      [single = batch.single, wanted,
-       texts = std::move(batch.texts)](std::span<const app::Measurement> stored) {
-        MeasurementAnswer rendering(wanted);
-        rendering.set_single(single);
-        rendering.add(stored);
-        return rendering.finish();
+      [single = batch.single, wanted] {
+        auto rendering = std::make_unique<MeasurementAnswer>(wanted);
+        rendering->set_single(single);
+        return rendering;
       },
-      [posting, wanted](Result<app::Answer> answer) {
+      [posting, wanted, texts = std::move(batch.texts)](Result<app::Answer> answer) {
         if (!answer) return posting->responder.fail(answer.error());
         posting->responder.answer(response_of(*std::move(answer), wanted));
       });

@@ -9,6 +9,7 @@ std::span<const tlog::Hash> LeafMaker::operator()(std::span<const Measurement> m
   leaves_.clear();
   RecordWriter writer(records_);
   for (const Measurement& measurement : measurements) {
+    if (!leaves_.empty()) records_ += ',';
     const std::size_t begin = records_.size();
     writer.append(measurement);
     leaves_.push_back(hasher_.leaf(std::string_view(records_).substr(begin)));

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/measurements/measurement.hpp"
@@ -9,8 +10,8 @@
 
 namespace fitgauge::app {
 
-/// Makes the leaves of the log: SHA-256(0x00 || the record as its POST answers it). Not
-/// thread-safe.
+/// Makes the leaves of the log: SHA-256(0x00 || the record as its POST answers it). The records are
+/// written once, for the leaves and for the answer. Not thread-safe.
 class LeafMaker {
  public:
   /// @param measurements with their ids. @returns a leaf for each, valid until the next call.
@@ -18,6 +19,8 @@ class LeafMaker {
   tlog::Hash operator()(const Measurement& measurement) {
     return (*this)({&measurement, 1}).front();
   }
+  /// The records of the last call, with commas between them; valid until the next.
+  std::string_view records() const { return records_; }
 
  private:
   std::string records_;

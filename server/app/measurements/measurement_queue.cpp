@@ -9,16 +9,17 @@
 namespace fitgauge::app {
 namespace {
 
-void store_all(store::Stores& stores, std::string_view origin,
+void store_all(store::Stores& stores, std::string_view origin, LeafMaker& leaves,
                std::vector<MeasurementQueue::Request>& requests) {
   std::vector<store::MeasurementRow> rows;
   rows.reserve(requests.size());
-  LeafMaker leaves;
   std::int64_t id = stores.measurements.last_id() + 1;
   for (auto& request : requests) {
     id = number_from(id, origin, request.measurements);
     append_rows(rows, request.measurements, request.revision, leaves);
-    request.answer = request.render(request.measurements);
+    const auto rendering = request.render();
+    rendering->add(request.measurements, leaves.records());
+    request.answer = rendering->finish();
   }
   stores.measurements.append(rows).value();
 }
@@ -43,7 +44,7 @@ void MeasurementQueue::submit(const std::shared_ptr<Load>& load) {
   database_.writer().submit(
       [self = shared_from_this(), load](store::Stores& stores) -> Result<bool> {
         self->close(load);
-        store_all(stores, self->origin_, *load);
+        store_all(stores, self->origin_, self->leaves_, *load);
         return true;
       },
       [self = shared_from_this(), load](const Result<bool>& stored) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/log/leaf.hpp"
 #include "app/measurements/measurement_service.hpp"
 
 namespace fitgauge::app {
@@ -50,6 +51,7 @@ class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
   const std::string_view origin_;
   const std::size_t most_waiting_;
   const bool each_apart_;
+  LeafMaker leaves_;  ///< of the writer thread
   std::mutex mutex_;
   std::shared_ptr<Load> open_;  ///< of the job that has not begun; null when there is none
 };

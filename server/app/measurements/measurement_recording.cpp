@@ -93,9 +93,10 @@ void MeasurementService::record(std::vector<Measurement> measurements,
   }
   auto work = [measurements = std::move(measurements), revision, origin = origin_,
                render = std::move(render)](store::Stores& stores) mutable -> Result<Answer> {
-    const auto first = append(stores, measurements, revision, origin);
+    const auto rendering = render();
+    const auto first = append(stores, measurements, revision, origin, rendering.get());
     if (!first) return first.error();
-    return render(measurements);
+    return rendering->finish();
   };
   submit(scope, std::move(work), std::move(done));
 }
@@ -120,7 +121,7 @@ Result<Answer> MeasurementService::record_while_reading(
     piece.reserve(measurements.size());
     append_rows(piece, measurements, revision_of(measurements, tables_), leaves);
     feed->put(std::move(piece));
-    rendering.add(measurements);
+    rendering.add(measurements, leaves.records());
   };
   Result<void> complete;
   try {

@@ -101,7 +101,8 @@ struct MeasurementServiceOptions {
   bool commit_each = false;         ///< every request its own commit: the benchmark's peer
 };
 
-/// Makes the answer to a long request while it is being read. Used by one thread.
+/// Makes the answer to a request from its measurements, which may come in pieces. Used by one
+/// thread.
 class Rendering {
  public:
   Rendering() = default;
@@ -110,7 +111,8 @@ class Rendering {
   virtual ~Rendering() = default;
 
   /// The next measurements, with their ids.
-  virtual void add(std::span<const Measurement> measurements) = 0;
+  /// @param records what is stored of them: their JSON, with commas between them.
+  virtual void add(std::span<const Measurement> measurements, std::string_view records) = 0;
   virtual Answer finish() = 0;
 };
 
@@ -130,8 +132,8 @@ class MeasurementService {
 
   template <class T>
   using Done = std::function<void(Result<T>)>;
-  /// Makes the answer from the stored measurements; called on the writer thread before the commit.
-  using Render = std::function<Answer(std::span<const Measurement>)>;
+  /// Begins an answer; called on the writer thread, and again if the storing is tried again.
+  using Render = std::function<std::unique_ptr<Rendering>()>;
 
   /// The answer kept for this request, or none. @errors IdempotencyKeyReused, StorageUnavailable.
   void find_answer(const IdempotencyScope& scope, Done<std::optional<Answer>> done);

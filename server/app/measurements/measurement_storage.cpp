@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/measurements/mapping.hpp"
+#include "app/measurements/measurement_service.hpp"
 #include "app/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
@@ -51,7 +52,8 @@ void append_rows(std::vector<store::MeasurementRow>& rows,
 }
 
 Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
-                            std::optional<std::int64_t> revision, std::string_view origin) {
+                            std::optional<std::int64_t> revision, std::string_view origin,
+                            Rendering* rendering) {
   const std::int64_t first = stores.measurements.last_id() + 1;
   number_from(first, origin, measurements);
   LeafMaker leaves;
@@ -65,6 +67,7 @@ Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measur
       return corrected_before(stores, *rows.front().correction_of, origin);
     }
     if (!appended) return appended.error();
+    if (rendering != nullptr) rendering->add(measurements.first(count), leaves.records());
     measurements = measurements.subspan(count);
   }
   return first;

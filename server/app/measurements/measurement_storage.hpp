@@ -13,6 +13,7 @@
 
 namespace fitgauge::app {
 
+class Rendering;
 class TableCatalog;
 
 /// So many that their rows stay in the cache.
@@ -32,10 +33,12 @@ void append_rows(std::vector<store::MeasurementRow>& rows,
                  std::span<const Measurement> measurements, std::optional<std::int64_t> revision,
                  LeafMaker& leaves);
 
-/// Numbers and stores measurements. @returns the id of the first.
+/// Numbers and stores measurements.
+/// @param rendering takes them, if there is one. @returns the id of the first.
 /// @errors MeasurementUnknown and MeasurementCorrected of a correction.
 Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
-                            std::optional<std::int64_t> revision, std::string_view origin);
+                            std::optional<std::int64_t> revision, std::string_view origin,
+                            Rendering* rendering = nullptr);
 
 /// More waits to be stored than may.
 Error too_much_work();

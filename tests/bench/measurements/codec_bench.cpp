@@ -14,6 +14,7 @@
 
 #include "api/measurements/measurement_answer.hpp"
 #include "api/measurements/measurement_batch.hpp"
+#include "app/measurements/record.hpp"
 #include "http/request.hpp"
 #include "iso286/designation.hpp"
 
@@ -56,7 +57,13 @@ std::string ours() {
   decoded.value();
   api::MeasurementAnswer answer(api::Preference::Representation);
   answer.expect(request_body().size());
-  answer.add(batch.rows);
+  std::string records;
+  app::RecordWriter writer(records);
+  for (const app::Measurement& m : batch.rows) {
+    if (!records.empty()) records += ',';
+    writer.append(m);
+  }
+  answer.add(batch.rows, records);
   return answer.finish().body;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/log/leaf.hpp"
 #include "app/measurements/record.hpp"
 
 using namespace fitgauge;
@@ -66,9 +67,10 @@ TEST_CASE("records with the times and limits of the one before or others are as 
   rows[5].source = app::Source::Simulation;
   std::string each;
   for (const app::Measurement& m : rows) each += (each.empty() ? "" : ",") + record(m);
-  std::string together;
-  append_measurements(together, rows);
-  CHECK(together == each);
+  app::LeafMaker leaves;
+  const auto made = leaves(rows);
+  CHECK(leaves.records() == each);
+  for (std::size_t i = 0; i < rows.size(); ++i) CHECK(made[i] == tlog::leaf_hash(record(rows[i])));
 }
 
 TEST_CASE("every character of a text is written as a JSON string has it") {
