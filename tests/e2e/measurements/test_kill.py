@@ -1,4 +1,5 @@
-"""kill -9 at random moments under 8 writers: every acknowledged value is there exactly once.
+"""kill -9 at random moments under 8 writers: every acknowledged value is there exactly once, and the log goes on from
+each head that was signed.
 
 $KILL_ROUNDS sets the rounds, 20 when absent; $SEED repeats the moments of a run.
 """
@@ -22,22 +23,27 @@ class Kill(unittest.TestCase):
         daemon = Daemon()
         self.addCleanup(daemon.cleanup)
         daemon.start()
+        heads = []
         with Writers(daemon) as writers:
             for number in range(ROUNDS):
                 time.sleep(generator.uniform(0.02, 0.4))
+                heads.append(daemon.folder / f"head-{number}")
+                heads[-1].write_text(daemon.get("/v1/log/checkpoint").text)
                 daemon.kill()
                 # The file as the kill left it, before the service looks at it again.
                 if number % 5 == 0:
-                    self.verify(daemon)
+                    self.verify(daemon, heads)
                 daemon.start()
         self.assertEqual(writers.refused, [])
         self.assertGreater(len(writers.acknowledged), ROUNDS)
         lost, doubled = compare(writers.acknowledged, daemon.stored())
         self.assertEqual((lost, doubled), ([], []))
-        self.verify(daemon)
+        self.verify(daemon, heads)
+        sizes = {int(head.read_text().split("\n")[1]) for head in heads}
+        self.assertGreater(len(sizes), 1, "the log did not grow")
         self.assertEqual(daemon.stop(), 0)
         print(f"{len(writers.acknowledged)} acknowledged values, all there once")
 
-    def verify(self, daemon):
-        verified = daemon.command("verify")
+    def verify(self, daemon, heads):
+        verified = daemon.command("verify", *(word for head in heads for word in ("--checkpoint", head)))
         self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)

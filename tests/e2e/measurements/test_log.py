@@ -4,6 +4,7 @@ import base64
 import json
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -280,6 +281,63 @@ class Tampered(StorageTest):
         self.assertIn('"event":"log_behind"', self.daemon.log)
         self.assertEqual(self.daemon.stop(), 0)
         self.assert_found("an older copy was put back", self.kept)
+
+
+class Tamperings(StorageTest):
+    """Tamperings by chance, each of which a checkpoint kept elsewhere shows. $TAMPERINGS sets how many, $SEED repeats."""
+
+    ROWS = 300
+    CHANGES = ("measured_nm = measured_nm + 1", "received_at = received_at - 1", "part_id = 'SN-2'", "comment = ' '",
+               "operator = '7'", "upper_deviation_nm = upper_deviation_nm + 1", "caller = 'x'", "cycle = 421")
+
+    def stored(self, rows):
+        daemon = self.make_daemon()
+        daemon.start()
+        self.assertEqual(daemon.measure([PART] * rows).status, 201)
+        note = wait_for_size(daemon, rows)
+        return daemon, note
+
+    def tamper(self, chance, data, older, twin):
+        """Does one thing to a copy of the folder. @returns what."""
+        row, other = chance.sample(range(1, self.ROWS), 2)
+        hide = ("UPDATE log SET size = (SELECT max(id) FROM measurements), seal = NULL", "DELETE FROM measurement_nodes",
+                "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates")
+        swap = [f"UPDATE measurements SET id = {to} WHERE id = {at}" for at, to in ((row, 900), (other, row), (900, other))]
+        change = f"UPDATE measurements SET {chance.choice(self.CHANGES)} WHERE id = {row}"
+        what = chance.choice(("alter", "swap", "delete", "cut", "older", "rewrite"))
+        if what in ("older", "rewrite"):
+            shutil.rmtree(data)
+            shutil.copytree(older if what == "older" else twin, data)
+            return what
+        (data / "fitgauge.checkpoint").unlink()
+        statements = {"alter": [change], "swap": swap, "delete": [f"DELETE FROM measurements WHERE id = {row}"],
+                      "cut": [f"DELETE FROM measurements WHERE id > {row}", *hide]}[what]
+        alter(data / "fitgauge.db", *UNTRIGGERED, *statements)
+        return f"{what}: {statements[0]}"
+
+    def test_each_is_found(self):
+        count, seed = int(os.environ.get("TAMPERINGS", "12")), int(os.environ.get("SEED", time.time_ns() % 1_000_000))
+        print(f"seed {seed}, {count} tamperings")
+        chance = random.Random(seed)
+        daemon, _ = self.stored(self.ROWS - 50)
+        self.assertEqual(daemon.stop(), 0)
+        older = daemon.folder / "older"
+        shutil.copytree(daemon.data, older)
+        daemon.start()
+        daemon.measure([PART] * 50)
+        kept = daemon.folder / "kept"
+        kept.write_text(wait_for_size(daemon, self.ROWS))
+        self.assertEqual(daemon.stop(), 0)
+        twin, _ = self.stored(self.ROWS)
+        self.assertEqual(twin.stop(), 0)
+        self.assertEqual(daemon.command("verify", "--checkpoint", kept).returncode, 0)
+        for number in range(count):
+            data = daemon.folder / f"copy-{number}"
+            shutil.copytree(daemon.data, data)
+            what = self.tamper(chance, data, older, twin.data)
+            verified = command("verify", "--data", data, "--checkpoint", kept)
+            self.assertEqual(verified.returncode, 1, f"{what}\n{verified.stdout}{verified.stderr}")
+            shutil.rmtree(data)
 
 
 class Keys(StorageTest):
