@@ -198,6 +198,8 @@ export default {
   'certificate.basis': 'Grenzmaße nach ISO 286-1 oder nach Zeichnung, Tabellenstand {revisions}. Werte und Grenzmaße in mm.',
   'certificate.inspected': 'Geprüft: Name, Datum, Unterschrift',
   'certificate.approved': 'Freigegeben: Name, Datum, Unterschrift',
+  'certificate.proof': 'Der neueste dieser Werte ist Zeile {row} von {size} im signierten Protokoll {origin} mit dem Wurzelhash darunter. Der Code führt zum Beweis.',
+  'certificate.proof_code': 'Code mit der Adresse des Beweises',
   'certificate.too_many': 'Ein Prüfzeugnis hat höchstens {most} Werte: Teil oder Auftrag nennen.',
 
   'programs.files': 'Dateien der Steuerung',

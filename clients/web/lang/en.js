@@ -198,6 +198,8 @@ export default {
   'certificate.basis': 'Limits of size by ISO 286-1 or by the drawing, table revision {revisions}. Values and limits in mm.',
   'certificate.inspected': 'Inspected: name, date, signature',
   'certificate.approved': 'Approved: name, date, signature',
+  'certificate.proof': 'The newest of these values is row {row} of {size} in the signed log {origin}, with the root hash below. The code leads to its proof.',
+  'certificate.proof_code': 'Code with the address of the proof',
   'certificate.too_many': 'A certificate has at most {most} values: name the part or the order.',
 
   'programs.files': 'Files of the control',

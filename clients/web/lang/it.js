@@ -198,6 +198,8 @@ export default {
   'certificate.basis': 'Dimensioni limite secondo ISO 286-1 o secondo il disegno, revisione delle tabelle {revisions}. Valori e limiti in mm.',
   'certificate.inspected': 'Controllato: nome, data, firma',
   'certificate.approved': 'Approvato: nome, data, firma',
+  'certificate.proof': 'Il più recente di questi valori è la riga {row} di {size} nel registro firmato {origin} con l’hash radice qui sotto. Il codice porta alla prova.',
+  'certificate.proof_code': 'Codice con l’indirizzo della prova',
   'certificate.too_many': 'Un certificato ha al massimo {most} valori: indica il pezzo o l’ordine.',
 
   'programs.files': 'File del controllo',

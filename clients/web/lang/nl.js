@@ -198,6 +198,8 @@ export default {
   'certificate.basis': 'Grensmaten volgens ISO 286-1 of volgens de tekening, tabelrevisie {revisions}. Waarden en grensmaten in mm.',
   'certificate.inspected': 'Gekeurd: naam, datum, handtekening',
   'certificate.approved': 'Vrijgegeven: naam, datum, handtekening',
+  'certificate.proof': 'De nieuwste van deze waarden is regel {row} van {size} in het ondertekende logboek {origin} met de wortelhash hieronder. De code leidt naar het bewijs.',
+  'certificate.proof_code': 'Code met het adres van het bewijs',
   'certificate.too_many': 'Een certificaat heeft hoogstens {most} waarden: noem het deel of de order.',
 
   'programs.files': 'Bestanden van de besturing',

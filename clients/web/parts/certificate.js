@@ -6,6 +6,7 @@ import { h } from '../dom.js';
 import { gaugeInUse, gaugeText } from '../gauge/in_use.js';
 import { dateTime, has, number, signed, t } from '../i18n.js';
 import { limitsText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
+import { qrCode } from './qr_code.js';
 
 const PAGE = 1000;
 const MOST = 5000;
@@ -19,6 +20,7 @@ export async function certificate(of, signal) {
   const revisions = [...new Set(records.map((record) => record.table_revision).filter(Boolean))];
   const names = [...new Set(records.map(({ gauge }) => gauge).filter(Boolean))];
   const gauges = (await Promise.all(names.map((name) => gaugeInUse(name, signal)))).filter(Boolean);
+  const proof = await proofOf(records.at(-1), signal);
   return h('article.certificate', { 'aria-labelledby': 'certificate-title' },
     h('header', h('h2', { id: 'certificate-title', tabindex: -1 }, t('certificate.title')),
       h('button.primary', { type: 'button', onclick: () => print() }, t('certificate.print'))),
@@ -29,6 +31,7 @@ export async function certificate(of, signal) {
       h('table', h('thead', h('tr', HEAD.map((name) => h('th', { scope: 'col' }, t(name))))), h('tbody', records.map(row)))),
     gauges.length > 0 && h('ul.gauges', gauges.map((gauge) => h('li', { class: gauge.overdue && 'overdue' }, gaugeText(gauge)))),
     h('p.aside', t('certificate.basis', { revisions: revisions.join(', ') || '–' })),
+    proof,
     h('div.signatures', ['certificate.inspected', 'certificate.approved'].map((name) => h('p', t(name)))));
 }
 
@@ -43,6 +46,21 @@ async function recordsOf({ part_id, order }, signal) {
   } while (after && records.length < MOST);
   if (after) throw new Error(t('certificate.too_many', { most: MOST }));
   return records;
+}
+
+/** Where the newest value stands in the signed log, with the way to its proof; null where there is no log. */
+async function proofOf({ id }, signal) {
+  const place = url(['measurements', id, 'proof']);
+  try {
+    const { index, checkpoint } = await getJson(place, { signal });
+    const [origin, size, root] = checkpoint.split('\n');
+    const address = new URL(place, location.href).href;
+    return h('section.proof', qrCode(address, t('certificate.proof_code')),
+      h('div', h('p', t('certificate.proof', { row: index + 1, size, origin })), h('code', root), h('p.aside', address)));
+  } catch (problem) {
+    if (problem.status) return null;
+    throw problem;
+  }
 }
 
 const fact = (name, value) => value && h('p', h('span.label', t(name)), h('strong', value));

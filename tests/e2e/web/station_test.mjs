@@ -5,6 +5,7 @@ import { after, afterEach, before, beforeEach, describe, it } from 'node:test';
 
 import { close, launch, open, openIn, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
+import { modulesOf, read } from './support/qr_reader.mjs';
 
 describe('a station with a scanner', () => {
   let browser;
@@ -298,6 +299,15 @@ describe('a gauge in use', () => {
     await page.click('.parts button:has-text("Certificate")');
     await page.waitForSelector('.certificate .gauges');
     assert.equal(await page.textContent('.certificate .gauges'), 'G-07 calibrated until 31 Mar 2099 · u = 0.5 µm');
+    const [record] = await daemon.stored('part_id=SN-3');
+    const [drawing, size] = await page.$eval('.qr', (code) => [code.firstChild.getAttribute('d'), code.viewBox.baseVal.width]);
+    assert.equal(read(modulesOf(drawing, size)).data, `${daemon.url}/v1/measurements/${record.id}/proof`);
+    const { index, checkpoint } = await daemon.json(`/v1/measurements/${record.id}/proof`);
+    const [origin, , root] = checkpoint.split('\n');
+    const said = await page.textContent('.proof');
+    assert.match(said, /row 2 of 2 /);
+    assert.equal(index, 1);
+    assert.ok(said.includes(origin) && said.includes(root), said);
     await picture(page, 'certificate', { fullPage: true });
     await close(page);
   });
