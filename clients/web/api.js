@@ -42,8 +42,9 @@ async function problemOf(response) {
  * One request. A 401 asks for a key and repeats it; the key lives as long as the window.
  * @param body text, bytes, or an object that is sent as JSON
  * @param timeout in ms, of each attempt
+ * @param asks whether a 401 asks for a key: not for what is only convenient
  */
-export async function request(method, path, { body, headers = {}, signal, timeout } = {}) {
+export async function request(method, path, { body, headers = {}, signal, timeout, asks = true } = {}) {
   const isJson = body !== undefined && Object.getPrototypeOf(body) === Object.prototype;
   const sent = isJson ? toJson(body) : body;
   const type = isJson ? { 'Content-Type': 'application/json' } : {};
@@ -58,9 +59,10 @@ export async function request(method, path, { body, headers = {}, signal, timeou
     const problem = await problemOf(response);
     if (response.status !== 401) throw problem;
     if (key) forget(KEY, 'session');
-    const entered = await askForKey(problem);
+    const entered = asks && await askForKey(problem);
     if (!entered) throw problem;
     store(KEY, entered, 'session');
+    dispatchEvent(new Event('keyentered'));
   }
 }
 

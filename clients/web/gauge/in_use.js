@@ -9,17 +9,17 @@ const endOf = (due) => new Date(due.length === 10 ? `${due}T23:59:59Z` : due);
 
 /** The names of the gauges in use; none where the service cannot say. */
 export const gaugeNames = async (signal) =>
-  (await getJson(url(['gauges-in-use']), { signal }).catch(() => ({ gauges: [] }))).gauges.map(({ name }) => name);
+  (await getJson(url(['gauges-in-use']), { signal, asks: false }).catch(() => ({ gauges: [] }))).gauges.map(({ name }) => name);
 
 /** {name, due, overdue, uncertainty_um} of a gauge in use; null where it is none. */
 export async function gaugeInUse(name, signal) {
   if (!name) return null;
   try {
-    const gauge = await getJson(url(['gauges-in-use', name]), { signal });
+    const gauge = await getJson(url(['gauges-in-use', name]), { signal, asks: false });
     const due = endOf(gauge.calibration_due);
     return { name, due, overdue: due < connection.now(), uncertainty_um: await uncertaintyOf(gauge.uncertainty, signal) };
   } catch (problem) {
-    if (problem.status === 404 || problem.status === undefined) return null;
+    if ([401, 404, undefined].includes(problem.status)) return null;
     throw problem;
   }
 }

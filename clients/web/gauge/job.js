@@ -1,7 +1,7 @@
 /** What is gauged: the part first, then size and class, and the fields that go into every record. */
 
 import { explain, number, t } from '../i18n.js';
-import { field, h } from '../dom.js';
+import { field, h, refill } from '../dom.js';
 import { getJson, url } from '../api.js';
 import { Latest } from '../latest.js';
 import { parseDesignation } from '../designation.js';
@@ -13,10 +13,17 @@ import { PREFIXES } from './reading.js';
 
 const ECHO_MS = 150;
 const COVERAGE = 2;
+const MOST_OFFERED = 200;
 const KEPT_LIMITS = 'limits';
 const KEPT_PREFIXES = 'prefixes';
 const SIDE_FIELDS = ['characteristic', 'order', 'operation', 'machine', 'operator', 'gauge'];
 export const FIELDS = ['part_id', ...SIDE_FIELDS];
+
+/** The values a field had in records, for its pick list. */
+const recordedNames = async (name) => {
+  const { groups } = await getJson(url(['measurements', 'summary'], { group_by: name }), { asks: false });
+  return groups.map((group) => group[name]).filter(Boolean).slice(0, MOST_OFFERED);
+};
 
 export class Job {
   /** @param onChange is told of every change, with whether another thing is gauged now; @param onDone when Enter ends the typing */
@@ -47,8 +54,8 @@ export class Job {
     }
     this.given = h('p.aside');
     this.gaugeNote = h('p.gauge-note', { role: 'status' });
-    this.gauges = h('datalist', { id: 'gauges-in-use' });
-    this.inputs.gauge.setAttribute('list', 'gauges-in-use');
+    this.offered = Object.fromEntries(SIDE_FIELDS.map((name) => [name, h('datalist', { id: `offered-${name}` })]));
+    for (const name of SIDE_FIELDS) this.inputs[name].setAttribute('list', this.offered[name].id);
     this.more = h('details.more', h('summary', t('job.more')),
       h('div.fields', SIDE_FIELDS.map((name) => field(t(`field.${name}`), this.inputs[name])),
         field(t('field.rule'), this.rule), field(t('field.uncertainty_um'), this.uncertainty)),
@@ -62,7 +69,7 @@ export class Job {
         onDone();
       },
     }, h('div.line', field(t('field.part_id'), this.inputs.part_id), field(t('job.designation'), this.input), this.echo),
-    h('div.more-line', this.more, this.given, this.gaugeNote), this.gauges,
+    h('div.more-line', this.more, this.given, this.gaugeNote), Object.values(this.offered),
     h('button.unseen', { type: 'submit', tabindex: -1 }, t('entry.judge')));
     this.uncertainty.disabled = this.rule.value === 'simple';
     this.gauged = this.#gauged();
@@ -72,7 +79,24 @@ export class Job {
   start(leaving) {
     this.asking = new Latest(leaving);
     this.#look();
-    gaugeNames(leaving).then((names) => this.gauges.replaceChildren(...names.map((name) => h('option', { value: name }))), () => {});
+    this.#lookAtGauge();
+    this.more.addEventListener('toggle', () => this.more.open && this.#offer());
+  }
+
+  /** Offers what can be chosen: the gauges in use, and in the other fields what was recorded before. */
+  #offer() {
+    const offers = (name, values) => refill(this.offered[name], values.map((value) => h('option', { value })));
+    gaugeNames().then((names) => offers('gauge', names), () => {});
+    for (const name of SIDE_FIELDS.filter((each) => each !== 'gauge')) {
+      recordedNames(name).then((values) => offers(name, values), () => {});
+    }
+  }
+
+  /** A key was entered: what needed one can be asked now. */
+  keyed() {
+    this.gaugeShown = undefined;
+    this.#lookAtGauge();
+    if (this.more.open) this.#offer();
   }
 
   /** Leaves the room to the verdict. */

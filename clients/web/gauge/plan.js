@@ -42,7 +42,7 @@ export class Plan {
   /** Asks which plans there are; keeps the list for when the service is away. */
   async list() {
     try {
-      this.known = (await getJson(url(['plans']))).plans;
+      this.known = (await getJson(url(['plans']), { asks: false })).plans;
       store(KEPT_LIST, JSON.stringify(this.known));
     } catch {
       this.known = readJson(KEPT_LIST, []);

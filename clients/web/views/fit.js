@@ -2,11 +2,12 @@
 
 import { getJson, url } from '../api.js';
 import { parseFit } from '../designation.js';
-import { field, h, refill } from '../dom.js';
+import { copyText, field, h, refill } from '../dom.js';
 import { followTables } from '../events.js';
 import { mmText, nmFromMm, nmFromUm, parseMeasured, umText } from '../exact.js';
 import { ClassMap } from '../fit/class_map.js';
 import { clearanceBar } from '../fit/clearance_bar.js';
+import { drawingText, Finder } from '../fit/finder.js';
 import { preferredFits } from '../fit/preferred.js';
 import { zoneFigure } from '../fit/zone_figure.js';
 import { explain, number, signed, t } from '../i18n.js';
@@ -32,11 +33,12 @@ export function mount(main, route) {
   const figure = h('figure');
   const preferred = h('div');
   const maps = h('div.class-maps');
+  const finder = new Finder({ leaving: leaving.signal, sizeOf: () => state.size, onPick: pick });
   let classMaps = {};
   let drawn = () => {};
 
   main.replaceChildren(h('div.desk.fit', h('h1.unseen', { tabindex: -1 }, t('view.fit')),
-    h('div.main-column', h('div.sheet', figure), preferred),
+    h('div.main-column', h('div.sheet', figure), preferred, finder.element),
     h('div.side', h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); readTyped(); } },
       field(t('fit.label'), typed), note,
       h('div.pair', FEATURES.map((feature) => field(t(`fit.measured.${feature}`), measured[feature]))),
@@ -47,12 +49,14 @@ export function mount(main, route) {
 
   function readTyped() {
     const parsed = parseFit(typed.value);
+    if (parsed?.size !== state.size) finder.clear();
     if (parsed) pick(parsed);
     else nothing(t('error.fit.malformed'));
   }
 
   /** No result stands below a note that is about something else. */
   function nothing(reason) {
+    note.setAttribute('role', 'alert');
     note.textContent = reason;
     drawn = () => {};
     figure.replaceChildren();
@@ -104,7 +108,7 @@ export function mount(main, route) {
     const judged = await verdicts(fit, sizes, signal);
     drawn = () => figure.replaceChildren(zoneFigure(fit, sizes, figure.clientWidth), clearanceBar(fit, actual, figure.clientWidth));
     drawn();
-    result.replaceChildren(...summary(fit, actual), limitsTable(fit, judged));
+    result.replaceChildren(...summary(fit, actual), limitsTable(fit, judged, copy));
   }
 
   const verdicts = async (fit, sizes, signal) => Object.fromEntries(await Promise.all(FEATURES
@@ -113,6 +117,13 @@ export function mount(main, route) {
       const name = `${fit[feature].nominal_mm}${fit[feature].tolerance_class}`;
       return [feature, await getJson(url(['verdicts', name], { measured_mm: mmText(sizes[feature], 0) }), { signal })];
     })));
+
+  async function copy(limits) {
+    const text = drawingText(limits, (nm) => mmText(nm));
+    await copyText(text);
+    note.setAttribute('role', 'status');
+    note.textContent = t('fit.copied', { text });
+  }
 
   async function drawMaps() {
     const names = await classNames();
@@ -140,13 +151,23 @@ function summary(fit, actual) {
     h('p.headline', t(`fit.type.${fit.type}`)),
     h('dl', ...(most <= 0 ? [line(least, 'max'), line(most, 'min')]
       : least < 0 ? [line(most, 'max'), line(least, 'max')] : [line(most, 'max'), line(least, 'min')]),
+    h('div', h('dt', t('fit.probable')), h('dd', probable(fit).map((nm) => number(umText(nm))).join(' … '), ' µm')),
     Number.isFinite(actual) && h('div', h('dt', t(`fit.actual.${actual < 0 ? 'interference' : 'clearance'}`)), h('dd', um(actual)))),
   ];
 }
 
-function limitsTable(fit, verdicts) {
+/** The clearances of all but 0.27 % of the pairs, where sizes are normal, centred, and six standard deviations fill a tolerance. */
+function probable(fit) {
+  const [least, most] = [fit.min_clearance_um, fit.max_clearance_um].map(nmFromUm);
+  const half = Math.hypot(...FEATURES.map((feature) => nmFromUm(fit[feature].tolerance_um))) / 2;
+  // To a tenth of a micrometre: it is an estimate.
+  return [-half, half].map((from) => Math.round(((least + most) / 2 + from) / 100) * 100);
+}
+
+function limitsTable(fit, verdicts, onCopy) {
   return h('table.limits', h('tbody', FEATURES.map((feature) => h('tr',
     h('th', { scope: 'row' }, `${t(`feature.${feature}`)} ${fit[feature].tolerance_class}`),
     h('td', limitsText(fit[feature]), h('span.aside', `${signed(fit[feature].upper_deviation_um)} / ${signed(fit[feature].lower_deviation_um)} µm`)),
-    h('td', verdicts[feature] && verdictMark(verdicts[feature].verdict))))));
+    h('td', verdicts[feature] && verdictMark(verdicts[feature].verdict),
+      h('button.quiet', { type: 'button', 'aria-label': t('fit.copy_this', { size: `${number(fit[feature].nominal_mm)} ${fit[feature].tolerance_class}` }), onclick: () => onCopy(fit[feature]) }, t('fit.copy')))))));
 }

@@ -157,6 +157,10 @@ export function mount(main, route) {
   remember('gauge');
   job.start(leaving.signal);
   followTables(leaving.signal, () => job.renew());
+  addEventListener('keyentered', () => {
+    plan.list();
+    job.keyed();
+  }, { signal });
   plan.list().then(() => route.options.plan && choosePlan(route.options.plan));
   if (job.designation) entry.focus();
   else job.input.focus();

@@ -12,6 +12,7 @@ import { Daemon, sleep } from './support/daemon.mjs';
 const FOLDER = 'clients/web';
 const LARGEST_BYTES = 150000;
 const SMALLEST_TARGET = 44;
+const WIDTHS = [390, 1024, 1366];
 const VIEWS = {
   gauge: '#/gauge/25H7', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', overview: '#/overview', parts: '#/parts', programs: '#/programs/nc_prog/8255.h?setup=bore',
   tables: '#/tables/hole?find=25+H',
@@ -142,10 +143,13 @@ describe('the page', () => {
   for (const view of Object.keys(VIEWS)) {
     it(`${view}: axe-core finds nothing serious, fingers and the tabulator reach everything`, async () => {
       const page = await openView(view);
-      for (const colorScheme of ['light', 'dark']) {
-        await page.emulateMedia({ colorScheme });
-        assert.deepEqual(await findings(page), [], colorScheme);
-        await picture(page, `${view}-${colorScheme}`, { fullPage: true });
+      for (const width of WIDTHS) {
+        await page.setViewportSize({ width, height: 800 });
+        for (const colorScheme of ['light', 'dark']) {
+          await page.emulateMedia({ colorScheme });
+          assert.deepEqual(await findings(page), [], `${width} ${colorScheme}`);
+          await picture(page, `${view}-${width}-${colorScheme}`, { fullPage: true });
+        }
       }
       assert.deepEqual(await smallTargets(page), []);
       assert.deepEqual(await unreached(page), []);

@@ -49,13 +49,37 @@ describe('the fit', () => {
     await page.waitForSelector('.limits .mark-of');
     assert.equal(await page.textContent('.fit .headline'), 'Clearance fit');
     assert.deepEqual(await page.$$eval('.zones .um', (texts) => texts.map((text) => text.textContent)), ['+21', '0', '−7', '−20']);
-    assert.deepEqual(await page.$$eval('.fit dd', (values) => values.map((value) => value.textContent)), ['41 µm', '7 µm', '28 µm']);
+    assert.deepEqual(await page.$$eval('.fit dd', (values) => values.map((value) => value.textContent)), ['41 µm', '7 µm', '11.7 … 36.3 µm', '28 µm']);
     assert.equal((await page.$$('.zones .measured')).length, 2);
     await page.click('.preferred button:has-text("H7/s6")');
     await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Interference fit');
     assert.equal(hash(), '#/fit/25H7/s6?hole=25.013&shaft=24,985');
     await page.goBack();
     await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Clearance fit');
+  });
+
+  it('is found by the clearance it must have, and copied for a drawing', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/k6', { permissions: ['clipboard-read', 'clipboard-write'] });
+    await page.waitForSelector('.limits');
+    await page.fill('#find-least', '5');
+    await page.fill('#find-greatest', '45');
+    await page.click('.finder button[type="submit"]');
+    // ISO 286-2: of 25 mm, H7 is 0 to +21 and g6 -20 to -7, so their clearance is 7 to 41.
+    await page.waitForFunction(() => /^H7\/g6\+7 … \+41 µm/.test([...document.querySelectorAll('.found li')].find((item) => /^H7\/g6/.test(item.textContent))?.textContent ?? ''));
+    await page.click('.found button:text-is("H7/g6")');
+    await page.waitForFunction(() => document.querySelector('.headline').textContent === 'Clearance fit');
+    assert.match(hash(), /25H7\/g6/);
+    // Tolerances 21 and 13 about a mean of 24: their root of squares is 24.7.
+    assert.match(await page.textContent('.result dl'), /Probable, 99.73 %11\.7 … 36\.3 µm/);
+    for (const [feature, text] of [['H7', '⌀25 H7 (+0.021/0)'], ['g6', '⌀25 g6 (-0.007/-0.020)']]) {
+      await page.click(`.limits button[aria-label="Copy 25 ${feature} for a drawing"]`);
+      await page.waitForFunction((wanted) => document.querySelector('.side .note').textContent === `${wanted} is copied.`, text);
+      assert.equal(await page.evaluate(() => navigator.clipboard.readText()), text);
+    }
+    await page.fill('#find-greatest', 'wide');
+    await page.click('.finder button[type="submit"]');
+    await page.waitForFunction(() => /Type two numbers/.test(document.querySelector('.found-note').textContent));
+    await picture(page, 'fit-found', { fullPage: true });
   });
 
   it('draws a zone where the deviations say, to scale', async () => {
