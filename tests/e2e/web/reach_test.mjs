@@ -63,6 +63,18 @@ describe('the reach of the page', () => {
     });
   }
 
+  it('has its views in one line on tablets and desks, in every language', async () => {
+    for (const locale of ['en-GB', 'de-DE', 'nl-NL', 'it-IT']) {
+      const page = await openView('tables', { locale });
+      for (const width of [768, 1024, 1366]) {
+        await page.setViewportSize({ width, height: 768 });
+        const { height } = await page.$eval('.bar', (bar) => bar.getBoundingClientRect().toJSON());
+        assert.ok(height < 80, `${locale}, ${width} pixels: the bar is ${height} high`);
+      }
+      await close(page);
+    }
+  });
+
   it('shows a whole verdict on a phone', async () => {
     const page = await openView('gauge', { viewport: PHONE });
     await page.keyboard.type('25.0131\n');
