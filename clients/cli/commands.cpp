@@ -12,6 +12,7 @@
 #include "cli/measure_command.hpp"
 #include "cli/nc_commands.hpp"
 #include "cli/record_commands.hpp"
+#include "cli/replay_command.hpp"
 #include "cli/stored_commands.hpp"
 #include "cli/watch_command.hpp"
 
@@ -135,6 +136,20 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   run->add_option("--on-stop", options->on_stop, "At STOP: continue or end");
   run->add_option("--language", options->language, "Of masks: english, german, dutch, italian");
   run->add_flag("--block-skip", options->block_skip, "Pass over blocks that begin with /");
+}
+
+void add_replay(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<ReplayOptions>();
+  CLI::App* replay =
+      add_command(app, "replay", "Compare a machine's log with the same contacts here", chosen,
+                  options, run_replay);
+  replay->add_option("program", options->run.program, "Path on the control")->required();
+  replay->add_option("file", options->log, "Measuring log of the machine")->required();
+  replay->add_option("--contacts", options->contacts, "JSON file: [[X, Y, Z], null, …]")
+      ->required();
+  const auto setup = replay->add_option("--setup", options->run.setup, "Name of a stored setup");
+  replay->add_option("--setup-file", options->run.setup_file, "JSON file with a setup")
+      ->excludes(setup);
 }
 
 void add_filters(CLI::App& command, const std::shared_ptr<RecordQuery>& query) {
@@ -344,6 +359,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_setups(app, chosen);
   add_runs(app, chosen);
   add_control(app, chosen);
+  add_replay(app, chosen);
   add_tables(app, chosen);
   add_watch(app, chosen);
   add_about(app, chosen);

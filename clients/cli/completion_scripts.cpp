@@ -14,9 +14,9 @@ bool is_flag(const CLI::Option& option) { return option.get_items_expected_max()
 
 /// Whether what is typed there is a file of this machine.
 bool takes_file(const CLI::Option& option) {
-  constexpr std::array<std::string_view, 9> kFiles{"file",     "paths",        "--state",
-                                                   "--output", "--setup-file", "--key-file",
-                                                   "--ca",     "--cert",       "--cert-key"};
+  constexpr std::array<std::string_view, 10> kFiles{
+      "file",         "--contacts", "paths", "--state", "--output",
+      "--setup-file", "--key-file", "--ca",  "--cert",  "--cert-key"};
   const std::string name = option.get_name();
   return std::any_of(kFiles.begin(), kFiles.end(), [&name](std::string_view file) {
     return name == file || name.starts_with(std::string(file) + ",");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "sqlite/row_digest.hpp"
 #include "sqlite/statement.hpp"
 
@@ -60,8 +62,10 @@ Result<StoredAnswer> IdempotencyStore::once(const IdempotentRequest& request,
   if (*kept) return **std::move(kept);
   Result<StoredAnswer> answer = work();
   if (!answer || answer->status < 200 || answer->status > 299) return answer;
-  const std::int64_t expires_at = statements_->clock.now().nanoseconds +
-                                  std::chrono::nanoseconds(statements_->retention).count();
+  const std::int64_t expires_at =
+      request.is_kept_for_ever ? std::numeric_limits<std::int64_t>::max()
+                               : statements_->clock.now().nanoseconds +
+                                     std::chrono::nanoseconds(statements_->retention).count();
   statements_->insert.run(request.key, request.caller, request.method, request.path, request.body,
                           answer->status, answer->content_type, answer->location,
                           Blob{answer->body}, expires_at);

@@ -24,6 +24,7 @@ struct IdempotentRequest {
   std::string path{};
   std::string key{};
   Digest body{};  ///< of the raw body
+  bool is_kept_for_ever = false;  ///< else for the retention
 };
 
 /// An answer as it is kept and replayed.

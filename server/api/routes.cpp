@@ -10,6 +10,7 @@
 #include "api/plans/plans_resource.hpp"
 #include "api/runs/runs_resource.hpp"
 #include "api/runs/setups_resource.hpp"
+#include "api/service/connections_resource.hpp"
 #include "api/service/cycles_resource.hpp"
 #include "api/service/events_resource.hpp"
 #include "api/service/openapi.hpp"
@@ -43,6 +44,7 @@ http::RouteTable make_routes(const Services& services) {
   add_setups_routes(routes, services);
   add_runs_routes(routes, services);
   add_cycles_routes(routes);
+  add_connections_routes(routes, services);
   add_events_routes(routes, services);
   add_service_routes(routes, services);
   add_page_routes(routes);

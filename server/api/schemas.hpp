@@ -15,6 +15,7 @@ void add_plan_schemas(Schemas& schemas);
 void add_file_schemas(Schemas& schemas);
 void add_run_schemas(Schemas& schemas);
 void add_cycle_schemas(Schemas& schemas);
+void add_connection_schemas(Schemas& schemas);
 void add_service_schemas(Schemas& schemas);
 
 Schemas make_schemas();

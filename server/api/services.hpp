@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
+#include "app/service/connection_state.hpp"
 #include "app/service/readiness.hpp"
 #include "base/clock.hpp"
 
@@ -34,6 +36,7 @@ struct Services {
   std::shared_ptr<VerdictCounts> verdicts;
   const Clock& clock;
   std::function<app::Readiness()> readiness;
+  std::function<std::vector<app::ConnectionState>()> connections{};  ///< empty: there are none
 };
 
 }  // namespace fitgauge::api

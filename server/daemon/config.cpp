@@ -190,6 +190,9 @@ const std::vector<Setting>& settings() {
       {.name = "control-write",
        .help = "Its clients may change files and start programs; else they only read",
        .flag = &Config::control_write},
+      {.name = "connections",
+       .help = "File with the controls whose measuring logs are collected (TOML); empty for none",
+       .text = &Config::connections},
   };
   return kSettings;
 }

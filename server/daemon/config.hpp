@@ -34,6 +34,7 @@ struct Config {
   std::string control_model = "TNC640";
   std::string control_setup;
   bool control_write = false;
+  std::string connections;
 };
 
 /// One setting: its place in Config, its names and its documentation.

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "daemon/admin_key.hpp"
+#include "daemon/connections.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -77,6 +78,9 @@ Result<void> preflight(const Config& config, const std::string& port_file) {
     const auto address = http::parse_listen_address(config.control_listen);
     if (!address) return address.error();
     if (const auto free = http::check_listen(*address); !free) return free.error();
+  }
+  if (const auto connections = read_connections(config.connections); !connections) {
+    return connections.error();
   }
   if (const auto tls = tls_options(config)) {
     if (const auto usable = http::check_tls(*tls); !usable) return usable.error();

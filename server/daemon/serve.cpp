@@ -19,6 +19,7 @@
 #include "base/guarded.hpp"
 #include "daemon/admin_key.hpp"
 #include "daemon/application_options.hpp"
+#include "daemon/connections.hpp"
 #include "daemon/control.hpp"
 #include "daemon/file_limit.hpp"
 #include "daemon/healthcheck.hpp"
@@ -182,15 +183,20 @@ Result<void> serve(const Config& config, const std::string& port_file) {
     return opened_runs.error();
   }
 
+  auto collecting = start_collector(config, app, clock);
+  if (!collecting) return collecting.error();
+  const collector::Collector& machines = **collecting;
+
   api::Metrics metrics;
   const auto verdicts = std::make_shared<api::VerdictCounts>(app.measurements());
   verdicts->refresh([] {});
-  metrics.add([verdicts, &app, &clock, &machine_clock, &config](api::Exposition& out) {
+  metrics.add([verdicts, &app, &clock, &machine_clock, &config, &machines](api::Exposition& out) {
     verdicts->write(out);
     write_application_metrics(app, out);
     write_clock_metrics(clock, machine_clock, out);
     write_storage_metrics(config.data, out);
     write_process_metrics(out);
+    write_connection_metrics(machines.states(), clock, out);
   });
   const api::Services services{.tables = app.tables(),
                                .log = app.log(),
@@ -202,7 +208,8 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .metrics = metrics,
                                .verdicts = verdicts,
                                .clock = clock,
-                               .readiness = [&app] { return app.readiness(); }};
+                               .readiness = [&app] { return app.readiness(); },
+                               .connections = [&machines] { return machines.states(); }};
   // Beyond these a client gets 503 rather than no answer.
   const std::int64_t connections = allow_connections(config.max_connections);
   auto started = http::Server::start(
@@ -239,6 +246,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   app.runs().stop();
   control->reset();
   server.stop();
+  collecting->reset();
   // The application drains its queues first: the answers of its last jobs find no connection.
   opened->reset();
   started->reset();

@@ -122,6 +122,38 @@ void write_storage_metrics(const fs::path& folder, api::Exposition& out) {
       .sample(static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize));
 }
 
+void write_connection_metrics(const std::vector<app::ConnectionState>& connections,
+                              const Clock& clock, api::Exposition& out) {
+  if (connections.empty()) return;
+  const auto each = [&](const auto& value_of) {
+    for (const app::ConnectionState& connection : connections) {
+      out.sample(value_of(connection), {{"connection", connection.name}});
+    }
+  };
+  const auto count = [&](std::uint64_t app::ConnectionState::*member) {
+    each([member](const auto& connection) { return static_cast<double>(connection.*member); });
+  };
+  out.gauge("fitgauge_connection_up", "1 when its last attempt succeeded");
+  each([](const auto& connection) {
+    return connection.last_success_at && !connection.is_failing ? 1.0 : 0.0;
+  });
+  out.gauge("fitgauge_connection_lag_seconds", "Since its last attempt that succeeded; -1 before");
+  each([now = clock.now()](const auto& connection) {
+    if (!connection.last_success_at) return -1.0;
+    return static_cast<double>(now.nanoseconds - connection.last_success_at->nanoseconds) / 1e9;
+  });
+  out.counter("fitgauge_connection_failures_total", "Attempts that failed");
+  count(&app::ConnectionState::failures);
+  out.counter("fitgauge_connection_files_total", "Files fetched because they had changed");
+  count(&app::ConnectionState::files);
+  out.counter("fitgauge_connection_bytes_total", "Bytes of these files");
+  count(&app::ConnectionState::bytes);
+  out.counter("fitgauge_connection_measurements_total", "Measurements stored of them");
+  count(&app::ConnectionState::measurements);
+  out.counter("fitgauge_connection_unreadable_total", "Places in them that no reader understood");
+  count(&app::ConnectionState::unreadable);
+}
+
 void write_process_metrics(api::Exposition& out) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

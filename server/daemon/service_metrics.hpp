@@ -4,6 +4,7 @@
 
 #include "api/service/exposition.hpp"
 #include "app/application.hpp"
+#include "app/service/connection_state.hpp"
 #include "base/clock.hpp"
 #include "http/server.hpp"
 
@@ -19,5 +20,9 @@ void write_clock_metrics(const Clock& clock, const Clock& machine, api::Expositi
 void write_storage_metrics(const std::filesystem::path& folder, api::Exposition& out);
 /// `process_*` as Prometheus' own clients name them, and the log's lost lines.
 void write_process_metrics(api::Exposition& out);
+
+/// Of every connection, by its name.
+void write_connection_metrics(const std::vector<app::ConnectionState>& connections,
+                              const Clock& clock, api::Exposition& out);
 
 }  // namespace fitgauge::daemon

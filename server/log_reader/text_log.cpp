@@ -37,7 +37,8 @@ bool is_rule(std::string_view line) {
 /// Takes the lines of a file, one after the other.
 class TextReader {
  public:
-  void take(std::string_view raw, std::size_t number);
+  /// @param is_whole whether its line end is there; the cycle may still write the rest of it.
+  void take(std::string_view raw, std::size_t number, bool is_whole);
   Reading finish() &&;
 
  private:
@@ -85,9 +86,10 @@ void TextReader::spoil(std::size_t line, std::string why) {
   is_spoiled_ = true;
 }
 
-void TextReader::take(std::string_view raw, std::size_t number) {
+void TextReader::take(std::string_view raw, std::size_t number, bool is_whole) {
   const std::string_view line = trim(raw);
   const std::string lower = ascii_lower(line);
+  if (is_inside_ && !is_whole && !ends_log(lower)) return;
   if (const auto cycle = cycle_of_title(lower)) begin(*cycle);
   if (is_inside_) {
     log_.text += raw;
@@ -241,9 +243,10 @@ Reading read_text_logs(std::string_view bytes) {
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     std::string_view line = rest.substr(0, end);
+    const bool is_whole = end < rest.size();
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (line.ends_with('\r')) line.remove_suffix(1);
-    reader.take(line, number);
+    reader.take(line, number, is_whole);
   }
   return std::move(reader).finish();
 }

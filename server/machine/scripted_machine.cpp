@@ -7,8 +7,8 @@
 namespace fitgauge::machine {
 
 ScriptedMachine::ScriptedMachine(const MachineSetup& setup, std::vector<ScriptedContact> contacts,
-                                 double tolerance)
-    : ModelledMachine(setup, nullptr), contacts_(std::move(contacts)), tolerance_(tolerance) {}
+                                 Allowance* allowance, double tolerance)
+    : ModelledMachine(setup, allowance), contacts_(std::move(contacts)), tolerance_(tolerance) {}
 
 MachineResult<double> ScriptedMachine::contact(const Vec3& direction, double distance) {
   if (next_ == contacts_.size()) {

@@ -19,9 +19,10 @@ struct ScriptedContact {
 class ScriptedMachine final : public ModelledMachine {
  public:
   /// A recorded contact may lie `tolerance` mm beside the probing line.
+  /// @param allowance as of ModelledMachine
   /// @pre validate() accepts the setup that `setup` is part of.
   ScriptedMachine(const MachineSetup& setup, std::vector<ScriptedContact> contacts,
-                  double tolerance = 0.05);
+                  Allowance* allowance = nullptr, double tolerance = 0.05);
 
   std::size_t remaining() const { return contacts_.size() - next_; }
 

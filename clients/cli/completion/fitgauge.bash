@@ -4,7 +4,7 @@
 _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
-  local commands='limits fit gauge measure list export summary capability chart correct nc setups runs control tables watch version completion'
+  local commands='limits fit gauge measure list export summary capability chart correct nc setups runs control replay tables watch version completion'
   COMPREPLY=()
 
   # What the option before takes.
@@ -30,7 +30,7 @@ _fitgauge() {
     --source) _fitgauge_words 'gauge simulation all'; return ;;
     --on-stop) _fitgauge_words 'continue end'; return ;;
     --language) _fitgauge_words 'english german dutch italian'; return ;;
-    --key-file | --ca | --cert | --cert-key | --state | --setup-file | --output | -o) _fitgauge_files; return ;;
+    --key-file | --ca | --cert | --cert-key | --state | --setup-file | --contacts | --output | -o) _fitgauge_files; return ;;
   esac
 
   # The command and what follows it: the words that are neither options nor their values.
@@ -70,6 +70,7 @@ _fitgauge() {
         '') options='ls get put run state' ;;
         get | put) options=--force ;;
       esac ;;
+    replay) options='--contacts --setup --setup-file' ;;
     watch) options='--source --after --count' ;;
     completion) ((${#words[@]} > 1)) || options='bash fish zsh' ;;
     tables)
@@ -87,7 +88,7 @@ _fitgauge() {
       esac ;;
   esac
   case ${words[*]} in
-    measure | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | control\ put\ * | control\ get\ *\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    measure | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

@@ -17,6 +17,9 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
+/// Of a replay.
+constexpr std::size_t kMostContacts = 10'000;
+
 struct Language {
   std::string_view word;
   klartext::MaskLanguage language;
@@ -91,6 +94,41 @@ void read_limits(FieldReader& fields, FieldErrors& errors, interpreter::RunLimit
   reader.refuse_unknown();
 }
 
+/// `[50.1, 40, -5]`: where the ball's centre stood when it touched.
+std::optional<machine::Vec3> read_point(const JsonValue& value) {
+  if (!value.is(Kind::Array) || value.items.size() != 3) return std::nullopt;
+  machine::Vec3 point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto number = read_value(value.items[i]);
+    if (!number || !std::holds_alternative<double>(*number)) return std::nullopt;
+    point[i] = std::get<double>(*number);
+  }
+  return point;
+}
+
+std::optional<std::vector<machine::ScriptedContact>> read_contacts(FieldReader& fields,
+                                                                   FieldErrors& errors) {
+  if (!fields.has("contacts_mm")) return std::nullopt;
+  const JsonValue* const array = fields.array("contacts_mm");
+  if (array == nullptr) return std::nullopt;
+  if (array->items.size() > kMostContacts) {
+    fields.report(ErrorCode::FieldInvalid, "contacts_mm",
+                  fmt::format("contacts_mm takes at most {} contacts", kMostContacts));
+    return std::nullopt;
+  }
+  std::vector<machine::ScriptedContact> contacts;
+  for (std::size_t i = 0; i < array->items.size(); ++i) {
+    const JsonValue& item = array->items[i];
+    const auto point = item.is(Kind::Null) ? std::nullopt : read_point(item);
+    if (!point && !item.is(Kind::Null)) {
+      errors.add(ErrorCode::FieldType, pointer_to(fields.at("contacts_mm"), std::to_string(i)),
+                 "a contact is [X, Y, Z] of the ball's centre, or null where nothing was touched");
+    }
+    contacts.push_back({.ball_centre = point});
+  }
+  return contacts;
+}
+
 void read_words(FieldReader& fields, interpreter::RunOptions& options) {
   if (const auto on_stop = fields.optional_text("on_stop")) {
     if (*on_stop == "end") {
@@ -157,6 +195,7 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
   machine::Setup setup =
       decode_setup(given != nullptr ? *given : nothing, "/setup", tables, errors);
   if (given != nullptr) decode_builder(*given, "/setup", options, errors);
+  auto contacts = read_contacts(fields, errors);
   fields.refuse_unknown();
   if (auto error = errors.take()) return std::move(*error);
   std::string request;
@@ -165,7 +204,8 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
   return app::RunOrder{.program = *program,
                        .setup = std::move(setup),
                        .options = std::move(options),
-                       .request = std::move(request)};
+                       .request = std::move(request),
+                       .contacts = std::move(contacts)};
 }
 
 }  // namespace fitgauge::api

@@ -39,6 +39,10 @@ void add_order_schema(Schemas& schemas) {
       {"parameters", parameter_values(),
        "Q, QL and QR numbers and QS strings, as if an earlier program had left them"},
       {"limits", limits, "What ends the run with limit_exceeded"},
+      {"contacts_mm", schema::array(schema::null_or(schema::array(schema::number(), 3))),
+       "What a real machine touched: the ball's centre in the active system for each probing move "
+       "in "
+       "order, null where a move touched nothing. They stand for the setup's workpiece"},
       {"on_stop", schema::with_default(schema::words({"continue", "end"}), "\"continue\""),
        "At STOP, M0 and Q281=2: go on as with NC Start, or end there"},
       {"unreadable", schema::with_default(schema::words({"refuse", "error_block"}), "\"refuse\""),

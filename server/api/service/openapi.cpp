@@ -233,6 +233,7 @@ Schemas make_schemas() {
   add_setup_schemas(schemas);
   add_run_schemas(schemas);
   add_cycle_schemas(schemas);
+  add_connection_schemas(schemas);
   add_service_schemas(schemas);
   return schemas;
 }

@@ -121,7 +121,8 @@ store::IdempotentRequest to_store(const IdempotencyScope& scope) {
           .method = scope.method,
           .path = scope.path,
           .key = scope.key,
-          .body = sha256(scope.body)};
+          .body = sha256(scope.body),
+          .is_kept_for_ever = scope.is_kept_for_ever};
 }
 
 Answer from_store(store::StoredAnswer stored) {

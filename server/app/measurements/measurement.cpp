@@ -85,6 +85,25 @@ void judge(Measurement& measurement) {
                      measurement.measured, measurement.rule);
 }
 
+void judge_size(Measurement& measurement, const CycleSize& size) {
+  const SizeLimits limits = size.limits.value_or(SizeLimits{.upper = kLongest, .lower = -kLongest});
+  measurement.nominal_size = size.nominal;
+  measurement.feature = !size.is_position              ? size.feature
+                        : size.measured > limits.upper ? iso286::Feature::Hole
+                                                       : iso286::Feature::Shaft;
+  measurement.deviations = {.upper = limits.upper - size.nominal,
+                            .lower = limits.lower - size.nominal};
+  measurement.basis = LimitsBasis::Explicit;
+  measurement.measured = size.measured;
+  if (!size.limits) {
+    // Nothing judges it: an uncertainty as wide as its limits makes it indeterminate.
+    measurement.rule = gauging::DecisionRule::guard_band(kLongest).value();
+    measurement.standard_uncertainty = kLongest;
+    measurement.coverage_factor = measurement.rule.coverage_factor();
+  }
+  judge(measurement);
+}
+
 std::string measurement_id_text(std::int64_t id, std::string_view origin) {
   return id_text(kMeasurementPrefix, id, origin);
 }

@@ -118,6 +118,23 @@ void apply_limits(Measurement& measurement, const Measurement& other);
 /// Judges the measured value by the limits and the rule that stand in the record.
 void judge(Measurement& measurement);
 
+struct SizeLimits {
+  Length upper;
+  Length lower;
+};
+
+/// A size, or the position of a centre, as a measuring cycle tells it.
+struct CycleSize {
+  iso286::Feature feature = iso286::Feature::Hole;
+  bool is_position = false;  ///< out of its limits it is scrap on either side
+  Length nominal;
+  Length measured;
+  std::optional<SizeLimits> limits{};
+};
+
+/// Takes the size with the limits of its drawing and judges it; without limits it is indeterminate.
+void judge_size(Measurement& measurement, const CycleSize& size);
+
 /// The ids of measurements and runs as the outside sees them, opaque: `m17-5f0c9a3e77d21b40`. The
 /// origin makes them unique over all data folders. Without it (`m17`, as folders gave them before
 /// they had one) an id is one of this folder.

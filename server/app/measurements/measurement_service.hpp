@@ -39,7 +39,8 @@ struct IdempotencyScope {
   std::string method;
   std::string path;
   std::string key;
-  std::string_view body;  ///< alive until the answer
+  std::string_view body;          ///< alive until the answer
+  bool is_kept_for_ever = false;  ///< not only for the days of the service
 };
 
 /// The texts of a measurement that lists filter and summaries group by.

@@ -1,5 +1,7 @@
 #include "app/runs/run_executor.hpp"
 
+#include <fmt/format.h>
+
 #include "machine/simulated_machine.hpp"
 #include "run/run_files.hpp"
 
@@ -150,15 +152,31 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
   Allowance allowance(limits.time, limits.memory_bytes, active.stop_token());
   allowance.share(main->memory_bytes);
   Follower follower(active, allowance, surroundings.shows_last);
-  machine::SimulatedMachine simulated(order.setup, &allowance);
+  std::optional<machine::SimulatedMachine> simulated;
+  std::optional<machine::ScriptedMachine> scripted;
+  machine::Machine* actual = nullptr;
+  if (order.contacts) {
+    actual = &scripted.emplace(order.setup.machine, *order.contacts, &allowance);
+  } else {
+    actual = &simulated.emplace(order.setup, &allowance);
+  }
   machine::TracingMachine machine(
-      simulated, {.block = [&follower] { return follower.place(); }, .longest = kLongestTrace});
+      *actual, {.block = [&follower] { return follower.place(); }, .longest = kLongestTrace});
   follower.follow(machine);
   ExecutedRun executed;
   executed.result = interpreter::run(
       linked,
       {machine, surroundings.disk, surroundings.programs, surroundings.clock, follower, &allowance},
       order.options);
+  if (scripted && scripted->remaining() > 0) {
+    executed.result.messages.push_back(
+        {.kind = MessageKind::Note,
+         .text = fmt::format("{} of {} contacts were not used", scripted->remaining(),
+                             order.contacts->size()),
+         .program = program,
+         .line = 1,
+         .block = 0});
+  }
   executed.trace = {.moves = machine.moves(),
                     .places = follower.take_places(),
                     .axes = axes_of(order.setup),

@@ -10,6 +10,7 @@
 
 #include "app/measurements/measurement.hpp"
 #include "base/clock.hpp"
+#include "machine/scripted_machine.hpp"
 #include "machine/machine_setup.hpp"
 #include "machine/tracing_machine.hpp"
 #include "run/interpreter.hpp"
@@ -22,6 +23,8 @@ struct RunOrder {
   machine::Setup setup;  ///< validated
   interpreter::RunOptions options;
   std::string request;  ///< kept with the run, so that it can be repeated
+  /// What each probing move of a real machine found, in order; nothing: the machine is simulated.
+  std::optional<std::vector<machine::ScriptedContact>> contacts{};
   std::optional<std::string> caller{};
 };
 

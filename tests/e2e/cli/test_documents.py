@@ -10,7 +10,7 @@ from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 
 COMMANDS = ("limits", "fit", "gauge", "measure", "list", "export", "summary", "capability", "chart", "correct", "nc", "setups", "runs",
-            "control", "tables", "watch", "version", "completion")
+            "control", "replay", "tables", "watch", "version", "completion")
 SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables", "setups", "runs", "control")] + [
     ("control", name) for name in ("ls", "get", "put", "run", "state")] + [
     ("setups", name) for name in ("ls", "put", "get", "rm")] + [

@@ -81,6 +81,16 @@ TEST_CASE("a log that has no end yet is waited for") {
   CHECK(reading.is_unfinished);
 }
 
+TEST_CASE("wherever a log breaks off, the rest of it is waited for") {
+  for (std::size_t size = kHole.find('\n') + 1; size < kHole.find("Measuring log end"); ++size) {
+    CAPTURE(size);
+    const Reading reading = read_logs(kHole.substr(0, size));
+    CHECK(reading.unread.empty());
+    CHECK(reading.logs.empty());
+    CHECK(reading.is_unfinished);
+  }
+}
+
 TEST_CASE("what cannot be read is told with its line, and the logs beside it are read") {
   const auto first = [](const std::string& bytes) {
     const Reading reading = read_logs(bytes);

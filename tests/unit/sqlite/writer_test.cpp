@@ -167,6 +167,18 @@ TEST_CASE("an expired key is as new, and is purged when nothing else is to be wr
   }) == 1);
 }
 
+TEST_CASE("a key that is kept for ever is never as new") {
+  Fixture fixture;
+  IdempotentRequest once = request("k");
+  once.is_kept_for_ever = true;
+  REQUIRE(post_once(fixture, once).has_value());
+  fixture.clock.advance(std::chrono::hours(31 * 24 * 100));
+  CHECK(*fixture.write([](Stores& stores) -> Result<std::int64_t> {
+    return stores.idempotency.purge(10);
+  }) == 0);
+  CHECK(post_once(fixture, once)->replayed);
+}
+
 TEST_CASE("an answer that is not 2xx is not kept") {
   Fixture fixture;
   const auto refuse = [&](const IdempotentRequest& once) {

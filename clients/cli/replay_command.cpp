@@ -1,0 +1,200 @@
+#include "cli/replay_command.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "cli/address.hpp"
+#include "cli/gauge_command.hpp"
+#include "cli/input_file.hpp"
+#include "cli/json_value.hpp"
+#include "cli/problem.hpp"
+#include "cli/retry.hpp"
+#include "log_reader/measuring_log.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+using log_reader::LogValue;
+using log_reader::MeasuringLog;
+
+/// The logs of each cycle, in the order they were written.
+using ByCycle = std::map<int, std::vector<MeasuringLog>>;
+
+void sort_in(std::vector<MeasuringLog> logs, ByCycle& into) {
+  for (MeasuringLog& log : logs) into[log.cycle].push_back(std::move(log));
+}
+
+Outcome<ByCycle> read_log(const std::string& file) {
+  const auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  log_reader::Reading reading = log_reader::read_logs(*bytes);
+  if (!reading.unread.empty()) {
+    const auto& [line, why] = reading.unread.front();
+    return Failure{ExitCode::LocalFile, fmt::format("{}:{}: {}", file, line, why)};
+  }
+  if (reading.logs.empty()) {
+    return Failure{ExitCode::LocalFile, file + ": holds no whole measuring log"};
+  }
+  ByCycle logs;
+  sort_in(std::move(reading.logs), logs);
+  return logs;
+}
+
+/// What the run has written. A file that is no log of a cycle does not matter here.
+Outcome<ByCycle> written_logs(const Context& context, const JsonValue& run) {
+  ByCycle logs;
+  for (const JsonValue& file : run.items_of("files")) {
+    const std::string target =
+        fmt::format("/v1/runs/{}/files/{}", percent_encoded(run.text_of("id")),
+                    percent_encoded(base_name(file.text_of("path"))));
+    const auto answer = expect_ok(context.client.send({.target = target}), context.client.url());
+    if (!answer) return answer.error();
+    sort_in(log_reader::read_logs(answer->body).logs, logs);
+  }
+  return logs;
+}
+
+std::size_t decimals(std::string_view digits) {
+  const std::size_t point = digits.find_first_of(".,");
+  return point == std::string_view::npos ? 0 : digits.size() - point - 1;
+}
+
+double number(std::string digits) {
+  std::replace(digits.begin(), digits.end(), ',', '.');
+  double value = 0;
+  const char* begin = digits.data() + (digits.starts_with('+') ? 1 : 0);
+  std::from_chars(begin, digits.data() + digits.size(), value);
+  return value;
+}
+
+/// How far apart two printed values are; 0 where they agree to the last digit that both print.
+double difference(const LogValue& logged, const LogValue& replayed) {
+  if (logged.printed == replayed.printed) return 0;
+  const double apart = number(replayed.printed) - number(logged.printed);
+  const auto least =
+      static_cast<int>(std::min(decimals(logged.printed), decimals(replayed.printed)));
+  return std::abs(apart) < 0.5 * std::pow(10.0, -least) ? 0 : apart;
+}
+
+/// The value of that name, or in a log of another language the one in its place.
+const LogValue* partner(const std::vector<LogValue>& values, const LogValue& wanted,
+                        std::size_t place, std::size_t count) {
+  for (const LogValue& value : values) {
+    if (value.name == wanted.name) return &value;
+  }
+  return values.size() == count && values[place].is_length == wanted.is_length ? &values[place]
+                                                                               : nullptr;
+}
+
+/// Prints what differs. @returns how many results do.
+class Comparison {
+ public:
+  explicit Comparison(const Context& context) : context_(context) {}
+
+  void compare(const ByCycle& logged, const ByCycle& replayed);
+
+  std::size_t results() const { return results_; }
+  std::size_t differing() const { return rows_.size(); }
+  std::string json() const {
+    return JsonObject()
+        .add_raw("results", std::to_string(results_))
+        .add_raw("differing", fmt::format("[{}]", fmt::join(rows_, ",")))
+        .text();
+  }
+
+ private:
+  void compare(const MeasuringLog& logged, const MeasuringLog* replayed, std::size_t call);
+
+  const Context& context_;
+  std::size_t results_ = 0;
+  std::vector<std::string> rows_;
+};
+
+void Comparison::compare(const ByCycle& logged, const ByCycle& replayed) {
+  for (const auto& [cycle, logs] : logged) {
+    const auto found = replayed.find(cycle);
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+      const bool is_there = found != replayed.end() && i < found->second.size();
+      compare(logs[i], is_there ? &found->second[i] : nullptr, i + 1);
+    }
+  }
+}
+
+void Comparison::compare(const MeasuringLog& logged, const MeasuringLog* replayed,
+                         std::size_t call) {
+  for (std::size_t i = 0; i < logged.values.size(); ++i) {
+    const LogValue& value = logged.values[i];
+    ++results_;
+    const LogValue* const other =
+        replayed == nullptr ? nullptr : partner(replayed->values, value, i, logged.values.size());
+    if (other != nullptr && difference(value, *other) == 0) continue;
+    JsonObject row;
+    row.add_raw("cycle", std::to_string(logged.cycle))
+        .add_raw("call", std::to_string(call))
+        .add("result", value.name)
+        .add("log", value.printed)
+        .add_given("replay", other == nullptr ? "" : other->printed);
+    rows_.push_back(row.text());
+    if (context_.json) continue;
+    context_.print(
+        "cycle {}, log {}: {}: {} in the log, {}\n", logged.cycle, call, value.name, value.printed,
+        other == nullptr ? "nothing in the replay"
+                         : fmt::format("{} in the replay, {:+.{}f}", other->printed,
+                                       difference(value, *other), decimals(value.printed)));
+  }
+}
+
+Outcome<JsonValue> run_on_contacts(const Context& context, const ReplayOptions& options) {
+  const auto order = run_order(options.run);
+  if (!order) return order.error();
+  const auto contacts = read_file(options.contacts);
+  if (!contacts) return contacts.error();
+  if (!parse_json(*contacts)) {
+    return Failure{ExitCode::LocalFile, options.contacts + ": is not JSON: [[X, Y, Z], null, …]"};
+  }
+  const std::string body =
+      fmt::format("{},\"contacts_mm\":{}}}", order->substr(0, order->size() - 1), *contacts);
+  const auto answer =
+      expect_ok(send_until_answered(
+                    context.client,
+                    {.method = "POST",
+                     .target = "/v1/runs",
+                     .headers = {"Idempotency-Key: " + new_idempotency_key()},
+                     .content_type = "application/json",
+                     .body = body},
+                    Backoff(context.retry_budget),
+                    [&context](const Failure& failure, auto) { context.note(failure.message); }),
+                context.client.url());
+  if (!answer) return answer.error();
+  return read_document(*answer, context.client.url());
+}
+
+}  // namespace
+
+Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& options) {
+  const auto logged = read_log(options.log);
+  if (!logged) return logged.error();
+  const auto run = run_on_contacts(context, options);
+  if (!run) return run.error();
+  print_messages(*run);
+  const auto replayed = written_logs(context, *run);
+  if (!replayed) return replayed.error();
+  Comparison comparison(context);
+  comparison.compare(*logged, *replayed);
+  if (context.json) {
+    context.print_document(comparison.json());
+  } else {
+    context.print("{} results, {} of them differ\n", comparison.results(), comparison.differing());
+  }
+  // A tolerance that is exceeded stops a program as it did on the machine.
+  const std::string_view status = run->text_of("status");
+  if (status != "completed" && status != "stopped") {
+    return Failure{ExitCode::ProgramFailed,
+                   fmt::format("run {} ended as {}", run->text_of("id"), status)};
+  }
+  return comparison.differing() == 0 ? ExitCode::Good : ExitCode::ProgramFailed;
+}
+
+}  // namespace fitgauge::cli
