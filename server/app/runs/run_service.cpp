@@ -74,6 +74,15 @@ Error stopping() {
   return {ErrorCode::ShuttingDown, "the service is shutting down and takes no more runs"};
 }
 
+/// Of a run that ends because the service does, the last moves are not written down: a long trace
+/// is 15 MB of text, and the end of the service would wait for it.
+void shorten(RunTrace& trace) {
+  constexpr std::size_t kMostMoves = 1000;
+  if (trace.moves.size() <= kMostMoves) return;
+  trace.dropped += trace.moves.size() - kMostMoves;
+  trace.moves.erase(trace.moves.begin() + kMostMoves, trace.moves.end());
+}
+
 }  // namespace
 
 RunService::RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
@@ -252,6 +261,7 @@ void RunService::run(const std::shared_ptr<ActiveRun>& run) {
       [](const Result<void>&) {});
   RunTrace trace;
   interpreter::RunResult result = execute_guarded(active, trace);
+  if (stopping_.stop_requested()) shorten(trace);
   end(active, std::move(result), trace);
 }
 

@@ -238,6 +238,23 @@ class Settings(unittest.TestCase):
         self.assertEqual(daemon.spawn().process.wait(30), 2)
         self.assertIn("control-model must be one of TNC640", daemon.log)
 
+    def test_the_end_of_the_service_waits_for_no_long_trace(self):
+        daemon = Daemon(*WRITABLE)
+        self.addCleanup(daemon.cleanup)
+        daemon.start()
+        daemon.request("PUT", "/v1/files/nc_prog/loop.h", LOOP.encode())
+        with Client(control_port(daemon)) as client:
+            client.login("DNC", "PLCDEBUG")
+            client.ask("C_MC", b"\0\0\0\1" + text("Fitgauge.program") + text("TNC:\\nc_prog\\loop.h"))
+            run = wait_for(lambda: daemon.get("/v1/runs?limit=1").json["runs"])[0]["id"]
+            wait_for(lambda: daemon.get(f"/v1/runs/{run}").json["blocks_executed"] > 10_000)
+        self.assertEqual(daemon.stop(), 0)
+        daemon.start()
+        trace = daemon.get(f"/v1/runs/{run}/trace").json
+        self.assertEqual(len(trace["moves"]), 1000)
+        self.assertGreater(trace["dropped"], 0)
+        self.assertEqual(daemon.stop(), 0)
+
     def test_the_machine_is_that_of_the_setup(self):
         daemon = Daemon("--control-listen", "127.0.0.1:0", "--control-setup", "cell-3")
         self.addCleanup(daemon.cleanup)
