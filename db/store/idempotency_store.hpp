@@ -23,7 +23,7 @@ struct IdempotentRequest {
   std::string method{};
   std::string path{};
   std::string key{};
-  Digest body{};  ///< of the raw body
+  Digest body{};                  ///< of the raw body
   bool is_kept_for_ever = false;  ///< else for the retention
 };
 

@@ -10,8 +10,8 @@
 
 #include "app/measurements/measurement.hpp"
 #include "base/clock.hpp"
-#include "machine/scripted_machine.hpp"
 #include "machine/machine_setup.hpp"
+#include "machine/scripted_machine.hpp"
 #include "machine/tracing_machine.hpp"
 #include "run/interpreter.hpp"
 
