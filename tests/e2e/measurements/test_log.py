@@ -20,6 +20,7 @@ sys.path.insert(0, str(ROOT / "clients" / "python"))
 import check_proof  # noqa: E402 - what an auditor runs
 
 MODULES = pathlib.Path("/usr/share/gocode/src/golang.org/x/mod/sumdb")
+DEEP = bool(os.environ.get("LOG_DEEP"))  # 100 pairs of checkpoints, 1,000 proofs and 100 tamperings
 UNTRIGGERED = ("DROP TRIGGER measurements_are_not_updated", "DROP TRIGGER measurements_are_not_deleted")
 
 
@@ -138,13 +139,13 @@ class OtherVerifier(DaemonTest):
     def test_checkpoints_proofs_and_tiles(self):
         notes = [self.daemon.get("/v1/log/checkpoint").text]
         size = 0
-        for rows in (1, 2, 250, 3, 255, 800):
+        for rows in (1, 2, 250, 3, 255, 800) + DEEP * (7, 1, 1, 511, 2, 30, 4, 9):
             self.daemon.measure([PART] * rows)
             size += rows
             notes.append(wait_for_size(self.daemon, size))
         ids = [row["id"] for row in self.daemon.stored()]
         asked = {"key": self.daemon.get("/v1/log/key").text.strip(), "notes": notes,
-                 "url": f"http://127.0.0.1:{self.daemon.port}", "ids": ids[::13] + ids[-1:]}
+                 "url": f"http://127.0.0.1:{self.daemon.port}", "ids": ids[::1 if DEEP else 13] + ids[-1:]}
         judged = subprocess.run([str(self.verifier)], input=json.dumps(asked), capture_output=True, text=True,
                                 check=False, timeout=120)
         self.assertEqual(judged.returncode, 0, judged.stdout + judged.stderr)
@@ -284,7 +285,7 @@ class Tampered(StorageTest):
 
 
 class Tamperings(StorageTest):
-    """Tamperings by chance, each of which a checkpoint kept elsewhere shows. $TAMPERINGS sets how many, $SEED repeats."""
+    """Tamperings by chance, each of which a checkpoint kept elsewhere shows. $SEED repeats them."""
 
     ROWS = 300
     CHANGES = ("measured_nm = measured_nm + 1", "received_at = received_at - 1", "part_id = 'SN-2'", "comment = ' '",
@@ -316,7 +317,7 @@ class Tamperings(StorageTest):
         return f"{what}: {statements[0]}"
 
     def test_each_is_found(self):
-        count, seed = int(os.environ.get("TAMPERINGS", "12")), int(os.environ.get("SEED", time.time_ns() % 1_000_000))
+        count, seed = 100 if DEEP else 12, int(os.environ.get("SEED", time.time_ns() % 1_000_000))
         print(f"seed {seed}, {count} tamperings")
         chance = random.Random(seed)
         daemon, _ = self.stored(self.ROWS - 50)
