@@ -4,6 +4,7 @@ import { h } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { limitStrip } from '../figures/limit_strip.js';
 import { distanceText, measuredText, verdictShape } from '../verdict.js';
+import { sound } from './sound.js';
 
 /** Long words get a smaller size, so that none is broken. */
 const word = (text) => h(`p.word${text.length > 11 ? '.longer' : text.length > 7 ? '.long' : ''}`, text);
@@ -36,6 +37,8 @@ export class Panel {
   }
 
   #provisional(shown) {
+    if (this.sounded !== shown) sound(shown.verdict);
+    this.sounded = shown;
     this.#show(shown.verdict, [
       verdictShape(shown.verdict),
       h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown),
@@ -46,6 +49,7 @@ export class Panel {
 
   /** @param reaction what the plan says is to be done about one that is not good */
   judged(record, reaction) {
+    sound(record.verdict);
     this.#show(record.verdict, [
       verdictShape(record.verdict),
       h('div.said', word(t(`verdict.${record.verdict}`)), about(record),

@@ -34,6 +34,7 @@ export default {
   'job.missing': 'Maß und Klasse eingeben oder scannen, etwa 25 H7.',
   'job.more': 'Merkmal, Auftrag und Regel',
   'job.uncertainty_missing': 'Ein Schutzabstand braucht die Messunsicherheit.',
+  'job.sound': 'Ein Ton zu jedem Urteil',
   'job.prefixes': 'Was vor einem Scan des Feldes steht',
   'field.part_id': 'Teil',
   'field.characteristic': 'Merkmal',

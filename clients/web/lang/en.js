@@ -34,6 +34,7 @@ export default {
   'job.missing': 'Type or scan a size and a class, such as 25 H7.',
   'job.more': 'Characteristic, order and rule',
   'job.uncertainty_missing': 'A guard band needs the uncertainty of the measurement.',
+  'job.sound': 'A sound for each verdict',
   'job.prefixes': 'What stands before a scan of each field',
   'field.part_id': 'Part',
   'field.characteristic': 'Characteristic',

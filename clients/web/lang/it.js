@@ -34,6 +34,7 @@ export default {
   'job.missing': 'Digitare o leggere una quota e una classe, come 25 H7.',
   'job.more': 'Caratteristica, ordine e regola',
   'job.uncertainty_missing': 'Una banda di guardia richiede l’incertezza di misura.',
+  'job.sound': 'Un suono per ogni giudizio',
   'job.prefixes': 'Che cosa precede la lettura di ogni campo',
   'field.part_id': 'Pezzo',
   'field.characteristic': 'Caratteristica',

@@ -34,6 +34,7 @@ export default {
   'job.missing': 'Typ of scan een maat en een klasse, zoals 25 H7.',
   'job.more': 'Kenmerk, order en regel',
   'job.uncertainty_missing': 'Een veiligheidsband vraagt om de meetonzekerheid.',
+  'job.sound': 'Een toon bij elk oordeel',
   'job.prefixes': 'Wat voor een scan van het veld staat',
   'field.part_id': 'Onderdeel',
   'field.characteristic': 'Kenmerk',

@@ -256,6 +256,48 @@ describe('a station in an unfriendly browser', () => {
   });
 });
 
+describe('a station with sound', () => {
+  it('is silent until it is switched on, then has a sound of its own for each verdict, also after a reload', async () => {
+    const browser = await launch();
+    const daemon = await new Daemon().start();
+    const page = await open(browser, daemon, '#/gauge/25H7');
+    // What is to be heard: each oscillator that is started, by its frequency.
+    await page.addInitScript(() => {
+      globalThis.heard = [];
+      const create = AudioContext.prototype.createOscillator;
+      AudioContext.prototype.createOscillator = function listened() {
+        const tone = create.call(this);
+        const { start } = tone;
+        tone.start = (at) => {
+          globalThis.heard.push(tone.frequency.value);
+          return start.call(tone, at);
+        };
+        return tone;
+      };
+    });
+    await page.reload();
+    const measure = async (text, verdict) => {
+      await page.waitForSelector('.echo .figures');
+      await page.focus('#value');
+      await page.keyboard.type(`${text}\n`);
+      await page.waitForSelector(`.verdict[data-verdict="${verdict}"]`);
+      return page.evaluate(() => globalThis.heard.splice(0));
+    };
+    assert.deepEqual(await measure('25.01', 'good'), []);
+    await page.click('.more summary');
+    await page.check('[name="sound"]');
+    assert.deepEqual(await page.evaluate(() => globalThis.heard.splice(0)), [880], 'it shows what it is like');
+    const rejected = await measure('25.03', 'reject');
+    assert.equal(rejected.length, 2);
+    await page.reload();
+    assert.deepEqual(await measure('25.02', 'good'), [880]);
+    assert.ok((await measure('24.99', 'rework')).join() !== rejected.join());
+    await close(page);
+    await browser.close();
+    await daemon.cleanup();
+  });
+});
+
 describe('a gauge in use', () => {
   let browser;
   let daemon;
