@@ -124,7 +124,6 @@ void write_storage_metrics(const fs::path& folder, api::Exposition& out) {
 
 void write_connection_metrics(const std::vector<app::ConnectionState>& connections,
                               const Clock& clock, api::Exposition& out) {
-  if (connections.empty()) return;
   const auto each = [&](const auto& value_of) {
     for (const app::ConnectionState& connection : connections) {
       out.sample(value_of(connection), {{"connection", connection.name}});

@@ -258,6 +258,8 @@ class Answers(ContractTest):
         self.assertEqual(run["status"], "completed", run)
         self.expect("postRun", 202, order, {"Prefer": "respond-async"})
         self.expect("postRun", 422, {"program": "TNC:\\nc_prog\\bad.h"})
+        replay = self.expect("postRun", 201, {**order, "contacts_mm": [[50, 50, -5], None]}).json
+        self.expect("getRunRequest", 200, id=replay["id"])
         self.expect("getRun", 200, id=run["id"])
         self.expect("getRunParameters", 200, id=run["id"])
         self.expect("getRunRequest", 200, id=run["id"])
