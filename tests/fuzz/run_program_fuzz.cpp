@@ -60,7 +60,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   order.options.limits.time = kTime;
   order.options.limits.memory_bytes = kMemory;
   order.options.limits.output_bytes = std::size_t{1} << 20;
-  app::ActiveRun active(1, std::make_shared<const app::RunOrder>(std::move(order)), clock.now());
+  app::ActiveRun active(1, "0123456789abcdef",
+                        std::make_shared<const app::RunOrder>(std::move(order)), clock.now());
   const auto begun = std::chrono::steady_clock::now();
   app::ExecutedRun executed = app::execute({disk, programs, clock}, active);
   // Sanitizers make everything some twenty times as slow; an unbounded loop takes longer still.
