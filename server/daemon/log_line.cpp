@@ -1,7 +1,10 @@
 #include "daemon/log_line.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <concepts>
+#include <cstring>
 #include <ctime>
 #include <iterator>
 
@@ -15,50 +18,68 @@ constexpr std::string_view kLevels[] = {"debug", "info", "warning", "error", "of
 
 /// A field of a request is the client's text: longer than an address or a few, it is none.
 constexpr std::size_t kMostForwarded = 200;
+constexpr std::size_t kMostMethod = 32;
 
-template <class Number>
-void append(std::string& out, std::string_view name, Number number) {
-  char digits[24];
-  const auto end = std::to_chars(std::begin(digits), std::end(digits), number).ptr;
-  out.append(name).append(std::begin(digits), end);
-}
-
-void append_digits(std::string& out, std::int64_t number, int digits) {
-  out.resize(out.size() + static_cast<std::size_t>(digits));
-  for (auto to = out.rbegin(); digits > 0; --digits, ++to) {
-    *to = static_cast<char>('0' + number % 10);
-    number /= 10;
+/// The text of one line in room of its own. A text that finds no room is left out: what is put here
+/// has a known greatest length.
+class Line {
+ public:
+  void put(std::string_view text) {
+    if (text.size() > static_cast<std::size_t>(room_.end() - end_)) return;
+    std::memcpy(end_, text.data(), text.size());
+    end_ += text.size();
   }
-}
+  template <std::integral Number>
+  void put(Number number) {
+    const auto written = std::to_chars(end_, room_.end(), number);
+    if (written.ec == std::errc()) end_ = written.ptr;
+  }
+  void put_hexadecimal(std::uint64_t number) {
+    char digits[16];
+    for (char* to = std::end(digits); to != std::begin(digits); number >>= 4) {
+      *--to = "0123456789abcdef"[number & 0xf];
+    }
+    put({digits, sizeof digits});
+  }
+  std::string_view text() const { return {room_.begin(), end_}; }
 
-/// `2026-11-22T08:00:00`, made anew once a second for each thread.
-std::string_view second_text(std::time_t second) {
+ private:
+  std::array<char, 1024> room_;
+  char* end_ = room_.begin();
+};
+
+/// `{"time":"2026-11-22T08:00:00.`, made anew once a second for each thread.
+std::string_view beginning_of(std::time_t second) {
   thread_local std::time_t last = -1;
-  thread_local char text[32];
+  thread_local char text[40];
+  thread_local std::size_t size = 0;
   if (second != last) {
     std::tm parts{};
     gmtime_r(&second, &parts);
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &parts);
+    size = std::strftime(text, sizeof text, R"({"time":"%Y-%m-%dT%H:%M:%S.)", &parts);
     last = second;
   }
-  return text;
+  return {text, size};
 }
 
-void begin_line(std::string& out, LogLevel level) {
+void begin(Line& line, LogLevel level) {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
-  out.append(R"({"time":")").append(second_text(now.tv_sec)) += '.';
-  append_digits(out, now.tv_nsec / 1000, 6);
-  out.append(R"(Z","level":")").append(kLevels[static_cast<std::size_t>(level)]);
-  out += "\",\"event\":";
-}
-
-void append_hexadecimal(std::string& out, std::uint64_t number) {
-  for (int shift = 60; shift >= 0; shift -= 4) out += "0123456789abcdef"[number >> shift & 0xf];
+  line.put(beginning_of(now.tv_sec));
+  char micros[6];
+  auto number = static_cast<std::uint32_t>(now.tv_nsec / 1000);
+  for (char* to = std::end(micros); to != std::begin(micros); number /= 10) {
+    *--to = static_cast<char>('0' + number % 10);
+  }
+  line.put({micros, sizeof micros});
+  line.put(R"(Z","level":")");
+  line.put(kLevels[static_cast<std::size_t>(level)]);
+  line.put(R"(","event":)");
 }
 
 /// For whom a proxy asks: a field as it came, but printable ASCII and no longer than the log bears.
 void append_forwarded(std::string& out, const http::Request& request) {
+  if (!request.is_forwarded()) return;
   const auto field = request.header("X-Forwarded-For");
   const auto forwarded = field ? field : request.header("Forwarded");
   if (!forwarded) return;
@@ -78,7 +99,9 @@ LogLevel log_level_named(std::string_view word) {
 
 void append_event_line(std::string& out, LogLevel level, std::string_view event,
                        std::string_view detail) {
-  begin_line(out, level);
+  Line line;
+  begin(line, level);
+  out += line.text();
   api::append_json_string(out, event);
   out += ",\"detail\":";
   api::append_json_string(out, detail);
@@ -86,18 +109,26 @@ void append_event_line(std::string& out, LogLevel level, std::string_view event,
 }
 
 void append_request_line(std::string& out, LogLevel level, const http::FinishedRequest& finished) {
-  begin_line(out, level);
-  out += R"("request","id":")";
-  append_hexadecimal(out, finished.request.id());
-  out += R"(","method":)";
-  api::append_json_string(out, finished.method);
-  out += ",\"route\":";
-  api::append_json_string(out, finished.route);
-  append(out, ",\"status\":", finished.status);
-  append(out, ",\"us\":", finished.microseconds);
-  append(out, ",\"received\":", finished.bytes_received);
-  append(out, ",\"sent\":", finished.bytes_sent);
-  out.append(R"(,"peer":")").append(finished.request.peer_address()) += '"';
+  Line line;
+  begin(line, level);
+  line.put(R"("request","id":")");
+  line.put_hexadecimal(finished.request.id());
+  line.put(R"(","method":")");
+  line.put(finished.method.substr(0, kMostMethod));  // a token: nothing in it needs an escape
+  line.put(R"(","route":")");
+  line.put(finished.route);  // of ours
+  line.put(R"(","status":)");
+  line.put(finished.status);
+  line.put(R"(,"us":)");
+  line.put(finished.microseconds);
+  line.put(R"(,"received":)");
+  line.put(finished.bytes_received);
+  line.put(R"(,"sent":)");
+  line.put(finished.bytes_sent);
+  line.put(R"(,"peer":")");
+  line.put(finished.request.peer_address());
+  line.put("\"");
+  out += line.text();
   if (const auto* caller = finished.request.caller<api::Caller>()) {
     out += ",\"caller\":";
     api::append_json_string(out, caller->name);

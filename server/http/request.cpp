@@ -48,7 +48,9 @@ std::optional<Timestamp> Request::time(std::string_view name) const {
 
 std::string Request::id_text() const { return fmt::format("{:016x}", id_); }
 
-bool Request::is_local() const { return peer_->loopback && !head_->is_forwarded; }
+bool Request::is_forwarded() const { return head_->is_forwarded; }
+
+bool Request::is_local() const { return peer_->loopback && !is_forwarded(); }
 
 bool Request::is_http_1_0() const { return head_->http_1_0; }
 

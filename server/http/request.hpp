@@ -70,8 +70,10 @@ class Request {
   std::string id_text() const;
 
   std::string_view peer_address() const { return peer_->address; }  ///< `127.0.0.1`, `::1`
-  /// From this machine itself: a loopback peer and no proxy's field (Forwarded, X-Forwarded-*, Via,
-  /// X-Real-IP, True-Client-IP, CF-Connecting-IP).
+  /// Has a proxy's field: Forwarded, X-Forwarded-*, Via, X-Real-IP, True-Client-IP,
+  /// CF-Connecting-IP.
+  bool is_forwarded() const;
+  /// From this machine itself: a loopback peer and no proxy's field.
   bool is_local() const;
   bool is_http_1_0() const;
   /// Came by the listener for the service's own health check: see ListenAddress::health_only.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "metrology/distributions.hpp"
 
@@ -63,11 +65,7 @@ class Random {
     return (static_cast<double>(z >> 11U) + 0.5) * 0x1p-53;
   }
   double normal() {
-    if (spare_) {
-      const double value = *spare_;
-      spare_.reset();
-      return value;
-    }
+    if (!std::isnan(spare_)) return std::exchange(spare_, kNone);
     const double radius = std::sqrt(-2 * std::log(uniform()));
     const double angle = 2 * M_PI * uniform();
     spare_ = radius * std::sin(angle);
@@ -82,8 +80,10 @@ class Random {
   }
 
  private:
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
   std::uint64_t state_;
-  std::optional<double> spare_;
+  double spare_ = kNone;  ///< normals come in pairs
 };
 
 /// A deviation with the contribution's standard uncertainty.

@@ -13,10 +13,11 @@ constexpr std::string_view kTokenPrefix = "fg_";
 enum class Access { Public, Open, Viewer, Operator, Admin };
 
 Access access_of(const http::Route& route) {
-  if (route.access == "public") return Access::Public;
-  if (route.access == "open") return Access::Open;
-  if (route.access == "viewer") return Access::Viewer;
-  if (route.access == "operator") return Access::Operator;
+  const std::string_view access = route.access;
+  if (access == "open") return Access::Open;
+  if (access == "viewer") return Access::Viewer;
+  if (access == "operator") return Access::Operator;
+  if (access == "public") return Access::Public;
   return Access::Admin;
 }
 

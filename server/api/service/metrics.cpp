@@ -36,7 +36,7 @@ Metrics::Metrics() : parts_(std::make_unique<Parts>()) {}
 Metrics::~Metrics() = default;
 
 void Metrics::count(const http::FinishedRequest& request) {
-  const Parts::Key key{request.route.data(), http::method_named(request.method), request.status};
+  const Parts::Key key{request.route.data(), request.request.method(), request.status};
   const std::lock_guard lock(parts_->mutex);
   auto [found, is_new] = parts_->requests.try_emplace(key);
   Parts::Requests& requests = found->second;

@@ -14,8 +14,8 @@ constexpr std::size_t kOverhead = 256;
 http::SyncHandler ResponseCache::cached(std::shared_ptr<ResponseCache> cache, TableHandler make) {
   return [cache = std::move(cache),
           make = std::move(make)](const http::Request& request) -> Result<http::Response> {
+    if (auto found = cache->find(request)) return http::Response(std::move(found));
     const auto state = cache->tables_.state();
-    if (auto found = cache->find(request, state.get())) return http::Response(std::move(found));
     if (state->tables == nullptr) return cache->tables_.tables().error();
     Result<http::Response> made = make(request, *state->tables);
     if (!made || made->status != 200 || made->prepared) return made;
@@ -25,10 +25,9 @@ http::SyncHandler ResponseCache::cached(std::shared_ptr<ResponseCache> cache, Ta
   };
 }
 
-ResponseCache::Prepared ResponseCache::find(const http::Request& request,
-                                            const app::TableState* state) {
+ResponseCache::Prepared ResponseCache::find(const http::Request& request) {
   const std::lock_guard lock(mutex_);
-  if (state_.get() != state) return nullptr;
+  if (!tables_.is_in_use(state_.get())) return nullptr;
   key_.clear();
   request.append_identity(key_);
   const auto found = answers_.find(key_);

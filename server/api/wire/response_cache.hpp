@@ -29,7 +29,7 @@ class ResponseCache {
  private:
   using Prepared = std::shared_ptr<const http::PreparedResponse>;
 
-  Prepared find(const http::Request& request, const app::TableState* state);
+  Prepared find(const http::Request& request);
   void keep(const http::Request& request, std::shared_ptr<const app::TableState> state,
             Prepared response);
 

@@ -43,6 +43,8 @@ class TableCatalog {
   static Result<std::unique_ptr<TableCatalog>> open(store::Database& database, const Clock& clock);
 
   std::shared_ptr<const TableState> state() const { return state_.get(); }
+  /// Whether `kept`, a state the caller keeps, is still in use.
+  bool is_in_use(const TableState* kept) const { return state_.is(kept); }
 
   /// The tables in use. @errors TablesInconsistent with the audit's findings.
   Result<Tables> tables() const;

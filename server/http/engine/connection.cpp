@@ -265,11 +265,10 @@ bool Connection::finish_body() {
 
 void Connection::run_handler() {
   phase_ = Phase::InHandler;
-  if (exchange_.is_synchronous()) {
-    answer(exchange_.run());
-  } else {
-    exchange_.run(Responder(shared_from_this()));
-  }
+  if (!exchange_.is_synchronous()) return exchange_.run(Responder(shared_from_this()));
+  Result<Response> result = exchange_.run();
+  if (!result) return answer(exchange_.error_response(result.error()));
+  answer(*std::move(result));
 }
 
 void Connection::refuse(const Refusal& refusal) {

@@ -304,11 +304,9 @@ AnswerForm Exchange::form(bool keep_alive) const {
   return form;
 }
 
-Response Exchange::run() {
+Result<Response> Exchange::run() {
   try {
-    auto result = std::get<SyncHandler>(request_.route_->handler)(request_);
-    if (result) return std::move(*result);
-    return error_response(result.error());
+    return std::get<SyncHandler>(request_.route_->handler)(request_);
   } catch (const std::exception& error) {
     return internal_error(error.what());
   }

@@ -39,7 +39,8 @@ class Exchange {
   bool is_synchronous() const {
     return std::holds_alternative<SyncHandler>(request_.route()->handler);
   }
-  Response run();
+  /// What a synchronous handler returned, or the answer to its exception.
+  Result<Response> run();
   void run(Responder responder);
 
   AnswerForm form(bool keep_alive) const;

@@ -27,9 +27,19 @@ constexpr std::array<bool, 256> kHostCharacters = [] {
   return table;
 }();
 
+/// What stands for itself in a path or query: printable ASCII but for `%` and `+`.
+constexpr std::array<bool, 256> kPlainCharacters = [] {
+  std::array<bool, 256> table{};
+  for (std::size_t c = '!'; c <= '~'; ++c) table[c] = c != '%' && c != '+';
+  return table;
+}();
+
 // Objects, not functions: an algorithm calls them inline.
 constexpr auto is_host_character = [](char c) {
   return kHostCharacters[static_cast<unsigned char>(c)];
+};
+constexpr auto is_plain_character = [](char c) {
+  return kPlainCharacters[static_cast<unsigned char>(c)];
 };
 constexpr auto is_ip_literal_character = [](char c) {
   return is_ascii_alphanumeric(c) || c == ':' || c == '.';
@@ -58,8 +68,7 @@ bool append_percent_decoded(std::string& out, std::string_view text, bool plus_i
 }
 
 bool is_plain(std::string_view text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](char c) { return c > ' ' && c < '\x7f' && c != '%' && c != '+'; });
+  return std::all_of(text.begin(), text.end(), is_plain_character);
 }
 
 bool is_authority(std::string_view text) {

@@ -43,6 +43,8 @@ class Lines(DaemonTest):
         self.daemon.request("GET", "/v1/limits/30H7", headers={"Forwarded": b'for="\xff\t\\"' + b"x" * 900})
         line = self.wait_for_line(event="request", forwarded_for='for="??\\"' + "x" * 191)
         self.assertNotIn("caller", line)
+        self.daemon.request("A'" * 300, "/v1/limits/30H7")
+        self.wait_for_line(event="request", method="A'" * 16, status=405)
 
     def test_every_event_is_documented(self):
         page = (ROOT / "docs/reference/log.md").read_text()
