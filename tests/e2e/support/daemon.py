@@ -35,10 +35,15 @@ def preload(library):
     return {"LD_PRELOAD": " ".join([*RUNTIMES, str(library)])}
 
 
+def environment_of(settings):
+    """That of the test with `settings`, without what is meant for the tests alone."""
+    return {name: value for name, value in {**os.environ, **(settings or {})}.items() if name != "FITGAUGE_DEEP"}
+
+
 def command(*arguments, environment=None, timeout=60):
     """Runs fitgauged to its end."""
     return subprocess.run([FITGAUGED, *map(str, arguments)], capture_output=True, text=True,
-                          env={**os.environ, **(environment or {})}, timeout=timeout, check=False)
+                          env=environment_of(environment), timeout=timeout, check=False)
 
 
 class Answer:
@@ -68,7 +73,7 @@ class Daemon:
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-e2e-"))
         self.data = pathlib.Path(data) if data else self.folder / "data"
         self.flags = [str(flag) for flag in flags]
-        self.environment = {**os.environ, **(environment or {})}
+        self.environment = environment_of(environment)
         self.listen = listen
         self.wrapper = list(wrapper)
         self.stderr = None  # a descriptor; else the file of `log`
