@@ -51,9 +51,17 @@ void add_gauge(CLI::App& app, Action& chosen) {
   gauge->add_option("designation", options->designation, "Size and class, or the nominal size")
       ->required();
   gauge->add_option("measured", options->measured, "Measured value in mm")->required();
-  gauge->add_option("--rule", options->rule, "simple or guard_band");
+  gauge->add_option("--rule", options->rule, "simple, guard_band or conformance");
   gauge->add_option("--uncertainty-um", options->uncertainty_um, "Standard uncertainty in µm");
   gauge->add_option("--coverage-factor", options->coverage_factor, "k of the guard band, else 2");
+  gauge->add_option("--probability", options->probability, "Of conformance, else 0.95");
+  gauge->add_option("--temperature-c", options->temperature_c, "Temperature of the part in °C");
+  gauge->add_option("--part-material", options->part_material, "steel: corrects to 20 °C");
+  gauge->add_option("--part-expansion", options->part_expansion, "The same in µm/(m·K)");
+  gauge->add_option("--scale-temperature-c", options->scale_temperature_c,
+                    "Temperature of what it was read on, else 20");
+  gauge->add_option("--scale-material", options->scale_material, "Of what it was read on");
+  gauge->add_option("--scale-expansion", options->scale_expansion, "The same in µm/(m·K)");
   const auto record = gauge->add_flag("--record", options->record, "Store the measurement");
   const auto field = [&](const std::string& name, std::string& value, const std::string& help) {
     gauge->add_option(name, value, help)->needs(record);
@@ -64,7 +72,6 @@ void add_gauge(CLI::App& app, Action& chosen) {
           ->check(CLI::IsMember({"hole", "shaft"}));
   const auto upper = gauge->add_option("--upper-um", options->upper_um, "Upper deviation in µm");
   const auto lower = gauge->add_option("--lower-um", options->lower_um, "Lower deviation in µm");
-  feature->needs(upper)->needs(lower);
   upper->needs(feature);
   lower->needs(feature);
   field("--part-id", options->part_id, "Part, as its label says");
@@ -76,7 +83,6 @@ void add_gauge(CLI::App& app, Action& chosen) {
   field("--gauge", options->gauge, "Gauge");
   field("--unit", options->unit, "Production unit");
   field("--measured-at", options->measured_at, "RFC 3339 time, else now");
-  field("--temperature-c", options->temperature_c, "Temperature of the part in °C");
   field("--comment", options->comment, "Remark");
 }
 

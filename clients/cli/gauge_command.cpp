@@ -29,12 +29,27 @@ Length length_of(const JsonValue& document, std::string_view member) {
 }
 
 /// `8 µm below the upper limit`: where the value is, seen from the limit that is nearest.
+/// `25 to 25.021 mm`; a drawing may have one of the limits.
+std::string limits_text(const JsonValue& document) {
+  const std::string_view lower = document.text_of("lower_limit_mm");
+  const std::string_view upper = document.text_of("upper_limit_mm");
+  if (lower.empty()) return fmt::format("up to {} mm", upper);
+  if (upper.empty()) return fmt::format("{} mm or more", lower);
+  return fmt::format("{} to {} mm", lower, upper);
+}
+
 std::string distance_text(const JsonValue& document, std::string_view unit) {
-  const Length measured = length_of(document, "measured_mm");
-  const Length to_upper = measured - length_of(document, "upper_limit_mm");
-  const Length to_lower = measured - length_of(document, "lower_limit_mm");
+  const bool corrected = !document.text_of("corrected_mm").empty();
+  const Length measured = length_of(document, corrected ? "corrected_mm" : "measured_mm");
+  const bool has_upper = !document.text_of("upper_limit_mm").empty();
+  const bool has_lower = !document.text_of("lower_limit_mm").empty();
+  const auto distance_to = [&](bool there, std::string_view name) {
+    return there ? measured - length_of(document, name) : kLongest;
+  };
+  const Length to_upper = distance_to(has_upper, "upper_limit_mm");
+  const Length to_lower = distance_to(has_lower, "lower_limit_mm");
   const auto size = [](Length length) { return length < Length() ? -length : length; };
-  const bool upper = size(to_upper) <= size(to_lower);
+  const bool upper = has_upper && (!has_lower || size(to_upper) <= size(to_lower));
   const Length distance = upper ? to_upper : to_lower;
   const std::string_view limit = upper ? "upper" : "lower";
   if (distance == Length()) return fmt::format("on the {} limit", limit);
@@ -42,14 +57,26 @@ std::string distance_text(const JsonValue& document, std::string_view unit) {
                      distance > Length() ? "above" : "below", limit);
 }
 
-std::string verdict_query(const GaugeOptions& options, const std::string& measured) {
-  std::string query = "?measured_mm=" + percent_encoded(measured);
-  const auto add = [&query](std::string_view name, const std::string& value) {
-    if (!value.empty()) query.append("&").append(name).append("=").append(percent_encoded(value));
-  };
+/// What decides beside the value, by the names it is sent under.
+template <class Add>
+void for_each_decision(const GaugeOptions& options, Add add) {
   add("rule", options.rule);
   add("uncertainty_um", options.uncertainty_um);
   add("coverage_factor", options.coverage_factor);
+  add("probability", options.probability);
+  add("temperature_c", options.temperature_c);
+  add("scale_temperature_c", options.scale_temperature_c);
+  add("part_expansion_um_per_m_k", options.part_expansion);
+  add("scale_expansion_um_per_m_k", options.scale_expansion);
+  add("part_material", options.part_material);
+  add("scale_material", options.scale_material);
+}
+
+std::string verdict_query(const GaugeOptions& options, const std::string& measured) {
+  std::string query = "?measured_mm=" + percent_encoded(measured);
+  for_each_decision(options, [&query](std::string_view name, const std::string& value) {
+    if (!value.empty()) query.append("&").append(name).append("=").append(percent_encoded(value));
+  });
   return query;
 }
 
@@ -60,14 +87,14 @@ std::string record_body(const GaugeOptions& options, const std::string& measured
   } else {
     body.add("nominal_mm", options.designation)
         .add("feature", options.feature)
-        .add("upper_um", options.upper_um)
-        .add("lower_um", options.lower_um);
+        .add_given("upper_um", options.upper_um)
+        .add_given("lower_um", options.lower_um);
   }
-  return body.add("measured_mm", measured)
-      .add_given("rule", options.rule)
-      .add_given("uncertainty_um", options.uncertainty_um)
-      .add_given("coverage_factor", options.coverage_factor)
-      .add_given("part_id", options.part_id)
+  body.add("measured_mm", measured);
+  for_each_decision(options, [&body](std::string_view name, const std::string& value) {
+    body.add_given(name, value);
+  });
+  return body.add_given("part_id", options.part_id)
       .add_given("characteristic", options.characteristic)
       .add_given("order", options.order)
       .add_given("operation", options.operation)
@@ -76,7 +103,6 @@ std::string record_body(const GaugeOptions& options, const std::string& measured
       .add_given("gauge", options.gauge)
       .add_given("unit", options.unit)
       .add_given("measured_at", options.measured_at)
-      .add_given("temperature_c", options.temperature_c)
       .add_given("comment", options.comment)
       .text();
 }
@@ -113,10 +139,12 @@ std::string format_verdict(const JsonValue& document, const Terminal& terminal) 
   const std::string_view word = document.text_of("verdict");
   const bool explicit_limits = document.text_of("designation").empty();
   std::string text = terminal.painted(ascii_upper(word), verdict_colour(word));
-  text += fmt::format("  {} mm  {} ({} to {} mm): {}\n", document.text_of("measured_mm"),
+  text += fmt::format("  {} mm  {} ({}): {}\n", document.text_of("measured_mm"),
                       document.text_of(explicit_limits ? "nominal_mm" : "designation"),
-                      document.text_of("lower_limit_mm"), document.text_of("upper_limit_mm"),
-                      distance_text(document, terminal.micrometre()));
+                      limits_text(document), distance_text(document, terminal.micrometre()));
+  if (const std::string_view corrected = document.text_of("corrected_mm"); !corrected.empty()) {
+    text += fmt::format("{} mm at 20 degrees\n", corrected);
+  }
   if (const std::string_view id = document.text_of("id"); !id.empty()) {
     text += fmt::format("stored as {}\n", id);
   }

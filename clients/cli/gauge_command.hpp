@@ -15,7 +15,15 @@ struct GaugeOptions {
   std::string rule{};
   std::string uncertainty_um{};
   std::string coverage_factor{};
-  // Limits of a drawing: all or none.
+  std::string probability{};
+  // Corrects to 20 degrees.
+  std::string temperature_c{};
+  std::string scale_temperature_c{};
+  std::string part_expansion{};
+  std::string scale_expansion{};
+  std::string part_material{};
+  std::string scale_material{};
+  // Limits of a drawing: the feature, and one or both.
   std::string feature{};
   std::string upper_um{};
   std::string lower_um{};
@@ -30,7 +38,6 @@ struct GaugeOptions {
   std::string gauge{};
   std::string unit{};
   std::string measured_at{};
-  std::string temperature_c{};
   std::string comment{};
 };
 

@@ -29,9 +29,9 @@ export function verdictMark(verdict) {
 
 /** "8 µm below the upper limit": where the value lies from the limit that is nearest to it. */
 export function distanceText(record) {
-  const measured = nmFromMm(record.measured_mm);
-  const toUpper = nmFromMm(record.upper_limit_mm) - measured;
-  const toLower = measured - nmFromMm(record.lower_limit_mm);
+  const measured = nmFromMm(record.corrected_mm ?? record.measured_mm);
+  const toUpper = record.upper_limit_mm === undefined ? Infinity : nmFromMm(record.upper_limit_mm) - measured;
+  const toLower = record.lower_limit_mm === undefined ? Infinity : measured - nmFromMm(record.lower_limit_mm);
   const limit = Math.abs(toUpper) <= Math.abs(toLower) ? 'upper' : 'lower';
   const distance = limit === 'upper' ? toUpper : -toLower;
   if (distance === 0) return t(`distance.on.${limit}`);
@@ -40,6 +40,10 @@ export function distanceText(record) {
 
 /** "25.000 to 25.021 mm" with equally many decimals. */
 export function limitsText(limits) {
+  const one = limits.lower_limit_mm ?? limits.upper_limit_mm;
+  if (limits.lower_limit_mm === undefined || limits.upper_limit_mm === undefined) {
+    return `${limits.upper_limit_mm === undefined ? '\u2265' : '\u2264'} ${number(mmText(nmFromMm(one)))} mm`;
+  }
   const [lower, upper] = [limits.lower_limit_mm, limits.upper_limit_mm].map(nmFromMm);
   const places = Math.max(...[lower, upper].map((nm) => mmText(nm).split('.')[1].length));
   return t('limits.range', { lower: number(mmText(lower, places)), upper: number(mmText(upper, places)) });

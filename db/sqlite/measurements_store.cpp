@@ -30,7 +30,7 @@ MeasurementRow read_row(const Rows& rows) {
 }
 
 constexpr std::string_view kValueColumns =
-    "m.id, m.measured_nm, m.nominal_nm + m.lower_deviation_nm, "
+    "m.id, coalesce(m.corrected_nm, m.measured_nm), m.nominal_nm + m.lower_deviation_nm, "
     "m.nominal_nm + m.upper_deviation_nm, m.subgroup";
 
 MeasuredValue read_value(const Rows& rows) {

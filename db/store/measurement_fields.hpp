@@ -50,6 +50,15 @@ void for_each_first_field(Row&& row, Field&& field) {
 template <class Row, class Field>
 void for_each_later_field(Row&& row, Field&& field) {
   field("subgroup", row.subgroup);
+  field("probability", row.probability);
+  field("conformance", row.conformance);
+  field("guard_band", row.guard_band);
+  field("corrected_nm", row.corrected_nm);
+  field("scale_temperature", row.scale_temperature);
+  field("part_expansion", row.part_expansion);
+  field("scale_expansion", row.scale_expansion);
+  field("part_material", row.part_material);
+  field("scale_material", row.scale_material);
 }
 
 template <class Row, class Field>

@@ -13,7 +13,7 @@ enum class Source : std::uint8_t { Gauge = 1, Simulation = 2 };
 enum class Feature : std::uint8_t { Hole = 1, Shaft = 2 };
 enum class Basis : std::uint8_t { Iso286 = 1, Custom = 2, Explicit = 3 };
 enum class Verdict : std::uint8_t { Good = 1, Rework = 2, Reject = 3, Indeterminate = 4 };
-enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2 };
+enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2, Conformance = 3 };
 
 /// One measurement as it is stored. Lengths in nm, times in ns since 1970 (UTC), scaled numbers in
 /// millionths. Texts are views: of the caller's memory until the job that appends them is done, or
@@ -27,8 +27,8 @@ struct MeasurementRow {
   std::int64_t nominal_nm = 0;
   std::optional<std::string_view> tolerance_class{};  ///< none when the basis is Explicit
   Feature feature = Feature::Hole;
-  std::int64_t upper_deviation_nm = 0;
-  std::int64_t lower_deviation_nm = 0;
+  std::int64_t upper_deviation_nm = 0;          ///< of a drawing without that limit: 2e15
+  std::int64_t lower_deviation_nm = 0;          ///< and here -2e15
   std::optional<std::int64_t> size_over_nm{};   ///< the step of the standard tolerance
   std::optional<std::int64_t> size_up_to_nm{};  ///< both or neither
   Basis basis = Basis::Iso286;
@@ -59,6 +59,19 @@ struct MeasurementRow {
   std::optional<std::string_view> correction_reason{};
 
   std::optional<std::string_view> subgroup{};  ///< of a control chart
+
+  // Of rule Conformance, and of no other:
+  std::optional<std::int64_t> probability{};  ///< asked for, in millionths
+  std::optional<std::int64_t> conformance{};  ///< found, in 1e-9
+  std::optional<std::int64_t> guard_band{};   ///< in fm
+
+  std::optional<std::int64_t> corrected_nm{};  ///< the size at 20 °C, where it decides
+  // In millionths of a degree Celsius, and of um/(m K):
+  std::optional<std::int64_t> scale_temperature{};
+  std::optional<std::int64_t> part_expansion{};
+  std::optional<std::int64_t> scale_expansion{};
+  std::optional<std::string_view> part_material{};
+  std::optional<std::string_view> scale_material{};
 
   Digest hash{};  ///< of its leaf in the log; of rows from before the log, MeasurementHasher's
 

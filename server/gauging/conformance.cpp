@@ -15,6 +15,15 @@ double in_uncertainties(Length length, Length u) {
 /// @param above, below distances of the limits from a value inside, in standard uncertainties
 double outside(double above, double below) { return normal_below(-above) + normal_below(-below); }
 
+/// The nearest whole number that a double keeps in its decimal digits.
+std::int64_t to_15_digits(double value) {
+  constexpr std::int64_t kLimit = 1'000'000'000'000'000;
+  const std::int64_t whole = std::llround(value);
+  std::int64_t step = 1;
+  while (whole / step >= kLimit) step *= 10;
+  return (whole + step / 2) / step * step;
+}
+
 }  // namespace
 
 double nonconformance_probability(const ConformanceLimits& limits, Length measured, Length u) {
@@ -42,6 +51,18 @@ std::optional<double> guard_band_factor(Length tolerance, Length u, double proba
     (conforms(middle) ? enough : too_little) = middle;
   }
   return enough;
+}
+
+std::optional<ConformanceFigures> conformance_figures(const ConformanceLimits& limits,
+                                                      Length measured, Length u,
+                                                      double probability) {
+  const auto factor = guard_band_factor(limits.upper - limits.lower, u, probability);
+  if (!factor) return std::nullopt;
+  constexpr double kBillion = 1e9;
+  constexpr double kFemtometres = 1e6;  // of a nanometre
+  return ConformanceFigures{
+      .probability = std::llround(conformance_probability(limits, measured, u) * kBillion),
+      .guard_band = to_15_digits(*factor * static_cast<double>(u.count()) * kFemtometres)};
 }
 
 }  // namespace fitgauge::gauging

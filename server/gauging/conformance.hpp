@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "base/length.hpp"
@@ -25,5 +26,19 @@ double nonconformance_probability(const ConformanceLimits& limits, Length measur
 /// the middle of the limits conforms. @pre standard_uncertainty > 0, 0.5 <= probability < 1
 std::optional<double> guard_band_factor(Length tolerance, Length standard_uncertainty,
                                         double probability);
+
+/// What is said of a value beside its verdict.
+struct ConformanceFigures {
+  std::int64_t probability = 0;  ///< of conformance, in 1e-9
+  std::int64_t guard_band = 0;   ///< in fm, of which 15 digits count
+
+  friend bool operator==(const ConformanceFigures&, const ConformanceFigures&) = default;
+};
+
+/// None where not even the middle of the limits conforms with the probability asked for.
+/// @pre as of the functions above
+std::optional<ConformanceFigures> conformance_figures(const ConformanceLimits& limits,
+                                                      Length measured, Length standard_uncertainty,
+                                                      double probability);
 
 }  // namespace fitgauge::gauging

@@ -12,6 +12,8 @@ _fitgauge() {
     --server | --retry | --chunk | --count | --after | --set | --classes | --revision | --setup) return ;;
     --part-id | --characteristic | --order | --operation | --machine | --operator | --gauge) return ;;
     --unit | --measured-at | --temperature-c | --comment | --uncertainty-um | --coverage-factor) return ;;
+    --probability | --part-material | --part-expansion | --scale-temperature-c) return ;;
+    --scale-material | --scale-expansion) return ;;
     --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --group-by) return ;;
     --designation | --subgroup | --target-mm | --confidence | --rules) return ;;
     --kind) _fitgauge_words 'i_mr xbar_r xbar_s ewma cusum'; return ;;
@@ -50,7 +52,8 @@ _fitgauge() {
   case ${words[0]-} in
     '') _fitgauge_words "$commands $common --version"; return ;;
     gauge)
-      options='--rule --uncertainty-um --coverage-factor --record --part-id --characteristic --order
+      options='--rule --uncertainty-um --coverage-factor --probability --part-material --part-expansion
+               --scale-temperature-c --scale-material --scale-expansion --record --part-id --characteristic --order
                --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um' ;;
     measure) options='--state --chunk --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;

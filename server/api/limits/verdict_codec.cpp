@@ -1,7 +1,5 @@
 #include "api/limits/verdict_codec.hpp"
 
-#include <cmath>
-
 namespace fitgauge::api {
 
 Result<void> check_measured(Length measured) {
@@ -69,15 +67,12 @@ void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule,
     json.key("coverage_factor").raw(format(rule.coverage_factor()));
     return;
   }
-  const double probability = rule.probability().value();
-  const auto factor = gauging::guard_band_factor(limits.upper - limits.lower, u, probability);
-  constexpr double kNanometres = 1000;  // of a micrometre
-  constexpr int kDigits = 9;
   json.key("probability").raw(format(rule.probability()));
-  json.key("conformance_probability")
-      .fixed(gauging::conformance_probability(limits, measured, u), kDigits);
-  json.key("guard_band_um")
-      .fixed(factor.value_or(NAN) * static_cast<double>(u.count()) / kNanometres, kDigits);
+  const auto figures =
+      gauging::conformance_figures(limits, measured, u, rule.probability().value());
+  if (!figures) return;  // check_acceptance has refused it
+  json.key("conformance_probability").decimal(figures->probability, 9);
+  json.key("guard_band_um").decimal(figures->guard_band, 9);
 }
 
 }  // namespace fitgauge::api

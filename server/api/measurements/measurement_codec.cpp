@@ -16,7 +16,10 @@ std::string measurement_csv_header() {
     out += ',';
     out += name;
   }
-  return out += ",caller,run_id,cycle,correction_of,reason\r\n";
+  return out +=
+         ",caller,run_id,cycle,correction_of,reason,probability,conformance_probability,"
+         "guard_band_um,corrected_mm,scale_temperature_c,part_expansion_um_per_m_k,"
+         "scale_expansion_um_per_m_k,part_material,scale_material\r\n";
 }
 
 void append_measurement_csv(std::string& out, const Measurement& m) {
@@ -39,14 +42,14 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   mm(m.nominal_size);
   text(m.class_name.value_or(""));
   text(word(m.feature));
-  um(m.deviations.upper);
-  um(m.deviations.lower);
-  mm(m.upper_limit());
-  mm(m.lower_limit());
+  text(m.has_upper_limit() ? format_um(m.deviations.upper) : "");
+  text(m.has_lower_limit() ? format_um(m.deviations.lower) : "");
+  text(m.has_upper_limit() ? format_mm(m.upper_limit()) : "");
+  text(m.has_lower_limit() ? format_mm(m.lower_limit()) : "");
   text(word(m.basis));
   text(m.table_revision);
   mm(m.measured);
-  um(m.measured - m.nominal_size);
+  um(m.decisive() - m.nominal_size);
   text(word(m.result.verdict));
   um(m.result.excess);
   text(word(m.rule.kind()));
@@ -62,7 +65,20 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   text(m.run_id ? app::run_id_text(*m.run_id, m.origin) : "");
   text(m.cycle ? std::to_string(*m.cycle) : "");
   text(m.correction_of ? app::measurement_id_text(*m.correction_of, m.origin) : "");
-  append_csv_text(out, m.correction_reason.value_or(""));
+  chosen_text(m.correction_reason.value_or(""));
+  const auto decimal = [&text](const std::optional<std::int64_t>& value, int scale) {
+    text(value ? format_decimal(*value, scale) : "");
+  };
+  text(m.conformance ? format(m.rule.probability()) : "");
+  const auto& figures = m.conformance;
+  decimal(figures ? std::optional(figures->probability) : std::nullopt, 9);
+  decimal(figures ? std::optional(figures->guard_band) : std::nullopt, 9);
+  text(m.corrected ? format_mm(*m.corrected) : "");
+  decimal(m.expansions.scale_temperature, app::kTemperatureDecimals);
+  decimal(m.expansions.part, app::kTemperatureDecimals);
+  decimal(m.expansions.scale, app::kTemperatureDecimals);
+  chosen_text(m.expansions.part_material.value_or(""));
+  append_csv_text(out, m.expansions.scale_material.value_or(""));
   out += "\r\n";
 }
 

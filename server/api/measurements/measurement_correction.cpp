@@ -51,8 +51,8 @@ void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
     return offer(reader, "tolerance_class", original.class_name);
   }
   offer(reader, "feature", word(original.feature));
-  offer(reader, "upper_um", format_um(original.deviations.upper));
-  offer(reader, "lower_um", format_um(original.deviations.lower));
+  if (original.has_upper_limit()) offer(reader, "upper_um", format_um(original.deviations.upper));
+  if (original.has_lower_limit()) offer(reader, "lower_um", format_um(original.deviations.lower));
 }
 
 void take_over(MeasurementRowReader& reader, const JsonValue& body,
@@ -69,9 +69,25 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
   if (original.coverage_factor) {
     offer(reader, "coverage_factor", format(*original.coverage_factor));
   }
-  if (original.temperature) {
-    offer(reader, "temperature_c",
-          format_decimal(*original.temperature, app::kTemperatureDecimals));
+  if (original.conformance) offer(reader, "probability", format(original.rule.probability()));
+  const auto offer_millionths = [&](std::string_view name,
+                                    const std::optional<std::int64_t>& value) {
+    if (value) offer(reader, name, format_decimal(*value, app::kTemperatureDecimals));
+  };
+  const app::Expansions& expansions = original.expansions;
+  offer_millionths("temperature_c", original.temperature);
+  offer_millionths("scale_temperature_c", expansions.scale_temperature);
+  if (body.find("part_material") == nullptr) {
+    offer_millionths("part_expansion_um_per_m_k", expansions.part);
+  }
+  if (body.find("scale_material") == nullptr) {
+    offer_millionths("scale_expansion_um_per_m_k", expansions.scale);
+  }
+  if (body.find("part_expansion_um_per_m_k") == nullptr) {
+    offer(reader, "part_material", expansions.part_material);
+  }
+  if (body.find("scale_expansion_um_per_m_k") == nullptr) {
+    offer(reader, "scale_material", expansions.scale_material);
   }
 }
 

@@ -34,7 +34,13 @@ struct RowField {
     Uncertainty,
     Coverage,
     Rule,
+    Probability,
     Temperature,
+    ScaleTemperature,
+    PartExpansion,
+    ScaleExpansion,
+    PartMaterial,
+    ScaleMaterial,
     Count,
   };
 
@@ -86,7 +92,15 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = {{
     {"uncertainty_um", RowField::Kind::Length, 0, "Standard uncertainty u, from 0"},
     {"coverage_factor", RowField::Kind::Decimal, 0, "k, above 0 to 100; 2 when absent"},
     {"rule", RowField::Kind::Rule, 16, "Decision rule; simple when absent"},
-    {"temperature_c", RowField::Kind::Decimal, 0, "Of the part, -273.15 to 10000"},
+    {"probability", RowField::Kind::Decimal, 0,
+     "Of conformance, from 0.5 to below 1; 0.95 when absent"},
+    {"temperature_c", RowField::Kind::Decimal, 0,
+     "Of the part, -273.15 to 10000; corrects with an expansion"},
+    {"scale_temperature_c", RowField::Kind::Decimal, 0, "Of what it was read on; else 20"},
+    {"part_expansion_um_per_m_k", RowField::Kind::Decimal, 0, "Of the part, 0 to 1000"},
+    {"scale_expansion_um_per_m_k", RowField::Kind::Decimal, 0, "Of what it was read on"},
+    {"part_material", RowField::Kind::Text, 64, "Instead of part_expansion_um_per_m_k: steel"},
+    {"scale_material", RowField::Kind::Text, 64, "Instead of scale_expansion_um_per_m_k"},
 }};
 
 }  // namespace fitgauge::api

@@ -27,7 +27,7 @@ void MeasurementRowReader::resolve_limits() {
                                               : RowField::Class;
     report(ErrorCode::FieldConflict, kRowFields[second].name,
            "give the limits once: designation, or nominal_mm with tolerance_class, or nominal_mm "
-           "with feature, upper_um and lower_um");
+           "with feature, and upper_um, lower_um or both");
     return;
   }
   if (by_designation) return resolve_designation();
@@ -38,7 +38,7 @@ void MeasurementRowReader::resolve_limits() {
   if (by_drawing) return resolve_explicit();
   if (by_class) return resolve_class();
   report(ErrorCode::FieldMissing, kRowFields[RowField::Class].name,
-         "tolerance_class is required, or feature with upper_um and lower_um");
+         "tolerance_class is required, or feature with upper_um, lower_um or both");
 }
 
 Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) {
@@ -89,30 +89,34 @@ void MeasurementRowReader::resolve_designation() {
 }
 
 void MeasurementRowReader::resolve_explicit() {
-  for (const std::size_t field : {RowField::Feature, RowField::Upper, RowField::Lower}) {
-    if (!given(field)) {
-      report(ErrorCode::FieldMissing, kRowFields[field].name,
-             fmt::format("{} is required beside the other limits of a drawing",
-                         kRowFields[field].name));
-    }
+  if (!given(RowField::Feature)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Feature].name,
+           "feature is required beside the limits of a drawing");
   }
-  if (!draft_.nominal || !draft_.feature || !draft_.upper || !draft_.lower) return;
+  const bool one_given = given(RowField::Upper) || given(RowField::Lower);
+  if (!one_given) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Upper].name,
+           "upper_um is required beside feature, or lower_um, or both");
+  }
+  if (!draft_.nominal || !draft_.feature || !one_given || draft_.failed) return;
+  const Length upper = draft_.upper.value_or(app::kNoLimit);
+  const Length lower = draft_.lower.value_or(-app::kNoLimit);
   app::Measurement& m = draft_.measurement;
   if (*draft_.nominal <= Length() || *draft_.nominal > kLargestMeasured) {
     report(ErrorCode::LengthOutOfRange, kRowFields[RowField::Nominal].name,
            "nominal_mm is above 0 and at most 100000000");
   }
-  if (*draft_.upper < *draft_.lower) {
+  if (upper < lower) {
     report(ErrorCode::LimitsInvalid, kRowFields[RowField::Upper].name,
            "upper_um is below lower_um");
-  } else if (*draft_.nominal + *draft_.lower <= Length()) {
+  } else if (draft_.lower && *draft_.nominal + lower <= Length()) {
     report(ErrorCode::LimitsInvalid, kRowFields[RowField::Lower].name,
            "the lower limit would be 0 or less");
   }
   m.basis = app::LimitsBasis::Explicit;
   m.nominal_size = *draft_.nominal;
   m.feature = *draft_.feature;
-  m.deviations = {.upper = *draft_.upper, .lower = *draft_.lower};
+  m.deviations = {.upper = upper, .lower = lower};
 }
 
 }  // namespace fitgauge::api

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "api/limits/verdict_codec.hpp"
+#include "api/limits/thermal_codec.hpp"
 #include "api/measurements/measurement_row_fields.hpp"
 #include "base/decimal.hpp"
 
@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::int64_t kMillion = 1'000'000;
 constexpr std::int64_t kLargestCoverage = 100 * kMillion;
-constexpr std::int64_t kAbsoluteZero = -273'150'000;
-constexpr std::int64_t kHottest = 10'000 * kMillion;
 
 std::size_t search_field(std::string_view name) {
   const auto found = std::find_if(kRowFields.begin(), kRowFields.end(),
@@ -82,6 +80,13 @@ bool MeasurementRowReader::field(std::string_view name, const RawValue& value) {
 
 void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
   app::Measurement& m = draft_.measurement;
+  const auto temperature = [this](std::size_t of, const RawValue& given_value) {
+    return decimal_in(of, given_value, gauging::kColdest, gauging::kHottest,
+                      "lies from -273.15 to 10000");
+  };
+  const auto expansion = [this](std::size_t of, const RawValue& given_value) {
+    return decimal_in(of, given_value, 0, gauging::kLargestExpansion, "lies from 0 to 1000");
+  };
   switch (field) {
     case RowField::Measured:
       if (const auto measured = length(field, value, false, true)) {
@@ -122,34 +127,31 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
       }
       break;
     case RowField::Coverage:
-      if (const auto factor = decimal(field, value)) {
-        const auto made = gauging::CoverageFactor::from_millionths(*factor);
-        if (made && *factor <= kLargestCoverage) {
-          m.coverage_factor = *made;
-        } else {
-          report(ErrorCode::NumberOutOfRange, kRowFields[field].name,
-                 "coverage_factor is above 0 and at most 100");
-        }
-      }
+      draft_.rule.coverage_millionths =
+          decimal_in(field, value, 1, kLargestCoverage, "is above 0 and at most 100");
       break;
     case RowField::Rule:
       if (const auto rule = text(field, value)) {
         const auto kind = gauging::rule_from_word(*rule);
-        if (kind && *kind != gauging::DecisionRule::Kind::Conformance) {
-          draft_.rule = *kind;
-        } else {
+        draft_.rule.kind = kind.value_or(draft_.rule.kind);
+        if (!kind) {
           report(ErrorCode::FieldInvalid, kRowFields[field].name,
-                 "rule of a stored measurement is simple or guard_band");
+                 "rule is simple, guard_band or conformance");
         }
       }
       break;
-    case RowField::Temperature:
-      m.temperature = decimal(field, value);
-      if (m.temperature && (*m.temperature < kAbsoluteZero || *m.temperature > kHottest)) {
-        report(ErrorCode::NumberOutOfRange, kRowFields[field].name,
-               "temperature_c lies from -273.15 to 10000");
-      }
+    case RowField::Probability:
+      draft_.rule.probability_millionths =
+          decimal_in(field, value, kMillion / 2, kMillion - 1, "is at least 0.5 and below 1");
       break;
+    case RowField::Temperature: m.temperature = temperature(field, value); break;
+    case RowField::ScaleTemperature:
+      m.expansions.scale_temperature = temperature(field, value);
+      break;
+    case RowField::PartExpansion: m.expansions.part = expansion(field, value); break;
+    case RowField::ScaleExpansion: m.expansions.scale = expansion(field, value); break;
+    case RowField::PartMaterial: m.expansions.part_material = text(field, value); break;
+    case RowField::ScaleMaterial: m.expansions.scale_material = text(field, value); break;
     default: m.texts.*kRowFields[field].text = text(field, value); break;
   }
 }
@@ -188,6 +190,18 @@ std::optional<std::int64_t> MeasurementRowReader::decimal(std::size_t field,
   return std::nullopt;
 }
 
+std::optional<std::int64_t> MeasurementRowReader::decimal_in(std::size_t field,
+                                                             const RawValue& value,
+                                                             std::int64_t least, std::int64_t most,
+                                                             std::string_view range) {
+  const auto number = decimal(field, value);
+  if (number && (*number < least || *number > most)) {
+    report(ErrorCode::NumberOutOfRange, kRowFields[field].name,
+           fmt::format("{} {}", kRowFields[field].name, range));
+  }
+  return number;
+}
+
 std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
                                                            const RawValue& value) {
   const std::string_view name = kRowFields[field].name;
@@ -208,23 +222,56 @@ std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
   return value.text;
 }
 
+/// @pre every field is valid by itself, and a rule that needs the uncertainty has it
+void MeasurementRowReader::apply_rule() {
+  app::Measurement& m = draft_.measurement;
+  draft_.rule.standard_uncertainty = m.standard_uncertainty;
+  const auto rule = make_rule(draft_.rule);
+  if (!rule) {
+    return report(rule.error().code, kRowFields[RowField::Uncertainty].name, rule.error().message);
+  }
+  const auto checked =
+      check_acceptance(*rule, {.upper = m.upper_limit(), .lower = m.lower_limit()});
+  if (!checked) {
+    return report(checked.error().code, kRowFields[RowField::Uncertainty].name,
+                  checked.error().message);
+  }
+  m.rule = *rule;
+  if (rule->kind() == gauging::DecisionRule::Kind::GuardBand) {
+    m.coverage_factor = rule->coverage_factor();
+  } else if (const auto given_factor = draft_.rule.coverage_millionths) {
+    m.coverage_factor = gauging::CoverageFactor::from_millionths(*given_factor).value();
+  }
+}
+
+/// @pre as of apply_rule
+void MeasurementRowReader::apply_correction() {
+  app::Measurement& m = draft_.measurement;
+  const auto correction = make_correction({.temperature = m.temperature,
+                                           .scale_temperature = m.expansions.scale_temperature,
+                                           .part_expansion = m.expansions.part,
+                                           .scale_expansion = m.expansions.scale,
+                                           .part_material = m.expansions.part_material,
+                                           .scale_material = m.expansions.scale_material});
+  if (!correction) {
+    return report(correction.error().code, correction.error().where, correction.error().message);
+  }
+  if (*correction) m.corrected = (**correction)(m.measured);
+}
+
 const app::Measurement* MeasurementRowReader::end() {
   app::Measurement& m = draft_.measurement;
   if (!given(RowField::Measured)) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Measured].name, "measured_mm is required");
   }
   if (!draft_.has_limits) resolve_limits();
-  if (draft_.rule == gauging::DecisionRule::Kind::GuardBand) {
-    if (!given(RowField::Uncertainty)) {
-      report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
-             "the guard band needs uncertainty_um, the standard uncertainty");
-    } else if (!draft_.failed) {
-      m.rule = gauging::DecisionRule::guard_band(
-                   *m.standard_uncertainty, m.coverage_factor.value_or(gauging::CoverageFactor()))
-                   .value();
-      m.coverage_factor = m.rule.coverage_factor();
-    }
+  if (draft_.rule.kind != gauging::DecisionRule::Kind::Simple && !given(RowField::Uncertainty)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
+           fmt::format("rule {} needs uncertainty_um, the standard uncertainty",
+                       word(draft_.rule.kind)));
   }
+  if (!draft_.failed) apply_rule();
+  if (!draft_.failed) apply_correction();
   if (draft_.failed) return nullptr;
   m.received_at = received_at_;
   if (!given(RowField::MeasuredAt)) m.measured_at = received_at_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "api/limits/verdict_codec.hpp"
 #include "api/wire/field_reader.hpp"
 #include "app/measurements/measurement.hpp"
 
@@ -65,7 +66,7 @@ class MeasurementRowReader {
     std::optional<iso286::Feature> feature{};
     std::optional<Length> upper{};
     std::optional<Length> lower{};
-    gauging::DecisionRule::Kind rule = gauging::DecisionRule::Kind::Simple;
+    RuleWords rule{};
     bool has_limits = false;  ///< taken from another measurement
     bool failed = false;
   };
@@ -75,9 +76,15 @@ class MeasurementRowReader {
   std::optional<Length> length(std::size_t field, const RawValue& value, bool micrometres,
                                bool round = false);
   std::optional<std::int64_t> decimal(std::size_t field, const RawValue& value);
+  /// A decimal number between the two, in millionths; `range` says so.
+  std::optional<std::int64_t> decimal_in(std::size_t field, const RawValue& value,
+                                         std::int64_t least, std::int64_t most,
+                                         std::string_view range);
   std::optional<std::string_view> text(std::size_t field, const RawValue& value);
   bool given(std::size_t field) const { return (draft_.given >> field & 1U) != 0; }
 
+  void apply_rule();
+  void apply_correction();
   void resolve_limits();
   void resolve_class();
   void resolve_designation();

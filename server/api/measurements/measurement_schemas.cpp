@@ -23,7 +23,7 @@ std::string given_json(const RowField& field) {
     case RowField::Kind::Text: return schema::text(field.longest);
     case RowField::Kind::Time: return schema::time();
     case RowField::Kind::Feature: return feature_words();
-    case RowField::Kind::Rule: return schema::words({"simple", "guard_band"});
+    case RowField::Kind::Rule: return schema::words({"simple", "guard_band", "conformance"});
   }
   return {};
 }
@@ -64,6 +64,9 @@ schema::Fields record_fields() {
       {"received_at", schema::time(), "In UTC"},
   };
   const schema::Fields links = schema::optional({
+      {"corrected_mm", schema::number(), "At 20 degrees, where an expansion is given: it decides"},
+      {"conformance_probability", schema::number(0, 1), "Of rule conformance: to 1e-9"},
+      {"guard_band_um", schema::number(), "Of rule conformance: to 1e-9"},
       {"caller", schema::text(), "The name of the key that stored it"},
       {"run_id", schema::text(), "Of a simulation: the run"},
       {"cycle", schema::count(), "Of a simulation: the measuring cycle"},
@@ -72,7 +75,15 @@ schema::Fields record_fields() {
       {"corrected_by", schema::text(),
        "The id of its correction; shown where one record is asked for"},
   });
-  return origin + limits_fields() + verdict_fields() + echoed_fields() + links;
+  schema::Fields limits = limits_fields();
+  for (schema::Field& field : limits) {
+    // A drawing may have one of the two.
+    if (field.name.find("er_limit") != std::string::npos ||
+        field.name.find("deviation") != std::string::npos || field.name == "tolerance_um") {
+      field.required = false;
+    }
+  }
+  return origin + limits + verdict_fields() + echoed_fields() + links;
 }
 
 std::string verdict_counts() {
@@ -127,6 +138,23 @@ void add_measurement_schemas(Schemas& schemas) {
                         "What stands beside the path to the root, from the leaf up (RFC 6962)"},
                        {"checkpoint", schema::text(), "A signed note"}})});
   schemas.push_back({"VerdictCounts", verdict_counts()});
+  const std::string gauge =
+      schema::object({{"name", schema::text(), ""},
+                      {"calibration_due", schema::text(), "A date, of a gauge in use", false},
+                      {"uncertainty", schema::text(), "The name of its budget", false}});
+  schemas.push_back(
+      {"Certificate",
+       schema::object({{"order", schema::text(), "What it is of", false},
+                       {"part_id", schema::text(), "What it is of", false},
+                       {"title", schema::text(), ""},
+                       {"company", schema::text(), "", false},
+                       {"customer", schema::text(), "", false},
+                       {"made_at", schema::time(), ""},
+                       {"count", schema::count(), "Of the measurements"},
+                       {"verdicts", schema::ref("VerdictCounts"), ""},
+                       {"gauges", schema::array(gauge), "Those that were used"},
+                       {"checkpoint", schema::text(), "The signed head of the log: a note"},
+                       {"measurements", schema::array(schema::ref("Measurement")), ""}})});
   schemas.push_back(
       {"Accepted",
        schema::object(

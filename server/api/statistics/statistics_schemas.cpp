@@ -55,8 +55,8 @@ Fields selection_field() {
                       {"first_id", schema::text(), "The first of them in storage order"},
                       {"last_id", schema::text(), ""},
                       {"as_of", schema::text(), "The newest measurement there was"},
-                      {"lower_limit_mm", schema::number(), "That all of them have"},
-                      {"upper_limit_mm", schema::number(), ""}});
+                      {"lower_limit_mm", schema::number(), "That all of them have", false},
+                      {"upper_limit_mm", schema::number(), "", false}});
   return {{"selection", selection, "Which measurements it is of"}};
 }
 

@@ -50,16 +50,19 @@ bool ignores_subgroups(const http::Request& request) {
 }
 
 void write_selection(JsonWriter& json, const SelectedValues& selected, std::int64_t as_of) {
+  const auto limit = [&json](std::string_view name, const std::optional<Length>& value) {
+    if (value) json.member_mm(name, *value);
+  };
   json.key("selection")
       .begin_object()
       .member("count", std::uint64_t{selected.count})
       .member("subgroups", std::uint64_t{selected.subgroups.size()})
       .member("first_id", app::measurement_id_text(selected.first_id, selected.origin))
       .member("last_id", app::measurement_id_text(selected.last_id, selected.origin))
-      .member("as_of", app::measurement_id_text(as_of, selected.origin))
-      .member_mm("lower_limit_mm", selected.lower_limit)
-      .member_mm("upper_limit_mm", selected.upper_limit)
-      .end_object();
+      .member("as_of", app::measurement_id_text(as_of, selected.origin));
+  limit("lower_limit_mm", selected.lower_limit);
+  limit("upper_limit_mm", selected.upper_limit);
+  json.end_object();
 }
 
 /// The subgroup or the measurement that a point is of. A moving range is named by its later value.

@@ -28,18 +28,22 @@ metrology::Exact exact_mm(Length length) {
   return {metrology::Integer(length.count()), metrology::power_of_ten(kDecimals)};
 }
 
+std::string ValueSelection::text_of(const Limits& limits) {
+  if (!limits.lower) return fmt::format("up to {} mm", format_mm(*limits.upper));
+  if (!limits.upper) return fmt::format("{} mm or more", format_mm(*limits.lower));
+  return fmt::format("{} to {} mm", format_mm(*limits.lower), format_mm(*limits.upper));
+}
+
 Result<void> ValueSelection::add(const app::MeasuredValue& value) {
   const Limits limits{value.lower_limit, value.upper_limit};
   if (!limits_) limits_ = limits;
   origin_ = value.origin;
   if (limits != *limits_) {
-    return Error{
-        ErrorCode::LimitsMixed,
-        fmt::format("{} has the limits {} to {} mm, {} has {} to {} mm: select values of "
-                    "one size by characteristic or designation",
-                    app::measurement_id_text(ids_.front(), origin_), format_mm(limits_->lower),
-                    format_mm(limits_->upper), app::measurement_id_text(value.id, origin_),
-                    format_mm(limits.lower), format_mm(limits.upper))};
+    return Error{ErrorCode::LimitsMixed,
+                 fmt::format("{} has the limits {}, {} has {}: select values of one size by "
+                             "characteristic or designation",
+                             app::measurement_id_text(ids_.front(), origin_), text_of(*limits_),
+                             app::measurement_id_text(value.id, origin_), text_of(limits))};
   }
   bytes_ += sizeof(Wide) + sizeof(std::int64_t);
   names_subgroups_ = names_subgroups_ || value.subgroup.has_value();
@@ -74,15 +78,17 @@ void ValueSelection::join(std::string_view subgroup) {
 
 Result<SelectedValues> ValueSelection::selected() {
   if (counts_.empty()) return none_selected();
-  return SelectedValues{
-      .data = {},
-      .limits = {.lower = exact_mm(limits_->lower), .upper = exact_mm(limits_->upper)},
-      .lower_limit = limits_->lower,
-      .upper_limit = limits_->upper,
-      .count = counts_.size(),
-      .origin = origin_,
-      .first_id = ids_.front(),
-      .last_id = ids_.back()};
+  const auto exact = [](const std::optional<Length>& limit) {
+    return limit ? std::optional(exact_mm(*limit)) : std::nullopt;
+  };
+  return SelectedValues{.data = {},
+                        .limits = {.lower = exact(limits_->lower), .upper = exact(limits_->upper)},
+                        .lower_limit = limits_->lower,
+                        .upper_limit = limits_->upper,
+                        .count = counts_.size(),
+                        .origin = origin_,
+                        .first_id = ids_.front(),
+                        .last_id = ids_.back()};
 }
 
 Result<SelectedValues> ValueSelection::one_by_one() && {

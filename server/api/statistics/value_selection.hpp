@@ -19,8 +19,8 @@ metrology::Exact exact_mm(Length length);
 struct SelectedValues {
   metrology::Subgroups data;
   metrology::SpecificationLimits limits{};
-  Length lower_limit;
-  Length upper_limit;
+  std::optional<Length> lower_limit;
+  std::optional<Length> upper_limit;
   std::vector<std::int64_t> ids{};       ///< of the values, where they come one by one
   std::vector<std::string> subgroups{};  ///< the names of the subgroups, else
   std::size_t count = 0;
@@ -52,11 +52,13 @@ class ValueSelection {
 
  private:
   struct Limits {
-    Length lower;
-    Length upper;
+    std::optional<Length> lower;
+    std::optional<Length> upper;
     friend bool operator==(const Limits&, const Limits&) = default;
   };
 
+  /// `25 to 25.021 mm`, as an error says them.
+  static std::string text_of(const Limits& limits);
   /// Puts the value that is being added into its subgroup.
   void join(std::string_view subgroup);
   Result<SelectedValues> selected();

@@ -38,6 +38,33 @@ iso286::NominalSizeRange range_of(std::int64_t over_nm, std::int64_t up_to_nm) {
   return {.over = Length::nanometres(over_nm), .up_to = Length::nanometres(up_to_nm)};
 }
 
+store::Rule code_of(gauging::DecisionRule::Kind rule) {
+  switch (rule) {
+    case gauging::DecisionRule::Kind::Simple: return store::Rule::Simple;
+    case gauging::DecisionRule::Kind::GuardBand: return store::Rule::GuardBand;
+    case gauging::DecisionRule::Kind::Conformance: break;
+  }
+  return store::Rule::Conformance;
+}
+
+/// The rule of a row. @throws boost::system::system_error for numbers that no rule has.
+gauging::DecisionRule rule_of(const store::MeasurementRow& row) {
+  const Length u = Length::nanometres(row.uncertainty_nm.value_or(0));
+  switch (row.rule) {
+    case store::Rule::Simple: return {};
+    case store::Rule::GuardBand:
+      return gauging::DecisionRule::guard_band(
+                 u,
+                 gauging::CoverageFactor::from_millionths(row.coverage_factor.value_or(0)).value())
+          .value();
+    case store::Rule::Conformance: break;
+  }
+  return gauging::DecisionRule::conformance(
+             u,
+             gauging::ConformanceProbability::from_millionths(row.probability.value_or(0)).value())
+      .value();
+}
+
 }  // namespace
 
 store::TableContent to_store(const iso286::TableData& data) {
@@ -162,12 +189,22 @@ store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t>
   row.table_revision = revision;
   row.measured_nm = m.measured.count();
   row.verdict = to_store(m.result.verdict);
-  row.rule = m.rule.kind() == gauging::DecisionRule::Kind::Simple ? store::Rule::Simple
-                                                                  : store::Rule::GuardBand;
+  row.rule = code_of(m.rule.kind());
   row.uncertainty_nm = count_of(m.standard_uncertainty);
   if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
   for (const auto& [text, column] : kTextColumns) row.*column = m.texts.*text;
+  if (m.conformance) {
+    row.probability = m.rule.probability().millionths();
+    row.conformance = m.conformance->probability;
+    row.guard_band = m.conformance->guard_band;
+  }
   row.temperature = m.temperature;
+  row.corrected_nm = count_of(m.corrected);
+  row.scale_temperature = m.expansions.scale_temperature;
+  row.part_expansion = m.expansions.part;
+  row.scale_expansion = m.expansions.scale;
+  row.part_material = m.expansions.part_material;
+  row.scale_material = m.expansions.scale_material;
   row.caller = m.caller;
   row.run_id = m.run_id;
   row.cycle = m.cycle;
@@ -202,16 +239,20 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   if (row.coverage_factor) {
     m.coverage_factor = gauging::CoverageFactor::from_millionths(*row.coverage_factor).value();
   }
-  if (row.rule == store::Rule::GuardBand) {
-    m.rule =
-        gauging::DecisionRule::guard_band(m.standard_uncertainty.value_or(Length()),
-                                          m.coverage_factor.value_or(gauging::CoverageFactor()))
-            .value();
+  m.rule = rule_of(row);
+  m.corrected = length_of(row.corrected_nm);
+  m.result = gauging::gauge(m.feature, m.upper_limit(), m.lower_limit(), m.decisive());
+  m.result.verdict = from_store(row.verdict);  // the excess is not stored
+  if (row.conformance && row.guard_band) {
+    m.conformance = {.probability = *row.conformance, .guard_band = *row.guard_band};
   }
-  judge(m);  // the excess is not stored; the verdict is, and that one holds
-  m.result.verdict = from_store(row.verdict);
   for (const auto& [text, column] : kTextColumns) m.texts.*text = row.*column;
   m.temperature = row.temperature;
+  m.expansions = {.scale_temperature = row.scale_temperature,
+                  .part = row.part_expansion,
+                  .scale = row.scale_expansion,
+                  .part_material = row.part_material,
+                  .scale_material = row.scale_material};
   m.caller = row.caller;
   m.run_id = row.run_id;
   m.cycle = row.cycle;

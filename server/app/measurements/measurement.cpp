@@ -52,6 +52,8 @@ KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(
     if (text) text = texts_.emplace_back(*text);
   };
   for (const auto& [name, text] : kMeasurementTexts) keep(measurement_.texts.*text);
+  keep(measurement_.expansions.part_material);
+  keep(measurement_.expansions.scale_material);
   keep(measurement_.class_name);
   keep(measurement_.caller);
   keep(measurement_.correction_reason);
@@ -82,7 +84,12 @@ void apply_limits(Measurement& measurement, const Measurement& other) {
 void judge(Measurement& measurement) {
   measurement.result =
       gauging::gauge(measurement.feature, measurement.upper_limit(), measurement.lower_limit(),
-                     measurement.measured, measurement.rule);
+                     measurement.decisive(), measurement.rule);
+  if (measurement.rule.kind() != gauging::DecisionRule::Kind::Conformance) return;
+  measurement.conformance = gauging::conformance_figures(
+      {.upper = measurement.upper_limit(), .lower = measurement.lower_limit()},
+      measurement.decisive(), measurement.rule.standard_uncertainty(),
+      measurement.rule.probability().value());
 }
 
 void judge_size(Measurement& measurement, const CycleSize& size) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/clock.hpp"
+#include "gauging/conformance.hpp"
 #include "gauging/gauge.hpp"
 #include "iso286/nominal_size.hpp"
 #include "iso286/tolerance_tables.hpp"
@@ -56,6 +57,18 @@ inline constexpr std::array<
 
 inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them
 
+/// The deviation of a limit that a drawing does not have: beyond every length.
+inline constexpr Length kNoLimit = Length::nanometres(2 * kLongest.count());
+
+/// What a reading is corrected to 20 °C with, beside the temperature of the part, as it was given.
+struct Expansions {
+  std::optional<std::int64_t> scale_temperature;  ///< in millionths of a degree Celsius
+  std::optional<std::int64_t> part;               ///< in millionths of µm/(m·K)
+  std::optional<std::int64_t> scale;
+  std::optional<std::string_view> part_material;  ///< instead of the number
+  std::optional<std::string_view> scale_material;
+};
+
 /// One judged measurement, before and after it is stored. Its texts are views of the memory it was
 /// read from: the request's body, or the database's own page while a visitor runs.
 struct Measurement {
@@ -79,8 +92,12 @@ struct Measurement {
   std::optional<Length> standard_uncertainty;  ///< as given, also under the simple rule
   std::optional<gauging::CoverageFactor> coverage_factor;
 
+  std::optional<gauging::ConformanceFigures> conformance;  ///< of that rule
+
   MeasurementTexts texts;
   std::optional<std::int64_t> temperature;  ///< in millionths of a degree Celsius
+  Expansions expansions;
+  std::optional<Length> corrected;  ///< the size at 20 °C, where it decides
 
   std::optional<std::string_view> caller;
   std::optional<std::int64_t> run_id;
@@ -91,6 +108,10 @@ struct Measurement {
 
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }
+  bool has_upper_limit() const { return deviations.upper < kNoLimit; }
+  bool has_lower_limit() const { return -kNoLimit < deviations.lower; }
+  /// What is compared with the limits.
+  Length decisive() const { return corrected.value_or(measured); }
 };
 
 /// A measurement with texts of its own, to be kept after the visitor's call.
@@ -115,7 +136,8 @@ void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
 /// Takes the limits that stand in another measurement, as they were applied there.
 void apply_limits(Measurement& measurement, const Measurement& other);
 
-/// Judges the measured value by the limits and the rule that stand in the record.
+/// Judges the value by the limits and the rule that stand in the record.
+/// @pre a rule of conformance can accept some value
 void judge(Measurement& measurement);
 
 struct SizeLimits {

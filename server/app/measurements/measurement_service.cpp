@@ -46,11 +46,17 @@ MeasurementGroup measurement_group(store::SummaryGroup group) {
           .max = Length::nanometres(group.max_nm)};
 }
 
+/// None for that of a drawing without it, which lies beyond every length.
+std::optional<Length> limit_of(std::int64_t nanometres) {
+  const Length limit = Length::nanometres(nanometres);
+  return -kLongest <= limit && limit <= kLongest ? std::optional(limit) : std::nullopt;
+}
+
 MeasuredValue measured_value(const store::MeasuredValue& value) {
   return {.id = value.id,
           .measured = Length::nanometres(value.measured_nm),
-          .lower_limit = Length::nanometres(value.lower_limit_nm),
-          .upper_limit = Length::nanometres(value.upper_limit_nm),
+          .lower_limit = limit_of(value.lower_limit_nm),
+          .upper_limit = limit_of(value.upper_limit_nm),
           .subgroup = value.subgroup};
 }
 

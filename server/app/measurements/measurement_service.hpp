@@ -78,8 +78,8 @@ struct MeasuredValue {
   std::int64_t id = 0;
   std::string_view origin{};  ///< of the data folder; outlives the value
   Length measured;
-  Length lower_limit;
-  Length upper_limit;
+  std::optional<Length> lower_limit;
+  std::optional<Length> upper_limit;
   std::optional<std::string_view> subgroup;
 };
 

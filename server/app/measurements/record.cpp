@@ -9,12 +9,14 @@ namespace {
 
 /// More than the names of all members, the numbers, the words and the ids of a record take
 /// together.
-constexpr std::size_t kFixedRoom = 1792;
+constexpr std::size_t kFixedRoom = 2304;
 
 std::size_t room_for(const Measurement& m) {
   std::size_t texts = m.table_revision.size() + m.caller.value_or("").size() +
                       m.correction_reason.value_or("").size() +
-                      2 * m.class_name.value_or("").size();
+                      2 * m.class_name.value_or("").size() +
+                      m.expansions.part_material.value_or("").size() +
+                      m.expansions.scale_material.value_or("").size();
   for (const auto& [name, field] : kMeasurementTexts) texts += (m.texts.*field).value_or("").size();
   return kFixedRoom + RecordText::kEscaped * texts;
 }
@@ -52,13 +54,20 @@ void RecordWriter::append(const Measurement& m) {
   const auto given = [&text](std::string_view name, const std::optional<std::string_view>& value) {
     if (value) text.raw(",\"").raw(name).raw("\":").quoted(*value);
   };
+  const auto millionths = [&text](std::string_view name, const std::optional<std::int64_t>& value) {
+    if (value) text.raw(",\"").raw(name).raw("\":").decimal(*value, kTemperatureDecimals);
+  };
   const MeasurementTexts& texts = m.texts;
   // Sorted by the names of the members; a test compares it with an RFC 8785 form made elsewhere.
   text.raw(R"({"basis":")").raw(word(m.basis)).raw("\"");
   given("caller", m.caller);
   given("characteristic", texts.characteristic);
   given("comment", texts.comment);
+  if (m.conformance) {
+    text.raw(R"(,"conformance_probability":)").billionths(m.conformance->probability);
+  }
   if (m.corrected_by) given("corrected_by", measurement_id_text(*m.corrected_by, m.origin));
+  if (m.corrected) text.raw(R"(,"corrected_mm":)").mm(*m.corrected);
   if (m.correction_of) given("correction_of", measurement_id_text(*m.correction_of, m.origin));
   if (m.coverage_factor) text.raw(R"(,"coverage_factor":)").raw(format(*m.coverage_factor));
   if (m.cycle) text.raw(R"(,"cycle":)").decimal(*m.cycle, 0);
@@ -66,12 +75,14 @@ void RecordWriter::append(const Measurement& m) {
     if (!m.class_name) return;
     text.raw(R"(,"designation":")").mm(m.nominal_size).raw(" ").escaped(*m.class_name).raw("\"");
   });
-  text.raw(R"(,"deviation_um":)").um(m.measured - m.nominal_size);
+  text.raw(R"(,"deviation_um":)").um(m.decisive() - m.nominal_size);
   text.raw(R"(,"excess_um":)").um(m.result.excess);
   text.raw(R"(,"feature":")").raw(word(m.feature)).raw("\"");
   given("gauge", texts.gauge);
+  if (m.conformance) text.raw(R"(,"guard_band_um":)").billionths(m.conformance->guard_band);
   text.raw(R"(,"id":")").raw(measurement_id_text(m.id, m.origin)).raw("\"");
   write_or_copy(text, LowerLimit, limits, [&] {
+    if (!m.has_lower_limit()) return;
     text.raw(R"(,"lower_deviation_um":)").um(m.deviations.lower);
     text.raw(R"(,"lower_limit_mm":)").mm(m.lower_limit());
   });
@@ -83,12 +94,18 @@ void RecordWriter::append(const Measurement& m) {
   given("operation", texts.operation);
   given("operator", texts.operator_id);
   given("order", texts.order);
+  millionths("part_expansion_um_per_m_k", m.expansions.part);
   given("part_id", texts.part_id);
+  given("part_material", m.expansions.part_material);
+  if (m.conformance) text.raw(R"(,"probability":)").raw(format(m.rule.probability()));
   given("reason", m.correction_reason);
   write_or_copy(text, ReceivedAt, times,
                 [&] { text.raw(R"(,"received_at":")").time(m.received_at); });
   text.raw(R"(","rule":")").raw(word(m.rule.kind())).raw("\"");
   if (m.run_id) given("run_id", run_id_text(*m.run_id, m.origin));
+  millionths("scale_expansion_um_per_m_k", m.expansions.scale);
+  given("scale_material", m.expansions.scale_material);
+  millionths("scale_temperature_c", m.expansions.scale_temperature);
   write_or_copy(text, SizeRange, limits, [&] {
     if (!m.size_range) return;
     text.raw(R"(,"size_range_mm":{"over":)").mm(m.size_range->over);
@@ -97,12 +114,15 @@ void RecordWriter::append(const Measurement& m) {
   text.raw(R"(,"source":")").raw(word(m.source)).raw("\"");
   given("subgroup", texts.subgroup);
   if (!m.table_revision.empty()) given("table_revision", m.table_revision);
-  if (m.temperature) text.raw(R"(,"temperature_c":)").decimal(*m.temperature, kTemperatureDecimals);
+  millionths("temperature_c", m.temperature);
   given("tolerance_class", m.class_name);
-  text.raw(R"(,"tolerance_um":)").um(m.deviations.upper - m.deviations.lower);
+  if (m.has_upper_limit() && m.has_lower_limit()) {
+    text.raw(R"(,"tolerance_um":)").um(m.deviations.upper - m.deviations.lower);
+  }
   if (m.standard_uncertainty) text.raw(R"(,"uncertainty_um":)").um(*m.standard_uncertainty);
   given("unit", texts.unit);
   write_or_copy(text, UpperLimit, limits, [&] {
+    if (!m.has_upper_limit()) return;
     text.raw(R"(,"upper_deviation_um":)").um(m.deviations.upper);
     text.raw(R"(,"upper_limit_mm":)").mm(m.upper_limit());
   });

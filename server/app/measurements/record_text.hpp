@@ -40,6 +40,13 @@ class RecordText {
     at_ = write_decimal(at_, value, scale);
     return *this;
   }
+  /// A value in 1e-9, below 1e-6 with an exponent as RFC 8785 wants it.
+  RecordText& billionths(std::int64_t value) {
+    if (value <= 0 || value >= 1000) return decimal(value, 9);
+    const int digits = value < 10 ? 1 : value < 100 ? 2 : 3;
+    const char exponent = static_cast<char>('0' + 10 - digits);
+    return decimal(value, digits - 1).raw("e-").raw({&exponent, 1});
+  }
   RecordText& mm(Length length) { return decimal(length.count(), 6); }
   RecordText& um(Length length) { return decimal(length.count(), 3); }
   RecordText& time(Timestamp time) {

@@ -65,8 +65,8 @@ class BadInput(DaemonTest):
                     "field.conflict")
         self.refuse({"nominal_mm": 25, "tolerance_class": "H7", "feature": "hole", "upper_um": 1,
                      "lower_um": 0, "measured_mm": 25}, 422, "field.conflict")
-        self.refuse({"nominal_mm": 25, "feature": "hole", "upper_um": 1, "measured_mm": 25}, 422,
-                    "field.missing")
+        self.refuse({"nominal_mm": 25, "feature": "hole", "measured_mm": 25}, 422, "field.missing")
+        self.refuse({"nominal_mm": 25, "upper_um": 1, "measured_mm": 25}, 422, "field.missing")
         self.refuse({"nominal_mm": 25, "feature": "hole", "upper_um": 0, "lower_um": 1,
                      "measured_mm": 25}, 422, "limits.invalid")
 

@@ -29,6 +29,89 @@ class Decisions(DaemonTest):
         self.assertEqual(self.verdict("25.0033&rule=conformance&uncertainty_um=2&probability=0.99")["verdict"],
                          "indeterminate")
 
+    def test_a_stored_value_decides_as_the_question_did(self):
+        for query in ("25.00329&rule=conformance&uncertainty_um=2", "25.03&rule=conformance&uncertainty_um=2",
+                      "25.0032&rule=conformance&uncertainty_um=2&probability=0.9",
+                      "25.0215&temperature_c=25&part_material=steel",
+                      "25.0215&rule=conformance&uncertainty_um=1&temperature_c=25&part_expansion_um_per_m_k=11.5"
+                      "&scale_temperature_c=19.5&scale_material=glass_scale"):
+            with self.subTest(query):
+                asked = self.verdict(query)
+                given = dict(pair.split("=") for pair in f"measured_mm={query}".split("&"))
+                answer = self.daemon.measure({"designation": "25 H7", **given})
+                self.assertEqual(answer.status, 201, answer)
+                record = answer.json
+                for name, value in asked.items():
+                    self.assertEqual(record[name], value, name)
+                for name, value in given.items():
+                    self.assertEqual(str(record[name]), value, name)
+                self.assertEqual(self.daemon.get(f"/v1/measurements/{record['id']}").json, record)
+                listed = self.daemon.get("/v1/measurements?last=1", Accept="text/csv").text.splitlines()
+                row = dict(zip(listed[0].split(","), listed[1].split(",")))
+                for name in ("conformance_probability", "guard_band_um", "corrected_mm", "probability"):
+                    self.assertEqual(float(row[name]) if row[name] else None, record.get(name), name)
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+    def test_a_drawing_may_have_one_limit(self):
+        def record(measured, **fields):
+            answer = self.daemon.measure({"nominal_mm": 10, "feature": "shaft", "measured_mm": measured, **fields})
+            self.assertEqual(answer.status, 201, answer)
+            return answer.json
+
+        above = record("10.01", upper_um=10)
+        self.assertEqual((above["verdict"], above["excess_um"], above["upper_limit_mm"]), ("good", 0, 10.01))
+        for absent in ("lower_limit_mm", "lower_deviation_um", "tolerance_um"):
+            self.assertNotIn(absent, above)
+        self.assertEqual(record("10.010001", upper_um=10)["verdict"], "rework")
+        self.assertEqual(record("0.000001", upper_um=10)["verdict"], "good")
+        below = record("9.98999", lower_um=-10, rule="guard_band", uncertainty_um="0.002")
+        self.assertEqual((below["verdict"], below["lower_limit_mm"], below["excess_um"]), ("reject", 9.99, -0.01))
+        self.assertNotIn("upper_limit_mm", below)
+        self.assertEqual(record(90_000_000, lower_um=-10)["verdict"], "good")
+        # One limit counts: the distance of 1.645 u conforms with 95 %.
+        guard = NormalDist().inv_cdf(0.95)
+        found = record("9.99165", lower_um=-10, rule="conformance", uncertainty_um=1)
+        self.assertEqual(found["verdict"], "good")
+        self.assertAlmostEqual(found["guard_band_um"], guard, places=8)
+        self.assertEqual(record("9.99164", lower_um=-10, rule="conformance", uncertainty_um=1)["verdict"],
+                         "indeterminate")
+        answer = self.daemon.measure({"nominal_mm": 10, "feature": "shaft", "measured_mm": 10})
+        self.assertEqual(self.assert_problem(answer, 422, "request.invalid")["errors"][0]["pointer"], "/upper_um")
+        path = f"/v1/measurements/{above['id']}/corrections"
+        corrected = self.daemon.post(path, {"measured_mm": "10.02", "reason": "misread"}).json
+        self.assertEqual((corrected["verdict"], "lower_limit_mm" in corrected), ("rework", False))
+        for value in ("10.001", "10.002", "10.004"):
+            record(value, upper_um=10, characteristic="one-sided")
+        figures = self.daemon.get("/v1/measurements/capability?characteristic=one-sided").json
+        self.assertIsNone(figures["cp"]["value"] if figures["cp"] else None)
+        self.assertNotIn("lower_limit_mm", figures["selection"])
+        self.assertGreater(figures["cpu"]["value"], 0)
+
+    def test_a_correction_keeps_what_decided(self):
+        given = {"designation": "25 H7", "measured_mm": "25.0215", "temperature_c": 25, "part_material": "steel",
+                 "rule": "conformance", "uncertainty_um": "0.5", "probability": "0.9"}
+        record = self.daemon.measure(given).json
+        self.assertEqual((record["verdict"], record["corrected_mm"]), ("good", 25.020061))
+        path = f"/v1/measurements/{record['id']}/corrections"
+        corrected = self.daemon.post(path, {"measured_mm": "25.0225", "reason": "misread"}).json
+        self.assertEqual((corrected["verdict"], corrected["corrected_mm"], corrected["probability"],
+                          corrected["part_material"]), ("indeterminate", 25.021061, 0.9, "steel"))
+
+    def test_what_a_stored_value_refuses(self):
+        for fields, pointer, code in (
+                ({"rule": "conformance"}, "/uncertainty_um", "field.missing"),
+                ({"rule": "conformance", "uncertainty_um": 0}, "/uncertainty_um", "rule.invalid"),
+                ({"rule": "conformance", "uncertainty_um": 5.4}, "/uncertainty_um", "rule.no_acceptance"),
+                ({"rule": "conformance", "uncertainty_um": 1, "probability": 1}, "/probability", "number.out_of_range"),
+                ({"part_material": "steel"}, "/temperature_c", "field.missing"),
+                ({"temperature_c": 25, "part_material": "wood"}, "/part_material", "field.invalid"),
+                ({"temperature_c": 25, "part_material": "steel", "part_expansion_um_per_m_k": 11},
+                 "/part_material", "field.conflict")):
+            with self.subTest(fields):
+                answer = self.daemon.measure({"designation": "25 H7", "measured_mm": 25.01, **fields})
+                problem = self.assert_problem(answer, 422, "request.invalid")
+                self.assertEqual([(each["pointer"], each["code"]) for each in problem["errors"]], [(pointer, code)])
+
     def test_both_limits_count_where_the_uncertainty_is_large(self):
         # At the middle of 21 um with u = 5.3 um lie 95.24 %; with 5.4 um 94.8 %, and no value is good.
         self.assertEqual(self.verdict("25.0105&rule=conformance&uncertainty_um=5.3")["verdict"], "good")

@@ -123,8 +123,10 @@ TEST_CASE("limits are given once, in one of three ways") {
       Complaints{"/tolerance_class field.conflict"});
   CHECK(complaints(R"({"nominal_mm":25,"measured_mm":25})") ==
         Complaints{"/tolerance_class field.missing"});
-  CHECK(complaints(R"({"nominal_mm":25,"feature":"hole","upper_um":1,"measured_mm":25})") ==
-        Complaints{"/lower_um field.missing"});
+  CHECK(complaints(R"({"nominal_mm":25,"feature":"hole","measured_mm":25})") ==
+        Complaints{"/upper_um field.missing"});
+  CHECK(complaints(R"({"nominal_mm":25,"upper_um":1,"measured_mm":25})") ==
+        Complaints{"/feature field.missing"});
   CHECK(complaints(
             R"({"nominal_mm":25,"feature":"hole","upper_um":1,"lower_um":2,"measured_mm":25})") ==
         Complaints{"/upper_um limits.invalid"});

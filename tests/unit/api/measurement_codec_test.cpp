@@ -53,6 +53,47 @@ TEST_CASE("a record has what was given, in the order of RFC 8785") {
       R"("tolerance_um":21,"upper_deviation_um":21,"upper_limit_mm":25.021,"verdict":"good"})");
 }
 
+TEST_CASE("a record says what decided beside the reading") {
+  app::Measurement m = hole_25_h7();
+  m.standard_uncertainty = Length::micrometres(2);
+  m.rule = gauging::DecisionRule::conformance(*m.standard_uncertainty).value();
+  m.temperature = 25'000'000;
+  m.expansions = {.scale_temperature = 21'500'000,
+                  .part = 11'500'000,
+                  .scale = std::nullopt,
+                  .part_material = std::nullopt,
+                  .scale_material = "steel"};
+  m.corrected = Length::millimetres(25) + Length::nanometres(3290);
+  app::judge(m);
+  // The probability to lie above 25 with 1.645 standard uncertainties: normal tables have 0.950015.
+  CHECK(record(m) ==
+        R"({"basis":"iso286","conformance_probability":0.950015094,"corrected_mm":25.00329,)"
+        R"("designation":"25 H7","deviation_um":3.29,"excess_um":0,)"
+        R"("feature":"hole","guard_band_um":3.289707254,"id":"m17-5f0c9a3e77d21b40",)"
+        R"("lower_deviation_um":0,"lower_limit_mm":25,)"
+        R"("measured_at":"1970-01-01T00:00:00Z","measured_mm":25.013,"nominal_mm":25,)"
+        R"("part_expansion_um_per_m_k":11.5,"probability":0.95,)"
+        R"("received_at":"1970-01-01T00:00:00Z","rule":"conformance","scale_material":"steel",)"
+        R"("scale_temperature_c":21.5,"size_range_mm":{"over":18,"up_to":30},"source":"gauge",)"
+        R"("table_revision":"1-00000000","temperature_c":25,"tolerance_class":"H7",)"
+        R"("tolerance_um":21,"uncertainty_um":2,"upper_deviation_um":21,"upper_limit_mm":25.021,)"
+        R"("verdict":"good"})");
+  const auto probability = [&](std::int64_t value) {
+    m.conformance->probability = value;
+    const std::string text = record(m);
+    const std::size_t begin = text.find("y\":") + 3;
+    return text.substr(begin, text.find(',') == 0 ? 0 : text.find(',', begin) - begin);
+  };
+  // As RFC 8785 takes them from ECMAScript: an exponent below 1e-6.
+  CHECK(probability(0) == "0");
+  CHECK(probability(1) == "1e-9");
+  CHECK(probability(25) == "2.5e-8");
+  CHECK(probability(30) == "3e-8");
+  CHECK(probability(999) == "9.99e-7");
+  CHECK(probability(1000) == "0.000001");
+  CHECK(probability(1'000'000'000) == "1");
+}
+
 TEST_CASE("records with the times and limits of the one before or others are as each by itself") {
   std::vector<app::Measurement> rows(12, hole_25_h7());
   rows[3].class_name = "H8";
