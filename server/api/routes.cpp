@@ -1,5 +1,6 @@
 #include "api/routes.hpp"
 
+#include "api/certificates/certificates_resource.hpp"
 #include "api/files/files_resource.hpp"
 #include "api/limits/fits_resource.hpp"
 #include "api/limits/gauges_resource.hpp"
@@ -35,6 +36,7 @@ http::RouteTable make_routes(const Services& services) {
   add_verdicts_routes(routes, services);
   add_measurements_routes(routes, services);
   add_log_routes(routes, services);
+  add_certificates_routes(routes, services);
   add_statistics_routes(routes, services);
   add_stored_statistics_routes(routes, services);
   add_uncertainty_routes(routes, services);

@@ -175,6 +175,8 @@ class _Circumstances(TypedDict, total=False):
     unit: str
     comment: str
     rule: RuleWord
+    part_material: str
+    scale_material: str
 
 
 class _Measured(TypedDict):
@@ -194,7 +196,11 @@ class NewMeasurement(_Measured, _Circumstances, total=False):
     measured_at: Union[str, datetime]
     uncertainty_um: Size
     coverage_factor: Size
+    probability: Size
     temperature_c: Size
+    scale_temperature_c: Size
+    part_expansion_um_per_m_k: Size
+    scale_expansion_um_per_m_k: Size
     reason: str
 
 
@@ -210,7 +216,14 @@ class Measurement(Verdict, _Origin, _Circumstances, total=False):
 
     uncertainty_um: Decimal
     coverage_factor: Decimal
+    probability: Decimal
+    conformance_probability: Decimal
+    guard_band_um: Decimal
     temperature_c: Decimal
+    scale_temperature_c: Decimal
+    part_expansion_um_per_m_k: Decimal
+    scale_expansion_um_per_m_k: Decimal
+    corrected_mm: Decimal
     caller: str
     run_id: str
     cycle: int
@@ -888,6 +901,12 @@ class Client:
         """A new record in place of a wrong one, which stays: `measured_mm`, `reason`, and what else changes."""
         return self._post(_path("measurements", measurement_id, "corrections"),
                                          dumps(correction).encode(), "application/json", idempotency_key)
+
+    def certificate(self, *, order: str | None = None, part_id: str | None = None, **options: Parameter) -> bytes:
+        """The inspection certificate of an order, a part or both, as PDF. `options` are `title`, `company`,
+        `customer`, `paper` (a4, letter) and the filters of measurements."""
+        query = _query({"order": order, "part_id": part_id, **options})
+        return self._bytes("/v1/certificates" + query, "application/pdf")
 
     def proof(self, measurement_id: str) -> dict[str, Any]:
         """That a record stands in the log: `index`, `size`, `leaf`, `hashes` and the signed `checkpoint`, for

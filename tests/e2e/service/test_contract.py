@@ -162,6 +162,12 @@ class Answers(ContractTest):
         self.expect("postMeasurements", 201, [full, drawn])
         self.expect("postMeasurements", 201, [full, drawn], {"Prefer": "return=representation"})
         self.expect("postMeasurements", 201, full, {"Prefer": "return=minimal"})
+        decided = {"designation": "25 H7", "measured_mm": 25.013, "rule": "conformance", "uncertainty_um": 1,
+                   "probability": 0.9, "temperature_c": 21, "scale_temperature_c": 19}
+        self.expect("postMeasurements", 201, {**decided, "part_expansion_um_per_m_k": 11.5, "scale_material": "steel"})
+        self.expect("postMeasurements", 201, {**decided, "part_material": "steel", "scale_expansion_um_per_m_k": 8})
+        self.expect("postMeasurements", 201, {"nominal_mm": 8, "feature": "shaft", "upper_um": 0, "measured_mm": 8})
+        self.expect("getCertificate", 200, headers={"Accept": "application/json"}, order="order")
         self.expect("correctMeasurement", 201, {"measured_mm": 25.012, "reason": "misread"}, id=first)
         self.expect("correctMeasurement", 409, {"measured_mm": 25.012, "reason": "misread"}, id=first)
         self.expect("getMeasurement", 200, id=first)

@@ -1,0 +1,150 @@
+#include "api/certificates/certificate_draft.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "api/measurements/measurement_codec.hpp"
+#include "api/service/version.hpp"
+#include "api/wire/json_value.hpp"
+#include "api/wire/json_writer.hpp"
+#include "app/measurements/record.hpp"
+#include "base/decimal.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+std::string size_text(const app::Measurement& m) {
+  const std::string nominal = format_mm(m.nominal_size);
+  return m.class_name ? fmt::format("{} {}", nominal, *m.class_name)
+                      : fmt::format("{} {}", nominal, word(m.feature));
+}
+
+std::string limits_text(const app::Measurement& m) {
+  if (!m.has_lower_limit()) return fmt::format("up to {}", format_mm(m.upper_limit()));
+  if (!m.has_upper_limit()) return fmt::format("from {}", format_mm(m.lower_limit()));
+  return fmt::format("{} to {}", format_mm(m.lower_limit()), format_mm(m.upper_limit()));
+}
+
+std::string measured_text(const app::Measurement& m) {
+  if (!m.corrected) return format_mm(m.measured);
+  return fmt::format("{} (read {})", format_mm(*m.corrected), format_mm(m.measured));
+}
+
+std::string rule_text(const app::Measurement& m) {
+  const Length u = m.rule.standard_uncertainty();
+  switch (m.rule.kind()) {
+    case gauging::DecisionRule::Kind::Simple: return "";
+    case gauging::DecisionRule::Kind::GuardBand:
+      return fmt::format("guard band, u {} \u00b5m, k {}", format_um(u),
+                         format(m.rule.coverage_factor()));
+    case gauging::DecisionRule::Kind::Conformance: break;
+  }
+  return fmt::format("conformance {}, u {} \u00b5m", format(m.rule.probability()), format_um(u));
+}
+
+/// `2026-11-22 08:00:00Z`
+std::string time_text(Timestamp time) {
+  std::string text = format_rfc3339(time);
+  if (const std::size_t point = text.find('.'); point != text.npos) text.erase(point) += 'Z';
+  return text.replace(text.find('T'), 1, " ");
+}
+
+std::string member(const JsonValue& document, std::string_view name) {
+  const JsonValue* value = document.find(name);
+  return value != nullptr && value->is(JsonValue::Kind::String) ? std::string(value->text) : "";
+}
+
+}  // namespace
+
+void CertificateDraft::add(const app::Measurement& m) {
+  ++count_;
+  ++verdicts_.at(static_cast<std::size_t>(m.result.verdict));
+  last_id_ = m.id;
+  if (first_id_.empty()) first_id_ = app::measurement_id_text(m.id, m.origin);
+  if (m.texts.gauge) gauges_[std::string(*m.texts.gauge)];
+  if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
+  if (order_.as_json) {
+    if (!records_.empty()) records_ += ',';
+    return app::append_record(records_, m);
+  }
+  lines_.push_back({.part = std::string(m.texts.part_id.value_or("")),
+                    .characteristic = std::string(m.texts.characteristic.value_or("")),
+                    .size = size_text(m),
+                    .limits = limits_text(m),
+                    .measured = measured_text(m),
+                    .deviation = format_um(m.decisive() - m.nominal_size),
+                    .verdict = std::string(word(m.result.verdict)),
+                    .rule = rule_text(m),
+                    .gauge = std::string(m.texts.gauge.value_or("")),
+                    .measured_at = time_text(m.measured_at)});
+}
+
+void CertificateDraft::add_gauges(const std::vector<app::NamedDocument>& gauges) {
+  for (const app::NamedDocument& stored : gauges) {
+    const auto used = gauges_.find(stored.name);
+    if (used == gauges_.end()) continue;
+    const auto document = parse_json(stored.text);
+    if (!document) continue;  // it was checked when it was stored
+    used->second = {.calibration_due = member(*document, "calibration_due"),
+                    .uncertainty = member(*document, "uncertainty")};
+  }
+  for (certificate::Line& line : lines_) {
+    const auto used = gauges_.find(line.gauge);
+    if (used == gauges_.end()) continue;
+    const Gauge& gauge = used->second;
+    if (!gauge.calibration_due.empty()) line.gauge += ", due " + gauge.calibration_due;
+    if (!gauge.uncertainty.empty()) line.gauge += ", budget " + gauge.uncertainty;
+  }
+}
+
+std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpoint) const {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object();
+  for (const auto& [name, value] : order_.of) json.member(name, value);
+  json.member("title", order_.title);
+  if (!order_.company.empty()) json.member("company", order_.company);
+  if (!order_.customer.empty()) json.member("customer", order_.customer);
+  json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count_});
+  write_verdict_counts(json, verdicts_[0], verdicts_[1], verdicts_[2], verdicts_[3]);
+  json.key("gauges").begin_array();
+  for (const auto& [name, gauge] : gauges_) {
+    json.begin_object().member("name", name);
+    if (!gauge.calibration_due.empty()) json.member("calibration_due", gauge.calibration_due);
+    if (!gauge.uncertainty.empty()) json.member("uncertainty", gauge.uncertainty);
+    json.end_object();
+  }
+  json.end_array().member("checkpoint", checkpoint);
+  json.key("measurements").raw("[" + records_ + "]").end_object();
+  return out;
+}
+
+std::string CertificateDraft::summary() const {
+  return fmt::format("{} measured values: {} good, {} rework, {} reject, {} indeterminate.", count_,
+                     verdicts_[0], verdicts_[1], verdicts_[2], verdicts_[3]);
+}
+
+std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoint) const {
+  certificate::Certificate paper{
+      .title = order_.title,
+      .lines = lines_,
+      .summary = summary(),
+      .code = fmt::format("{}/v1/measurements/{}/proof", order_.own_origin, first_id_),
+      .signatures = {"Inspector", "Quality", "Date"}};
+  if (!order_.company.empty()) paper.facts.push_back(order_.company);
+  if (!order_.customer.empty()) paper.facts.push_back("Customer: " + order_.customer);
+  for (const auto& [name, value] : order_.of) {
+    paper.facts.push_back(fmt::format("{}: {}", name == "order" ? "Order" : "Part", value));
+  }
+  std::string made = fmt::format("Made {} by fitgauge {}", time_text(made_at), kVersion);
+  for (const auto& [revision, uses] : revisions_) made += ", tables " + revision;
+  paper.facts.push_back(made);
+  paper.proof.emplace_back("Every value stands in the log whose signed head is:");
+  std::istringstream note(checkpoint);
+  for (std::string line; std::getline(note, line);) paper.proof.push_back(line);
+  paper.proof.push_back("Proof of the first value: " + paper.code);
+  return certificate::to_pdf(paper, order_.paper);
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/service/document_service.hpp"
+#include "app/measurements/measurement.hpp"
+#include "certificate/certificate.hpp"
+
+namespace fitgauge::api {
+
+/// What the request says of a certificate.
+struct CertificateOrder {
+  std::vector<std::pair<std::string, std::string>> of{};  ///< order, part_id: what it is of
+  std::string title{};
+  std::string company{};
+  std::string customer{};
+  certificate::Paper paper = certificate::Paper::A4;
+  bool as_json = false;
+  std::string own_origin{};  ///< `http://host:port`, for the QR code
+};
+
+/// Collects the measurements of a certificate while they are read, then writes it. One thread at a
+/// time.
+class CertificateDraft {
+ public:
+  explicit CertificateDraft(CertificateOrder order) : order_(std::move(order)) {}
+
+  const CertificateOrder& order() const { return order_; }
+  std::size_t count() const { return count_; }
+  std::int64_t last_id() const { return last_id_; }  ///< of the measurements; 0 before the first
+
+  void add(const app::Measurement& measurement);
+  /// The gauges in use, as they are stored.
+  void add_gauges(const std::vector<app::NamedDocument>& gauges);
+
+  /// @param checkpoint the signed head of the log
+  std::string json(Timestamp made_at, const std::string& checkpoint) const;
+  /// @throws std::runtime_error as certificate::to_pdf does.
+  std::string pdf(Timestamp made_at, const std::string& checkpoint) const;
+
+ private:
+  struct Gauge {
+    std::string calibration_due;  ///< a date, or empty
+    std::string uncertainty;      ///< the name of its budget, or empty
+  };
+
+  std::string summary() const;
+
+  CertificateOrder order_;
+  std::size_t count_ = 0;
+  std::array<std::int64_t, 4> verdicts_{};  ///< by gauging::Verdict
+  std::string records_;                     ///< JSON, with commas between them
+  std::vector<certificate::Line> lines_;
+  std::map<std::string, Gauge> gauges_;  ///< those that were used
+  std::map<std::string, int> revisions_;
+  std::string first_id_;
+  std::int64_t last_id_ = 0;
+};
+
+}  // namespace fitgauge::api

@@ -1,0 +1,134 @@
+#include "api/certificates/certificates_resource.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "api/certificates/certificate_draft.hpp"
+#include "api/handlers.hpp"
+#include "api/measurements/measurement_listing.hpp"
+#include "app/log/log_service.hpp"
+#include "app/measurements/measurement_service.hpp"
+#include "app/runs/run_service.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+/// On paper some hundred pages.
+constexpr std::size_t kMostMeasurements = 10'000;
+constexpr std::string_view kPdf = "application/pdf";
+constexpr std::string_view kJson = "application/json";
+
+Result<CertificateOrder> order_of(const http::Request& request) {
+  CertificateOrder order;
+  for (const std::string_view name : {"order", "part_id"}) {
+    if (const auto value = request.text(name)) order.of.emplace_back(name, *value);
+  }
+  if (order.of.empty()) {
+    return Error{ErrorCode::QueryMissing,
+                 "a certificate is of an order or of a part: give order, part_id or both", "order"};
+  }
+  order.title = request.text("title").value_or("Inspection certificate");
+  order.company = request.text("company").value_or("");
+  order.customer = request.text("customer").value_or("");
+  order.paper =
+      request.text("paper") == "letter" ? certificate::Paper::Letter : certificate::Paper::A4;
+  order.as_json = request.response_type() == kJson;
+  order.own_origin = request.own_origin();
+  return order;
+}
+
+http::Response written(const CertificateDraft& draft, Timestamp now,
+                       const std::string& checkpoint) {
+  if (draft.order().as_json) return {200, std::string(kJson), draft.json(now, checkpoint)};
+  http::Response response(200, std::string(kPdf), draft.pdf(now, checkpoint));
+  return std::move(response).with("Content-Disposition", "inline; filename=\"certificate.pdf\"");
+}
+
+/// Its measurements are read: asks for the gauges and a head that has all of them, then writes it,
+/// which may take long.
+void finish(const Services& services, const std::shared_ptr<CertificateDraft>& draft,
+            const SharedResponder& shared) {
+  services.documents.list(
+      app::DocumentKind::GaugeInUse,
+      [&services, draft, shared](const Result<std::vector<app::NamedDocument>>& gauges) {
+        if (!gauges) return shared->fail(gauges.error());
+        draft->add_gauges(*gauges);
+        services.log.prove(draft->last_id(), [&services, draft,
+                                              shared](const Result<app::LogService::Proof>& proof) {
+          if (!proof) return shared->fail(proof.error());
+          services.runs.prepare(
+              [now = services.clock.now(), head = proof->head, draft, shared] {
+                shared->answer(written(*draft, now, head->note).with("Vary", "Accept"));
+              },
+              [shared](Error error) { shared->fail(std::move(error)); });
+        });
+      });
+}
+
+void make_certificate(const Services& services, const http::Request& request,
+                      http::Responder responder) {
+  auto order = order_of(request);
+  if (!order) return responder.fail(order.error());
+  const auto query = measurement_query(services, request);
+  if (!query) return responder.fail(query.error());
+  const auto draft = std::make_shared<CertificateDraft>(*std::move(order));
+  const SharedResponder shared = share(std::move(responder));
+  services.measurements.list(
+      *query, 0, kMostMeasurements,
+      [draft](const app::Measurement& measurement) { draft->add(measurement); },
+      [&services, draft, shared](const Result<app::ListPage>& page) {
+        if (!page) return shared->fail(page.error());
+        if (draft->count() == 0) {
+          return shared->fail(
+              {ErrorCode::MeasurementUnknown, "no measurement is of this order or part"});
+        }
+        if (page->next) {
+          return shared->fail(
+              {ErrorCode::StatisticsTooMany,
+               fmt::format("a certificate has at most {} measurements: narrow it, by from "
+                           "and to for instance",
+                           kMostMeasurements)});
+        }
+        finish(services, draft, shared);
+      });
+}
+
+std::vector<http::Parameter> parameters() {
+  std::vector<http::Parameter> all = measurement_filter_parameters();
+  const std::vector<http::Parameter> others = {
+      {.name = "title",
+       .type = http::Text{200},
+       .description = "Its first line; Inspection certificate when absent"},
+      {.name = "company", .type = http::Text{200}, .description = "Who makes it out"},
+      {.name = "customer", .type = http::Text{200}, .description = "For whom"},
+      {.name = "paper", .type = http::Words{{"a4", "letter"}}, .description = "a4 when absent"},
+  };
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+}  // namespace
+
+void add_certificates_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back({
+      .pattern = "/v1/certificates",
+      .handler = with(services, make_certificate),
+      .summary = "Inspection certificate of an order or a part",
+      .description =
+          "Every value of the order, the part or both, in storage order, with limits, verdict, "
+          "rule, gauge and the "
+          "signed head of the log that has them. A PDF, or JSON by Accept; at most 10,000 values.",
+      .parameters = parameters(),
+      .response_types = {std::string(kPdf), std::string(kJson)},
+      .access = "viewer",
+      .operation = "getCertificate",
+      .tag = "measurements",
+      .outcomes = {{.meaning = "The certificate",
+                    .schema = "Certificate",
+                    .media_types = {std::string(kPdf), std::string(kJson)}}},
+      .refusals = {404, 422},
+  });
+}
+
+}  // namespace fitgauge::api

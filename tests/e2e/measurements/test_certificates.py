@@ -1,0 +1,73 @@
+"""The certificate of an order or a part, read as PDF by poppler and as JSON."""
+
+import pathlib
+import re
+import subprocess
+import tempfile
+
+from support.daemon import DaemonTest
+
+
+class Certificates(DaemonTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.daemon.request("PUT", "/v1/gauges-in-use/G-07", {"calibration_due": "2027-03-31"})
+        for number in range(60):
+            cls.daemon.measure({"designation": "25 H7", "measured_mm": f"25.{number:03d}", "order": "WO-1",
+                                "part_id": f"SN-{number:02d}", "characteristic": "Bohrung Ø 25 links, Größe по чертежу",
+                                "gauge": "G-07"})
+        cls.daemon.measure({"nominal_mm": 10, "feature": "shaft", "upper_um": 10, "measured_mm": "10.0071",
+                            "part_id": "SN-07", "rule": "conformance", "uncertainty_um": 1, "temperature_c": 25,
+                            "part_material": "steel"})
+
+    def pdf(self, query):
+        answer = self.daemon.get(f"/v1/certificates?{query}")
+        self.assertEqual((answer.status, answer.headers["content-type"]), (200, "application/pdf"), answer)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "certificate.pdf"
+            path.write_bytes(answer.body)
+            text = subprocess.run(["pdftotext", "-layout", path, "-"], capture_output=True, text=True, check=True)
+            info = subprocess.run(["pdfinfo", path], capture_output=True, text=True, check=True).stdout
+        return text.stdout, dict(line.split(":", 1) for line in info.splitlines())
+
+    def test_a_pdf_has_every_value_once_and_whole(self):
+        text, info = self.pdf("order=WO-1&company=Muster%20GmbH&customer=%C3%96hler%20%26%20Co")
+        for part in range(60):
+            self.assertEqual(len(re.findall(rf"SN-{part:02d}\b", text)), 1, part)
+        self.assertIn("60 measured values: 22 good, 0 rework, 38 reject, 0 indeterminate.", text)
+        for word in ("Inspection certificate", "Muster GmbH", "Customer: Öhler & Co", "Order: WO-1", "25 to 25.021",
+                     "Bohrung Ø", "чертежу", "due", "2027-03-31", "fitgauge/"):
+            self.assertIn(word, text)
+        pages = int(info["Pages"])
+        self.assertEqual(re.findall(r"page (\d+) of (\d+)", text),
+                         [(str(page), str(pages)) for page in range(1, pages + 1)])
+        self.assertRegex(info["Page size"], "841.89 x 595.276 pts")
+        self.assertRegex(self.pdf("order=WO-1&paper=letter")[1]["Page size"], "792 x 612 pts")
+
+    def test_what_decided_stands_in_it(self):
+        text, _ = self.pdf("part_id=SN-07")
+        for word in ("10.006525", "(read 10.0071)", "conformance", "up to 10.01", "10 shaft"):
+            self.assertIn(word, text)
+
+    def test_json_has_the_records_and_a_head_that_covers_them(self):
+        answer = self.daemon.get("/v1/certificates?part_id=SN-07", Accept="application/json")
+        self.assertEqual(answer.status, 200, answer)
+        certificate = answer.json
+        listed = self.daemon.get("/v1/measurements?part_id=SN-07").json["measurements"]
+        self.assertEqual(certificate["measurements"], listed)
+        self.assertEqual((certificate["part_id"], certificate["count"], certificate["verdicts"]["good"]), ("SN-07", 2, 2))
+        self.assertEqual(certificate["gauges"], [{"name": "G-07", "calibration_due": "2027-03-31"}])
+        self.assertGreaterEqual(int(certificate["checkpoint"].splitlines()[1]), 61)
+
+    def test_what_is_refused(self):
+        self.assert_problem(self.daemon.get("/v1/certificates"), 400, "query.missing")
+        self.assert_problem(self.daemon.get("/v1/certificates?order=none"), 404, "measurement.unknown")
+        self.assert_problem(self.daemon.get("/v1/certificates?order=WO-1&paper=a5"), 400, "query.invalid")
+        self.assert_problem(self.daemon.get("/v1/certificates?order=WO-1", Accept="text/csv"), 406, "media_type.not_acceptable")
+
+
+if __name__ == "__main__":
+    import unittest
+
+    unittest.main()
