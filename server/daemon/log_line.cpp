@@ -25,7 +25,7 @@ constexpr std::size_t kMostMethod = 32;
 class Line {
  public:
   void put(std::string_view text) {
-    if (text.size() > static_cast<std::size_t>(room_.end() - end_)) return;
+    if (text.empty() || text.size() > static_cast<std::size_t>(room_.end() - end_)) return;
     std::memcpy(end_, text.data(), text.size());
     end_ += text.size();
   }
