@@ -1075,6 +1075,10 @@ class Client:
 
     # Service
 
+    def connections(self) -> list[dict[str, Any]]:
+        """The connections to controls: state, lag, last error, what they have stored."""
+        return self._get("/v1/connections")["connections"]
+
     def cycles(self) -> list[dict[str, Any]]:
         """The touch-probe cycles with their parameters and results."""
         return self._get("/v1/cycles")["cycles"]

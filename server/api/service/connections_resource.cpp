@@ -79,7 +79,7 @@ void add_connections_routes(std::vector<http::Route>& routes, const Services& se
       .pattern = "/v1/connections",
       .handler = [&services](const http::Request&) { return list(services); },
       .summary = "The connections to controls: state, lag, last error and what they have stored",
-      .access = "read",
+      .access = "viewer",
       .operation = "listConnections",
       .tag = "service",
       .outcomes = {{.meaning = "The connections", .schema = "Connections"}},

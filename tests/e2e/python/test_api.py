@@ -112,6 +112,7 @@ class EveryRoute(ControlTest):
         self.assertEqual(len(list(client.measurements(part_id="SN-1", history="all"))), 2)
         self.assertEqual(list(client.measurements(from_=datetime(2026, 11, 20, 7, 0, 1, tzinfo=timezone.utc))), [])
         group, = client.summary(part_id="SN-1")
+        self.assertTrue(client.certificate(part_id="SN-1", paper="letter").startswith(b"%PDF-"))
         proof = client.proof(new["id"])
         self.assertEqual(client.checkpoint().splitlines()[0], proof["checkpoint"].splitlines()[0])
         self.assertTrue(client.log_keys()[0].startswith("fitgauge/station/"))
@@ -171,6 +172,7 @@ class EveryRoute(ControlTest):
 
     def call_service(self, client):
         self.assertTrue(client.live())
+        self.assertEqual(client.connections(), [])
         self.assertEqual(client.wait_until_ready()["database"], client.ready()["database"])
         with fitgauge.Client("http://127.0.0.1:1") as nobody, self.assertRaises(fitgauge.NoAnswer):
             nobody.wait_until_ready(timeout=0.2)

@@ -92,6 +92,12 @@ class Description(ContractTest):
                 self.assertTrue(operation["tags"])
                 self.assertTrue([status for status in operation["responses"] if status.startswith("2")])
 
+    def test_every_operation_asks_for_a_role_that_keys_have(self):
+        for path, methods in self.contract.document["paths"].items():
+            for method, operation in methods.items():
+                roles = {role for way in operation.get("security", []) for role in way.get("key", [])}
+                self.assertLessEqual(roles, {"viewer", "operator", "admin"}, f"{method} {path}")
+
     def test_every_json_body_has_a_schema(self):
         for path, method, operation in self.contract.operations():
             if path == "/openapi.json":
