@@ -3,6 +3,7 @@
 import json
 import pathlib
 import unittest
+from datetime import datetime
 
 from support.daemon import Daemon, preload
 
@@ -40,7 +41,7 @@ class SetBack(unittest.TestCase):
     def check(self, records):
         """All are there once, in the order of their ids and of their times."""
         self.assertEqual([row["id"] for row in self.daemon.stored()], [r["id"] for r in records])
-        times = [r["received_at"] for r in records]
+        times = [datetime.fromisoformat(r["received_at"]) for r in records]
         self.assertEqual(times, sorted(times))
         self.assertEqual(self.daemon.command("verify").returncode, 0)
 
