@@ -56,11 +56,8 @@ Measurement begun(CollectedLog& log, const Origin& origin) {
   return measurement;
 }
 
-/// A gauged part has a size: above 0, whatever its tolerance.
-bool is_size(const LogValue& value) {
-  if (!value.is_length || !value.nominal || value.measured <= Length()) return false;
-  return value.lower.value_or(*value.nominal) > Length();
-}
+/// An angle or a figure of an axis has no place in a measurement.
+bool is_length(const LogValue& value) { return value.is_length && value.nominal.has_value(); }
 
 Measurement measurement_of(CollectedLog& log, const MeasuringLog& read, const LogValue& value,
                            const Origin& origin) {
@@ -87,7 +84,7 @@ std::shared_ptr<CollectedLog> collected(const MeasuringLog& read, const Origin& 
                                   [](const LogValue& value) { return value.upper.has_value(); });
   for (const LogValue& value : read.values) {
     if (judges ? !value.upper.has_value() : !log->measurements.empty()) continue;
-    if (is_size(value)) {
+    if (is_length(value)) {
       log->measurements.push_back(measurement_of(*log, read, value, origin));
     } else {
       ++log->values_kept;

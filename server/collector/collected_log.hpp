@@ -22,8 +22,8 @@ struct CollectedLog {
   std::string text{};
   bool has_time = false;  ///< the control's, in its text
   std::string key{};      ///< the same for the same log of the same machine and path, and no other
-  std::vector<app::Measurement> measurements{};  ///< none: nothing in it is a size
-  std::size_t values_kept = 0;  ///< that are no size of a part and stay in the file
+  std::vector<app::Measurement> measurements{};  ///< none: nothing in it is a length
+  std::size_t values_kept = 0;  ///< angles and figures of axes, they stay in the file
 
   app::TableCatalog::Tables tables{};
   std::deque<std::string> texts{};
@@ -43,10 +43,9 @@ struct Origin {
   Timestamp now;  ///< of results that tell no time
 };
 
-/// Reads the logs of touch-probe cycles, or else by the first pattern that finds a result. A size
-/// is stored where its limits, or without limits its nominal size, are above 0: a coordinate about
-/// zero, an angle or a form of its own is no size. Of a log that judges something what it does not
-/// judge stays in the file; of one that judges nothing the first size is stored, indeterminate.
+/// Reads the logs of touch-probe cycles, or else by the first pattern that finds a result. Of
+/// a log that judges something every length it judges is stored; of one that judges nothing the
+/// first length, indeterminate. Angles and figures of axes stay in the file.
 Collected collect(const Origin& origin, const std::string& bytes);
 
 }  // namespace fitgauge::collector

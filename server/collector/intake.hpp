@@ -14,7 +14,7 @@ namespace fitgauge::collector {
 struct Taken {
   std::uint64_t logs = 0;          ///< read, whether new or not
   std::uint64_t measurements = 0;  ///< stored by this call
-  std::uint64_t values_kept = 0;   ///< of new logs: no size, they stay in the file
+  std::uint64_t values_kept = 0;   ///< of new logs: no length, they stay in the file
   std::vector<std::string> unread{};
 };
 

@@ -57,7 +57,7 @@ void add_connection_schemas(Schemas& schemas) {
       {"bytes", schema::count(), ""},
       {"logs", schema::count(), "Read in them, whether new or not"},
       {"measurements", schema::count(), "Stored"},
-      {"values_kept", schema::count(), "That are no size, and stay in the file"},
+      {"values_kept", schema::count(), "Angles and figures of axes, which stay in the file"},
       {"unreadable", schema::count(), "Places that no reader understood"},
   });
   schemas.push_back({"Connection", connection});

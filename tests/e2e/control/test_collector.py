@@ -127,32 +127,33 @@ class Collecting(unittest.TestCase):
         shop.collector.start()
         self.put(shop.controls[0], "nc_prog/TCHPR421.TXT", log(1))
         self.put(shop.controls[0], "nc_prog/other.txt", log(2))
-        wait_for(lambda: len(all_measurements(shop.collector)) == 2)
+        wait_for(lambda: len(all_measurements(shop.collector)) == 3)
         self.put(shop.controls[0], "nc_prog/TCHPR421.TXT", log(1) + log(2, "12.0500"))
-        wait_for(lambda: len(all_measurements(shop.collector)) == 4)
+        wait_for(lambda: len(all_measurements(shop.collector)) == 6)
         self.put(shop.controls[0], "nc_prog/TCHPR421.TXT", log(2, "12.0500") + log(2, "12.0500") + log(3)[:600])
         state = self.settle(shop)
         found = all_measurements(shop.collector)
         self.assertEqual([(row["characteristic"], row["measured_mm"], row["verdict"]) for row in found], [
-            ("Centre, main axis", 50.081, "good"), ("Diameter", 12.0259, "good"),
-            ("Centre, main axis", 50.081, "good"), ("Diameter", 12.05, "reject"),
-            ("Centre, main axis", 50.081, "good"), ("Diameter", 12.05, "reject")])
+
+            ("Centre, main axis", 50.081, "good"), ("Centre, secondary axis", -64.953, "good"), ("Diameter", 12.0259, "good"),
+            ("Centre, main axis", 50.081, "good"), ("Centre, secondary axis", -64.953, "good"), ("Diameter", 12.05, "reject"),
+            ("Centre, main axis", 50.081, "good"), ("Centre, secondary axis", -64.953, "good"), ("Diameter", 12.05, "reject")])
         self.assertEqual({(row["machine"], row["source"], row["cycle"], row["operation"]) for row in found},
                          {("MILL-0", "gauge", 421, "TNC:\\PART\\CHECK1.H")})
-        self.assertEqual(found[1]["measured_at"], "2025-06-30T00:00:01Z")
-        self.assertEqual(found[1]["upper_limit_mm"], 12.045)
-        self.assertEqual((state["state"], state["measurements"], state["unreadable"], state["values_kept"]), ("ok", 6, 0, 3))
+        self.assertEqual(found[2]["measured_at"], "2025-06-30T00:00:01Z")
+        self.assertEqual(found[2]["upper_limit_mm"], 12.045)
+        self.assertEqual((state["state"], state["measurements"], state["unreadable"], state["values_kept"]), ("ok", 9, 0, 0))
         # The files themselves lie whole on the collector's disk.
         kept = shop.collector.get("/v1/files/collected/m0/nc_prog/TCHPR421.TXT").body
         self.assertEqual(kept, shop.controls[0].get("/v1/files/nc_prog/TCHPR421.TXT").body)
         metrics = shop.collector.get("/metrics").text
         self.assertIn('fitgauge_connection_up{connection="m0"} 1', metrics)
-        self.assertIn('fitgauge_connection_measurements_total{connection="m0"} 6', metrics)
+        self.assertIn('fitgauge_connection_measurements_total{connection="m0"} 9', metrics)
         # A restart fetches again and stores nothing again.
         self.assertEqual(shop.collector.stop(), 0)
         shop.collector.start()
         state = wait_for(lambda: (now := shop.states()["m0"])["files"] and now)
-        self.assertEqual((state["measurements"], len(all_measurements(shop.collector))), (0, 6))
+        self.assertEqual((state["measurements"], len(all_measurements(shop.collector))), (0, 9))
 
     def test_files_of_fn_16_are_read_by_a_pattern(self):
         shop = self.shop(1, "TNC:\\logs\\*.txt", patterns=["bore.pattern"])
@@ -182,13 +183,15 @@ class Collecting(unittest.TestCase):
         self.assertEqual(all_measurements(shop.collector), [])
 
     def test_logs_of_running_programs_are_collected(self):
-        """The example program 8255 on the virtual control writes a log of cycle 421."""
+        """Cycles 421 and 444 on the virtual control: sizes, coordinates, and a deviation below zero."""
         shop = self.shop(1, "TNC:\\nc_prog\\*.TXT", "TNC:\\nc_prog\\*.html")
         shop.collector.start()
         program = ("BEGIN PGM BORE MM\nTOOL CALL 30 Z\n"
                    "TCH PROBE 421 MEASURE HOLE ~\nQ273=+50 ~\nQ274=+50 ~\nQ262=+25 ~\nQ325=+0 ~\nQ247=+90 ~\nQ261=-5 ~\n"
                    "Q320=+2 ~\nQ260=+50 ~\nQ301=+0 ~\nQ275=+25.021 ~\nQ276=+25 ~\nQ279=+0.1 ~\nQ280=+0.1 ~\nQ281=+1 ~\n"
-                   "Q309=+0 ~\nQ330=+0\nEND PGM BORE MM\n")
+                   "Q309=+0 ~\nQ330=+0\n"
+                   "TCH PROBE 444 PROBING IN 3-D ~\nQ263=+10 ~\nQ264=+10 ~\nQ294=+0.02 ~\nQ581=+0 ~\nQ582=+0 ~\nQ583=+1 ~\n"
+                   "Q320=+0 ~\nQ260=+30 ~\nQS400=\"0.1-0.1\" ~\nQ309=+0\nEND PGM BORE MM\n")
         self.put(shop.controls[0], "nc_prog/bore.h", program)
         setup = {"workpiece": {"features": [
             {"type": "block", "min_mm": [0, 0, -30], "max_mm": [100, 100, 0]},
@@ -201,24 +204,24 @@ class Collecting(unittest.TestCase):
             client.login("PLCDEBUG", "DNC").ask("C_MC", b"\0\0\0\1" + text("Fitgauge.program") + text("TNC:\\nc_prog\\bore.h"))
             wait_for(lambda: client.state() != 0)
             self.assertEqual(client.state(), 2, shop.controls[0].get("/v1/runs?limit=1").json)
-        found = wait_for(lambda: all_measurements(shop.collector))
-        self.assertEqual([(row["characteristic"], row["verdict"]) for row in found],
-                         [("Centre, main axis", "good"), ("Centre, secondary axis", "good"), ("Diameter", "good")])
-        self.assertEqual(found[2]["measured_mm"], 25.0131)
+        found = wait_for(lambda: len(rows := all_measurements(shop.collector)) == 4 and rows)
+        self.assertEqual({(row["characteristic"], row["measured_mm"], row["verdict"]) for row in found},
+                         {("Centre, main axis", 50, "good"), ("Centre, secondary axis", 50, "good"),
+                          ("Diameter", 25.0131, "good"), ("Deviation along the surface normal", -0.02, "good")})
 
     def test_a_machine_that_is_away_is_said_and_tried_again(self):
         shop = self.shop(2, "TNC:\\nc_prog\\*.TXT")
         shop.controls[0].kill()
         shop.collector.start()
         self.put(shop.controls[1], "nc_prog/a.txt", log(1))
-        wait_for(lambda: len(all_measurements(shop.collector)) == 2)
+        wait_for(lambda: len(all_measurements(shop.collector)) == 3)
         state = wait_for(lambda: (now := shop.states()["m0"])["failures"] and now)
         self.assertEqual((state["state"], state["lag_s"], state["last_success_at"]), ("failing", None, None))
         self.assertIn("is not reached", state["last_error"])
         wait_for(lambda: shop.states()["m1"]["state"] == "ok")
         shop.start_control(0)
         self.put(shop.controls[0], "nc_prog/b.txt", log(1))
-        wait_for(lambda: len(all_measurements(shop.collector)) == 4)
+        wait_for(lambda: len(all_measurements(shop.collector)) == 6)
         wait_for(lambda: shop.states()["m0"]["state"] == "ok")
         wait_for(lambda: '"event":"connection_recovered"' in shop.collector.log)
         self.assertEqual(shop.collector.log.count('"event":"connection_failing"'), 1)
@@ -248,7 +251,7 @@ class Collecting(unittest.TestCase):
                     victim = fate.randrange(machines)
                     shop.controls[victim].kill()
                     shop.start_control(victim)
-        total = machines * logs * 2
+        total = machines * logs * 3
         wait_for(lambda: len(all_measurements(shop.collector)) >= total, 300)
         for index in range(machines):
             self.settle(shop, f"m{index}", 2)
