@@ -82,7 +82,7 @@ Summary summarise(const Decimals& values) {
   summary.min = values.exact(Integer(sorted.front()));
   summary.max = values.exact(Integer(sorted.back()));
   for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
-    const Exact p(Integer(kQuantiles[i]), Integer(kHundredThousand));
+    const Exact p{Integer(kQuantiles[i]), Integer(kHundredThousand)};
     summary.quantiles[i] = {.p = nearest(p), .value = nearest(quantile(sorted, values.scale(), p))};
   }
   return summary;
