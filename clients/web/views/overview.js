@@ -10,7 +10,7 @@ import { fragment, go } from '../route.js';
 import { FEWEST } from '../trend/figures.js';
 import { verdictShape, VERDICTS } from '../verdict.js';
 
-const HEAD = ['field.characteristic', 'certificate.count', 'trend.verdict', 'overview.index', 'overview.process'];
+const HEAD = ['field.characteristic', 'trend.count', 'trend.verdict', 'overview.index', 'overview.process'];
 /** Many events make one reading. */
 const GATHER_MS = 500;
 

@@ -6,7 +6,7 @@ import { downloadLink } from '../download.js';
 import { dateTime, explain, number, signed, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
-import { certificate } from '../parts/certificate.js';
+import { CertificateForm } from '../parts/certificate.js';
 import { limitsText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
 
 const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator'];
@@ -28,8 +28,7 @@ export function mount(main, route) {
       .map((name) => h('th', { scope: 'col' }, t(name))))), rows));
   const more = h('button', { type: 'button', hidden: true, onclick: () => read() }, t('parts.more'));
   const exported = downloadLink({ download: 'measurements.csv' }, t('parts.csv'), (reason) => { note.textContent = reason; });
-  const certify = h('button', { type: 'button', onclick: () => showCertificate() }, t('parts.certificate'));
-  const sheet = h('div');
+  const certificate = new CertificateForm((reason) => { note.textContent = reason; });
   const replaced = new Set();
   let after = '';
 
@@ -38,7 +37,7 @@ export function mount(main, route) {
       FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict),
       h('label.choice', corrected, h('span', t('parts.history'))),
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
-    h('p.actions', certify, exported), note, table, h('p.actions', more), sheet));
+    h('p.actions', exported), certificate.element, note, table, h('p.actions', more)));
 
   const filter = () => ({
     ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
@@ -48,9 +47,9 @@ export function mount(main, route) {
     go({ view: 'parts', options: filter() }, { refine: true });
     after = '';
     rows.replaceChildren();
-    sheet.replaceChildren();
     exported.href = url(['measurements'], { ...filter(), format: 'csv' });
-    certify.disabled = !inputs.part_id.value.trim() && !inputs.order.value.trim();
+    const { part_id, order } = filter();
+    certificate.show({ part_id, order });
     return read();
   }
 
@@ -65,16 +64,6 @@ export function mount(main, route) {
       more.hidden = !after;
       note.textContent = rows.children.length ? '' : t('parts.none');
       table.hidden = !rows.children.length;
-    } catch (problem) {
-      note.textContent = explain(problem);
-    }
-  }
-
-  async function showCertificate() {
-    note.textContent = '';
-    try {
-      sheet.replaceChildren(await certificate({ part_id: inputs.part_id.value.trim(), order: inputs.order.value.trim() }, leaving.signal));
-      sheet.querySelector('h2').focus();
     } catch (problem) {
       note.textContent = explain(problem);
     }

@@ -5,7 +5,7 @@ import { after, afterEach, before, beforeEach, describe, it } from 'node:test';
 
 import { close, launch, open, openIn, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
-import { modulesOf, read } from './support/qr_reader.mjs';
+import { PAIR_MS, scan as scanInto } from './support/scanner.mjs';
 
 describe('a station with a scanner', () => {
   let browser;
@@ -24,30 +24,13 @@ describe('a station with a scanner', () => {
     await daemon.cleanup();
   });
 
-  const slow = async (text) => { await page.keyboard.type(`${text}\n`, { delay: 45 }); await sleep(310); };
+  const slow = async (text) => { await page.keyboard.type(`${text}\n`, { delay: 45 }); await sleep(PAIR_MS); };
   const stored = async () => (await daemon.stored()).map(({ part_id, measured_mm }) => [part_id, measured_mm]);
   const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
   const part = () => page.inputValue('[name="part_id"]');
   const settled = () => page.waitForSelector('.link[data-state="up"]');
 
-  /** All keys at once, as a scanner types them: the browser gets them without a gap. */
-  const scan = async (text, end = 'Enter') => {
-    await page.evaluate(({ line, last }) => {
-      const type = (key) => {
-        const down = new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true });
-        const target = document.activeElement ?? document.body;
-        if (!target.dispatchEvent(down)) return;
-        const now = document.activeElement;
-        if (key.length === 1 && now.matches('input')) {
-          now.setRangeText(key, now.selectionStart, now.selectionEnd, 'end');
-          now.dispatchEvent(new InputEvent('input', { bubbles: true, data: key }));
-        }
-        if (key === 'Enter' && now.form) now.form.requestSubmit();
-      };
-      for (const key of [...line, last]) type(key);
-    }, { line: text, last: end });
-    await sleep(310);
-  };
+  const scan = (text) => scanInto(page, text);
   const awayFromFields = () => page.click('.verdict');
 
   for (const text of ['A25', 'SN-00017', '-25.013', 'E25', '25.013in', '2.5013e1']) {
@@ -253,211 +236,5 @@ describe('a station in an unfriendly browser', () => {
     await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 2);
     await close(page);
     await daemon.cleanup();
-  });
-});
-
-describe('a station with sound', () => {
-  it('is silent until it is switched on, then has a sound of its own for each verdict, also after a reload', async () => {
-    const browser = await launch();
-    const daemon = await new Daemon().start();
-    const page = await open(browser, daemon, '#/gauge/25H7');
-    // What is to be heard: each oscillator that is started, by its frequency.
-    await page.addInitScript(() => {
-      globalThis.heard = [];
-      const create = AudioContext.prototype.createOscillator;
-      AudioContext.prototype.createOscillator = function listened() {
-        const tone = create.call(this);
-        const { start } = tone;
-        tone.start = (at) => {
-          globalThis.heard.push(tone.frequency.value);
-          return start.call(tone, at);
-        };
-        return tone;
-      };
-    });
-    await page.reload();
-    const measure = async (text, verdict) => {
-      await page.waitForSelector('.echo .figures');
-      await page.focus('#value');
-      await page.keyboard.type(`${text}\n`);
-      await page.waitForSelector(`.verdict[data-verdict="${verdict}"]`);
-      return page.evaluate(() => globalThis.heard.splice(0));
-    };
-    assert.deepEqual(await measure('25.01', 'good'), []);
-    await page.click('.more summary');
-    await page.check('[name="sound"]');
-    assert.deepEqual(await page.evaluate(() => globalThis.heard.splice(0)), [880], 'it shows what it is like');
-    const rejected = await measure('25.03', 'reject');
-    assert.equal(rejected.length, 2);
-    await page.reload();
-    assert.deepEqual(await measure('25.02', 'good'), [880]);
-    assert.ok((await measure('24.99', 'rework')).join() !== rejected.join());
-    await close(page);
-    await browser.close();
-    await daemon.cleanup();
-  });
-});
-
-describe('a gauge in use', () => {
-  let browser;
-  let daemon;
-
-  before(async () => {
-    browser = await launch();
-    daemon = await new Daemon().start();
-    await daemon.send('PUT', '/v1/uncertainties/plug', { contributions: [{ name: 'ring', standard_uncertainty: 0.3 }, { name: 'repeatability', standard_uncertainty: 0.4 }] });
-    await daemon.send('PUT', '/v1/gauges-in-use/G-07', { uncertainty: 'plug', calibration_due: '2099-03-31' });
-    await daemon.send('PUT', '/v1/gauges-in-use/G-08', { calibration_due: '2020-03-31' });
-  });
-  after(async () => {
-    await browser.close();
-    await daemon.cleanup();
-  });
-
-  it('is offered, says until when it is calibrated, and gives a guard band its uncertainty', async () => {
-    const page = await open(browser, daemon, '#/gauge/25H7?gauge=G-07&rule=guard_band');
-    const says = (text) => page.waitForFunction((wanted) => document.querySelector('.gauge-note').textContent === wanted, text);
-    await says('G-07 calibrated until 31 Mar 2099 · u = 0.5 µm');
-    assert.equal(await page.inputValue('[name="uncertainty_um"]'), '0.5');
-    await page.waitForSelector('.echo .figures');
-    await page.focus('#value');
-    await page.keyboard.type('25.0205\n'); // nearer to the limit than 2 u
-    await page.waitForSelector('.verdict[data-verdict="indeterminate"]');
-    await page.click('.more summary');
-    await page.waitForFunction(() => [...document.querySelectorAll('#offered-gauge option')].map((name) => name.value).join() === 'G-07,G-08');
-    await page.fill('[name="gauge"]', 'G-08');
-    await page.keyboard.press('Tab');
-    await says('Calibration of G-08 was due on 31 Mar 2020.');
-    assert.ok(await page.$('.gauge-note.overdue'));
-    await page.fill('[name="gauge"]', 'some other');
-    await page.keyboard.press('Tab');
-    await says('');
-    await close(page);
-  });
-
-  it('and what was recorded before are in pick lists, for which nobody is asked for a key', async () => {
-    const locked = await new Daemon('--auth', 'read-open').start();
-    try {
-      const key = await locked.key('station', 'admin');
-      const headers = { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` };
-      const send = (method, target, body) => fetch(locked.url + target, { method, body: JSON.stringify(body), headers });
-      await send('PUT', '/v1/gauges-in-use/G-09', { calibration_due: '2099-03-31' });
-      await send('PUT', '/v1/plans/4711', { characteristics: [{ name: 'bore-A', designation: '25 H7' }] });
-      await send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', machine: 'M3', operator: 'Ada' });
-      const page = await open(browser, locked, '#/gauge/25H7?gauge=G-09');
-      const asked = ['plans', 'gauges-in-use/G-09'].map((name) => page.waitForResponse((answer) => answer.url().includes(name)));
-      await page.reload();
-      await Promise.all(asked);
-      await page.waitForSelector('.echo .figures');
-      assert.equal(await page.$('dialog'), null);
-      await page.keyboard.type('25.01\n');
-      await page.fill('dialog input', key);
-      await page.press('dialog input', 'Enter');
-      await page.waitForSelector('.verdict[data-verdict="good"]');
-      await page.waitForSelector('.plan select:visible');
-      await page.waitForFunction(() => /G-09 calibrated/.test(document.querySelector('.gauge-note').textContent));
-      await page.click('.more summary');
-      for (const [name, value] of [['gauge', 'G-09'], ['machine', 'M3'], ['operator', 'Ada']]) await page.waitForSelector(`#offered-${name} option[value="${value}"]`, { state: 'attached' });
-      page.errors.length = 0;
-      await close(page);
-    } finally {
-      await locked.cleanup();
-    }
-  });
-
-  it('stands on the certificate with its uncertainty and its date', async () => {
-    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', part_id: 'SN-3', gauge: 'G-07' });
-    const page = await open(browser, daemon, '#/parts?part_id=SN-3');
-    await page.click('.parts button:has-text("Certificate")');
-    await page.waitForSelector('.certificate .gauges');
-    assert.equal(await page.textContent('.certificate .gauges'), 'G-07 calibrated until 31 Mar 2099 · u = 0.5 µm');
-    const [record] = await daemon.stored('part_id=SN-3');
-    const [drawing, size] = await page.$eval('.qr', (code) => [code.firstChild.getAttribute('d'), code.viewBox.baseVal.width]);
-    assert.equal(read(modulesOf(drawing, size)).data, `${daemon.url}/v1/measurements/${record.id}/proof`);
-    const { index, checkpoint } = await daemon.json(`/v1/measurements/${record.id}/proof`);
-    const [origin, , root] = checkpoint.split('\n');
-    const said = await page.textContent('.proof');
-    assert.match(said, /row 2 of 2 /);
-    assert.equal(index, 1);
-    assert.ok(said.includes(origin) && said.includes(root), said);
-    await picture(page, 'certificate', { fullPage: true });
-    await close(page);
-  });
-});
-
-describe('a plan', () => {
-  let browser;
-  let daemon;
-  let page;
-  const PLAN = { name: 'Housing', characteristics: [
-    { name: 'bore-A', designation: '25 H7', gauge: 'G-07', reaction: 'Stop and tell the setter' },
-    { name: 'slot', nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: -4 },
-    { name: 'journal', nominal_mm: '30', tolerance_class: 'k6', rule: 'guard_band', uncertainty_um: 1 },
-  ] };
-
-  before(async () => {
-    browser = await launch();
-    daemon = await new Daemon().start();
-    await daemon.send('PUT', '/v1/plans/4711-A', PLAN);
-  });
-  after(async () => {
-    await browser.close();
-    await daemon.cleanup();
-  });
-
-  const line = async (text) => { await page.keyboard.type(`${text}\n`); await sleep(320); };
-  const progress = (text) => page.waitForFunction((wanted) => document.querySelector('.plan .progress')?.textContent === wanted, text);
-  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
-
-  it('is taken up by a scan of its part number, and each value steps on', async () => {
-    page = await open(browser, daemon, '#/gauge?gauge=own-gauge');
-    await page.waitForSelector('.plan select:visible');
-    await page.click('.verdict');
-    await line('4711-A');
-    await progress('1 of 3');
-    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
-    assert.equal(await page.inputValue('[name="part_id"]'), '');
-    await line('SN-00017');
-    assert.equal(await page.inputValue('[name="part_id"]'), 'SN-00017');
-    assert.match(await page.textContent('.verdict .word'), /SN-00017 · bore-A/);
-    await line('25.03');
-    await verdict('reject');
-    await progress('2 of 3');
-    assert.match(await page.textContent('.verdict'), /SN-00017 · bore-A.*Stop and tell the setter/);
-    await picture(page, 'gauge-plan');
-    await page.keyboard.type('8'); // the next value begins: the verdict of the one before is taken back
-    await verdict('idle');
-    await line('.02');
-    await verdict('good');
-    await progress('3 of 3');
-    await line('30.003');
-    await verdict('indeterminate');
-    await progress('All 3 measured');
-    await line('SN-00018');
-    await progress('1 of 3');
-    assert.equal(await page.$$eval('.tiles-of-plan .shape', (shapes) => shapes.length), 0);
-    const records = await daemon.stored();
-    assert.deepEqual(records.map(({ part_id, characteristic, verdict: word, gauge }) => [part_id, characteristic, word, gauge]), [
-      ['SN-00017', 'bore-A', 'reject', 'G-07'], ['SN-00017', 'slot', 'good', 'own-gauge'], ['SN-00017', 'journal', 'indeterminate', 'own-gauge']]);
-    assert.deepEqual([records[1].basis, records[1].upper_limit_mm, records[1].lower_limit_mm], ['explicit', 8.036, 7.996]);
-    await close(page);
-  });
-
-  it('comes back with the address, also while the service is away, and its steps can be chosen', async () => {
-    page = await open(browser, daemon, '#/gauge?plan=4711-A');
-    await progress('1 of 3');
-    await page.click('.tiles-of-plan li:nth-child(2) button');
-    await progress('2 of 3');
-    await page.waitForFunction(() => /8/.test(document.querySelector('.echo')?.textContent));
-    await page.focus('#value');
-    await daemon.stop();
-    await line('8.036');
-    await page.waitForSelector('.verdict[data-provisional]');
-    await progress('3 of 3');
-    await daemon.start();
-    await page.waitForSelector('.link[data-state="up"]');
-    assert.equal((await daemon.stored()).at(-1).characteristic, 'slot');
-    page.errors.length = 0;
-    await close(page);
   });
 });

@@ -1,0 +1,171 @@
+/** Fits and the tables of deviations. */
+
+import assert from 'node:assert/strict';
+import { after, afterEach, before, describe, it } from 'node:test';
+
+import { close, launch, open, picture } from './support/browser.mjs';
+import { Daemon } from './support/daemon.mjs';
+
+let browser;
+let daemon;
+let page;
+
+before(async () => {
+  browser = await launch();
+  daemon = await new Daemon().start();
+});
+after(async () => {
+  await browser.close();
+  await daemon.cleanup();
+});
+afterEach(() => close(page));
+
+const hash = () => decodeURIComponent(new URL(page.url()).hash);
+
+describe('the fit', () => {
+  it('shows the zones, the clearances and a measured pair, and the URL is the state', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6?hole=25.013&shaft=24,985');
+    await page.waitForSelector('.limits .mark-of');
+    assert.equal(await page.textContent('.fit .headline'), 'Clearance fit');
+    assert.deepEqual(await page.$$eval('.zones .um', (texts) => texts.map((text) => text.textContent)), ['+21', '0', '−7', '−20']);
+    assert.deepEqual(await page.$$eval('.fit dd', (values) => values.map((value) => value.textContent)), ['41 µm', '7 µm', '11.7 … 36.3 µm', '28 µm']);
+    assert.equal((await page.$$('.zones .measured')).length, 2);
+    await page.click('.preferred button:has-text("H7/s6")');
+    await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Interference fit');
+    assert.equal(hash(), '#/fit/25H7/s6?hole=25.013&shaft=24,985');
+    await page.goBack();
+    await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Clearance fit');
+  });
+
+  it('is found by the clearance it must have, and copied for a drawing', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/k6', { permissions: ['clipboard-read', 'clipboard-write'] });
+    await page.waitForSelector('.limits');
+    await page.fill('#find-least', '5');
+    await page.fill('#find-greatest', '45');
+    await page.click('.finder button[type="submit"]');
+    // ISO 286-2: of 25 mm, H7 is 0 to +21 and g6 -20 to -7, so their clearance is 7 to 41.
+    await page.waitForFunction(() => /^H7\/g6\+7 … \+41 µm/.test([...document.querySelectorAll('.found li')].find((item) => /^H7\/g6/.test(item.textContent))?.textContent ?? ''));
+    await page.click('.found button:text-is("H7/g6")');
+    await page.waitForFunction(() => document.querySelector('.headline').textContent === 'Clearance fit');
+    assert.match(hash(), /25H7\/g6/);
+    // Tolerances 21 and 13 about a mean of 24: their root of squares is 24.7.
+    assert.match(await page.textContent('.result dl'), /Probable, 99.73 %11\.7 … 36\.3 µm/);
+    for (const [feature, text] of [['H7', '⌀25 H7 (+0.021/0)'], ['g6', '⌀25 g6 (-0.007/-0.020)']]) {
+      await page.click(`.limits button[aria-label="Copy 25 ${feature} for a drawing"]`);
+      await page.waitForFunction((wanted) => document.querySelector('.side .note').textContent === `${wanted} is copied.`, text);
+      assert.equal(await page.evaluate(() => navigator.clipboard.readText()), text);
+    }
+    await page.fill('#find-greatest', 'wide');
+    await page.click('.finder button[type="submit"]');
+    await page.waitForFunction(() => /Type two numbers/.test(document.querySelector('.found-note').textContent));
+    await picture(page, 'fit-found', { fullPage: true });
+  });
+
+  it('draws a zone where the deviations say, to scale', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/k6');
+    await page.waitForSelector('.zones .shaft rect');
+    const [hole, shaft, zero] = await page.$$eval('.zones .hole rect, .zones .shaft rect, .zones .zero',
+      (shapes) => shapes.map((shape) => shape.getBBox()).map(({ y, height }) => ({ y, height })));
+    assert.ok(Math.abs(hole.y + hole.height - zero.y) < 0.2); // H begins at zero
+    assert.ok(Math.abs(shaft.height / hole.height - 13 / 21) < 0.01);
+    assert.ok(Math.abs((zero.y - shaft.y - shaft.height) / hole.height - 2 / 21) < 0.01);
+  });
+
+  it('offers every class of the size, also by the arrow keys', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.class-zones :checked');
+    await page.focus('.class-map:nth-child(2) input:checked');
+    await page.keyboard.press('ArrowRight');
+    await page.waitForFunction(() => decodeURIComponent(location.hash) === '#/fit/25H7/h6');
+    await page.waitForFunction(() => document.activeElement.value === 'h6');
+    await page.fill('#fit', '132,5 P7/h6');
+    await page.press('#fit', 'Enter');
+    await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Interference fit');
+    assert.equal(hash(), '#/fit/132.5P7/h6');
+    await page.fill('#fit', '25 H7');
+    await page.press('#fit', 'Enter');
+    assert.notEqual(await page.textContent('.fit .note'), '');
+  });
+});
+
+describe('the tables', () => {
+  it('are searched by size and class, and copied as CSV', async () => {
+    page = await open(browser, daemon, '#/tables/hole?find=25+H7', { permissions: ['clipboard-read', 'clipboard-write'] });
+    await page.waitForSelector('.grid td');
+    assert.deepEqual(await page.$$eval('.grid tbody tr', (rows) => rows.map((row) => row.textContent)), ['2430+210']);
+    await page.click('text=Copy as CSV');
+    await page.waitForFunction(() => document.querySelector('.tables .note').textContent !== '');
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), 'over_mm,up_to_mm,H7_upper_um,H7_lower_um\n24,30,21,0\n');
+    await page.fill('#find', 'JS');
+    await page.waitForFunction(() => document.querySelectorAll('.grid thead th').length === 22);
+    assert.equal((await page.$$('.grid tbody tr')).length, 41);
+    await page.fill('#find', 'Q9');
+    await page.waitForFunction(() => !document.querySelector('.grid'));
+  });
+
+  it('keep the case of a class: g6 is no hole', async () => {
+    page = await open(browser, daemon, '#/tables/hole?find=25g6');
+    await page.waitForFunction(() => /g6 is a shaft class/.test(document.querySelector('.tables .note').textContent));
+    assert.equal(await page.$('.grid'), null);
+    await page.click('text=Shafts');
+    await page.waitForSelector('.grid td');
+    assert.deepEqual(await page.$$eval('.grid tbody tr', (rows) => rows.map((row) => row.textContent)), ['2430−7−20']);
+  });
+
+  it('ask before a class of the standard is replaced, and mark it afterwards', async () => {
+    page = await open(browser, daemon, '#/tables/hole?find=25+H8');
+    await page.waitForSelector('.own-list');
+    await page.click('.own summary');
+    await page.fill('.own input', 'H8');
+    await page.fill('.own textarea', '18; 30; +100; -100');
+    await page.click('.own button[type="submit"]');
+    await page.click('dialog button:has-text("Cancel")');
+    assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'iso286');
+    await page.click('.own button[type="submit"]');
+    await page.click('dialog button:has-text("Replace the ISO class")');
+    await page.waitForSelector('.own-list >> text=H8');
+    await page.waitForSelector('.grid .own-column');
+    assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'custom');
+    await page.click('.own-list [aria-label]');
+    await page.waitForFunction(() => !/H8/.test(document.querySelector('.own-list').textContent));
+    assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'iso286');
+  });
+
+  it('change on every screen when a column is stored elsewhere', async () => {
+    const screens = [
+      ['#/gauge/25H9', () => /25\.000 to 25\.052/.test(document.querySelector('.echo')?.textContent), () => /24\.900 to 25\.100/.test(document.querySelector('.echo')?.textContent)],
+      ['#/fit/25H9/h6', () => /\+52 \/ 0/.test(document.querySelector('.result')?.textContent), () => /\+100 \/ −100/.test(document.querySelector('.result')?.textContent)],
+      ['#/tables/hole?find=25+H9', () => document.querySelector('.grid td span')?.textContent === '+52', () => document.querySelector('.grid td span')?.textContent === '+100'],
+    ];
+    const pages = [];
+    for (const [address, standard] of screens) {
+      pages.push(await open(browser, daemon, address));
+      await pages.at(-1).waitForFunction(standard);
+    }
+    const column = { rows: [{ over_mm: 18, up_to_mm: 30, upper_um: 100, lower_um: -100 }] };
+    await daemon.send('PUT', '/v1/tables/hole/classes/H9', column);
+    for (const [i, [, , changed]] of screens.entries()) await pages[i].waitForFunction(changed);
+    await daemon.send('DELETE', '/v1/tables/hole/classes/H9');
+    for (const [i, [, standard]] of screens.entries()) await pages[i].waitForFunction(standard);
+    page = pages.pop();
+    for (const other of pages) await close(other);
+  });
+
+  it('take columns of the shop’s own and give them back', async () => {
+    page = await open(browser, daemon, '#/tables/shaft');
+    await page.waitForSelector('.own-list');
+    await page.click('.own summary');
+    await page.fill('.own input', 'press1');
+    await page.fill('.own textarea', '18; 30; -3,5; -10\n30; 50; oops; 1');
+    await page.click('.own button[type="submit"]');
+    await page.waitForFunction(() => /oops/.test(document.querySelector('.own .note').textContent));
+    await page.fill('.own textarea', '18; 30; -3,5; -10\n30\t50\t-4\t-12');
+    await page.click('.own button[type="submit"]');
+    await page.waitForSelector('.own-list >> text=press1');
+    const limits = await daemon.json('/v1/limits/25press1');
+    assert.deepEqual([limits.upper_deviation_um, limits.lower_deviation_um, limits.basis], [-3.5, -10, 'custom']);
+    await page.click('.own-list [aria-label]');
+    await page.waitForFunction(() => !/press1/.test(document.querySelector('.own-list').textContent));
+    assert.equal((await fetch(`${daemon.url}/v1/limits/25press1`)).status, 404);
+  });
+});

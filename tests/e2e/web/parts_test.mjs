@@ -1,0 +1,99 @@
+/** Parts: their records, and what is saved of them. */
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { after, afterEach, before, describe, it } from 'node:test';
+
+import { close, launch, open, picture } from './support/browser.mjs';
+import { Daemon } from './support/daemon.mjs';
+
+let browser;
+let daemon;
+let page;
+
+before(async () => {
+  browser = await launch();
+  daemon = await new Daemon().start();
+});
+after(async () => {
+  await browser.close();
+  await daemon.cleanup();
+});
+afterEach(() => close(page));
+
+const hash = () => decodeURIComponent(new URL(page.url()).hash);
+
+describe('the parts', () => {
+  it('answer show me part SN-17: every characteristic with its corrections', async () => {
+    const record = await (await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.05', part_id: 'SN-17', characteristic: 'bore-A', order: 'WO-9', gauge: 'G-07', uncertainty_um: '0.8' })).json();
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 70 }, (_, i) => ({ designation: '25 H7', measured_mm: '25.01', part_id: `SN-1${i}x`, order: 'WO-9' })));
+    await daemon.send('POST', `/v1/measurements/${record.id}/corrections`, { measured_mm: '25.005', reason: 'slipped' });
+    await daemon.send('POST', '/v1/measurements', { nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0, measured_mm: '8.05', part_id: 'SN-17', characteristic: 'slot', order: 'WO-9' });
+    page = await open(browser, daemon, '#/parts?order=WO-9');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 50);
+    await page.click('.parts button:has-text("Show more")');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 72);
+    assert.match(await page.textContent('.records tbody tr'), /SN-17slot/); // the newest first
+    await page.click('.records a:has-text("SN-17")');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 3);
+    assert.equal(hash(), '#/parts?part_id=SN-17&history=all');
+    const history = await page.$$eval('.records tbody tr', (all) => all.map((row) => [row.className, row.textContent]));
+    assert.deepEqual(history.map(([name]) => name), ['', '', 'corrected']);
+    assert.match(history[1][1], /correction.*slipped/);
+    assert.match(history[2][1], /Reject.*25\.050/);
+  });
+
+  it('have the service’s own certificate, of the part or the order that is shown', async () => {
+    page = await open(browser, daemon, '#/parts');
+    await page.waitForSelector('.records tbody tr');
+    assert.ok(await page.isHidden('.certificate')); // of everything there is none
+    await page.fill('[name="order"]', 'WO-9');
+    await page.press('[name="order"]', 'Enter');
+    await page.click('.certificate summary');
+    await page.getByLabel('Company').fill('Muster GmbH & Co.');
+    await page.getByLabel('Customer').fill('ACME');
+    await page.getByLabel('Paper').selectOption('letter');
+    const [sheet] = await Promise.all([
+      page.context().waitForEvent('response', (answer) => answer.url().includes('/v1/certificates')),
+      page.click('.certificate a'),
+    ]);
+    assert.equal(sheet.headers()['content-type'], 'application/pdf');
+    const asked = Object.fromEntries(new URL(sheet.url()).searchParams);
+    assert.deepEqual(asked, { order: 'WO-9', title: 'Inspection certificate', company: 'Muster GmbH & Co.', customer: 'ACME', paper: 'letter' });
+    await page.reload();
+    await page.waitForSelector('.records tbody tr');
+    await page.click('.certificate summary');
+    assert.equal(await page.getByLabel('Company').inputValue(), 'Muster GmbH & Co.'); // typed once
+    await picture(page, 'certificate', { fullPage: true });
+  });
+});
+
+describe('what is saved as a file', () => {
+  it('is saved with the key where one is needed', async () => {
+    const locked = await new Daemon('--auth', 'read-open').start();
+    try {
+      const key = await locked.key('quality', 'operator');
+      await fetch(`${locked.url}/v1/measurements`, {
+        method: 'POST', body: '{"designation":"25 H7","measured_mm":25.02,"part_id":"SN-1"}', headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` } });
+      page = await open(browser, locked, '#/parts');
+      await page.fill('dialog input', key);
+      await page.press('dialog input', 'Enter');
+      await page.waitForSelector('.records tbody tr');
+      for (const [view, link, what] of [['parts', 'a:has-text("All of it as CSV")', /SN-1/], ['tables', '#whole-table', /H7/]]) {
+        await page.click(`#views a[href^="#/${view}"]`);
+        await page.waitForSelector('.records tbody tr, .grid td');
+        const [download] = await Promise.all([page.waitForEvent('download'), page.click(link)]);
+        assert.match(fs.readFileSync(await download.path(), 'utf8'), what);
+      }
+      await page.click('#views a[href^="#/parts"]');
+      await page.fill('[name="part_id"]', 'SN-1');
+      await page.press('[name="part_id"]', 'Enter');
+      await page.click('.certificate summary');
+      const asked = page.waitForResponse((answer) => answer.url().includes('/v1/certificates'));
+      await page.click('.certificate a');
+      assert.equal((await asked).headers()['content-type'], 'application/pdf');
+    } finally {
+      await locked.cleanup();
+    }
+  });
+});

@@ -1,0 +1,208 @@
+/** Control charts: of one characteristic, and of all of them. */
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { after, afterEach, before, describe, it } from 'node:test';
+
+import { close, launch, open, openIn, picture } from './support/browser.mjs';
+import { Daemon, sleep } from './support/daemon.mjs';
+import { Gate } from './support/gate.mjs';
+
+let browser;
+let daemon;
+let page;
+
+before(async () => {
+  browser = await launch();
+  daemon = await new Daemon().start();
+});
+after(async () => {
+  await browser.close();
+  await daemon.cleanup();
+});
+afterEach(() => close(page));
+
+const hash = () => decodeURIComponent(new URL(page.url()).hash);
+
+describe('answers that come late', () => {
+  it('never overwrite a newer one, nor the next view', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.fit .headline');
+    await page.route('**/v1/fits/25H7/s6', async (route) => {
+      await new Promise((resolve) => setTimeout(resolve, 1200));
+      await route.continue().catch(() => {});
+    });
+    await page.click('.preferred button:has-text("H7/s6")');
+    await page.click('.preferred button:has-text("H7/h6")');
+    await page.waitForFunction(() => decodeURIComponent(location.hash).startsWith('#/fit/25H7/h6'));
+    await page.waitForTimeout(1500);
+    assert.equal(await page.textContent('.fit .headline'), 'Clearance fit');
+    await page.fill('#fit', 'nonsense');
+    await page.press('#fit', 'Enter');
+    assert.equal(await page.$('.fit .headline'), null);
+
+    await page.route('**/v1/measurements?**', async (route) => {
+      await new Promise((resolve) => setTimeout(resolve, 800));
+      await route.continue().catch(() => {});
+    });
+    await page.goto(`${daemon.url}/#/trend`);
+    await page.goto(`${daemon.url}/#/gauge/25H7`);
+    await page.waitForSelector('.entry');
+    await page.waitForTimeout(1200);
+    assert.ok(hash().startsWith('#/gauge/25H7'), hash());
+  });
+});
+
+describe('the trend', () => {
+  let gate;
+  before(async () => { gate = await new Gate(daemon).open(); });
+  after(() => gate.close());
+  const untilStreams = async (count) => {
+    for (let i = 0; i < 100 && gate.streams !== count; ++i) await sleep(50);
+    assert.equal(gate.streams, count);
+  };
+
+  it('holds no stream while nobody sees it, and misses nothing meanwhile', async () => {
+    page = await open(browser, gate, '#/trend');
+    await page.waitForSelector('.trend form');
+    const hide = (hidden) => page.evaluate((value) => {
+      Object.defineProperty(document, 'hidden', { value, configurable: true });
+      document.dispatchEvent(new Event('visibilitychange'));
+    }, hidden);
+    await untilStreams(1);
+    await hide(true);
+    await untilStreams(0);
+    await daemon.send('POST', '/v1/measurements', { designation: '31 H7', measured_mm: '31.002' });
+    await hide(false);
+    await untilStreams(1);
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 1);
+  });
+
+  it('shares one stream among all tabs of a browser: eight of them load and go on', async () => {
+    page = await open(browser, gate, '#/trend?designation=32 H7');
+    await untilStreams(1);
+    const tabs = [];
+    for (let i = 0; i < 7; ++i) tabs.push(await openIn(page.context(), gate, '#/trend?designation=32 H7'));
+    for (const tab of tabs) await tab.waitForSelector('.trend .empty');
+    await untilStreams(1);
+    await daemon.send('POST', '/v1/measurements', { designation: '32 H7', measured_mm: '32.002' });
+    for (const tab of [page, ...tabs]) await tab.waitForFunction(() => document.querySelectorAll('.point').length === 1);
+    for (const tab of tabs) await tab.close();
+    await untilStreams(1);
+  });
+
+  it('asks once for the newest, however much older there is', async () => {
+    const old = Array.from({ length: 3000 }, (_, i) => ({ designation: '33 H7', measured_mm: '33.01', characteristic: 'old', measured_at: `2026-01-0${1 + i % 9}T08:00:00Z` }));
+    await daemon.send('POST', '/v1/measurements', old);
+    await daemon.send('POST', '/v1/measurements', ['33.001', '33.002'].map((measured_mm) => ({ designation: '33 H7', measured_mm, characteristic: 'old' })));
+    const asked = [];
+    page = await open(browser, daemon, '');
+    page.on('request', (request) => request.url().includes('/v1/measurements?') && asked.push(request.url()));
+    await page.goto(`${daemon.url}/#/trend?characteristic=old&count=50`);
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 50);
+    assert.equal(asked.length, 1);
+    assert.match(await page.textContent('.trend tbody tr'), /33\.002 mm/);
+  });
+
+  it('shows the last values and those that come', async () => {
+    const values = Array.from({ length: 30 }, (_, i) => (25.001 + i / 1000).toFixed(3));
+    await daemon.send('POST', '/v1/measurements', values.map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'bore-A' })));
+    await daemon.send('POST', '/v1/measurements', { designation: '10 f7', measured_mm: '9.98' });
+    page = await open(browser, daemon, '#/trend?characteristic=bore-A&count=50');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 30);
+    const counts = () => page.$$eval('.tiles dd', (tiles) => tiles.slice(0, 3).map((tile) => Number(tile.textContent)));
+    assert.deepEqual(await counts(), [21, 0, 9]);
+    await daemon.send('POST', '/v1/measurements', [
+      { designation: '25 H7', measured_mm: '24.999', characteristic: 'bore-A' },
+      { designation: '25 H7', measured_mm: '24.998', characteristic: 'bore-B' }]);
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 31);
+    assert.deepEqual(await counts(), [21, 1, 9]);
+    const [corrected] = (await daemon.json('/v1/measurements?characteristic=bore-A&verdict=rework')).measurements;
+    await daemon.send('POST', `/v1/measurements/${corrected.id}/corrections`, { measured_mm: '25.01', reason: 'test' });
+    await page.waitForFunction(() => document.querySelector('.tiles dd').textContent === '22');
+    assert.deepEqual(await counts(), [22, 0, 9]);
+    await picture(page, 'trend', { fullPage: true });
+  });
+
+  it('is a control chart: limits, broken rules by number, indices that are grey while they mean nothing', async () => {
+    // Montgomery, Introduction to Statistical Quality Control, the individuals of example 6.5 (viscosity of
+    // primer paint), as micrometres above 33 mm; the book has centre 33.52, MR 0.48, limits 34.80 and 32.24.
+    const viscosity = [33.75, 33.05, 34.00, 33.81, 33.46, 34.02, 33.68, 33.27, 33.49, 33.20, 33.62, 33.00, 33.54, 33.12, 33.84];
+    await daemon.send('POST', '/v1/measurements', viscosity.map((value, i) => ({
+      nominal_mm: 33, feature: 'hole', upper_um: 36, lower_um: 31, measured_mm: (33 + value / 1000).toFixed(5), characteristic: 'paint', part_id: `P-${i + 1}`,
+    })));
+    page = await open(browser, daemon, '#/trend?characteristic=paint');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 15);
+    const texts = () => page.$$eval('.control-chart text', (all) => all.map((text) => text.textContent));
+    for (const label of ['33.52', '34.8', '32.24', '0.48']) assert.ok((await texts()).some((text) => Math.abs(Number(text) - Number(label)) < 0.011), `${label} in ${await texts()}`);
+    assert.equal(await page.$('.control-chart .broken'), null);
+    assert.match(await page.textContent('.stability.doubt'), /n = 15/);
+    await page.click('.rules button');
+    await page.waitForFunction(() => /centre=33\.5/.test(location.hash));
+    await daemon.send('POST', '/v1/measurements', { nominal_mm: 33, feature: 'hole', upper_um: 36, lower_um: 31, measured_mm: '33.0358', characteristic: 'paint', part_id: 'P-16' });
+    await page.waitForSelector('.control-chart .broken');
+    assert.match(await page.textContent('.stability.doubt'), /Not stable: rule 1 at P-16/);
+    assert.ok((await texts()).some((text) => Math.abs(Number(text) - 33.52) < 0.011), 'frozen limits stay');
+    assert.ok(await page.$('.tiles.in-doubt'));
+    await page.focus('.trend figure');
+    await page.keyboard.press('ArrowLeft');
+    assert.match(await page.textContent('.detail'), /P-16.*breaks rule 1/);
+    await page.uncheck('.rules input[value="1"]');
+    await page.waitForFunction(() => !document.querySelector('.control-chart .broken'));
+    await picture(page, 'trend-control', { fullPage: true });
+  });
+
+  it('charts the means of subgroups, and leaves out one that is still being measured', async () => {
+    // Piston rings (Montgomery), 25 samples of five, as R's qcc has them: means 74.001176 between 73.98805 and
+    // 74.01431, ranges 0.02276 below 0.04812; with s 0.00924 below 0.0193.
+    const samples = fs.readFileSync('tests/reference/piston_rings.txt', 'utf8').trim().split('\n').slice(0, 25).map((line) => line.trim().split(/\s+/));
+    const ring = (measured_mm, subgroup) => ({ nominal_mm: 74, feature: 'hole', upper_um: 50, lower_um: -50, measured_mm, characteristic: 'ring', subgroup });
+    await daemon.send('POST', '/v1/measurements', [...samples.flatMap((sample, i) => sample.map((value) => ring(value, `S-${i + 1}`))), ring('74.001', 'S-26')]);
+    page = await open(browser, daemon, '#/trend?characteristic=ring&count=200');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 126);
+    const near = (label) => page.waitForFunction((wanted) => [...document.querySelectorAll('.control-chart text')]
+      .some((text) => Math.abs(Number(text.textContent.replace('−', '-')) - wanted) < 0.06), label);
+    await page.selectOption('#trend-kind', 'xbar_r');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 25);
+    for (const label of [1.18, 14.31, -11.95, 22.76, 48.12]) await near(label);
+    assert.match(await page.textContent('.detail'), /1 values of incomplete subgroups/);
+    assert.ok(await page.$('.ranges .unit:text("R")'));
+    await page.focus('.trend figure');
+    await page.keyboard.press('ArrowLeft');
+    await page.waitForFunction(() => /S-25.*74\.013/.test(document.querySelector('.detail').textContent));
+    await picture(page, 'trend-means', { fullPage: true });
+    await page.selectOption('#trend-kind', 'xbar_s');
+    for (const label of [1.18, 14.36, -12.01, 9.24, 19.3]) await near(label);
+    assert.match(hash(), /kind=xbar_s/);
+    await daemon.send('POST', '/v1/measurements', ['74.002', '74.003', '74.001', '74.0'].map((value) => ring(value, 'S-26')));
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 26);
+    await close(page);
+    page = await open(browser, daemon, '#/trend?characteristic=ring&count=200&kind=xbar_s');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 26);
+  });
+});
+
+describe('the overview', () => {
+  it('shows every characteristic of a machine or a plan, the worst first, as the values come in', async () => {
+    const values = (characteristic, middle, spread, count = 40) => Array.from({ length: count }, (_, i) => ({
+      designation: '25 H7', measured_mm: (middle + spread * Math.sin(i * 2.4)).toFixed(4), characteristic, machine: 'OV-1' }));
+    await daemon.send('POST', '/v1/measurements', [...values('ov-fine', 25.0105, 0.002), ...values('ov-edge', 25.019, 0.003), ...values('ov-few', 25.01, 0.001, 5)]);
+    await daemon.send('PUT', '/v1/plans/OV-PLAN', { characteristics: ['ov-fine', 'ov-new'].map((name) => ({ name, designation: '25 H7' })) });
+    page = await open(browser, daemon, '#/overview?machine=OV-1');
+    const order = (names) => page.waitForFunction((wanted) => [...document.querySelectorAll('.overview tbody th')].map((cell) => cell.textContent).join() === wanted, names.join());
+    await order(['ov-edge', 'ov-fine', 'ov-few']);
+    const { ppk } = await daemon.json('/v1/measurements/capability?characteristic=ov-edge&machine=OV-1');
+    assert.match(await page.textContent('.overview tbody tr'), new RegExp(`^ov-edge40[^]*${ppk.value.toFixed(2)}`.replace('.', '\\.')));
+    assert.ok(await page.$('.overview tbody tr:last-child .index.in-doubt'), 'five values are no index');
+    await picture(page, 'overview', { fullPage: true });
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 5 }, () => ({ designation: '25 H7', measured_mm: '25.09', characteristic: 'ov-fine', machine: 'OV-1' })));
+    await page.waitForFunction(() => /ov-fine45/.test(document.querySelector('.overview tbody tr').textContent));
+    assert.match(await page.textContent('.overview tbody tr'), /Not stable/);
+    await page.selectOption('#overview-plan', 'OV-PLAN');
+    await order(['ov-fine', 'ov-new']);
+    assert.match(await page.textContent('.overview tbody tr:last-child'), /No values yet/);
+    await page.click('.overview tbody a');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 45);
+    assert.match(hash(), /^#\/trend\?characteristic=ov-fine/);
+  });
+});
