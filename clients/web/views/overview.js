@@ -27,6 +27,7 @@ export function mount(main, route) {
   let standings = new Map();
   let changed = new Set();
   let timer = 0;
+  let reading = Promise.resolve();
 
   main.replaceChildren(h('div.desk.overview', h('h1.unseen', { tabindex: -1 }, t('view.overview')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('plan.label'), plan), field(t('field.machine'), machine)),
@@ -50,7 +51,9 @@ export function mount(main, route) {
     return groups.map(({ characteristic }) => characteristic).filter(Boolean);
   }
 
-  async function load() {
+  const load = () => { reading = read(); return reading; };
+
+  async function read() {
     go({ view: 'overview', options: { plan: plan.value, machine: machine.value } }, { refine: true });
     table.toggleAttribute('data-settled', false);
     try {
@@ -90,6 +93,8 @@ export function mount(main, route) {
     timer = 0;
     const names = [...changed];
     changed = new Set();
+    // An older reading that ends later would put the old figures back.
+    await reading;
     try {
       const found = await standingsOf(names, leaving.signal);
       names.forEach((name, i) => standings.set(name, found[i]));

@@ -44,6 +44,7 @@ export function mount(main, route) {
   let wanted = options.designation ?? '';
   let frozen = options.centre && options.sd ? { centre: Number(options.centre), standard_deviation: Number(options.sd) } : null;
   let records = [];
+  let meanwhile = [];
   let points = [];
   let drawn = [];
   let left = 0;
@@ -82,6 +83,7 @@ export function mount(main, route) {
   const matches = (record) => !characteristic.value || record.characteristic === characteristic.value;
 
   async function load() {
+    meanwhile = [];
     try {
       let newest = await loading.run((signal) => newestValues(filter(), Number(count.value), signal));
       if (!newest) return;
@@ -92,6 +94,8 @@ export function mount(main, route) {
         if (sizes.size > 1) newest = await loading.run((signal) => newestValues(filter(), Number(count.value), signal)) ?? newest;
       }
       records = newest;
+      // What was stored while the list was read may not be in it.
+      for (const record of meanwhile) add(record);
       note.textContent = '';
       picked = null;
       await compute();
@@ -179,17 +183,24 @@ export function mount(main, route) {
     compute();
   }
 
+  /** @returns whether the record belongs to what is shown, and was not there */
+  function add(record) {
+    if (!matches(record) || records.some(({ id, correction_of: old }) => id === record.id || old === record.id)) return false;
+    sizes.add(sizeOf(record));
+    wanted ||= sizeOf(record);
+    if (sizeOf(record) !== wanted) return false;
+    records = [...records.filter(({ id }) => id !== record.correction_of), record].slice(-Number(count.value));
+    return true;
+  }
+
   function arrived(event) {
     if (event.type === 'resync') return load();
     if (event.type !== 'measurement.recorded') return null;
     const record = JSON.parse(event.data);
     note.textContent = '';
     offerOne(record.characteristic);
-    if (!matches(record) || records.some(({ id }) => id === record.id)) return null;
-    sizes.add(sizeOf(record));
-    wanted ||= sizeOf(record);
-    if (sizeOf(record) !== wanted) return null;
-    records = [...records.filter(({ id }) => id !== record.correction_of), record].slice(-Number(count.value));
+    meanwhile.push(record);
+    if (!add(record)) return null;
     timer ||= setTimeout(() => {
       timer = 0;
       compute();

@@ -124,6 +124,25 @@ describe('the trend', () => {
     await picture(page, 'trend', { fullPage: true });
   });
 
+  it('keeps a value that is stored while the list is read', async () => {
+    const post = (text) => daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: text, characteristic: 'slow-list' });
+    await post('25.001');
+    page = await open(browser, daemon, '#/parts');
+    let asked = 0;
+    // The second reading comes with the stream of events: its answer is older than the event that overtakes it.
+    await page.route('**/v1/measurements?*last=*', async (route) => {
+      const answer = await route.fetch();
+      if (++asked === 2) {
+        await post('25.002');
+        await sleep(500);
+      }
+      await route.fulfill({ response: answer });
+    });
+    await page.evaluate(() => { location.hash = '#/trend?characteristic=slow-list&designation=25+H7'; });
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 2);
+    assert.ok(asked >= 2);
+  });
+
   it('is a control chart: limits, broken rules by number, indices that are grey while they mean nothing', async () => {
     // Montgomery, Introduction to Statistical Quality Control, the individuals of example 6.5 (viscosity of
     // primer paint), as micrometres above 33 mm; the book has centre 33.52, MR 0.48, limits 34.80 and 32.24.
