@@ -117,7 +117,7 @@ void add_request_schemas(Schemas& schemas) {
       R"("measured_at":"2026-11-20T08:00:00+01:00"})";
   schemas.push_back({"NewMeasurement", schema::object(given_fields(), Others::Refused, kNew)});
   schemas.push_back(
-      {"NewMeasurements", schema::one_of({schema::ref("NewMeasurement"),
+      {"NewMeasurements", schema::any_of({schema::ref("NewMeasurement"),
                                           schema::array(schema::ref("NewMeasurement"))})});
   const schema::Fields reason = {{"reason", schema::text(kLongestComment), "Why it is corrected"}};
   schemas.push_back({"Correction", schema::object(reason + given_fields(), Others::Refused,
@@ -169,7 +169,7 @@ void add_measurement_schemas(Schemas& schemas) {
       {"Measurements",
        schema::object({{"measurements", schema::array(schema::ref("Measurement")), ""}})});
   schemas.push_back(
-      {"Recorded", schema::one_of({schema::ref("Measurement"), schema::ref("Accepted"),
+      {"Recorded", schema::any_of({schema::ref("Measurement"), schema::ref("Accepted"),
                                    schema::ref("Measurements")})});
   schemas.push_back(
       {"MeasurementList",

@@ -34,7 +34,7 @@ void add_order_schema(Schemas& schemas) {
       Others::Refused);
   const schema::Fields program = {{"program", schema::text(), "TNC:\\nc_prog\\8255\\8255.h"}};
   const schema::Fields others = schema::optional({
-      {"setup", schema::one_of({schema::text(), schema::ref("Setup")}),
+      {"setup", schema::any_of({schema::text(), schema::ref("Setup")}),
        "The name of a stored setup, or a setup"},
       {"parameters", parameter_values(),
        "Q, QL and QR numbers and QS strings, as if an earlier program had left them"},
@@ -198,7 +198,7 @@ void add_run_schemas(Schemas& schemas) {
                                       {"blocks_executed", schema::count(), "So far"}})});
   schemas.push_back(
       {"RunOutput", schema::object({{"line", schema::text(), "As printed on the screen"}})});
-  schemas.push_back({"RunEvent", schema::one_of({schema::ref("RunOutput"),
+  schemas.push_back({"RunEvent", schema::any_of({schema::ref("RunOutput"),
                                                  schema::ref("RunProgress"), schema::ref("Run")})});
   add_trace_schema(schemas);
 }

@@ -85,7 +85,7 @@ bool is_known_cycle(int number) {
 std::string actions_schema() {
   const std::string call = schema::object(
       {{"call", schema::text(), "The program that stands for it"}}, schema::Others::Refused);
-  return schema::map(schema::one_of({schema::words({"ignore"}), call}));
+  return schema::map(schema::any_of({schema::words({"ignore"}), call}));
 }
 
 std::string separator_schema() { return schema::words({"comma", "point"}); }

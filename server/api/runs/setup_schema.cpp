@@ -29,7 +29,7 @@ constexpr std::string_view kExample =
 }  // namespace
 
 std::string SetupSchema::json(std::string_view example) const {
-  if (!kinds_.empty()) return schema::one_of(kinds_);
+  if (!kinds_.empty()) return schema::any_of(kinds_);
   return schema::object(fields_, schema::Others::Refused, example);
 }
 

@@ -74,7 +74,7 @@ void add_service_schemas(Schemas& schemas) {
                                      {"tolerance_class", schema::text(), "The column that changed"},
                                      {"table_revision", schema::text(), "In force from now on"}})});
   schemas.push_back(
-      {"Event", schema::one_of({schema::ref("Measurement"), schema::ref("RunFinished"),
+      {"Event", schema::any_of({schema::ref("Measurement"), schema::ref("RunFinished"),
                                 schema::ref("TableChanged"), schema::ref("Resync")})});
   schemas.push_back({"Live", schema::object({{"status", schema::words({"live"}), ""}},
                                             Others::Allowed, R"({"status":"live"})")});

@@ -185,7 +185,7 @@ void add_gauge_study_orders(Schemas& schemas) {
        order({{"method", schema::words({"stability"}), ""},
               {"measurements", study_rows({{"at", label(), "The same for readings of one time"}}),
                "As many at each time"}})});
-  schemas.push_back({"GaugeStudyOrder", schema::one_of({schema::ref("VariationStudyOrder"),
+  schemas.push_back({"GaugeStudyOrder", schema::any_of({schema::ref("VariationStudyOrder"),
                                                         schema::ref("LinearityStudyOrder"),
                                                         schema::ref("StabilityStudyOrder")})});
 }
@@ -224,7 +224,7 @@ void add_gauge_studies(Schemas& schemas) {
                                                {"stable", schema::boolean(), "No rule is broken"}} +
                                         chart_fields())});
   schemas.push_back(
-      {"GaugeStudy", schema::one_of({schema::ref("VariationStudy"), schema::ref("LinearityStudy"),
+      {"GaugeStudy", schema::any_of({schema::ref("VariationStudy"), schema::ref("LinearityStudy"),
                                      schema::ref("StabilityStudy")})});
 }
 

@@ -74,12 +74,11 @@ Result<void> CsvReader::read_quoted() {
   rest_.remove_prefix(1);
   std::size_t end = 0;
   bool doubled = false;
-  for (;; ++end) {
+  for (;; end += 2) {
     end = rest_.find('"', end);
     if (end == std::string_view::npos) return malformed("has a quote that is not closed");
     if (end + 1 >= rest_.size() || rest_[end + 1] != '"') break;
     doubled = true;
-    ++end;
   }
   std::string_view text = rest_.substr(0, end);
   for (const char c : text) line_ += c == '\n' ? 1 : 0;

@@ -54,7 +54,7 @@ std::string exact() { return R"({"type":["number","string"],"pattern":"^-?[0-9]+
 std::string null_or(const std::string& json) {
   constexpr std::string_view kType = R"({"type":")";
   const bool is_plain = json.starts_with(kType) && json.find(R"("enum":)") == std::string::npos;
-  if (!is_plain) return one_of({json, R"({"type":"null"})"});
+  if (!is_plain) return any_of({json, R"({"type":"null"})"});
   const std::size_t end = json.find('"', kType.size());
   const std::string type = json.substr(kType.size(), end - kType.size());
   return fmt::format(R"({{"type":["{}","null"]{})", type, json.substr(end + 1));
@@ -91,8 +91,8 @@ std::string object(const Fields& fields, Others others, std::string_view example
   return json + '}';
 }
 
-std::string one_of(const std::vector<std::string>& schemas) {
-  return fmt::format(R"({{"oneOf":{}}})", list_of(schemas));
+std::string any_of(const std::vector<std::string>& schemas) {
+  return fmt::format(R"({{"anyOf":{}}})", list_of(schemas));
 }
 
 std::string ref(std::string_view name) {
@@ -100,7 +100,7 @@ std::string ref(std::string_view name) {
 }
 
 std::string with_default(std::string json, std::string_view value) {
-  return with_members(std::move(json), fmt::format(R"("default":{})", value));
+  return with_members(std::move(json), fmt::format(R"("x-default":{})", value));
 }
 
 Fields optional(Fields fields) {

@@ -45,9 +45,11 @@ std::string array(const std::string& item, std::size_t size);
 std::string map(const std::string& value);
 std::string object(const Fields& fields, Others others = Others::Allowed,
                    std::string_view example = {});
-std::string one_of(const std::vector<std::string>& schemas);
+/// At least one of them fits.
+std::string any_of(const std::vector<std::string>& schemas);
 std::string ref(std::string_view name);
-/// The same with a default, which is JSON.
+/// The same with what its absence counts as, in JSON: as `x-default`, since generators of clients
+/// make a member with a `default` one that is always there.
 std::string with_default(std::string json, std::string_view value);
 /// Fields that may be left out.
 Fields optional(Fields fields);

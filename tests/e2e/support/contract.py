@@ -41,7 +41,7 @@ class Contract:
     def note(self, value, schema, name=None):
         if "$ref" in schema:
             return self.note(value, self.resolve(schema), schema["$ref"].rsplit("/", 1)[1])
-        for choice in schema.get("oneOf", []):
+        for choice in schema.get("anyOf", []):
             if jsonschema.Draft202012Validator({**choice, "components": self.strict["components"]}).is_valid(value):
                 return self.note(value, choice, name)
         if isinstance(value, dict):
@@ -102,8 +102,8 @@ class Drawing:
             return schema["const"]
         if "enum" in schema:
             return self.random.choice(schema["enum"])
-        if "oneOf" in schema:
-            return self.value(self.random.choice(schema["oneOf"]), None, depth)
+        if "anyOf" in schema:
+            return self.value(self.random.choice(schema["anyOf"]), None, depth)
         kind = schema.get("type", "string")
         kind = self.random.choice(kind) if isinstance(kind, list) else kind
         return getattr(self, kind)(schema, depth)
