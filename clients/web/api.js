@@ -33,6 +33,14 @@ export const onKeyNeeded = (ask) => { askForKey = ask; };
 /** The key that was entered in this window, or null. */
 export const keyInUse = () => readStored(KEY, 'session');
 
+/** Uses a key from now on, as long as the window lives. */
+export function useKey(key) {
+  store(KEY, key, 'session');
+  dispatchEvent(new Event('keyentered'));
+}
+
+export const forgetKey = () => forget(KEY, 'session');
+
 async function problemOf(response) {
   const document = await response.json().catch(() => ({}));
   return new Problem(response.status, document);
@@ -58,11 +66,10 @@ export async function request(method, path, { body, headers = {}, signal, timeou
     if (response.ok) return response;
     const problem = await problemOf(response);
     if (response.status !== 401) throw problem;
-    if (key) forget(KEY, 'session');
+    if (key) forgetKey();
     const entered = asks && await askForKey(problem);
     if (!entered) throw problem;
-    store(KEY, entered, 'session');
-    dispatchEvent(new Event('keyentered'));
+    useKey(entered);
   }
 }
 

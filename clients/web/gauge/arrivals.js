@@ -10,33 +10,43 @@ import { distanceText, measuredText, verdictMark, VERDICTS } from '../verdict.js
 
 const KEPT = 'arrivals';
 
+const NOTHING = { stored: 0, refused: 0, verdicts: {}, bad: [], ids: [] };
+
 export class Arrivals {
-  constructor() {
-    this.counts = readJson(KEPT, { stored: 0, refused: 0, verdicts: {}, bad: [] });
+  /** The tabs of a browser are one station: each shows what came through any of them. @param leaving ends it */
+  constructor(leaving) {
     this.element = h('section.arrived', { role: 'alert', hidden: true });
+    addEventListener('storage', () => this.#draw(), { signal: leaving });
     this.#draw();
   }
 
+  get counts() {
+    return { ...NOTHING, ...readJson(KEPT, this.kept ?? {}) };
+  }
+
+  /** A value that two tabs have sent is one. */
   stored(record) {
-    ++this.counts.stored;
-    this.counts.verdicts[record.verdict] = (this.counts.verdicts[record.verdict] ?? 0) + 1;
-    if (record.verdict !== 'good') this.counts.bad.push({ record });
-    this.#keep();
+    const { counts } = this;
+    if (counts.ids.includes(record.id)) return;
+    const { verdict } = record;
+    this.#keep({
+      ...counts, stored: counts.stored + 1, ids: [...counts.ids, record.id], verdicts: { ...counts.verdicts, [verdict]: (counts.verdicts[verdict] ?? 0) + 1 },
+      bad: verdict === 'good' ? counts.bad : [...counts.bad, { record }],
+    });
   }
 
   refused(shown, reason) {
-    ++this.counts.refused;
-    this.counts.bad.push({ shown, reason });
-    this.#keep();
+    const { counts } = this;
+    this.#keep({ ...counts, refused: counts.refused + 1, bad: [...counts.bad, { shown, reason }] });
   }
 
   #seen() {
-    this.counts = { stored: 0, refused: 0, verdicts: {}, bad: [] };
-    this.#keep();
+    this.#keep(NOTHING);
   }
 
-  #keep() {
-    store(KEPT, JSON.stringify(this.counts));
+  #keep(counts) {
+    this.kept = counts;
+    store(KEPT, JSON.stringify(counts));
     this.#draw();
   }
 

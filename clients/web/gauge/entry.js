@@ -7,11 +7,10 @@
 import { h } from '../dom.js';
 import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
-import { BurstWatch, readLine } from './reading.js';
+import { isBadge } from './badge.js';
+import { BurstWatch, isFar, readLine } from './reading.js';
 
 const SECOND_ENTER_MS = 300;
-/** A value farther than this many tolerances outside the limits is asked about. */
-const FAR = 5;
 const FIELDS = 'input, select, textarea, dialog, [contenteditable]';
 
 export class Entry {
@@ -20,12 +19,13 @@ export class Entry {
    * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}
    * @param onValue takes {text, correcting}: the exact decimal, and the record it corrects
    * @param onJob takes a designation, and resolves to whether there is such a one; @param onField takes (name, text, correcting)
+   * @param onBadge takes a key that was scanned
    * @param isName tells whether a text names something known, such as a plan; @param onTyped is told of the first character
    * @param onOpen takes what was typed and is not taken as it is
    * @param onDropped takes the decimal of a value that was asked about and not kept
    */
-  constructor({ job, prefixes, onValue, onJob, onField, isName, onTyped, onOpen, onDropped }) {
-    Object.assign(this, { job, prefixes, onValue, onJob, onField, isName, onTyped, onOpen, onDropped });
+  constructor({ job, prefixes, onValue, onJob, onField, onBadge, isName, onTyped, onOpen, onDropped }) {
+    Object.assign(this, { job, prefixes, onValue, onJob, onField, onBadge, isName, onTyped, onOpen, onDropped });
     this.lastEnter = -Infinity;
     this.asked = null;
     this.correcting = null;
@@ -95,6 +95,7 @@ export class Entry {
   #read() {
     const typed = this.input.value.trim();
     if (typed === '') return this.#refuse(t('entry.empty'));
+    if (isBadge(typed)) return this.#finish(() => this.onBadge(typed));
     if (this.correcting?.what === 'part_id') return this.#finish(() => this.onField('part_id', this.#withoutPrefix(typed), this.correcting.record));
     if (!this.correcting && parseMeasured(typed) === null && this.isName(typed)) return this.#finish(() => this.onField('part_id', typed));
     const read = readLine(typed, { burst: this.burst.isBurst(typed), prefixes: this.prefixes() });
@@ -215,12 +216,4 @@ export class Entry {
   #say(text) {
     if (this.note.textContent !== text) this.note.textContent = text;
   }
-}
-
-/** Without limits (the service is away and never gave them) half to twice the nominal size has to do. */
-function isFar(nm, { limits, nominal_nm: nominal }) {
-  if (!limits) return 2 * nm < nominal || nm > 2 * nominal;
-  const [lower, upper] = [limits.lower_limit_mm, limits.upper_limit_mm].map(nmFromMm);
-  const far = FAR * Math.max(upper - lower, 1);
-  return nm < lower - far || nm > upper + far;
 }

@@ -10,7 +10,6 @@ import { readJson, store } from '../stored.js';
 import { limitsText, toleranceText } from '../verdict.js';
 import { gaugeInUse, gaugeNames, gaugeText } from './in_use.js';
 import { PREFIXES } from './reading.js';
-import { soundIsOn, switchSound } from './sound.js';
 
 const ECHO_MS = 150;
 const COVERAGE = 2;
@@ -27,8 +26,11 @@ const recordedNames = async (name) => {
 };
 
 export class Job {
-  /** @param onChange is told of every change, with whether another thing is gauged now; @param onDone when Enter ends the typing */
-  constructor({ designation, options, onChange, onDone }) {
+  /**
+   * @param choices what else stands among the fields
+   * @param onChange is told of every change, with whether another thing is gauged now; @param onDone when Enter ends the typing
+   */
+  constructor({ designation, options, choices, onChange, onDone }) {
     this.onChange = onChange;
     this.limits = null;
     this.reason = '';
@@ -60,7 +62,7 @@ export class Job {
     this.more = h('details.more', h('summary', t('job.more')),
       h('div.fields', SIDE_FIELDS.map((name) => field(t(`field.${name}`), this.inputs[name])),
         field(t('field.rule'), this.rule), field(t('field.uncertainty_um'), this.uncertainty)),
-      h('label.choice', h('input', { type: 'checkbox', name: 'sound', checked: soundIsOn(), onchange: ({ target }) => switchSound(target.checked) }), h('span', t('job.sound'))),
+      h('div.choices', choices),
       h('fieldset.fields', h('legend.label', t('job.prefixes')),
         Object.entries(this.prefixInputs).map(([name, input]) => field(t(`field.${name}`), input))));
     this.element = h('form.job', {

@@ -47,15 +47,13 @@ export class Panel {
     ], true);
   }
 
-  /** @param reaction what the plan says is to be done about one that is not good */
-  judged(record, reaction) {
+  judged(record) {
     sound(record.verdict);
     this.#show(record.verdict, [
       verdictShape(record.verdict),
       h('div.said', word(t(`verdict.${record.verdict}`)), about(record),
         h('p.measured', `${measuredText(record)} mm`),
-        h('p.distance', distanceText(record)),
-        reaction && record.verdict !== 'good' && h('p.reaction', reaction)),
+        h('p.distance', distanceText(record))),
       limitStrip(record),
     ]);
   }

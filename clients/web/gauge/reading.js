@@ -1,7 +1,7 @@
 /** What a line that was typed or scanned means. Whatever is not wholly one thing is nothing. */
 
 import { parseDesignation } from '../designation.js';
-import { parseMeasured } from '../exact.js';
+import { nmFromMm, parseMeasured } from '../exact.js';
 
 /** Keys of one scan follow each other faster than fingers. */
 export const BURST_GAP_MS = 30;
@@ -56,4 +56,15 @@ export class BurstWatch {
     this.#keys = 0;
     this.#slow = false;
   }
+}
+
+/** A value farther than this many tolerances outside the limits is asked about. */
+const FAR = 5;
+
+/** Whether a value is asked about. Without limits (the service is away and never gave them) half to twice the nominal size has to do. */
+export function isFar(nm, { limits, nominal_nm: nominal }) {
+  if (!limits) return 2 * nm < nominal || nm > 2 * nominal;
+  const [lower, upper] = [limits.lower_limit_mm, limits.upper_limit_mm].map(nmFromMm);
+  const far = FAR * Math.max(upper - lower, 1);
+  return nm < lower - far || nm > upper + far;
 }

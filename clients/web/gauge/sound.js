@@ -1,5 +1,7 @@
 /** A sound for each verdict, for those whose eyes are on the part. Off until it is switched on. */
 
+import { h } from '../dom.js';
+import { t } from '../i18n.js';
 import { readStored, store } from '../stored.js';
 
 const KEPT = 'sound';
@@ -11,13 +13,13 @@ const TONES = {
 };
 let context;
 
-export const soundIsOn = () => readStored(KEPT) === 'on';
+const soundIsOn = () => readStored(KEPT) === 'on';
 
 /** A browser lets a page sound from a touch on: switching on is one. */
-export function switchSound(on) {
-  store(KEPT, on ? 'on' : 'off');
-  if (on) play('good');
-}
+export const soundChoice = () => h('label.choice', h('input', { type: 'checkbox', name: 'sound', checked: soundIsOn(), onchange: ({ target }) => {
+  store(KEPT, target.checked ? 'on' : 'off');
+  if (target.checked) play('good');
+} }), h('span', t('job.sound')));
 
 export function sound(verdict) {
   if (soundIsOn()) play(verdict);

@@ -5,13 +5,18 @@ import { connection } from '../connection.js';
 import { h } from '../dom.js';
 import { Decimal, judge, nmFromMm, toJson } from '../exact.js';
 import { Arrivals } from '../gauge/arrivals.js';
+import { Badge } from '../gauge/badge.js';
 import { followTables } from '../events.js';
 import { Entry } from '../gauge/entry.js';
 import { FIELDS, Job } from '../gauge/job.js';
+import { NumberPad } from '../gauge/number_pad.js';
 import { Panel } from '../gauge/panel.js';
 import { ownLimits, Plan } from '../gauge/plan.js';
+import { Reactions } from '../gauge/reaction.js';
 import { Recent } from '../gauge/recent.js';
+import { soundChoice } from '../gauge/sound.js';
 import { explain, t } from '../i18n.js';
+import { isKept } from '../kept_page.js';
 import { queue } from '../queue.js';
 import { go, remember } from '../route.js';
 
@@ -22,16 +27,15 @@ export function mount(main, route) {
   const leaving = new AbortController();
   let partBefore = route.options.part_id ?? '';
   const panel = new Panel();
-  const job = new Job({
-    designation: route.path[0] ?? '', options: route.options,
-    onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
-  });
+  const badge = new Badge();
+  const reactions = new Reactions(() => entry.focus());
   const entry = new Entry({
-    job: () => job.current(),
+    job: () => (reactions.reason ? { reason: reactions.reason } : job.current()),
     prefixes: () => job.prefixes,
     onValue: (value) => post(value),
     onJob: (designation) => job.adopt(designation),
     onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text }) : setField(name, text)),
+    onBadge: (key) => badge.take(key),
     isName: (text) => plan.knows(text),
     onTyped: () => { if (stepped) next(); },
     onOpen: (typed) => panel.open(typed),
@@ -39,8 +43,14 @@ export function mount(main, route) {
       key: `dropped-${performance.now()}`, state: 'dropped', shown: shownOf(text), reason: t('recent.dropped_why'),
     }),
   });
+  const pad = new NumberPad(entry.input);
+  const job = new Job({
+    designation: route.path[0] ?? '', options: route.options, choices: [soundChoice(), pad.choice],
+    onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
+  });
   const recent = new Recent({ onCorrect: (record, what) => entry.correct(record, what) });
-  const arrivals = new Arrivals();
+  const arrivals = new Arrivals(leaving.signal);
+  const unkept = h('p.unkept', { role: 'status' });
 
   const plan = new Plan({ onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part) });
   let stepped = false;
@@ -114,6 +124,7 @@ export function mount(main, route) {
   function send(path, body, shown, timed) {
     const { key } = queue.add(path, toJson(body), { ...shown, late: !connection.up }, timed);
     recent.set({ key, state: 'waiting', shown });
+    reactions.judged(key, shown, shown.verdict);
     setTimeout(() => {
       if (queue.entries.some((waiting) => waiting.key === key)) panel.waiting(shown, !connection.up);
     }, GAP_MS);
@@ -126,9 +137,10 @@ export function mount(main, route) {
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
     recent.set({ key, state: 'stored', shown, record });
     if ((record.part_id ?? '') === job.part) plan.judged(record.characteristic, record.verdict);
+    reactions.judged(key, shown, record.verdict);
     if (shown.late) arrivals.stored(record);
     // A verdict that comes late is no verdict of the part that lies there now.
-    if (!shown.late) panel.judged(record, shown.reaction);
+    if (!shown.late) panel.judged(record);
     else if (!queue.size) next();
   }, { signal });
   queue.addEventListener('refused', ({ detail: { entry: { key, shown }, problem } }) => {
@@ -137,6 +149,7 @@ export function mount(main, route) {
     else panel.refused(shown, explain(problem));
   }, { signal });
   connection.addEventListener('change', () => {
+    unkept.textContent = connection.up || isKept() ? '' : t('gauge.unkept');
     if (connection.up || !queue.size) return;
     for (const waiting of queue.entries) queue.mark(waiting, { late: true });
     panel.waiting(queue.entries.at(-1).shown, true);
@@ -153,11 +166,12 @@ export function mount(main, route) {
   addEventListener('focus', () => document.activeElement === document.body && entry.focus(), { signal });
 
   main.replaceChildren(h('div.gauge', h('h1.unseen', { tabindex: -1 }, t('view.gauge')),
-    h('div.station', plan.element, job.element, entry.element, arrivals.element, panel.element), recent.element));
+    h('div.station', plan.element, job.element, pad.element, entry.element, badge.element, unkept, reactions.element, arrivals.element, panel.element), recent.element));
   remember('gauge');
   job.start(leaving.signal);
   followTables(leaving.signal, () => job.renew());
   addEventListener('keyentered', () => {
+    badge.draw();
     plan.list();
     job.keyed();
   }, { signal });

@@ -7,6 +7,7 @@ import { dateTime, explain, number, signed, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
 import { CertificateForm } from '../parts/certificate.js';
+import { correct } from '../parts/correction.js';
 import { limitsText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
 
 const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator'];
@@ -25,12 +26,15 @@ export function mount(main, route) {
   const rows = h('tbody');
   const table = h('div.scroll.records', { tabindex: 0, role: 'region', 'aria-label': t('view.parts') },
     h('table', h('thead', h('tr', ['field.part_id', 'field.characteristic', 'trend.verdict', 'trend.value', 'parts.deviation', 'parts.limits', 'parts.by', 'trend.time']
-      .map((name) => h('th', { scope: 'col' }, t(name))))), rows));
+      .map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), rows));
   const more = h('button', { type: 'button', hidden: true, onclick: () => read() }, t('parts.more'));
   const exported = downloadLink({ download: 'measurements.csv' }, t('parts.csv'), (reason) => { note.textContent = reason; });
   const certificate = new CertificateForm((reason) => { note.textContent = reason; });
   const replaced = new Set();
+  // The list goes on by itself where its end comes into sight.
+  const end = new IntersectionObserver(([{ isIntersecting }]) => isIntersecting && !reading && read(), { rootMargin: '400px' });
   let after = '';
+  let reading = false;
 
   main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
@@ -46,6 +50,7 @@ export function mount(main, route) {
   function search() {
     go({ view: 'parts', options: filter() }, { refine: true });
     after = '';
+    more.hidden = true;
     rows.replaceChildren();
     exported.href = url(['measurements'], { ...filter(), format: 'csv' });
     const { part_id, order } = filter();
@@ -54,26 +59,39 @@ export function mount(main, route) {
   }
 
   async function read() {
+    reading = true;
     try {
       const page = await latest.run((signal) => getJson(url(['measurements'], { ...filter(), sort: 'newest', limit: PAGE, after }), { signal }));
       if (!page) return;
       // A correction is newer than what it corrects, so it was read before.
       for (const { correction_of: old } of page.measurements) if (old) replaced.add(old);
-      rows.append(...page.measurements.map((record) => row(record, replaced.has(record.id))));
+      rows.append(...page.measurements.map((record) => row(record, replaced.has(record.id), () => change(record))));
       after = page.next ?? '';
       more.hidden = !after;
       note.textContent = rows.children.length ? '' : t('parts.none');
       table.hidden = !rows.children.length;
     } catch (problem) {
       note.textContent = explain(problem);
+    } finally {
+      reading = false;
     }
+    // What is in sight already tells nobody that it is.
+    end.unobserve(more);
+    end.observe(more);
+  }
+
+  async function change(record) {
+    if (await correct(record)) search();
   }
 
   search();
-  return () => leaving.abort();
+  return () => {
+    leaving.abort();
+    end.disconnect();
+  };
 }
 
-function row(record, isReplaced) {
+function row(record, isReplaced, onCorrect) {
   const { part_id: part } = record;
   return h('tr', { class: isReplaced && 'corrected' },
     h('td', part ? h('a', { href: fragment({ view: 'parts', options: { part_id: part, history: 'all' } }) }, part) : '–'),
@@ -82,5 +100,8 @@ function row(record, isReplaced) {
       && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.reason].filter(Boolean).join(' · '))),
     h('td.number', measuredText(record)), h('td.number', `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
     h('td', [record.operator, record.machine, record.gauge].filter(Boolean).join(' · ')),
-    h('td', dateTime(new Date(record.measured_at))));
+    h('td', dateTime(new Date(record.measured_at))),
+    h('td', !isReplaced && h('button.quiet', {
+      type: 'button', onclick: onCorrect, 'aria-label': t('parts.correct_this', { mm: measuredText(record), part: part ?? t('part.none') }),
+    }, t('parts.correct'))));
 }

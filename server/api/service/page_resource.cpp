@@ -39,6 +39,7 @@ http::Response response_of(const PageAsset& asset, std::span<const unsigned char
       .with("Cache-Control", std::string(caching))
       .with("Content-Security-Policy", std::string(kPolicy))
       .with("Referrer-Policy", "no-referrer")
+      .with("Service-Worker-Allowed", "/")
       .with("Vary", "Accept-Encoding")
       .with("X-Content-Type-Options", "nosniff");
 }

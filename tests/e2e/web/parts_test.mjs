@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, afterEach, before, describe, it } from 'node:test';
 
-import { close, launch, open, picture } from './support/browser.mjs';
+import { close, findings, launch, open, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 
 let browser;
@@ -31,7 +31,7 @@ describe('the parts', () => {
     await daemon.send('POST', '/v1/measurements', { nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0, measured_mm: '8.05', part_id: 'SN-17', characteristic: 'slot', order: 'WO-9' });
     page = await open(browser, daemon, '#/parts?order=WO-9');
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 50);
-    await page.click('.parts button:has-text("Show more")');
+    await page.$eval('.records tbody tr:last-child', (row) => row.scrollIntoView()); // goes on where its end comes into sight
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 72);
     assert.match(await page.textContent('.records tbody tr'), /SN-17slot/); // the newest first
     await page.click('.records a:has-text("SN-17")');
@@ -41,6 +41,57 @@ describe('the parts', () => {
     assert.deepEqual(history.map(([name]) => name), ['', '', 'corrected']);
     assert.match(history[1][1], /correction.*slipped/);
     assert.match(history[2][1], /Reject.*25\.050/);
+  });
+
+  it('are corrected, value or part, with the reason, and not by mistake', async () => {
+    await daemon.send('POST', '/v1/measurements', ['25.01', '25.012'].map((text) => ({ designation: '25 H7', measured_mm: text, part_id: 'SN-C', order: 'WO-C' })));
+    page = await open(browser, daemon, '#/parts?order=WO-C');
+    const said = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('dialog .note').textContent), text);
+    await page.getByRole('button', { name: 'Correct 25.010 mm of SN-C' }).click();
+    await page.click('dialog .primary');
+    await said('as they were');
+    await page.getByLabel('Measured value').fill('0.98');
+    await page.click('dialog .primary');
+    await said('Say why');
+    await page.getByLabel('Reason').fill('scanned twice');
+    await page.click('dialog .primary');
+    await said('far outside');
+    await page.getByLabel('Measured value').fill('25.01x');
+    await page.click('dialog .primary');
+    await said('not a value');
+    await page.getByLabel('Measured value').fill('25,01');
+    await page.locator('dialog').getByLabel('Part').fill('SN-D');
+    assert.deepEqual(await findings(page), []);
+    await page.click('dialog .primary');
+    await page.waitForSelector('.records a:has-text("SN-D")');
+    const [old, , corrected] = await daemon.stored('order=WO-C&history=all');
+    assert.deepEqual([corrected.part_id, corrected.measured_mm, corrected.correction_of, corrected.reason], ['SN-D', 25.01, old.id, 'scanned twice']);
+    assert.equal((await page.$$('.records tbody tr')).length, 2);
+    await page.getByLabel('With what was corrected').check();
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 3);
+    assert.equal((await page.$$('.records .corrected button')).length, 0);
+    await picture(page, 'parts-corrected', { fullPage: true });
+  });
+
+  it('of 100,000 values are found by their number, the newest first, and the list goes on', async () => {
+    const at = (i) => new Date(Date.UTC(2026, 0, 1) + i * 1000).toISOString();
+    for (let first = 0; first < 100_000; first += 10_000) {
+      const lines = Array.from({ length: 10_000 }, (_, i) => ({ designation: '25 H7', measured_mm: 25.01, part_id: `L-${first + i}`, order: 'WO-L', measured_at: at(first + i) }));
+      await daemon.send('POST', '/v1/measurements', lines);
+    }
+    page = await open(browser, daemon, '#/parts?order=WO-L');
+    const parts = () => page.$$eval('.records tbody a', (links) => links.map((link) => link.textContent));
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 50);
+    for (const count of [100, 150, 200]) {
+      await page.$eval('.records tbody tr:last-child', (row) => row.scrollIntoView());
+      await page.waitForFunction((least) => document.querySelectorAll('.records tbody tr').length >= least, count);
+    }
+    const shown = await parts();
+    assert.deepEqual(shown, shown.map((_, i) => `L-${99_999 - i}`));
+    await page.fill('[name="part_id"]', 'L-17');
+    await page.press('[name="part_id"]', 'Enter');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 1);
+    assert.deepEqual(await parts(), ['L-17']);
   });
 
   it('have the service’s own certificate, of the part or the order that is shown', async () => {
@@ -53,6 +104,7 @@ describe('the parts', () => {
     await page.getByLabel('Company').fill('Muster GmbH & Co.');
     await page.getByLabel('Customer').fill('ACME');
     await page.getByLabel('Paper').selectOption('letter');
+    await picture(page, 'certificate');
     const [sheet] = await Promise.all([
       page.context().waitForEvent('response', (answer) => answer.url().includes('/v1/certificates')),
       page.click('.certificate a'),
@@ -64,7 +116,6 @@ describe('the parts', () => {
     await page.waitForSelector('.records tbody tr');
     await page.click('.certificate summary');
     assert.equal(await page.getByLabel('Company').inputValue(), 'Muster GmbH & Co.'); // typed once
-    await picture(page, 'certificate', { fullPage: true });
   });
 });
 

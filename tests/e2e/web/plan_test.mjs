@@ -1,9 +1,9 @@
-/** What the station knows beforehand: plans, gauges in use, the sounds it was given. */
+/** What the station knows and is given: plans, gauges in use, badges, a number pad, sounds. */
 
 import assert from 'node:assert/strict';
 import { after, before, describe, it } from 'node:test';
 
-import { close, launch, open, picture } from './support/browser.mjs';
+import { close, findings, launch, open, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { scan } from './support/scanner.mjs';
 
@@ -45,11 +45,17 @@ describe('a plan', () => {
     await line('25.03');
     await verdict('reject');
     await progress('2 of 3');
-    assert.match(await page.textContent('.verdict'), /SN-00017 · bore-A.*Stop and tell the setter/);
+    assert.match(await page.textContent('.verdict'), /SN-00017 · bore-A/);
+    assert.match(await page.textContent('.reactions'), /Reject.*SN-00017 · bore-A.*Stop and tell the setter/);
     await picture(page, 'gauge-plan');
     await page.keyboard.type('8'); // the next value begins: the verdict of the one before is taken back
     await verdict('idle');
-    await line('.02');
+    await line('.02'); // and is not taken before the plan's reaction is done
+    assert.match(await page.textContent('#entry-note'), /Stop and tell the setter.*Nothing is stored/);
+    assert.equal((await daemon.stored()).length, 1);
+    await page.click('.reactions button');
+    assert.ok(await page.isHidden('.reactions'));
+    await page.keyboard.press('Enter'); // what was typed is still there
     await verdict('good');
     await progress('3 of 3');
     await line('30.003');
@@ -62,6 +68,31 @@ describe('a plan', () => {
     assert.deepEqual(records.map(({ part_id, characteristic, verdict: word, gauge }) => [part_id, characteristic, word, gauge]), [
       ['SN-00017', 'bore-A', 'reject', 'G-07'], ['SN-00017', 'slot', 'good', 'own-gauge'], ['SN-00017', 'journal', 'indeterminate', 'own-gauge']]);
     assert.deepEqual([records[1].basis, records[1].upper_limit_mm, records[1].lower_limit_mm], ['explicit', 8.036, 7.996]);
+    await close(page);
+  });
+
+  it('demands its reaction over a reload and an outage, once for each value', async () => {
+    page = await open(browser, daemon, '#/gauge?plan=4711-A');
+    await progress('1 of 3');
+    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
+    const before = (await daemon.stored()).length;
+    await daemon.stop();
+    await line('25.03');
+    await page.waitForSelector('.reactions button');
+    await daemon.start();
+    await page.waitForSelector('.link[data-state="up"]');
+    assert.equal(await page.$$eval('.reactions .line', (all) => all.length), 1);
+    await page.reload();
+    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
+    await line('25.01');
+    assert.match(await page.textContent('#entry-note'), /Stop and tell the setter/);
+    await page.click('.reactions button');
+    await line('25.01');
+    await page.waitForFunction(() => document.querySelector('.recent li.stored'));
+    await page.waitForSelector('.link[data-state="up"]');
+    assert.deepEqual((await daemon.stored()).slice(before).map((record) => record.measured_mm), [25.03, 25.01]);
+    assert.ok(await page.isHidden('.reactions')); // a good value demands nothing
+    page.errors.length = 0;
     await close(page);
   });
 
@@ -83,6 +114,7 @@ describe('a plan', () => {
     await close(page);
   });
 });
+
 describe('a gauge in use', () => {
   let browser;
   let daemon;
@@ -187,6 +219,71 @@ describe('a station with sound', () => {
     await page.reload();
     assert.deepEqual(await measure('25.02', 'good'), [880]);
     assert.ok((await measure('24.99', 'rework')).join() !== rejected.join());
+    await close(page);
+    await browser.close();
+    await daemon.cleanup();
+  });
+});
+
+describe('a badge', () => {
+  it('logs in by a scan, another one logs in another, and no key is seen or kept', async () => {
+    const browser = await launch();
+    const daemon = await new Daemon('--auth', 'read-open').start();
+    const [ada, bob] = [await daemon.key('ada', 'operator'), await daemon.key('bob', 'operator')];
+    const page = await open(browser, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    const says = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.badge').textContent), text);
+    for (const [i, [key, value]] of [[ada, '25.01'], [bob, '25.011']].entries()) {
+      await scan(page, key);
+      await says(`Key ${key.slice(0, 7)}… in use`);
+      await scan(page, value);
+      await page.waitForFunction((count) => document.querySelectorAll('.recent li.stored').length === count, i + 1);
+    }
+    for (const [name, value] of [['ada', 25.01], ['bob', 25.011]]) {
+      const { measurements } = await (await fetch(`${daemon.url}/v1/measurements?caller=${name}`, { headers: { Authorization: `Bearer ${ada}` } })).json();
+      assert.deepEqual(measurements.map((record) => record.measured_mm), [value]);
+    }
+    await picture(page, 'gauge-badge');
+    await page.getByRole('button', { name: 'Log out' }).click();
+    await says('^$');
+    await scan(page, `fg_${'0'.repeat(64)}`);
+    await says('not valid');
+    assert.equal(await page.$('dialog'), null);
+    const text = await page.evaluate(() => [document.body.textContent, ...Object.values(localStorage), ...Object.values(sessionStorage)].join());
+    assert.ok(![ada, bob].some((key) => text.includes(key)));
+    await close(page);
+    await browser.close();
+    await daemon.cleanup();
+  });
+});
+
+describe('a number pad', () => {
+  it('types for those who have no keyboard, and leaves the verdict in sight', async () => {
+    const browser = await launch();
+    const daemon = await new Daemon().start();
+    const page = await open(browser, daemon, '#/gauge/25H7', { viewport: { width: 1024, height: 768 }, locale: 'de-DE', hasTouch: true });
+    await page.waitForSelector('.echo .figures');
+    if (await page.isHidden('.pad')) {
+      await page.click('.more summary');
+      await page.check('[name="pad"]');
+    }
+    const touch = async (keys) => { for (const key of keys) await page.getByRole('button', { name: key, exact: true }).tap(); };
+    await touch(['2', '5', ',', '0', '1', '4', 'Letztes Zeichen löschen', '3']);
+    assert.equal(await page.inputValue('#value'), '25,013');
+    assert.deepEqual(await page.evaluate(() => [document.activeElement.id, document.activeElement.inputMode]), ['value', 'none']);
+    await page.tap('.entry .primary');
+    await page.waitForSelector('.verdict[data-verdict="good"]');
+    assert.deepEqual((await daemon.stored()).map((record) => record.measured_mm), [25.013]);
+    const seen = () => page.$eval('.verdict', (panel) => panel.getBoundingClientRect().bottom <= innerHeight);
+    assert.ok(await seen());
+    await page.reload();
+    await page.waitForSelector('.pad:visible');
+    for (const [width, height] of [[390, 844], [1024, 768], [1366, 768]]) {
+      await page.setViewportSize({ width, height });
+      assert.deepEqual(await findings(page), [], `${width}`);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width}`);
+      await picture(page, `gauge-pad-${width}`);
+    }
     await close(page);
     await browser.close();
     await daemon.cleanup();

@@ -18,7 +18,7 @@ export const launch = () => chromium.launch({
 
 /** A page at a state, in a browser context of its own; `errors` holds what it logged. */
 export async function open(browser, daemon, fragment = '', options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', reducedMotion: 'reduce', ...options });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', reducedMotion: 'reduce', serviceWorkers: 'block', ...options });
   return openIn(context, daemon, fragment);
 }
 

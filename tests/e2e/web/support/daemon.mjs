@@ -36,16 +36,17 @@ export class Daemon {
     return this;
   }
 
-  async stop() {
-    this.process.kill('SIGTERM');
+  async stop(signal = 'SIGTERM') {
+    this.process.kill(signal);
     await this.ended;
   }
 
+  kill() {
+    return this.stop('SIGKILL');
+  }
+
   async cleanup() {
-    if (this.process.exitCode === null) {
-      this.process.kill('SIGKILL');
-      await this.ended;
-    }
+    if (this.process.exitCode === null && this.process.signalCode === null) await this.kill();
     fs.rmSync(this.folder, { recursive: true, force: true });
   }
 

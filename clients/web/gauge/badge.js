@@ -1,0 +1,45 @@
+/** Log-in by a badge: a code with an API key, read by the scanner like everything else. */
+
+import { forgetKey, getJson, keyInUse, url, useKey } from '../api.js';
+import { h, refill } from '../dom.js';
+import { explain, t } from '../i18n.js';
+import { queue } from '../queue.js';
+
+const KEY = /^fg_[0-9a-f]{64}$/;
+/** Enough of a key to tell it from others, too little to use it. */
+const SHOWN = 7;
+
+export const isBadge = (text) => KEY.test(text);
+
+export class Badge {
+  constructor() {
+    this.element = h('p.badge', { role: 'status' });
+    this.draw();
+  }
+
+  /** From here on everything is done with this key, if it is valid. Values that wait are sent with the one before. */
+  async take(key) {
+    if (queue.size && keyInUse()) return this.draw(t('badge.waiting', { count: queue.size }));
+    useKey(key);
+    try {
+      await getJson(url(['plans']), { asks: false });
+      queue.send();
+      return this.draw();
+    } catch (problem) {
+      return this.draw(problem.status === 401 ? t('key.invalid') : explain(problem));
+    }
+  }
+
+  draw(problem = '') {
+    const key = keyInUse();
+    this.element.classList.toggle('wrong', problem !== '');
+    refill(this.element, problem, key && h('span', t('badge.in', { key: key.slice(0, SHOWN) })),
+      key && h('button.quiet', { type: 'button', onclick: () => this.#out() }, t('badge.out')));
+  }
+
+  #out() {
+    if (queue.size) return this.draw(t('badge.waiting', { count: queue.size }));
+    forgetKey();
+    return this.draw();
+  }
+}

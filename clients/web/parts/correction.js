@@ -1,0 +1,68 @@
+/** Corrects a record, its value or its part: a new record that names the old one, with the reason. */
+
+import { request, url } from '../api.js';
+import { field, h } from '../dom.js';
+import { Decimal, LARGEST_NM, nmFromMm, parseMeasured } from '../exact.js';
+import { isFar } from '../gauge/reading.js';
+import { explain, number, t } from '../i18n.js';
+import { measuredText } from '../verdict.js';
+
+/** Resolves to whether the record was corrected. */
+export function correct(record) {
+  const text = (value) => {
+    const input = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false', maxlength: 200 });
+    input.value = value;
+    return input;
+  };
+  const value = text(measuredText(record));
+  const part = text(record.part_id ?? '');
+  const reason = text('');
+  const note = h('p.note', { role: 'alert' });
+  let asked = '';
+
+  /** What is sent, or null with a note why not. */
+  function correction() {
+    const refuse = (why) => { note.textContent = why; return null; };
+    const measured = parseMeasured(value.value.trim());
+    const nm = measured === null ? 0 : nmFromMm(measured);
+    if (nm <= 0 || nm > LARGEST_NM) return refuse(t('correct.malformed', { typed: value.value.trim() }));
+    const named = part.value.trim();
+    const same = nm === nmFromMm(String(record.measured_mm));
+    if (same && named === (record.part_id ?? '')) return refuse(t('correct.nothing'));
+    if (!reason.value.trim()) return refuse(t('correct.why'));
+    if (!same && isFar(nm, { limits: record }) && asked !== measured) {
+      asked = measured;
+      return refuse(t('correct.far', { mm: number(measured) }));
+    }
+    return { measured_mm: new Decimal(measured), ...(named && { part_id: named }), reason: reason.value.trim() };
+  }
+
+  async function send(event) {
+    event.preventDefault();
+    const body = correction();
+    if (!body) return;
+    try {
+      await request('POST', url(['measurements', record.id, 'corrections']), { body });
+      dialog.close('corrected');
+    } catch (problem) {
+      note.textContent = explain(problem);
+    }
+  }
+
+  const dialog = h('dialog', { 'aria-labelledby': 'correct-title' },
+    h('form', { novalidate: true, onsubmit: send },
+      h('h2', { id: 'correct-title' }, t('correct.title', { mm: measuredText(record), part: record.part_id ?? t('part.none') })),
+      h('p', t('correct.how')),
+      field(t('entry.label'), value), field(t('field.part_id'), part), field(t('correct.reason'), reason), note,
+      h('p.actions', h('button.primary', { type: 'submit' }, t('correct.store')),
+        h('button', { type: 'button', onclick: () => dialog.close('') }, t('confirm.cancel')))));
+  document.body.append(dialog);
+  dialog.showModal();
+  value.select();
+  return new Promise((resolve) => {
+    dialog.addEventListener('close', () => {
+      dialog.remove();
+      resolve(dialog.returnValue === 'corrected');
+    });
+  });
+}

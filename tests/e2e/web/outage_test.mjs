@@ -1,0 +1,97 @@
+/** The service is killed, the page and every value stay: the service worker, two tabs, a scanner that goes on. */
+
+import assert from 'node:assert/strict';
+import { after, afterEach, before, beforeEach, describe, it } from 'node:test';
+
+import { close, launch, open, openIn, picture } from './support/browser.mjs';
+import { Daemon } from './support/daemon.mjs';
+import { scan } from './support/scanner.mjs';
+
+describe('while the service is away', () => {
+  let browser;
+  let daemon;
+  let page;
+
+  before(async () => { browser = await launch(); });
+  after(() => browser.close());
+  beforeEach(async () => { daemon = await new Daemon().start(); });
+  afterEach(async () => {
+    await close(page);
+    await daemon.cleanup();
+  });
+
+  const kept = (file) => page.waitForFunction(async (name) => (await (await caches.open('page')).keys())
+    .some(({ url }) => new URL(url).pathname.endsWith(name)), file);
+
+  it('the page itself loads, in its language, judges, and sends afterwards', async () => {
+    page = await open(browser, daemon, '#/gauge/25H7', { serviceWorkers: 'allow', locale: 'de-DE' });
+    await page.waitForSelector('.echo .figures');
+    for (const file of ['/', '/app.js', '/lang/de.js', '/views/gauge.js']) await kept(file);
+    await daemon.kill();
+    const again = await page.context().newPage();
+    await again.goto(`${daemon.url}/#/gauge/25H7`);
+    await again.waitForSelector('.echo .figures');
+    await again.focus('#value');
+    await scan(again, '25.03');
+    await again.waitForSelector('.verdict[data-provisional][data-verdict="reject"]');
+    assert.match(await again.textContent('#link'), /nicht erreichbar · 1/);
+    assert.equal(await again.textContent('.unkept'), '');
+    await picture(again, 'outage');
+    await daemon.start();
+    await again.waitForFunction(() => /1 Ausschuss/.test(document.querySelector('.arrived').textContent));
+    assert.deepEqual((await daemon.stored()).map((record) => record.measured_mm), [25.03]);
+    // Nothing of the interface is kept: what is shown is what the service says.
+    assert.deepEqual(await again.evaluate(async () => (await (await caches.open('page')).keys()).map(({ url }) => new URL(url).pathname).filter((path) => path.startsWith('/v1'))), []);
+  });
+
+  it('a page that the browser does not keep says so', async () => {
+    page = await open(browser, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    await daemon.kill();
+    await page.waitForFunction(() => /Do not close or reload/.test(document.querySelector('.unkept').textContent));
+    await daemon.start();
+    await page.waitForFunction(() => document.querySelector('.unkept').textContent === '');
+  });
+
+  it('a new build replaces what was kept', async () => {
+    page = await open(browser, daemon, '#/gauge/25H7', { serviceWorkers: 'allow' });
+    await kept('/app.js');
+    await page.evaluate(async () => (await caches.open('page')).put('/web/0123456789ab/app.js', new Response('old')));
+    await page.reload();
+    await page.waitForFunction(async () => !(await (await caches.open('page')).match('/web/0123456789ab/app.js')));
+    await kept('/app.js');
+  });
+
+  it('a scanner types 60 values into two tabs, the service is killed three times: each is stored once, none unseen', async () => {
+    page = await open(browser, daemon, '#/gauge/25H7', { serviceWorkers: 'allow' });
+    const tabs = [page, await openIn(page.context(), daemon, '#/gauge/25H7')];
+    for (const tab of tabs) await tab.waitForSelector('.echo .figures');
+    const values = Array.from({ length: 60 }, (_, i) => (25 + (i % 7 === 3 ? 0.03 : 0) + i / 10000).toFixed(4));
+    let starting = null;
+    for (const [i, value] of values.entries()) {
+      if (i === 50) tabs.push(await openIn(page.context(), daemon, '#/gauge/25H7')); // takes over what waits as well
+      await scan(tabs[i % 2], value);
+      if (i % 20 === 4) await daemon.kill();
+      if (i % 20 === 16) starting = daemon.start();
+    }
+    await starting;
+    for (const tab of tabs) await tab.waitForSelector('.link[data-state="up"]');
+    const stored = (await daemon.stored()).map((record) => record.measured_mm.toFixed(4));
+    assert.deepEqual([...stored].sort(), [...values].sort());
+    // Every one stands in the list of its tab with its verdict.
+    const rows = async (tab) => tab.$$eval('.recent li.stored', (items) => items.map((item) => [item.querySelector('.figure').textContent, item.querySelector('.mark-of').textContent]));
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 30);
+    const seen = new Map([...await rows(tabs[0]), ...await rows(tabs[1])]);
+    const expected = values.map((value) => [value.replace(/0$/, ''), Number(value) > 25.021 ? 'Reject' : 'Good']);
+    assert.deepEqual([...seen].sort(), expected.sort());
+    // Those of the outages are counted once for the station, whichever tab sent them, and named where they are bad.
+    const told = await Promise.all(tabs.map((tab) => tab.textContent('.arrived')));
+    assert.equal(new Set(told).size, 1, told.join('\n'));
+    const [, total, good, reject] = /^(\d+) stored after the outage: (\d+) good, (\d+) reject/.exec(told[0]).map(Number);
+    assert.ok(total >= 33 && total <= 60 && good + reject === total, told[0]);
+    assert.equal(await page.$$eval('.arrived li', (items) => items.length), reject);
+    await tabs[1].getByRole('button', { name: 'Seen' }).click();
+    await page.waitForSelector('.arrived', { state: 'hidden' });
+    for (const tab of tabs.slice(1)) assert.deepEqual(tab.errors, []);
+  });
+});
