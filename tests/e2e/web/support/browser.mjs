@@ -1,4 +1,4 @@
-/** Chromium and pages in it. A page that logs an error fails its test. */
+/** A browser, Chromium or that of WEB_TEST_BROWSER, and pages in it. A page that logs an error fails its test. */
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
@@ -6,15 +6,22 @@ import { createRequire } from 'node:module';
 import path from 'node:path';
 
 const require = createRequire(path.join(process.env.WEB_TEST_MODULES, 'package.json'));
-const { chromium } = require('playwright-core');
+const playwright = require('playwright-core');
 const AXE = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 const SCREENSHOTS = path.resolve('build/screenshots');
 
-export const launch = () => chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync'],
-});
+const BROWSERS = {
+  chromium: () => playwright.chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+      '--disable-component-update', '--disable-sync'],
+  }),
+  // Debian's own Firefox, by WebDriver BiDi.
+  firefox: () => playwright._bidiFirefox.launch({ executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', channel: 'moz-firefox' }),
+};
+export const browserName = process.env.WEB_TEST_BROWSER ?? 'chromium';
+
+export const launch = () => BROWSERS[browserName]();
 
 /** A page at a state, in a browser context of its own; `errors` holds what it logged. */
 export async function open(browser, daemon, fragment = '', options = {}) {
