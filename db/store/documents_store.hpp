@@ -14,7 +14,14 @@ class Connection;
 }
 
 /// The codes are stored: never change one, never use one again.
-enum class DocumentKind : std::uint8_t { Uncertainty = 1, GaugeInUse = 2, Setup = 3, Plan = 4 };
+enum class DocumentKind : std::uint8_t {
+  Uncertainty = 1,
+  GaugeInUse = 2,
+  Setup = 3,
+  Plan = 4,
+  Connection = 5,
+  ConnectionProgress = 6,
+};
 
 struct Document {
   DocumentKind kind = DocumentKind::Uncertainty;

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "app/service/connection_state.hpp"
 #include "app/service/readiness.hpp"
@@ -36,7 +35,7 @@ struct Services {
   std::shared_ptr<VerdictCounts> verdicts;
   const Clock& clock;
   std::function<app::Readiness()> readiness;
-  std::function<std::vector<app::ConnectionState>()> connections{};  ///< empty: there are none
+  app::ConnectionCalls connections{};
 };
 
 }  // namespace fitgauge::api

@@ -27,6 +27,31 @@ bool is_directory(const DirectoryEntry& entry) {
                          control_link::FileInformation::kDirectoryOfItnc)) != 0;
 }
 
+/// A connection that may list and read.
+control_link::LinkResult<LinkClient> connect(const MachineOptions& machine,
+                                             const std::stop_token& stop) {
+  auto control = LinkClient::connect({.address = machine.address, .stop = stop});
+  if (!control) return control;
+  for (const char* login : {"INSPECT", "FILE"}) {
+    if (const auto done = control->login(login); !done) return done.error();
+    // Between them, since the buffer is among what INSPECT may ask.
+    if (login == std::string_view("INSPECT")) {
+      if (const auto agreed = control->agree_buffer(); !agreed) return agreed.error();
+    }
+  }
+  return control;
+}
+
+/// Each once.
+std::vector<std::string> folders_of(const MachineOptions& machine) {
+  std::vector<std::string> folders;
+  for (const WatchedPath& path : machine.paths) {
+    if (std::find(folders.begin(), folders.end(), path.folder) == folders.end())
+      folders.push_back(path.folder);
+  }
+  return folders;
+}
+
 }  // namespace
 
 class Collector::Machine {
@@ -34,12 +59,6 @@ class Collector::Machine {
   Machine(MachineOptions options, app::Application& app, const Clock& clock,
           const CollectorHooks& hooks)
       : options_(std::move(options)), intake_(app, clock), clock_(clock), hooks_(hooks) {
-    state_.name = options_.name;
-    state_.kind = "lsv2";
-    state_.address = to_text(options_.address);
-    state_.machine = options_.machine;
-    for (const WatchedPath& path : options_.paths) state_.paths.push_back(path.folder + path.name);
-    state_.interval_seconds = options_.interval.count();
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
 
@@ -125,23 +144,13 @@ void Collector::Machine::finish_round(const std::optional<std::string>& why) {
 
 std::optional<std::string> Collector::Machine::round(const std::stop_token& stop) {
   is_away_ = true;
-  auto control = LinkClient::connect({.address = options_.address, .stop = stop});
+  auto control = connect(options_, stop);
   if (!control) return control.error().message;
-  for (const char* login : {"INSPECT", "FILE"}) {
-    if (const auto done = control->login(login); !done) return done.error().message;
-    // Between them, since the buffer is among what INSPECT may ask.
-    if (login == std::string_view("INSPECT")) {
-      if (const auto agreed = control->agree_buffer(); !agreed) return agreed.error().message;
-    }
-  }
   is_away_ = false;
   round_bytes_ = 0;
   std::optional<std::string> first;
-  std::vector<std::string> folders;
-  for (const WatchedPath& path : options_.paths) {
-    if (std::find(folders.begin(), folders.end(), path.folder) != folders.end()) continue;
-    folders.push_back(path.folder);
-    auto why = read_folder(*control, path.folder);
+  for (const std::string& folder : folders_of(options_)) {
+    auto why = read_folder(*control, folder);
     if (why && !first) first = std::move(why);
     if (is_away_) break;
   }
@@ -215,22 +224,32 @@ std::optional<std::string> Collector::Machine::fetch(LinkClient& control, const 
   return std::nullopt;
 }
 
-Collector::Collector(std::vector<MachineOptions> machines, app::Application& app,
-                     const Clock& clock, CollectorHooks hooks) {
-  for (MachineOptions& machine : machines) {
-    machines_.push_back(std::make_unique<Machine>(std::move(machine), app, clock, hooks));
+Collector::Collector(MachineOptions machine, app::Application& app, const Clock& clock,
+                     CollectorHooks hooks)
+    : machine_(std::make_unique<Machine>(std::move(machine), app, clock, hooks)) {}
+
+Collector::~Collector() = default;
+
+void Collector::request_stop() { machine_->stop(); }
+
+app::ConnectionState Collector::state() const { return machine_->state(); }
+
+app::ConnectionTest test_machine(const MachineOptions& machine, const std::stop_token& stop) {
+  auto control = connect(machine, stop);
+  if (!control) return {.ok = false, .detail = control.error().message};
+  std::size_t files = 0;
+  for (const std::string& folder : folders_of(machine)) {
+    const auto entries = control->list(folder, machine.most_entries);
+    if (!entries) return {.ok = false, .detail = folder + ": " + entries.error().message};
+    files += static_cast<std::size_t>(
+        std::count_if(entries->begin(), entries->end(), [&](const DirectoryEntry& entry) {
+          return !is_directory(entry) &&
+                 std::any_of(machine.paths.begin(), machine.paths.end(), [&](const auto& watched) {
+                   return watched.folder == folder && matches(watched, entry.name);
+                 });
+        }));
   }
-}
-
-Collector::~Collector() {
-  // All at once, so that they end together.
-  for (const auto& machine : machines_) machine->stop();
-}
-
-std::vector<app::ConnectionState> Collector::states() const {
-  std::vector<app::ConnectionState> states;
-  for (const auto& machine : machines_) states.push_back(machine->state());
-  return states;
+  return {.ok = true, .detail = fmt::format("logged in; {} files are watched", files)};
 }
 
 }  // namespace fitgauge::collector

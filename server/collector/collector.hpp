@@ -2,8 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string_view>
-#include <vector>
 
 #include "app/application.hpp"
 #include "app/service/connection_state.hpp"
@@ -20,25 +20,30 @@ struct CollectorHooks {
   std::function<void(std::string_view name, std::string_view path, std::string_view why)> unread{};
 };
 
-/// Reads measuring logs from controls over LSV-2, with one thread and one connection a machine; a
-/// machine that is slow or away holds up no other. It logs in as INSPECT and FILE, and only lists
-/// and reads. A machine that is away is asked again after twice the time, up to ten minutes.
+/// Reads measuring logs from a control over LSV-2, with a thread and a connection of its own: one
+/// that is slow or away holds up no other. It logs in as INSPECT and FILE, and only lists and
+/// reads. A machine that is away is asked again after twice the time, up to ten minutes.
 class Collector {
  public:
   /// @param app, clock outlive it.
-  Collector(std::vector<MachineOptions> machines, app::Application& app, const Clock& clock,
+  Collector(MachineOptions machine, app::Application& app, const Clock& clock,
             CollectorHooks hooks);
   /// Ends all waits and waits for what is being stored.
   ~Collector();
   Collector(const Collector&) = delete;
   Collector& operator=(const Collector&) = delete;
 
-  /// In the order of the configuration. Thread-safe.
-  std::vector<app::ConnectionState> states() const;
+  /// Begins to end: for many that are to end together. Thread-safe.
+  void request_stop();
+  /// What it has done, without its name and settings. Thread-safe.
+  app::ConnectionState state() const;
 
  private:
   class Machine;
-  std::vector<std::unique_ptr<Machine>> machines_;
+  std::unique_ptr<Machine> machine_;
 };
+
+/// Logs in and lists the watched folders once. Waits.
+app::ConnectionTest test_machine(const MachineOptions& machine, const std::stop_token& stop);
 
 }  // namespace fitgauge::collector

@@ -191,8 +191,11 @@ const std::vector<Setting>& settings() {
        .help = "Its clients may change files and start programs; else they only read",
        .flag = &Config::control_write},
       {.name = "connections",
-       .help = "File with the controls whose measuring logs are collected (TOML); empty for none",
+       .help = "File with connections to controls, folders and receivers (TOML); empty for none",
        .text = &Config::connections},
+      {.name = "allow-private-addresses",
+       .help = "Webhooks may reach this machine and private networks; else public addresses alone",
+       .flag = &Config::allow_private_addresses},
   };
   return kSettings;
 }

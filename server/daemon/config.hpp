@@ -35,6 +35,7 @@ struct Config {
   std::string control_setup;
   bool control_write = false;
   std::string connections;
+  bool allow_private_addresses = false;
 };
 
 /// One setting: its place in Config, its names and its documentation.

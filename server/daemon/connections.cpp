@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <set>
+#include <sstream>
 
 #include "base/text.hpp"
 #include "daemon/log.hpp"
@@ -16,159 +15,125 @@
 namespace fitgauge::daemon {
 namespace {
 
-using collector::MachineOptions;
+using api::JsonValue;
+using connections::Definition;
 
-constexpr std::size_t kMostConnections = 100;
-constexpr std::int64_t kLeastInterval = 1;
-constexpr std::int64_t kMostInterval = 86'400;
+JsonValue text_value(std::string text) {
+  return {.kind = JsonValue::Kind::String, .text = std::move(text)};
+}
 
-/// One `[[connection]]`, read key by key; the first error is kept.
+template <class Number>
+JsonValue number_value(Number number) {
+  return {.kind = JsonValue::Kind::Number, .text = fmt::format("{}", number)};
+}
+
+/// TOML as the JSON that a PUT would have.
+JsonValue json_of(const toml::node& node) {
+  JsonValue value;
+  if (const toml::table* const table = node.as_table()) {
+    value.kind = JsonValue::Kind::Object;
+    for (const auto& [key, member] : *table) {
+      value.members.emplace_back(std::string(key.str()), json_of(member));
+    }
+  } else if (const toml::array* const array = node.as_array()) {
+    value.kind = JsonValue::Kind::Array;
+    for (const toml::node& item : *array) value.items.push_back(json_of(item));
+  } else if (const auto text = node.value_exact<std::string>()) {
+    return text_value(*text);
+  } else if (const auto number = node.value_exact<std::int64_t>()) {
+    return number_value(*number);
+  } else if (const auto real = node.value_exact<double>()) {
+    return number_value(*real);
+  } else if (const auto truth = node.value_exact<bool>()) {
+    return {.kind = JsonValue::Kind::Boolean, .boolean = *truth};
+  } else {
+    // A date or a time: no connection takes one, and the message shows it.
+    std::ostringstream date;
+    node.visit([&date](const auto& any) {
+      if constexpr (toml::is_value<decltype(any)>) date << any.get();
+    });
+    return text_value(date.str());
+  }
+  return value;
+}
+
+/// One `[[connection]]`.
 class ConnectionReader {
  public:
   ConnectionReader(const std::string& file, const toml::table& table)
       : file_(file), table_(table) {}
 
-  Result<MachineOptions> read();
+  Result<Definition> read() const;
 
  private:
-  void fail(const toml::node* node, const std::string& message) {
+  Error error(const toml::node* node, std::string_view message) const {
     const auto line = node == nullptr ? table_.source().begin.line : node->source().begin.line;
-    if (!error_)
-      error_ = Error{ErrorCode::ConfigInvalid, fmt::format("{}:{}: {}", file_, line, message)};
+    return {ErrorCode::ConfigInvalid, fmt::format("{}:{}: {}", file_, line, message)};
   }
-  std::string text(std::string_view key, bool is_needed);
-  std::vector<std::string> texts(std::string_view key);
-  void check_keys();
-  void read_address();
-  void read_paths();
-  void read_patterns();
-  void read_interval();
+  /// Every field that cannot be accepted, each with its line.
+  Error errors(const Error& refused) const;
+  /// The names of files with what stands in them.
+  Result<void> load_patterns(JsonValue& body) const;
 
   const std::string& file_;
   const toml::table& table_;
-  std::optional<Error> error_;
-  MachineOptions machine_;
 };
 
-std::string ConnectionReader::text(std::string_view key, bool is_needed) {
-  const toml::node* const node = table_.get(key);
-  if (node == nullptr) {
-    if (is_needed) fail(nullptr, fmt::format("a connection needs {}", key));
-    return {};
+Error ConnectionReader::errors(const Error& refused) const {
+  if (refused.code == ErrorCode::PathMalformed) return error(table_.get("name"), refused.message);
+  if (refused.details.empty()) return error(nullptr, refused.message);
+  Error all{ErrorCode::ConfigInvalid, {}};
+  for (const Error& field : refused.details) {
+    const std::string_view place =
+        std::string_view(field.where).substr(field.where.empty() ? 0 : 1);
+    const toml::node* const node = table_.get(place.substr(0, place.find('/')));
+    all.message += (all.message.empty() ? "" : "\n") + error(node, field.message).message;
   }
-  const auto value = node->value_exact<std::string>();
-  if (!value) fail(node, fmt::format("{} must be a text", key));
-  return value.value_or("");
+  return all;
 }
 
-std::vector<std::string> ConnectionReader::texts(std::string_view key) {
-  std::vector<std::string> items;
-  const toml::node* const node = table_.get(key);
-  if (node == nullptr) return items;
-  const toml::array* const array = node->as_array();
-  if (array == nullptr) {
-    fail(node, fmt::format("{} must be a list of texts", key));
-    return items;
-  }
-  for (const toml::node& item : *array) {
-    if (const auto value = item.value_exact<std::string>()) {
-      items.push_back(*value);
-    } else {
-      fail(&item, fmt::format("{} must be a list of texts", key));
+Result<void> ConnectionReader::load_patterns(JsonValue& body) const {
+  for (auto& [key, list] : body.members) {
+    if (key != "patterns" || !list.is(JsonValue::Kind::Array)) continue;
+    for (JsonValue& item : list.items) {
+      if (!item.is(JsonValue::Kind::String)) {
+        return error(table_.get("patterns"), "patterns must be a list of texts");
+      }
+      const auto path = std::filesystem::path(file_).parent_path() / item.text;
+      std::ifstream file(path, std::ios::binary);
+      std::string content{std::istreambuf_iterator<char>(file), {}};
+      if (!file) {
+        return error(table_.get("patterns"),
+                     fmt::format("cannot read the pattern file {}", path.string()));
+      }
+      JsonValue pattern{.kind = JsonValue::Kind::Object};
+      pattern.members.emplace_back("file", text_value(item.text));
+      pattern.members.emplace_back("text", text_value(std::move(content)));
+      item = std::move(pattern);
     }
   }
-  return items;
+  return {};
 }
 
-void ConnectionReader::check_keys() {
-  constexpr std::string_view kKeys[] = {"name",    "kind",       "address", "paths",
-                                        "machine", "interval_s", "patterns"};
-  for (const auto& [key, node] : table_) {
-    if (std::find(std::begin(kKeys), std::end(kKeys), key.str()) == std::end(kKeys)) {
-      fail(&node, fmt::format("unknown key '{}' of a connection", key.str()));
-    }
+Result<Definition> ConnectionReader::read() const {
+  JsonValue body = json_of(table_);
+  const JsonValue* const name = body.find("name");
+  if (name == nullptr || !name->is(JsonValue::Kind::String)) {
+    return error(table_.get("name"), "a connection needs a name, which is a text");
   }
-}
-
-void ConnectionReader::read_address() {
-  const std::string address = text("address", true);
-  const auto parsed = control_link::parse_control_address(address);
-  if (parsed) {
-    machine_.address = *parsed;
-  } else {
-    fail(table_.get("address"), fmt::format("'{}' is no HOST or HOST:PORT", address));
-  }
-}
-
-void ConnectionReader::read_paths() {
-  for (const std::string& path : texts("paths")) {
-    auto watched = collector::parse_watched_path(path);
-    if (watched) {
-      machine_.paths.push_back(*std::move(watched));
-    } else {
-      fail(table_.get("paths"), watched.error().message);
-    }
-  }
-  if (machine_.paths.empty())
-    fail(nullptr, "a connection needs paths, such as TNC:\\nc_prog\\TCHPR*.TXT");
-}
-
-void ConnectionReader::read_patterns() {
-  for (const std::string& name : texts("patterns")) {
-    const auto path = std::filesystem::path(file_).parent_path() / name;
-    std::ifstream file(path, std::ios::binary);
-    const std::string content{std::istreambuf_iterator<char>(file), {}};
-    if (!file) {
-      fail(table_.get("patterns"), fmt::format("cannot read the pattern file {}", path.string()));
-      continue;
-    }
-    auto pattern = log_reader::Pattern::parse(content);
-    if (pattern) {
-      machine_.patterns.push_back({name, *std::move(pattern)});
-    } else {
-      fail(table_.get("patterns"), fmt::format("{}: {}", path.string(), pattern.error().message));
-    }
-  }
-}
-
-void ConnectionReader::read_interval() {
-  const toml::node* const node = table_.get("interval_s");
-  if (node == nullptr) return;
-  const auto seconds = node->value_exact<std::int64_t>();
-  if (!seconds || *seconds < kLeastInterval || *seconds > kMostInterval) {
-    fail(node, fmt::format("interval_s must be a whole number from {} to {}", kLeastInterval,
-                           kMostInterval));
-    return;
-  }
-  machine_.interval = std::chrono::seconds(*seconds);
-}
-
-Result<MachineOptions> ConnectionReader::read() {
-  check_keys();
-  machine_.name = text("name", true);
-  const bool is_name = !machine_.name.empty() && machine_.name.size() <= 63 &&
-                       std::all_of(machine_.name.begin(), machine_.name.end(), [](char c) {
-                         return is_ascii_alphanumeric(c) || c == '-' || c == '_';
-                       });
-  if (!is_name) {
-    fail(table_.get("name"), "the name of a connection has 1 to 63 letters, digits, - and _");
-  }
-  if (text("kind", true) != "lsv2") fail(table_.get("kind"), "the kind of a connection is lsv2");
-  machine_.machine = text("machine", false);
-  if (machine_.machine.empty()) machine_.machine = machine_.name;
-  read_address();
-  read_paths();
-  read_patterns();
-  read_interval();
-  if (error_) return *error_;
-  return std::move(machine_);
+  std::string named = name->text;
+  std::erase_if(body.members, [](const auto& member) { return member.first == "name"; });
+  if (const auto loaded = load_patterns(body); !loaded) return loaded.error();
+  auto definition = connections::read_definition(std::move(named), body);
+  if (!definition) return errors(definition.error());
+  return definition;
 }
 
 }  // namespace
 
-Result<std::vector<MachineOptions>> read_connections(const std::string& path) {
-  std::vector<MachineOptions> machines;
-  if (path.empty()) return machines;
+Result<std::vector<Definition>> read_connections(const std::string& path) {
+  std::vector<Definition> definitions;
+  if (path.empty()) return definitions;
   const auto invalid = [&path](auto line, std::string_view what) {
     return Error{ErrorCode::ConfigInvalid, fmt::format("{}:{}: {}", path, line, what)};
   };
@@ -187,39 +152,34 @@ Result<std::vector<MachineOptions>> read_connections(const std::string& path) {
     for (const toml::node& item : *list) {
       const toml::table* const table = item.as_table();
       if (table == nullptr) return invalid(item.source().begin.line, "write [[connection]]");
-      auto machine = ConnectionReader(path, *table).read();
-      if (!machine) return machine.error();
-      if (!names.insert(ascii_lower(machine->name)).second) {
+      auto definition = ConnectionReader(path, *table).read();
+      if (!definition) return definition.error();
+      if (!names.insert(ascii_lower(definition->name)).second) {
         return invalid(item.source().begin.line,
-                       fmt::format("the connection '{}' comes twice", machine->name));
+                       fmt::format("the connection '{}' comes twice", definition->name));
       }
-      machines.push_back(*std::move(machine));
+      definitions.push_back(*std::move(definition));
     }
   }
-  if (machines.size() > kMostConnections) {
-    return invalid(1, fmt::format("more than {} connections", kMostConnections));
+  if (definitions.size() > connections::kMostConnections) {
+    return invalid(1, fmt::format("more than {} connections", connections::kMostConnections));
   }
-  return machines;
+  return definitions;
 }
 
-Result<std::unique_ptr<collector::Collector>> start_collector(const Config& config,
-                                                              app::Application& app,
-                                                              const Clock& clock) {
-  auto machines = read_connections(config.connections);
-  if (!machines) return machines.error();
-  return std::make_unique<collector::Collector>(
-      *std::move(machines), app, clock,
-      collector::CollectorHooks{
-          .failed =
-              [](std::string_view name, std::string_view why) {
-                log_warning("connection_failing", fmt::format("{}: {}", name, why));
-              },
-          .recovered = [](std::string_view name) { log_info("connection_recovered", name); },
-          .unread =
-              [](std::string_view name, std::string_view path, std::string_view why) {
-                log_warning("log_not_understood",
-                            fmt::format("{}: {}: {}; the file is kept whole", name, path, why));
-              }});
+Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
+                                                                    app::Application& app,
+                                                                    const Clock& clock) {
+  auto configured = read_connections(config.connections);
+  if (!configured) return configured.error();
+  return connections::Connections::start(
+      *std::move(configured), {.app = app,
+                               .clock = clock,
+                               .may_reach_private = config.allow_private_addresses,
+                               .tell = [](std::string_view event, const std::string& detail) {
+                                 event == "connection_recovered" ? log_info(event, detail)
+                                                                 : log_warning(event, detail);
+                               }});
 }
 
 }  // namespace fitgauge::daemon

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "app/application.hpp"
-#include "collector/collector.hpp"
+#include "connections/connections.hpp"
 #include "daemon/config.hpp"
 
 namespace fitgauge::daemon {
 
 /// Reads the file of the connections; none for an empty path. Names of pattern files are relative
 /// to its folder. @errors ConfigInvalid with file, line and key.
-Result<std::vector<collector::MachineOptions>> read_connections(const std::string& path);
+Result<std::vector<connections::Definition>> read_connections(const std::string& path);
 
-/// Begins to collect; goes before `app`. @errors as read_connections.
-Result<std::unique_ptr<collector::Collector>> start_collector(const Config& config,
-                                                              app::Application& app,
-                                                              const Clock& clock);
+/// Starts the connections; goes before `app`. @errors as read_connections; those of the storage.
+Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
+                                                                    app::Application& app,
+                                                                    const Clock& clock);
 
 }  // namespace fitgauge::daemon

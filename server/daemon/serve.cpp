@@ -183,20 +183,20 @@ Result<void> serve(const Config& config, const std::string& port_file) {
     return opened_runs.error();
   }
 
-  auto collecting = start_collector(config, app, clock);
-  if (!collecting) return collecting.error();
-  const collector::Collector& machines = **collecting;
+  auto connecting = start_connections(config, app, clock);
+  if (!connecting) return connecting.error();
+  connections::Connections& outside = **connecting;
 
   api::Metrics metrics;
   const auto verdicts = std::make_shared<api::VerdictCounts>(app.measurements());
   verdicts->refresh([] {});
-  metrics.add([verdicts, &app, &clock, &machine_clock, &config, &machines](api::Exposition& out) {
+  metrics.add([verdicts, &app, &clock, &machine_clock, &config, &outside](api::Exposition& out) {
     verdicts->write(out);
     write_application_metrics(app, out);
     write_clock_metrics(clock, machine_clock, out);
     write_storage_metrics(config.data, out);
     write_process_metrics(out);
-    write_connection_metrics(machines.states(), clock, out);
+    write_connection_metrics(outside.states(), clock, out);
   });
   const api::Services services{.tables = app.tables(),
                                .log = app.log(),
@@ -209,11 +209,11 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .verdicts = verdicts,
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); },
-                               .connections = [&machines] { return machines.states(); }};
+                               .connections = outside.calls()};
   // Beyond these a client gets 503 rather than no answer.
-  const std::int64_t connections = allow_connections(config.max_connections);
+  const std::int64_t most_clients = allow_connections(config.max_connections);
   auto started = http::Server::start(
-      server_options(config, *addresses, connections), api::make_routes(services),
+      server_options(config, *addresses, most_clients), api::make_routes(services),
       hooks(api::Guard(app.keys(), mode,
                        [](std::string_view what) { log_warning("proxy_suspected", what); }),
             metrics));
@@ -231,9 +231,9 @@ Result<void> serve(const Config& config, const std::string& port_file) {
       return written.error();
     }
   }
-  if (connections < config.max_connections) {
+  if (most_clients < config.max_connections) {
     log_warning("connections_limited",
-                fmt::format("{} of {}: the hard limit of open files allows no more", connections,
+                fmt::format("{} of {}: the hard limit of open files allows no more", most_clients,
                             config.max_connections));
   }
   log_info("log_head", app.log().head_text());
@@ -246,7 +246,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   app.runs().stop();
   control->reset();
   server.stop();
-  collecting->reset();
+  connecting->reset();
   // The application drains its queues first: the answers of its last jobs find no connection.
   opened->reset();
   started->reset();

@@ -90,7 +90,7 @@ void write_application_metrics(app::Application& app, api::Exposition& out) {
       .sample(static_cast<double>(writer.failures));
   out.gauge("fitgauge_wal_pages", "Pages in the write-ahead log after the last commit")
       .sample(static_cast<double>(writer.log_pages));
-  out.gauge("fitgauge_event_readers", "Open streams of /v1/events")
+  out.gauge("fitgauge_event_readers", "Open streams of /v1/events, and outgoing connections")
       .sample(static_cast<double>(app.events().readers()));
   const app::RunService::Counts runs = app.runs().counts();
   const auto sample = [&](app::RunState state) {
@@ -136,21 +136,27 @@ void write_connection_metrics(const std::vector<app::ConnectionState>& connectio
   each([](const auto& connection) {
     return connection.last_success_at && !connection.is_failing ? 1.0 : 0.0;
   });
-  out.gauge("fitgauge_connection_lag_seconds", "Since its last attempt that succeeded; -1 before");
+  out.gauge("fitgauge_connection_lag_seconds",
+            "Since its last success; outgoing: the age of what is to go next; -1 before");
   each([now = clock.now()](const auto& connection) {
-    if (!connection.last_success_at) return -1.0;
-    return static_cast<double>(now.nanoseconds - connection.last_success_at->nanoseconds) / 1e9;
+    const auto behind = lag(connection, now);
+    return behind ? static_cast<double>(*behind) / 1e9 : -1.0;
   });
+  out.gauge("fitgauge_connection_behind_measurements", "Outgoing: measurements not dealt with");
+  each([](const auto& connection) { return static_cast<double>(connection.behind); });
   out.counter("fitgauge_connection_failures_total", "Attempts that failed");
   count(&app::ConnectionState::failures);
-  out.counter("fitgauge_connection_files_total", "Files fetched because they had changed");
+  out.counter("fitgauge_connection_files_total", "Files taken because they were new, or written");
   count(&app::ConnectionState::files);
   out.counter("fitgauge_connection_bytes_total", "Bytes of these files");
   count(&app::ConnectionState::bytes);
-  out.counter("fitgauge_connection_measurements_total", "Measurements stored of them");
+  out.counter("fitgauge_connection_measurements_total",
+              "Measurements stored, or told to the other side");
   count(&app::ConnectionState::measurements);
   out.counter("fitgauge_connection_unreadable_total", "Places in them that no reader understood");
   count(&app::ConnectionState::unreadable);
+  out.counter("fitgauge_connection_refused_total", "Measurements that the other side refused");
+  count(&app::ConnectionState::refused);
 }
 
 void write_process_metrics(api::Exposition& out) {

@@ -1076,8 +1076,22 @@ class Client:
     # Service
 
     def connections(self) -> list[dict[str, Any]]:
-        """The connections to controls: state, lag, last error, what they have stored."""
+        """The connections to the world outside: settings without secrets, state, lag, last error, what they did."""
         return self._get("/v1/connections")["connections"]
+
+    def connection(self, name: str) -> dict[str, Any]:
+        return self._get(_path("connections", name))
+
+    def put_connection(self, name: str, connection: Mapping[str, Any]) -> bool:
+        """Stores a connection, `kind` and what it takes, and starts it; True when it is new."""
+        return self._put(_path("connections", name), dumps(connection).encode(), "application/json").status == 201
+
+    def delete_connection(self, name: str) -> None:
+        self._perform(_Request("DELETE", _path("connections", name)))
+
+    def test_connection(self, name: str) -> dict[str, Any]:
+        """Tries the other side once: `ok` and `detail`."""
+        return loads(self._perform(_Request("POST", _path("connections", name, "test"))).body)
 
     def cycles(self) -> list[dict[str, Any]]:
         """The touch-probe cycles with their parameters and results."""

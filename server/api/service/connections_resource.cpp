@@ -1,6 +1,9 @@
 #include "api/service/connections_resource.hpp"
 
+#include "api/handlers.hpp"
+#include "api/service/caller.hpp"
 #include "api/wire/json_writer.hpp"
+#include "api/wire/request_facts.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -8,6 +11,7 @@ namespace {
 using app::ConnectionState;
 
 std::string_view state_word(const ConnectionState& connection) {
+  if (connection.is_stopped) return "stopped";
   if (connection.is_failing) return "failing";
   return connection.last_success_at ? "ok" : "waiting";
 }
@@ -21,24 +25,44 @@ void write_time(JsonWriter& json, std::string_view name, const std::optional<Tim
   }
 }
 
-void write_connection(JsonWriter& json, const ConnectionState& connection, Timestamp now) {
+/// The members of its settings, which stand beside those of its state.
+Result<void> write_settings(JsonWriter& json, const ConnectionState& connection) {
+  const auto settings = parse_stored_json(connection.settings, "a connection");
+  if (!settings) return settings.error();
+  for (const auto& [name, value] : settings->members) {
+    if (name == "kind") continue;
+    json.key(name);
+    write_json(json, value);
+  }
+  return {};
+}
+
+void write_progress(JsonWriter& json, const ConnectionState& connection) {
+  json.member("position", connection.position.value_or(0)).member("behind", connection.behind);
+  json.key("dead_letters").begin_array();
+  for (const app::DeadLetter& letter : connection.dead_letters) {
+    json.begin_object()
+        .member("measurement", letter.measurement)
+        .member("at", format_rfc3339(letter.at))
+        .member("reason", letter.reason)
+        .end_object();
+  }
+  json.end_array();
+}
+
+Result<void> write_connection(JsonWriter& json, const ConnectionState& connection, Timestamp now) {
   json.begin_object()
       .member("name", connection.name)
       .member("kind", connection.kind)
-      .member("address", connection.address)
-      .member("machine", connection.machine)
-      .key("paths")
-      .begin_array();
-  for (const std::string& path : connection.paths) json.value(path);
-  json.end_array()
-      .member("interval_s", connection.interval_seconds)
-      .member("state", state_word(connection));
+      .member("direction", connection.is_outgoing ? "out" : "in")
+      .member("read_only", connection.is_read_only);
+  if (auto written = write_settings(json, connection); !written) return written;
+  json.member("state", state_word(connection));
   write_time(json, "last_attempt_at", connection.last_attempt_at);
   write_time(json, "last_success_at", connection.last_success_at);
   json.key("lag_s");
-  if (connection.last_success_at) {
-    const std::int64_t lag = now.nanoseconds - connection.last_success_at->nanoseconds;
-    json.fixed(static_cast<double>(lag) / 1e9, 3);
+  if (const auto nanoseconds = lag(connection, now)) {
+    json.fixed(static_cast<double>(*nanoseconds) / 1e9, 3);
   } else {
     json.null();
   }
@@ -48,41 +72,169 @@ void write_connection(JsonWriter& json, const ConnectionState& connection, Times
   } else {
     json.value(connection.last_error);
   }
-  json.member("attempts", connection.attempts)
-      .member("failures", connection.failures)
-      .member("files", connection.files)
-      .member("bytes", connection.bytes)
-      .member("logs", connection.logs)
-      .member("measurements", connection.measurements)
-      .member("values_kept", connection.values_kept)
-      .member("unreadable", connection.unreadable)
-      .end_object();
+  if (connection.is_outgoing) write_progress(json, connection);
+  for (const app::ConnectionCounter& counter : app::kConnectionCounters) {
+    json.member(counter.name, connection.*counter.value);
+  }
+  json.end_object();
+  return {};
+}
+
+http::Response answer_of(int status, std::string body) {
+  return http::Response(status, "application/json", std::move(body))
+      .with("Cache-Control", "no-store");
 }
 
 Result<http::Response> list(const Services& services) {
   std::string body;
   JsonWriter json(body);
   json.begin_object().key("connections").begin_array();
-  if (services.connections) {
-    for (const ConnectionState& connection : services.connections()) {
-      write_connection(json, connection, services.clock.now());
+  if (services.connections.states) {
+    for (const ConnectionState& connection : services.connections.states()) {
+      const auto written = write_connection(json, connection, services.clock.now());
+      if (!written) return written.error();
     }
   }
   json.end_array().end_object();
-  return http::Response(200, "application/json", std::move(body)).with("Cache-Control", "no-store");
+  return answer_of(200, std::move(body));
+}
+
+std::string name_of(const http::Request& request) { return std::string(*request.text("name")); }
+
+Error unknown(const std::string& name) {
+  return {ErrorCode::ConnectionUnknown, "there is no connection '" + name + "'"};
+}
+
+Result<http::Response> one(const Services& services, const std::string& name, int status) {
+  const auto state = services.connections.state ? services.connections.state(name) : std::nullopt;
+  if (!state) return unknown(name);
+  std::string body;
+  JsonWriter json(body);
+  const auto written = write_connection(json, *state, services.clock.now());
+  if (!written) return written.error();
+  return answer_of(status, std::move(body));
+}
+
+void finish(const SharedResponder& shared, Result<http::Response> response) {
+  if (!response) return shared->fail(response.error());
+  shared->answer(*std::move(response));
+}
+
+/// Runs `work` where connections are changed, and answers what it gives.
+template <class Work>
+void change(const Services& services, http::Responder responder, Work work) {
+  const SharedResponder shared = share(std::move(responder));
+  const bool taken = services.connections.run &&
+                     services.connections.run([shared, work] { finish(shared, work()); });
+  if (!taken) {
+    shared->fail({ErrorCode::StorageBusy, "too many changes of connections wait: try again soon"});
+  }
+}
+
+void put(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto caller = caller_name(request);
+  change(services, std::move(responder),
+         [&services, &request,
+          caller = caller ? std::optional<std::string>(*caller)
+                          : std::nullopt]() -> Result<http::Response> {
+           const auto is_new = services.connections.put(
+               {.name = name_of(request), .body = request.body(), .caller = caller});
+           if (!is_new) return is_new.error();
+           return one(services, name_of(request), *is_new ? 201 : 200);
+         });
+}
+
+void remove(const Services& services, const http::Request& request, http::Responder responder) {
+  change(services, std::move(responder), [&services, &request]() -> Result<http::Response> {
+    const auto removed = services.connections.remove(name_of(request));
+    if (!removed) return removed.error();
+    return http::Response(204);
+  });
+}
+
+void test(const Services& services, const http::Request& request, http::Responder responder) {
+  change(services, std::move(responder), [&services, &request]() -> Result<http::Response> {
+    const auto found = services.connections.test(name_of(request));
+    if (!found) return found.error();
+    std::string body;
+    JsonWriter(body)
+        .begin_object()
+        .member("ok", found->ok)
+        .member("detail", found->detail)
+        .end_object();
+    return answer_of(200, std::move(body));
+  });
 }
 
 }  // namespace
 
 void add_connections_routes(std::vector<http::Route>& routes, const Services& services) {
+  const http::Parameter name{.name = "name",
+                             .place = http::ParameterPlace::Path,
+                             .description = "1 to 63 letters, digits, - and _"};
   routes.push_back({
       .pattern = "/v1/connections",
       .handler = [&services](const http::Request&) { return list(services); },
-      .summary = "The connections to controls: state, lag, last error and what they have stored",
+      .summary = "The connections to the world outside: state, lag, last error and what they did",
       .access = "viewer",
       .operation = "listConnections",
-      .tag = "service",
-      .outcomes = {{.meaning = "The connections", .schema = "Connections"}},
+      .tag = "connections",
+      .outcomes = {{.meaning = "By name", .schema = "Connections"}},
+  });
+  routes.push_back({
+      .pattern = "/v1/connections/{name}",
+      .handler = [&services](
+                     const http::Request& request) { return one(services, name_of(request), 200); },
+      .summary = "A connection: its settings without secrets, and its state",
+      .parameters = {name},
+      .access = "viewer",
+      .operation = "getConnection",
+      .tag = "connections",
+      .outcomes = {{.meaning = "As it is now", .schema = "Connection"}},
+      .refusals = {404},
+  });
+  routes.push_back({
+      .method = http::Method::Put,
+      .pattern = "/v1/connections/{name}",
+      .handler = with(services, put),
+      .summary = "Store a connection and start it",
+      .description = "One of the configuration file is 409 `connection.read_only`; a kind that is "
+                     "not built yet is 422 `connection.kind_not_built`.",
+      .parameters = {name},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json"},
+               .schema = "ConnectionOrder"},
+      .access = "admin",
+      .operation = "putConnection",
+      .tag = "connections",
+      .outcomes = {{.meaning = "It is replaced and goes on where it stood", .schema = "Connection"},
+                   {.status = 201, .meaning = "It is new", .schema = "Connection"}},
+      .refusals = {409},
+  });
+  routes.push_back({
+      .method = http::Method::Delete,
+      .pattern = "/v1/connections/{name}",
+      .handler = with(services, remove),
+      .summary = "End a connection and forget how far it came",
+      .parameters = {name},
+      .access = "admin",
+      .operation = "deleteConnection",
+      .tag = "connections",
+      .outcomes = {{.status = 204, .meaning = "It is gone"}},
+      .refusals = {404, 409},
+  });
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/connections/{name}/test",
+      .handler = with(services, test),
+      .summary = "Try the other side of a connection once",
+      .description = "Answers 200 however the attempt ends, after at most half a minute.",
+      .parameters = {name},
+      .access = "admin",
+      .operation = "testConnection",
+      .tag = "connections",
+      .outcomes = {{.meaning = "What was found", .schema = "ConnectionTest"}},
+      .refusals = {404},
   });
 }
 

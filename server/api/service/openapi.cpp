@@ -181,7 +181,7 @@ constexpr std::string_view kResponses = R"({"Problem":{"description":"What is wr
                                         R"({"schema":{"$ref":"#/components/schemas/Problem"}}}}})";
 
 /// The groups of operations, in the order of a first reading.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kTags = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTags = {{
     {"limits", "Limits of size, fits and verdicts (ISO 286-1)"},
     {"statistics", "The figures of a quality engineer, each with its source"},
     {"tables", "The tolerance tables and a shop's own columns"},
@@ -192,6 +192,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kTags = 
     {"setups", "Machines with what lies on their tables"},
     {"runs", "Programs on a simulated machine"},
     {"cycles", "The touch-probe cycles"},
+    {"connections", "Controls, folders and receivers outside, and how each does"},
     {"service", "Health, events, metrics, this description and the page"},
 }};
 

@@ -37,35 +37,6 @@ void add_cycle_schemas(Schemas& schemas) {
       {"Cycles", schema::object({{"cycles", schema::array(schema::ref("Cycle")), ""}})});
 }
 
-void add_connection_schemas(Schemas& schemas) {
-  const std::string time_or_null = schema::null_or(schema::text());
-  const std::string connection = schema::object({
-      {"name", schema::text(), ""},
-      {"kind", schema::words({"lsv2"}), ""},
-      {"address", schema::text(), "host:port"},
-      {"machine", schema::text(), "Of its measurements"},
-      {"paths", schema::array(schema::text()), "What is watched"},
-      {"interval_s", schema::count(), ""},
-      {"state", schema::words({"waiting", "ok", "failing"}), "Of its last attempt"},
-      {"last_attempt_at", time_or_null, ""},
-      {"last_success_at", time_or_null, ""},
-      {"lag_s", schema::null_or(schema::number()), "Since the last success"},
-      {"last_error", schema::null_or(schema::text()), "Of the last attempt that failed"},
-      {"attempts", schema::count(), "Since the start, as all that follow"},
-      {"failures", schema::count(), ""},
-      {"files", schema::count(), "Fetched because they were new or had changed"},
-      {"bytes", schema::count(), ""},
-      {"logs", schema::count(), "Read in them, whether new or not"},
-      {"measurements", schema::count(), "Stored"},
-      {"values_kept", schema::count(), "Angles and figures of axes, which stay in the file"},
-      {"unreadable", schema::count(), "Places that no reader understood"},
-  });
-  schemas.push_back({"Connection", connection});
-  schemas.push_back(
-      {"Connections",
-       schema::object({{"connections", schema::array(schema::ref("Connection")), ""}})});
-}
-
 void add_service_schemas(Schemas& schemas) {
   schemas.push_back(
       {"Resync", schema::object({{"detail", schema::text(), "Read the lists again"}})});

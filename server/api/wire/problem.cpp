@@ -38,6 +38,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::UncertaintyUnknown:
     case ErrorCode::GaugeUnknown:
     case ErrorCode::PlanUnknown:
+    case ErrorCode::ConnectionUnknown:
     case ErrorCode::MeasurementUnknown: return 404;
     case ErrorCode::MethodNotAllowed: return 405;
     case ErrorCode::NotAcceptable: return 406;
@@ -45,6 +46,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::IdempotencyInProgress:
     case ErrorCode::MeasurementCorrected:
     case ErrorCode::MeasurementSimulated:
+    case ErrorCode::ConnectionReadOnly:
     case ErrorCode::RunFinished:
     case ErrorCode::RunUnfinished: return 409;
     case ErrorCode::LengthRequired: return 411;

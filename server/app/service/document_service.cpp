@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <future>
+
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -22,6 +24,10 @@ Facts facts_of(DocumentKind kind) {
     case DocumentKind::GaugeInUse:
       return {Stored::GaugeInUse, "gauge in use", ErrorCode::GaugeUnknown};
     case DocumentKind::Setup: return {Stored::Setup, "setup", ErrorCode::SetupUnknown};
+    case DocumentKind::Connection:
+      return {Stored::Connection, "connection", ErrorCode::ConnectionUnknown};
+    case DocumentKind::ConnectionProgress:
+      return {Stored::ConnectionProgress, "progress of a connection", ErrorCode::ConnectionUnknown};
     case DocumentKind::Plan: break;
   }
   return {Stored::Plan, "plan", ErrorCode::PlanUnknown};
@@ -60,6 +66,23 @@ Result<NamedDocument> find(const store::Stores& stores, DocumentKind kind,
   auto found = stores.documents.find(stored_kind(kind), name);
   if (!found) return unknown_document(kind, name);
   return named_document(*std::move(found));
+}
+
+Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentKind kind) {
+  std::vector<NamedDocument> documents;
+  for (store::Document& document : stores.documents.list(stored_kind(kind))) {
+    documents.push_back(named_document(std::move(document)));
+  }
+  return documents;
+}
+
+/// Waits for what `begin` gives to its argument.
+template <class T, class Begin>
+Result<T> waited(const Begin& begin) {
+  std::promise<Result<T>> promise;
+  auto future = promise.get_future();
+  begin([&promise](Result<T> result) { promise.set_value(std::move(result)); });
+  return future.get();
 }
 
 }  // namespace
@@ -107,20 +130,28 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
 }
 
 void DocumentService::list(DocumentKind kind, Done<std::vector<NamedDocument>> done) {
-  database_.readers().submit(
-      [kind](const store::Stores& stores) -> Result<std::vector<NamedDocument>> {
-        std::vector<NamedDocument> documents;
-        for (store::Document& document : stores.documents.list(stored_kind(kind))) {
-          documents.push_back(named_document(std::move(document)));
-        }
-        return documents;
-      },
-      std::move(done));
+  database_.readers().submit([kind](const store::Stores& stores) { return all_of(stores, kind); },
+                             std::move(done));
 }
 
 Result<NamedDocument> DocumentService::wait_for(DocumentKind kind, const std::string& name) {
   return database_.readers().wait(
       [kind, &name](const store::Stores& stores) { return find(stores, kind, name); });
+}
+
+Result<std::vector<NamedDocument>> DocumentService::wait_for_list(DocumentKind kind) {
+  return database_.readers().wait(
+      [kind](const store::Stores& stores) { return all_of(stores, kind); });
+}
+
+Result<bool> DocumentService::write_and_wait(Change change) {
+  return waited<bool>([&](Done<bool> done) { write(std::move(change), std::move(done)); });
+}
+
+Result<bool> DocumentService::remove_and_wait(DocumentKind kind, const std::string& name,
+                                              Precondition precondition) {
+  return waited<bool>(
+      [&](Done<bool> done) { remove(kind, name, std::move(precondition), std::move(done)); });
 }
 
 }  // namespace fitgauge::app

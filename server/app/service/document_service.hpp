@@ -17,7 +17,14 @@ class Database;
 namespace fitgauge::app {
 
 /// What is kept as a text under a name.
-enum class DocumentKind : std::uint8_t { Uncertainty, GaugeInUse, Setup, Plan };
+enum class DocumentKind : std::uint8_t {
+  Uncertainty,
+  GaugeInUse,
+  Setup,
+  Plan,
+  Connection,
+  ConnectionProgress,  ///< how far the connection of that name has come
+};
 
 /// A document as it was written.
 struct NamedDocument {
@@ -26,10 +33,11 @@ struct NamedDocument {
   Timestamp modified_at;
 };
 
-/// Uncertainty budgets, gauges in use, machine setups and plans. Nothing but `wait_for` blocks;
+/// Uncertainty budgets, gauges in use, machine setups, plans and connections. Nothing blocks but
+/// what says so;
 /// `done` comes exactly once, on a storage thread or, when refused at once, on the caller's.
-/// Thread-safe. A name that is not there is UncertaintyUnknown, GaugeUnknown, SetupUnknown or
-/// PlanUnknown.
+/// Thread-safe. A name that is not there is UncertaintyUnknown, GaugeUnknown, SetupUnknown,
+/// PlanUnknown or ConnectionUnknown.
 class DocumentService {
  public:
   template <class T>
@@ -60,8 +68,12 @@ class DocumentService {
   void remove(DocumentKind kind, std::string name, Precondition precondition, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
 
-  /// As read, for threads that may wait.
+  // As above, for threads that may wait.
   Result<NamedDocument> wait_for(DocumentKind kind, const std::string& name);
+  Result<std::vector<NamedDocument>> wait_for_list(DocumentKind kind);
+  Result<bool> write_and_wait(Change change);
+  Result<bool> remove_and_wait(DocumentKind kind, const std::string& name,
+                               Precondition precondition = {});
 
  private:
   store::Database& database_;

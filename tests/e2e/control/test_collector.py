@@ -275,10 +275,11 @@ class Settings(unittest.TestCase):
         self.assertEqual(self.refusal(self.GOOD)[0], 0)
         for change, said in (
                 (("m3", "m 3"), "FILE:2: the name of a connection has"),
-                (("lsv2", "mqtt"), "FILE:3: the kind of a connection is lsv2"),
+                (("lsv2", "mqtt"), "FILE:3: connections of the kind mqtt are not built yet"),
+                (("lsv2", "post"), "FILE:3: there is no kind of connection 'post'"),
                 (("10.0.0.7", "10.0.0.7:x"), "FILE:4: '10.0.0.7:x' is no HOST or HOST:PORT"),
                 (("TNC:", "PLC:"), "is no path to watch"),
-                (("paths", "path"), "unknown key 'path'"),
+                (("paths", "path"), "FILE:5: there is no field path"),
                 (("[[connection]]", "[[connections]]"), "nothing here but [[connection]]")):
             with self.subTest(change):
                 code, error = self.refusal(self.GOOD.replace(*change, 1))

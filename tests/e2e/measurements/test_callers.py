@@ -6,6 +6,7 @@ import time
 from support.daemon import Daemon, DaemonTest
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
+CONTROL = {"kind": "lsv2", "address": "127.0.0.1:1", "paths": ["TNC:\\logs\\*.TXT"]}
 COLUMN = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]}
 OPEN_READS = ("/v1/limits/25H7", "/v1/fits/25H7/g6", "/v1/tables",
               "/v1/verdicts/25H7?measured_mm=25", "/openapi.json", "/")
@@ -143,6 +144,8 @@ class Keys(Callers):
         calls = [("viewer", "GET", "/v1/measurements", None), ("operator", "POST", "/v1/measurements", PART),
                  ("admin", "PUT", "/v1/tables/hole/classes/Shop1", COLUMN),
                  ("admin", "PUT", "/v1/setups/mill-1", {}), ("admin", "DELETE", "/v1/setups/mill-1", None),
+                 ("admin", "PUT", "/v1/connections/mill-1", CONTROL), ("viewer", "GET", "/v1/connections/mill-1", None),
+                 ("admin", "POST", "/v1/connections/mill-1/test", None), ("admin", "DELETE", "/v1/connections/mill-1", None),
                  ("admin", "PUT", "/v1/files/p.h", "0 BEGIN PGM p MM\n1 END PGM p MM\n"),
                  ("operator", "POST", "/v1/runs", {"program": "TNC:\\p.h"}),
                  ("viewer", "POST", "/v1/files/p.h?action=check", None), ("admin", "DELETE", "/v1/files/p.h", None)]

@@ -173,6 +173,11 @@ class EveryRoute(ControlTest):
     def call_service(self, client):
         self.assertTrue(client.live())
         self.assertEqual(client.connections(), [])
+        control = {"kind": "lsv2", "address": "127.0.0.1:1", "paths": ["TNC:\\logs\\*.TXT"], "interval_s": 3600}
+        self.assertTrue(client.put_connection("mill", control))
+        self.assertEqual(client.connection("mill")["address"], "127.0.0.1:1")
+        self.assertFalse(client.test_connection("mill")["ok"])
+        client.delete_connection("mill")
         self.assertEqual(client.wait_until_ready()["database"], client.ready()["database"])
         with fitgauge.Client("http://127.0.0.1:1") as nobody, self.assertRaises(fitgauge.NoAnswer):
             nobody.wait_until_ready(timeout=0.2)

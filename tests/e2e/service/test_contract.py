@@ -264,6 +264,7 @@ class Answers(ContractTest):
         self.expect("getPlan", 200, part="4711-A")
         self.expect("listPlans", 200)
         self.expect("deletePlan", 204, part="4711-A")
+        self.connections()
         order = {"program": "TNC:\\nc_prog\\hole.h", "setup": SETUP, "parameters": {"Q1": 25, "QS1": "H7"},
                  "limits": {"blocks": 1000, "seconds": 5}, "on_stop": "end", "unreadable": "refuse"}
         run = self.expect("postRun", 201, order).json
@@ -283,6 +284,22 @@ class Answers(ContractTest):
         self.expect("listRuns", 200)
         self.expect("listMeasurements", 200, source="simulation")
         self.expect("deleteFile", 204, path="nc_prog/bad.h")
+
+    def connections(self):
+        control = {"kind": "lsv2", "address": "127.0.0.1:1", "machine": "M3", "paths": ["TNC:\\logs\\*.TXT"],
+                   "interval_s": 3600, "patterns": [{"file": "bore", "text": "nominal_mm = 25\n---\n{measured_mm} MM\n"}]}
+        self.expect("putConnection", 201, control, name="mill")
+        self.expect("putConnection", 200, control, name="mill")
+        self.expect("putConnection", 422, {"kind": "mqtt"}, name="mill")
+        self.expect("putConnection", 422, {**control, "paths": ["PLC:\\x"]}, name="mill")
+        self.expect("putConnection", 400, control, name="a b")
+        self.expect("listConnections", 200)
+        self.expect("getConnection", 200, name="mill")
+        self.expect("testConnection", 200, name="mill")
+        self.expect("testConnection", 404, name="none")
+        self.expect("deleteConnection", 204, name="mill")
+        self.expect("deleteConnection", 404, name="mill")
+        self.expect("getConnection", 404, name="mill")
 
     def assert_seen(self, *names, without):
         """Every member that a schema names came in some answer: none is described that is not there."""

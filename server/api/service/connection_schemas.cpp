@@ -1,0 +1,110 @@
+#include "api/schemas.hpp"
+#include "app/measurements/measurement_service.hpp"
+#include "app/service/connection_state.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using schema::Fields;
+using schema::Others;
+
+Fields lsv2_fields() {
+  return {
+      {"address", schema::text(), "host or host:port of the control"},
+      {"paths", schema::array(schema::text()), "What is watched: TNC:\\nc_prog\\TCHPR*.TXT"},
+      {"machine", schema::text(200), "Of its measurements; its name when absent", false},
+      {"interval_s", schema::integer(1, 86'400), "Between two attempts; 60 when absent", false},
+      {"patterns",
+       schema::array(schema::object(
+           {{"file", schema::text(), "What it is called"}, {"text", schema::text(), "The pattern"}},
+           Others::Refused)),
+       "For files of FN 16", false},
+  };
+}
+
+Fields filter_fields() {
+  Fields fields;
+  for (const std::string_view name : app::kTextFilters) {
+    fields.push_back({std::string(name), schema::text(), "The same text"});
+  }
+  return schema::optional(
+      fields +
+      Fields{{"verdict", schema::array(verdict_words()), "One of these"},
+             {"source", schema::words({"gauge", "simulation", "all"}), "gauge when absent"}});
+}
+
+Fields follower_fields() {
+  return schema::optional(
+      {{"filter", schema::object(filter_fields(), Others::Refused),
+        "Which measurements go out; all that a gauge has measured when absent"},
+       {"start", schema::words({"now", "beginning"}),
+        "Where a new connection begins; now when absent"},
+       {"longest_wait_s", schema::integer(1, 3600), "Between two attempts; 300 when absent"}});
+}
+
+Fields webhook_fields() {
+  return Fields{{"url", schema::text(2000), "https://host/path"},
+                {"timeout_s", schema::integer(1, 30), "Of a request; 15 when absent", false}} +
+         follower_fields();
+}
+
+Fields secret_fields() {
+  return {{"secrets", schema::array(schema::text()),
+           "1 to 4, whsec_ and 24 to 64 bytes in base64; each signs. Those there are when absent",
+           false}};
+}
+
+std::string order_of(std::string_view kind, const Fields& fields) {
+  return schema::object(Fields{{"kind", schema::words({kind}), ""}} + fields, Others::Refused);
+}
+
+Fields state_fields() {
+  const std::string time_or_null = schema::null_or(schema::text());
+  const std::string letter =
+      schema::object({{"measurement", schema::text(), "Its id"},
+                      {"at", schema::time(), "When it was given up"},
+                      {"reason", schema::text(), "What the other side said"}});
+  Fields fields = {
+      {"state", schema::words({"waiting", "ok", "failing", "stopped"}),
+       "Of its last attempt; stopped: the other side wants no more"},
+      {"last_attempt_at", time_or_null, ""},
+      {"last_success_at", time_or_null, ""},
+      {"lag_s", schema::null_or(schema::number()),
+       "Since the last success; of an outgoing one the age of what is to go next"},
+      {"last_error", schema::null_or(schema::text()), "Of the last attempt that failed"},
+      {"position", schema::count(), "Outgoing: measurements of the log that are dealt with", false},
+      {"behind", schema::count(), "Outgoing: those that are not", false},
+      {"dead_letters", schema::array(letter), "Outgoing: refused for good, the newest first",
+       false},
+  };
+  for (const app::ConnectionCounter& counter : app::kConnectionCounters) {
+    fields.push_back({std::string(counter.name), schema::count(), std::string(counter.meaning)});
+  }
+  return fields;
+}
+
+}  // namespace
+
+void add_connection_schemas(Schemas& schemas) {
+  schemas.push_back({"ConnectionOrder",
+                     schema::any_of({order_of("lsv2", lsv2_fields()),
+                                     order_of("webhook", webhook_fields() + secret_fields())})});
+  schemas.push_back(
+      {"Connection",
+       schema::object(
+           Fields{{"name", schema::text(), ""},
+                  {"kind", schema::words({"lsv2", "webhook"}), ""},
+                  {"direction", schema::words({"in", "out"}), ""},
+                  {"read_only", schema::boolean(), "Stands in the configuration file"}} +
+           schema::optional(lsv2_fields() + webhook_fields()) +
+           Fields{{"secret_count", schema::count(), "How many secrets there are", false}} +
+           state_fields())});
+  schemas.push_back(
+      {"Connections",
+       schema::object({{"connections", schema::array(schema::ref("Connection")), ""}})});
+  schemas.push_back(
+      {"ConnectionTest", schema::object({{"ok", schema::boolean(), "The other side was reached"},
+                                         {"detail", schema::text(), "What was found"}})});
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "api/wire/json_value.hpp"
+#include "collector/collector_options.hpp"
+#include "connections/webhook.hpp"
+
+namespace fitgauge::connections {
+
+/// A connection as its settings make it.
+struct Definition {
+  std::string name{};
+  std::string kind{};
+  std::string text{};      ///< JSON, as it is stored
+  std::string settings{};  ///< the same without what only this service may know
+  std::variant<collector::MachineOptions, WebhookOptions> options{};
+};
+
+/// Letters, digits, - and _, 1 to 63 of them. @errors PathMalformed
+Result<void> check_name(std::string_view name);
+
+/// Adds what `before` knows and `body` leaves out: its secrets.
+void keep_secrets(api::JsonValue& body, const Definition& before);
+
+/// @param body an object with `kind` and what its kind takes.
+/// @errors PathMalformed; RequestInvalid with every bad field.
+Result<Definition> read_definition(std::string name, const api::JsonValue& body);
+
+}  // namespace fitgauge::connections

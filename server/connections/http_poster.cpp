@@ -1,0 +1,156 @@
+#include "connections/http_poster.hpp"
+
+#include <arpa/inet.h>
+#include <curl/curl.h>
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <charconv>
+
+#include "base/text.hpp"
+#include "connections/address_check.hpp"
+
+namespace fitgauge::connections {
+
+/// What an address must pass.
+struct AddressGate {
+  bool may_reach_private = false;
+  bool has_refused = false;
+};
+
+namespace {
+
+constexpr long kConnectSeconds = 10;
+
+struct HeaderList {
+  HeaderList() = default;
+  HeaderList(const HeaderList&) = delete;
+  HeaderList& operator=(const HeaderList&) = delete;
+  ~HeaderList() { curl_slist_free_all(first); }
+  void add(const std::string& line) { first = curl_slist_append(first, line.c_str()); }
+
+  curl_slist* first = nullptr;
+};
+
+/// The resolved address counts, not the name: a name may change its mind between two looks.
+curl_socket_t open_socket(void* user, curlsocktype, curl_sockaddr* address) {
+  auto& gate = *static_cast<AddressGate*>(user);
+  if (!gate.may_reach_private && is_private_address(address->addr)) {
+    gate.has_refused = true;
+    return CURL_SOCKET_BAD;
+  }
+  return socket(address->family, address->socktype | SOCK_CLOEXEC, address->protocol);
+}
+
+std::size_t drop_body(char*, std::size_t, std::size_t size, void*) { return size; }
+
+/// `Retry-After` in seconds (RFC 9110, 10.2.3).
+std::size_t take_header(char* data, std::size_t, std::size_t size, void* user) {
+  constexpr std::string_view kName = "Retry-After:";
+  const std::string_view line(data, size);
+  if (ascii_iequals(line.substr(0, kName.size()), kName)) {
+    std::string_view value = trim(line.substr(kName.size()));
+    while (value.ends_with('\n') || value.ends_with('\r')) value.remove_suffix(1);
+    int seconds = 0;
+    const auto read = std::from_chars(value.data(), value.data() + value.size(), seconds);
+    if (read.ec == std::errc() && read.ptr == value.data() + value.size() && seconds >= 0) {
+      static_cast<HttpAnswer*>(user)->retry_after = std::chrono::seconds(seconds);
+    }
+  }
+  return size;
+}
+
+int look_for_stop(void* user, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
+  return static_cast<const std::stop_token*>(user)->stop_requested() ? 1 : 0;
+}
+
+}  // namespace
+
+struct HttpPoster::Handle {
+  Handle() : curl(curl_easy_init()) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() { curl_easy_cleanup(curl); }
+
+  template <class Value>
+  void set(CURLoption option, Value value) {
+    curl_easy_setopt(curl, option, value);
+  }
+
+  CURL* curl;
+  AddressGate gate{};
+  std::array<char, CURL_ERROR_SIZE> error{};
+};
+
+HttpPoster::HttpPoster(HttpPosterOptions options)
+    : options_(std::move(options)), handle_(std::make_unique<Handle>()) {
+  handle_->gate.may_reach_private = options_.may_reach_private;
+}
+HttpPoster::~HttpPoster() = default;
+
+HttpAnswer HttpPoster::post(const std::vector<std::string>& lines, std::string_view body,
+                            const std::stop_token& stop) {
+  Handle& handle = *handle_;
+  curl_easy_reset(handle.curl);  // the options, not the connection
+  HttpAnswer answer;
+  HeaderList headers;
+  headers.add("Expect:");  // no question whether the body is welcome
+  headers.add("Content-Type: application/json");
+  for (const std::string& line : lines) headers.add(line);
+  handle.set(CURLOPT_URL, options_.url.c_str());
+  handle.set(CURLOPT_PROTOCOLS_STR, "http,https");
+  handle.set(CURLOPT_USERAGENT, "fitgauge/" FITGAUGE_VERSION);
+  handle.set(CURLOPT_NOSIGNAL, 1L);
+  handle.set(CURLOPT_PROXY, "");
+  handle.set(CURLOPT_CONNECTTIMEOUT, kConnectSeconds);
+  handle.set(CURLOPT_TIMEOUT, static_cast<long>(options_.timeout.count()));
+  handle.set(CURLOPT_OPENSOCKETFUNCTION, &open_socket);
+  handle.set(CURLOPT_OPENSOCKETDATA, &handle.gate);
+  handle.set(CURLOPT_NOPROGRESS, 0L);
+  handle.set(CURLOPT_XFERINFOFUNCTION, &look_for_stop);
+  handle.set(CURLOPT_XFERINFODATA, &stop);
+  handle.set(CURLOPT_WRITEFUNCTION, &drop_body);
+  handle.set(CURLOPT_HEADERFUNCTION, &take_header);
+  handle.set(CURLOPT_HEADERDATA, &answer);
+  handle.set(CURLOPT_ERRORBUFFER, handle.error.data());
+  handle.set(CURLOPT_HTTPHEADER, headers.first);
+  handle.set(CURLOPT_POSTFIELDS, body.data());
+  handle.set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body.size()));
+  handle.error.front() = '\0';
+  handle.gate.has_refused = false;
+
+  const CURLcode code = curl_easy_perform(handle.curl);
+  curl_easy_getinfo(handle.curl, CURLINFO_RESPONSE_CODE, &answer.status);
+  if (code == CURLE_OK) return answer;
+  answer.status = 0;
+  answer.failure = handle.error.front() == '\0' ? curl_easy_strerror(code) : handle.error.data();
+  if (handle.gate.has_refused) {
+    answer.failure =
+        "its address is one of this machine or a private network: allow these by "
+        "allow_private_addresses in the configuration of the service";
+  }
+  return answer;
+}
+
+std::optional<std::string> fault_of_url(const std::string& url) {
+  const std::unique_ptr<CURLU, decltype(&curl_url_cleanup)> parsed(curl_url(), &curl_url_cleanup);
+  const auto part = [&](CURLUPart which) {
+    char* text = nullptr;
+    if (curl_url_get(parsed.get(), which, &text, 0) != CURLUE_OK) return std::string();
+    std::string copy(text);
+    curl_free(text);
+    return copy;
+  };
+  if (curl_url_set(parsed.get(), CURLUPART_URL, url.c_str(), 0) != CURLUE_OK) {
+    return "this is no address: write https://host/path";
+  }
+  const std::string scheme = part(CURLUPART_SCHEME);
+  if (scheme != "https" && scheme != "http") return "an address begins with https:// or http://";
+  if (!part(CURLUPART_USER).empty() || !part(CURLUPART_PASSWORD).empty()) {
+    return "an address holds no name and password: the signature says who sends";
+  }
+  return std::nullopt;
+}
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,258 @@
+#include "connections/log_follower.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <future>
+#include <iterator>
+
+#include "base/guarded.hpp"
+
+namespace fitgauge::connections {
+namespace {
+
+constexpr std::size_t kPage = 256;
+constexpr std::chrono::milliseconds kBetweenSaves{1000};
+constexpr std::chrono::milliseconds kLongestSleep{30'000};
+constexpr std::chrono::seconds kFirstPause{1};
+
+struct Page {
+  std::vector<Outgoing> measurements{};
+  app::ListPage end{};
+};
+
+Result<Page> read_page(app::MeasurementService& service, const LogFilter& filter,
+                       std::int64_t after, std::size_t limit) {
+  std::promise<Result<app::ListPage>> promise;
+  auto read = promise.get_future();
+  Page page;
+  service.list(
+      filter.query, after, limit,
+      [&](const app::Measurement& measurement) {
+        if (filter.takes(measurement))
+          page.measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
+      },
+      [&promise](Result<app::ListPage> end) { promise.set_value(std::move(end)); });
+  auto end = read.get();
+  if (!end) return end.error();
+  page.end = *end;
+  return page;
+}
+
+/// How many measurements the log has.
+Result<std::int64_t> end_of_log(app::MeasurementService& service) {
+  const auto page = read_page(service, {}, 0, 1);
+  if (!page) return page.error();
+  return page->end.as_of;
+}
+
+}  // namespace
+
+void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerOptions& options) {
+  options.filter = read_filter(fields, errors);
+  const auto start = fields.optional_text("start");
+  options.from_beginning = start == "beginning";
+  if (start && *start != "now" && *start != "beginning") {
+    fields.report(ErrorCode::FieldInvalid, "start", "start is now or beginning");
+  }
+}
+
+Result<Progress> begin_progress(const FollowerOptions& options, app::Application& app) {
+  auto loaded = load_progress(app.documents(), options.name);
+  if (!loaded) return loaded.error();
+  if (*loaded) return **std::move(loaded);
+  Progress progress;
+  if (!options.from_beginning) {
+    const auto end = end_of_log(app.measurements());
+    if (!end) return end.error();
+    progress.position = *end;
+  }
+  const auto saved = save_progress(app.documents(), options.name, progress);
+  if (!saved) return saved.error();
+  return progress;
+}
+
+/// Rung by commits; outlives the follower as long as a call is under way.
+class LogFollower::Bell final : public app::CommitListener {
+ public:
+  void committed() override { ring(); }
+  void ring() {
+    const std::lock_guard lock(mutex_);
+    rung_ = true;
+    wake_.notify_all();
+  }
+  void wait(const std::stop_token& stop, std::chrono::milliseconds most, bool until_rung) {
+    std::unique_lock lock(mutex_);
+    wake_.wait_for(lock, stop, most, [&] { return until_rung && rung_; });
+    if (until_rung) rung_ = false;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool rung_ = false;
+};
+
+LogFollower::LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet,
+                         const Surroundings& around)
+    : options_(std::move(options)),
+      outlet_(std::move(outlet)),
+      around_(around),
+      bell_(std::make_shared<Bell>()) {
+  state_.is_outgoing = true;
+  around_.app.events().add(bell_);
+  const bool has_begun = begin();
+  thread_ = std::jthread([this, has_begun](const std::stop_token& stop) { run(has_begun, stop); });
+}
+
+LogFollower::~LogFollower() {
+  around_.app.events().remove(bell_);
+  thread_ = {};
+}
+
+void LogFollower::request_stop() { thread_.request_stop(); }
+
+app::ConnectionState LogFollower::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+void LogFollower::run(bool has_begun, const std::stop_token& stop) {
+  while (!has_begun && !stop.stop_requested()) {
+    wait(stop, kBetweenSaves);
+    has_begun = begin();
+  }
+  while (!stop.stop_requested() && !state().is_stopped) {
+    guarded("connection", [&] {
+      const auto has_read = read();
+      if (!has_read || cannot_read_) {
+        finish_attempt(has_read ? std::nullopt : std::optional(has_read.error().message));
+      }
+      cannot_read_ = !has_read;
+      if (pause_.count() == 0) deliver(stop);
+    });
+    const bool is_saved = save(false);
+    show();
+    if (pause_.count() > 0) {
+      bell_->wait(stop, pause_, false);
+      guarded("connection", [&] { deliver(stop); });
+    } else if (pending_.empty()) {
+      wait(stop, is_saved && !cannot_read_ ? kLongestSleep : kBetweenSaves);
+    }
+  }
+  save(true);
+}
+
+void LogFollower::wait(const std::stop_token& stop, std::chrono::milliseconds most) {
+  bell_->wait(stop, most, true);
+}
+
+bool LogFollower::begin() {
+  auto begun = begin_progress(options_, around_.app);
+  if (!begun) {
+    finish_attempt(begun.error().message);
+    return false;
+  }
+  progress_ = *std::move(begun);
+  read_to_ = progress_.position;
+  show();
+  return true;
+}
+
+Result<void> LogFollower::read() {
+  app::MeasurementService& log = around_.app.measurements();
+  if (pending_.size() >= kPage) {
+    const auto end = end_of_log(log);
+    if (!end) return end.error();
+    log_end_ = *end;
+    return {};
+  }
+  auto page = read_page(log, options_.filter, read_to_, kPage);
+  if (!page) return page.error();
+  std::move(page->measurements.begin(), page->measurements.end(), std::back_inserter(pending_));
+  log_end_ = page->end.as_of;
+  read_to_ = std::max(read_to_, page->end.next.value_or(page->end.as_of));
+  // What the filter lets pass by is dealt with.
+  if (pending_.empty() && progress_.position < read_to_) {
+    progress_.position = read_to_;
+    is_dirty_ = true;
+  }
+  return {};
+}
+
+void LogFollower::deliver(const std::stop_token& stop) {
+  if (stop.stop_requested() || pending_.empty()) return;
+  const Delivery delivery = outlet_->deliver(pending_, stop);
+  if (delivery.dealt_with > 0) progress_.position = (*pending_[delivery.dealt_with - 1])->id;
+  pending_.erase(pending_.begin(),
+                 pending_.begin() + static_cast<std::ptrdiff_t>(delivery.dealt_with));
+  if (pending_.empty()) progress_.position = read_to_;
+  if (!stop.stop_requested() || delivery.dealt_with > 0) take(delivery);
+}
+
+void LogFollower::take(const Delivery& delivery) {
+  is_dirty_ = is_dirty_ || delivery.dealt_with > 0;
+  for (const app::DeadLetter& letter : delivery.refused) {
+    progress_.refuse(letter);
+    around_.tell("connection_refused",
+                 fmt::format("{}: {}: {}", options_.name, letter.measurement, letter.reason));
+  }
+  change([&](app::ConnectionState& state) {
+    state.measurements += delivery.dealt_with - delivery.refused.size();
+    state.files += delivery.files;
+    state.bytes += delivery.bytes;
+    state.is_stopped = delivery.wants_no_more;
+  });
+  finish_attempt(delivery.failure);
+  if (!delivery.failure) {
+    pause_ = std::chrono::seconds(0);
+  } else {
+    const bool is_first = pause_.count() == 0 || delivery.dealt_with > 0;
+    pause_ = delivery.wait.value_or(is_first ? kFirstPause : 2 * pause_);
+    pause_ = std::clamp(pause_, kFirstPause, options_.longest_wait);
+  }
+  if (!delivery.refused.empty()) save(true);
+}
+
+void LogFollower::finish_attempt(const std::optional<std::string>& why) {
+  bool was_failing = false;
+  change([&](app::ConnectionState& state) {
+    was_failing = state.is_failing;
+    state.last_attempt_at = around_.clock.now();
+    ++state.attempts;
+    state.is_failing = why.has_value();
+    if (why) {
+      ++state.failures;
+      state.last_error = *why;
+    } else {
+      state.last_success_at = state.last_attempt_at;
+    }
+  });
+  if (why && !was_failing) {
+    around_.tell("connection_failing", fmt::format("{}: {}", options_.name, *why));
+  }
+  if (!why && was_failing) around_.tell("connection_recovered", options_.name);
+}
+
+bool LogFollower::save(bool at_once) {
+  const Time now = std::chrono::steady_clock::now();
+  if (!is_dirty_) return true;
+  if (!at_once && now < saved_at_ + kBetweenSaves) return false;
+  saved_at_ = now;
+  // One that fails is made up for by the next.
+  is_dirty_ = !save_progress(around_.app.documents(), options_.name, progress_).has_value();
+  return !is_dirty_;
+}
+
+void LogFollower::show() {
+  change([&](app::ConnectionState& state) {
+    state.position = progress_.position;
+    state.behind = std::max<std::int64_t>(log_end_ - progress_.position, 0);
+    state.waits_since =
+        pending_.empty() ? std::nullopt : std::optional((*pending_.front())->received_at);
+    state.dead_letters = progress_.dead_letters;
+    state.refused = progress_.refused;
+  });
+}
+
+}  // namespace fitgauge::connections

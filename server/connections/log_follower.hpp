@@ -1,0 +1,117 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/measurements/measurement.hpp"
+#include "connections/log_filter.hpp"
+#include "connections/progress.hpp"
+#include "connections/worker.hpp"
+
+namespace fitgauge::connections {
+
+/// A measurement on its way out.
+using Outgoing = std::unique_ptr<const app::KeptMeasurement>;
+
+/// How far a delivery has come.
+struct Delivery {
+  std::size_t dealt_with = 0;              ///< of what was to go, from the first on
+  std::vector<app::DeadLetter> refused{};  ///< among these: for good
+  std::uint64_t files = 0;
+  std::uint64_t bytes = 0;
+  std::optional<std::string> failure{};        ///< why it went no further
+  std::optional<std::chrono::seconds> wait{};  ///< before the next attempt, as the other side asked
+  bool wants_no_more = false;                  ///< for ever
+};
+
+/// The other side of an outgoing connection. Used by one thread.
+class Outlet {
+ public:
+  Outlet() = default;
+  Outlet(const Outlet&) = delete;
+  Outlet& operator=(const Outlet&) = delete;
+  virtual ~Outlet() = default;
+
+  /// Delivers in order as much as it will, at least one or a failure; waits, and ends soon after a
+  /// stop. What is not dealt with comes again.
+  virtual Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) = 0;
+};
+
+/// What every outgoing connection has.
+struct FollowerOptions {
+  std::string name{};
+  LogFilter filter{};
+  bool from_beginning = false;             ///< of the log; else from now on
+  std::chrono::seconds longest_wait{300};  ///< between two attempts in vain
+};
+
+/// Reads `filter` and `start` (now or beginning). What is wrong goes to `errors`.
+void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerOptions& options);
+
+/// Decides where a connection that has not begun begins, so that it misses nothing from now on.
+/// Waits. @errors those of storage.
+Result<Progress> begin_progress(const FollowerOptions& options, app::Application& app);
+
+/// Follows the log of measurements and gives what passes the filter to an outlet, in order and at
+/// least once. How far it came is in the database at most a second later. An attempt in vain is
+/// repeated after 1 s, 2 s, 4 s and so on. Never waited for by a writer.
+class LogFollower final : public Worker {
+ public:
+  /// Waits for the storage, which says where it begins. @param around outlives it.
+  LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet, const Surroundings& around);
+  ~LogFollower() override;
+
+  void request_stop() override;
+  app::ConnectionState state() const override;
+
+ private:
+  using Time = std::chrono::steady_clock::time_point;
+  class Bell;
+
+  void run(bool has_begun, const std::stop_token& stop);
+  bool begin();
+  /// Reads what comes next, if there is room. @errors those of storage.
+  Result<void> read();
+  void deliver(const std::stop_token& stop);
+  void take(const Delivery& delivery);
+  void finish_attempt(const std::optional<std::string>& why);
+  /// Unless it was saved less than a second ago. @returns whether nothing is left to save.
+  bool save(bool at_once);
+  void show();
+  void wait(const std::stop_token& stop, std::chrono::milliseconds most);
+
+  template <class Change>
+  void change(const Change& what) {
+    const std::lock_guard lock(mutex_);
+    what(state_);
+  }
+
+  const FollowerOptions options_;
+  const std::unique_ptr<Outlet> outlet_;
+  const Surroundings& around_;
+  const std::shared_ptr<Bell> bell_;
+
+  // Of the thread.
+  Progress progress_;
+  std::int64_t read_to_ = 0;  ///< all up to here is pending or dealt with
+  std::int64_t log_end_ = 0;  ///< of the log, when it was read last
+  std::vector<Outgoing> pending_;
+  std::chrono::seconds pause_{0};  ///< before the next attempt; 0: the last went well
+  bool is_dirty_ = false;
+  bool cannot_read_ = false;
+  Time saved_at_{};
+
+  mutable std::mutex mutex_;
+  app::ConnectionState state_;
+  std::jthread thread_;  // last: it uses all above
+};
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,95 @@
+#include "connections/progress.hpp"
+
+#include <charconv>
+
+#include "api/wire/json_value.hpp"
+#include "api/wire/json_writer.hpp"
+
+namespace fitgauge::connections {
+namespace {
+
+using api::JsonValue;
+
+constexpr std::size_t kMostLetters = 100;
+constexpr auto kKind = app::DocumentKind::ConnectionProgress;
+
+std::int64_t whole_number(const JsonValue& object, std::string_view name) {
+  std::int64_t number = 0;
+  if (const JsonValue* value = object.find(name)) {
+    std::from_chars(value->text.data(), value->text.data() + value->text.size(), number);
+  }
+  return number;
+}
+
+std::string text_of(const JsonValue& object, std::string_view name) {
+  const JsonValue* const value = object.find(name);
+  return value == nullptr ? std::string() : value->text;
+}
+
+Progress read(const JsonValue& stored) {
+  Progress progress{.position = whole_number(stored, "position"),
+                    .refused = static_cast<std::uint64_t>(whole_number(stored, "refused"))};
+  if (const JsonValue* letters = stored.find("dead_letters")) {
+    for (const JsonValue& letter : letters->items) {
+      progress.dead_letters.push_back({.measurement = text_of(letter, "measurement"),
+                                       .reason = text_of(letter, "reason"),
+                                       .at = {whole_number(letter, "at")}});
+    }
+  }
+  return progress;
+}
+
+std::string write(const Progress& progress) {
+  std::string text;
+  api::JsonWriter json(text);
+  json.begin_object()
+      .member("position", progress.position)
+      .member("refused", progress.refused)
+      .key("dead_letters")
+      .begin_array();
+  for (const app::DeadLetter& letter : progress.dead_letters) {
+    json.begin_object()
+        .member("measurement", letter.measurement)
+        .member("reason", letter.reason)
+        .member("at", letter.at.nanoseconds)
+        .end_object();
+  }
+  json.end_array().end_object();
+  return text;
+}
+
+}  // namespace
+
+void Progress::refuse(app::DeadLetter letter) {
+  ++refused;
+  dead_letters.insert(dead_letters.begin(), std::move(letter));
+  if (dead_letters.size() > kMostLetters) dead_letters.pop_back();
+}
+
+Result<std::optional<Progress>> load_progress(app::DocumentService& documents,
+                                              const std::string& name) {
+  const auto document = documents.wait_for(kKind, name);
+  if (!document) {
+    if (document.error().code == ErrorCode::ConnectionUnknown) return std::optional<Progress>();
+    return document.error();
+  }
+  const auto stored = api::parse_stored_json(document->text, "the progress of a connection");
+  if (!stored) return stored.error();
+  return std::optional(read(*stored));
+}
+
+Result<void> save_progress(app::DocumentService& documents, const std::string& name,
+                           const Progress& progress) {
+  const auto written =
+      documents.write_and_wait({.kind = kKind, .name = name, .text = write(progress)});
+  if (!written) return written.error();
+  return {};
+}
+
+Result<void> forget_progress(app::DocumentService& documents, const std::string& name) {
+  const auto removed = documents.remove_and_wait(kKind, name);
+  if (removed || removed.error().code == ErrorCode::ConnectionUnknown) return {};
+  return removed.error();
+}
+
+}  // namespace fitgauge::connections

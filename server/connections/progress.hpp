@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/service/connection_state.hpp"
+#include "app/service/document_service.hpp"
+
+namespace fitgauge::connections {
+
+/// How far an outgoing connection has come. Kept in the database beside what it follows.
+struct Progress {
+  std::int64_t position = 0;  ///< the last measurement that is dealt with
+  std::uint64_t refused = 0;
+  std::vector<app::DeadLetter> dead_letters{};  ///< the newest first
+
+  /// Keeps the newest of them.
+  void refuse(app::DeadLetter letter);
+};
+
+/// None where the connection has not begun. Waits. @errors those of storage.
+Result<std::optional<Progress>> load_progress(app::DocumentService& documents,
+                                              const std::string& name);
+Result<void> save_progress(app::DocumentService& documents, const std::string& name,
+                           const Progress& progress);
+/// Also where there is none.
+Result<void> forget_progress(app::DocumentService& documents, const std::string& name);
+
+}  // namespace fitgauge::connections

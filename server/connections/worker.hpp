@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "app/application.hpp"
+#include "app/service/connection_state.hpp"
+#include "base/clock.hpp"
+
+namespace fitgauge::connections {
+
+/// What all connections work with; outlives them.
+struct Surroundings {
+  app::Application& app;
+  const Clock& clock;
+  bool may_reach_private = false;  ///< addresses of this machine and its networks
+  /// The event's name and a sentence, for the log of the service; called on any thread.
+  std::function<void(std::string_view event, const std::string& detail)> tell{};
+};
+
+/// A connection at work, on a thread of its own that ends with it.
+class Worker {
+ public:
+  Worker() = default;
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+  virtual ~Worker() = default;
+
+  /// Begins to end: for many that are to end together. Thread-safe.
+  virtual void request_stop() = 0;
+  /// What it has done, without what its definition says. Thread-safe.
+  virtual app::ConnectionState state() const = 0;
+};
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,75 @@
+#include "connections/workers.hpp"
+
+#include <fmt/format.h>
+
+#include "collector/collector.hpp"
+
+namespace fitgauge::connections {
+namespace {
+
+class Lsv2Worker final : public Worker {
+ public:
+  Lsv2Worker(const collector::MachineOptions& machine, const Surroundings& around)
+      : collector_(machine, around.app, around.clock,
+                   {.failed =
+                        [tell = around.tell](std::string_view name, std::string_view why) {
+                          tell("connection_failing", fmt::format("{}: {}", name, why));
+                        },
+                    .recovered =
+                        [tell = around.tell](std::string_view name) {
+                          tell("connection_recovered", std::string(name));
+                        },
+                    .unread =
+                        [tell = around.tell](std::string_view name, std::string_view path,
+                                             std::string_view why) {
+                          tell("log_not_understood",
+                               fmt::format("{}: {}: {}; the file is kept whole", name, path, why));
+                        }}) {}
+
+  void request_stop() override { collector_.request_stop(); }
+  app::ConnectionState state() const override { return collector_.state(); }
+
+ private:
+  collector::Collector collector_;
+};
+
+struct MakeWorker {
+  const Surroundings& around;
+
+  std::unique_ptr<Worker> operator()(const collector::MachineOptions& machine) const {
+    return std::make_unique<Lsv2Worker>(machine, around);
+  }
+  std::unique_ptr<Worker> operator()(const WebhookOptions& webhook) const {
+    return std::make_unique<LogFollower>(webhook.follower, make_webhook(webhook, around), around);
+  }
+};
+
+struct TestConnection {
+  const Surroundings& around;
+  const std::stop_token& stop;
+
+  app::ConnectionTest operator()(const collector::MachineOptions& machine) const {
+    return collector::test_machine(machine, stop);
+  }
+  app::ConnectionTest operator()(const WebhookOptions& webhook) const {
+    return test_webhook(webhook, around, stop);
+  }
+};
+
+}  // namespace
+
+const FollowerOptions* follower_options(const Definition& definition) {
+  const auto* const webhook = std::get_if<WebhookOptions>(&definition.options);
+  return webhook == nullptr ? nullptr : &webhook->follower;
+}
+
+std::unique_ptr<Worker> make_worker(const Definition& definition, const Surroundings& around) {
+  return std::visit(MakeWorker{around}, definition.options);
+}
+
+app::ConnectionTest test_connection(const Definition& definition, const Surroundings& around,
+                                    const std::stop_token& stop) {
+  return std::visit(TestConnection{around, stop}, definition.options);
+}
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,84 @@
+"""Connections as data: made, changed and deleted over HTTP, and those of the configuration file beside them."""
+
+import pathlib
+import tempfile
+import unittest
+
+from support.daemon import Daemon, DaemonTest
+
+CONTROL = {"kind": "lsv2", "address": "127.0.0.1:1", "paths": ["TNC:\\logs\\*.TXT"], "interval_s": 3600}
+
+
+class Stored(DaemonTest):
+    def put(self, name, body, status):
+        answer = self.daemon.request("PUT", f"/v1/connections/{name}", body, {"Content-Type": "application/json"})
+        self.assertEqual(answer.status, status, answer)
+        return answer.json
+
+    def test_it_is_kept_and_changed_and_deleted(self):
+        made = self.put("mill-1", {**CONTROL, "machine": "M1"}, 201)
+        self.assertEqual((made["name"], made["kind"], made["direction"], made["machine"], made["read_only"]),
+                         ("mill-1", "lsv2", "in", "M1", False))
+        self.daemon.kill()
+        self.daemon.start()
+        found = self.daemon.get("/v1/connections").json["connections"]
+        self.assertEqual([(each["name"], each["machine"]) for each in found], [("mill-1", "M1")])
+        self.assertEqual(self.put("mill-1", {**CONTROL, "machine": "M2"}, 200)["machine"], "M2")
+        self.assertEqual(self.daemon.get("/v1/connections/mill-1").json["machine"], "M2")
+        self.assertEqual(self.put("MILL-1", CONTROL, 400)["code"], "path.malformed")
+        self.assertEqual(self.daemon.request("DELETE", "/v1/connections/mill-1").status, 204)
+        for method in ("GET", "DELETE"):
+            self.assert_problem(self.daemon.request(method, "/v1/connections/mill-1"), 404, "connection.unknown")
+        self.daemon.kill()
+        self.daemon.start()
+        self.assertEqual(self.daemon.get("/v1/connections").json["connections"], [])
+
+    def test_what_is_not_built_is_refused(self):
+        for kind in ("mqtt", "sparkplug"):
+            problem = self.put("x", {"kind": kind, "url": "mqtt://127.0.0.1"}, 422)
+            self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]],
+                             [("/kind", "connection.kind_not_built")])
+        self.assertEqual(self.daemon.get("/v1/connections").json["connections"], [])
+
+    def test_every_bad_field_is_named(self):
+        problem = self.put("x", {"kind": "lsv2", "address": "a:b:c", "paths": ["PLC:\\x", 1], "interval_s": 0, "colour": 1}, 422)
+        self.assertEqual(sorted((e["pointer"], e["code"]) for e in problem["errors"]), [
+            ("/address", "field.invalid"), ("/colour", "field.unknown"), ("/interval_s", "field.invalid"),
+            ("/paths/0", "field.invalid"), ("/paths/1", "field.type")])
+        self.assertEqual(self.put("x", [], 422)["errors"][0]["code"], "field.type")
+        self.assertEqual(self.put("x", "{", 400)["code"], "json.malformed")
+
+    def test_a_test_says_what_is_wrong(self):
+        self.put("away", CONTROL, 201)
+        answer = self.daemon.post("/v1/connections/away/test", None).json
+        self.assertFalse(answer["ok"])
+        self.assertIn("127.0.0.1:1 is not reached", answer["detail"])
+        self.daemon.request("DELETE", "/v1/connections/away")
+
+
+class Configured(unittest.TestCase):
+    def test_those_of_the_file_are_read_only(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name) / "connections.toml"
+        path.write_text('[[connection]]\nname = "mill"\nkind = "lsv2"\naddress = "127.0.0.1:1"\n'
+                        'paths = [\'TNC:\\logs\\*.TXT\']\n')
+        daemon = Daemon("--connections", path)
+        self.addCleanup(daemon.cleanup)
+        daemon.start()
+        self.assertTrue(daemon.get("/v1/connections/mill").json["read_only"])
+        for method in ("PUT", "DELETE"):
+            answer = daemon.request(method, "/v1/connections/mill", CONTROL if method == "PUT" else None)
+            self.assertEqual((answer.status, answer.json["code"]), (409, "connection.read_only"), answer)
+        self.assertEqual(daemon.request("PUT", "/v1/connections/other", CONTROL).status, 201)
+        # The file goes before what is stored under the same name.
+        path.write_text(path.read_text().replace('"mill"', '"other"'))
+        daemon.kill()
+        daemon.start()
+        found = daemon.get("/v1/connections").json["connections"]
+        self.assertEqual([(each["name"], each["read_only"]) for each in found], [("other", True)])
+        self.assertIn("connection_not_started", daemon.log)
+
+
+if __name__ == "__main__":
+    unittest.main()

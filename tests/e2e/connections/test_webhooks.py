@@ -1,0 +1,271 @@
+"""Webhooks: each measurement once at least, in order, signed, whatever the receiver and the power do."""
+
+import base64
+import hashlib
+import hmac
+import json
+import os
+import pathlib
+import shutil
+import ssl
+import subprocess
+import tempfile
+import time
+import unittest
+
+from support.certificates import certificate
+from support.daemon import Daemon
+from support.receiver import Receiver
+
+SECRETS = ["whsec_" + base64.b64encode(bytes(range(first, first + 32))).decode() for first in (0, 100)]
+PRIVATE = ("--allow-private-addresses",)
+SOURCES = pathlib.Path(__file__).parent / "webhooks"
+
+
+def part(number, measured="25.01", **more):
+    return {"designation": "25 H7", "measured_mm": measured, "part_id": f"P{number}", **more}
+
+
+def signature(secret, headers, body):
+    """Worked out here after the specification, "Signature scheme"."""
+    key = base64.b64decode(secret.removeprefix("whsec_"))
+    content = b".".join([headers["webhook-id"].encode(), headers["webhook-timestamp"].encode(), body])
+    return "v1," + base64.b64encode(hmac.new(key, content, hashlib.sha256).digest()).decode()
+
+
+class Receivers(unittest.TestCase):
+    def receiver(self, *arguments, **named):
+        receiver = Receiver(*arguments, **named)
+        self.addCleanup(receiver.close)
+        return receiver
+
+    def daemon(self, *flags):
+        daemon = Daemon(*(flags or PRIVATE))
+        self.addCleanup(daemon.cleanup)
+        return daemon.start()
+
+    def connect(self, daemon, receiver, status=201, name="mes", **more):
+        answer = daemon.request("PUT", f"/v1/connections/{name}", {
+            "kind": "webhook", "url": receiver.url, "secrets": SECRETS[:1], "longest_wait_s": 1, **more})
+        self.assertEqual(answer.status, status, answer)
+        return answer.json
+
+    def state(self, daemon, name="mes"):
+        return daemon.get(f"/v1/connections/{name}").json
+
+    def store(self, daemon, numbers, **more):
+        return [daemon.measure(part(number, **more)).json["id"] for number in numbers]
+
+
+class Webhooks(Receivers):
+    def test_what_is_stored_is_told_in_order_and_signed(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        self.store(daemon, range(3))  # before the connection: not told
+        made = self.connect(daemon, receiver, secrets=SECRETS)
+        self.assertEqual((made["direction"], made["secret_count"], made["position"]), ("out", 2, 3))
+        self.assertNotIn("secrets", made)
+        ids = self.store(daemon, range(3, 20))
+        receiver.wait(lambda: len(receiver.events) == 17)
+        self.assertEqual(receiver.ids(), ids)
+        for request, number in zip(receiver.events, range(3, 20)):
+            headers, event = request["headers"], request["event"]
+            self.assertEqual(headers["webhook-signature"].split(),
+                             [signature(secret, headers, request["body"]) for secret in SECRETS])
+            self.assertEqual(headers["content-type"], "application/json")
+            self.assertLess(abs(int(headers["webhook-timestamp"]) - time.time()), 600)
+            self.assertEqual((event["type"], event["data"]["part_id"], event["timestamp"]),
+                             ("measurement.recorded", f"P{number}", event["data"]["received_at"]))
+        record = daemon.get(f"/v1/measurements/{ids[0]}").json
+        self.assertEqual(receiver.events[0]["event"]["data"], record)
+        state = self.state(daemon)
+        self.assertEqual((state["state"], state["position"], state["behind"], state["measurements"], state["last_error"]),
+                         ("ok", 20, 0, 17, None))
+        self.assertIn('fitgauge_connection_behind_measurements{connection="mes"} 0', daemon.get("/metrics").text)
+        self.assertNotIn(SECRETS[0], daemon.get("/v1/connections").text + daemon.log)
+
+    def test_a_receiver_that_fails_and_stalls_gets_all_in_order(self):
+        script = [500, 503, "stall", 429, 404, 302, 401, 500]
+
+        def answer(event):
+            if event["data"]["part_id"] in ("P4", "P9") and script:
+                said = script.pop(0)
+                if said == "stall":
+                    time.sleep(2)
+                    said = 500
+                return (said, {"Retry-After": "1", "Location": "/elsewhere"})
+            return 200
+
+        receiver, daemon = self.receiver(answer), self.daemon()
+        self.connect(daemon, receiver, timeout_s=1)
+        ids = self.store(daemon, range(12))
+        receiver.wait(lambda: self.state(daemon)["state"] == "failing")
+        self.assertRegex(self.state(daemon)["last_error"], "the receiver answers 5|Timeout|timed out")
+        receiver.wait(lambda: len(receiver.distinct()) == 12)
+        self.assertEqual(receiver.distinct(), ids)
+        self.assertEqual(script, [])
+        self.assertIn("connection_failing", daemon.log)
+        receiver.wait(lambda: "connection_recovered" in daemon.log)
+        self.assertEqual(self.state(daemon)["dead_letters"], [])
+
+    def test_killed_and_started_again_nothing_is_lost(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        self.connect(daemon, receiver)
+        ids = []
+        for round_of in range(4):
+            ids += self.store(daemon, range(round_of * 20, round_of * 20 + 20))
+            if round_of == 1:
+                receiver.wait(lambda: len(receiver.events) > 25)
+            daemon.kill()
+            daemon.start()
+        receiver.wait(lambda: len(receiver.distinct()) == 80)
+        self.assertEqual(receiver.distinct(), ids)  # a repeat has the id it had
+        receiver.wait(lambda: self.state(daemon)["position"] == 80)
+        time.sleep(1.5)
+        daemon.kill()
+        told = len(receiver.events)
+        daemon.start()
+        ids += self.store(daemon, [80])
+        receiver.wait(lambda: receiver.ids()[-1:] == ids[-1:])
+        self.assertEqual(len(receiver.events), told + 1)  # it was kept how far it came
+
+    def test_writers_do_not_wait_for_it(self):
+        receiver, daemon = self.receiver(lambda event: time.sleep(600) or 500), self.daemon()
+        self.connect(daemon, receiver, timeout_s=30)
+        self.store(daemon, range(1))
+        receiver.wait(lambda: receiver.attempts)
+        self.store(daemon, range(1, 50))
+        self.assertEqual(len(receiver.attempts), 1)
+        receiver.wait(lambda: self.state(daemon)["behind"] >= 1)
+        self.assertEqual(daemon.stop(), 0)  # nor does the end of the service
+
+    def test_what_it_does_not_understand_becomes_a_dead_letter(self):
+        receiver, daemon = self.receiver(lambda event: 422 if event["data"]["part_id"] == "P1" else 200), self.daemon()
+        self.connect(daemon, receiver)
+        ids = self.store(daemon, range(3))
+        receiver.wait(lambda: len(receiver.events) == 2)
+        self.assertEqual(receiver.ids(), [ids[0], ids[2]])
+        self.assertEqual(sum(r["event"]["data"]["part_id"] == "P1" for r in receiver.attempts), 5)
+        receiver.wait(lambda: self.state(daemon)["dead_letters"])
+        daemon.kill()
+        daemon.start()
+        state = self.state(daemon)
+        self.assertEqual([(e["measurement"], e["reason"]) for e in state["dead_letters"]],
+                         [(ids[1], "the receiver answers 422")])
+        self.assertEqual(state["refused"], 1)
+
+    def test_gone_is_for_ever(self):
+        receiver, daemon = self.receiver(lambda event: 410), self.daemon()
+        self.connect(daemon, receiver)
+        self.store(daemon, range(2))
+        receiver.wait(lambda: self.state(daemon)["state"] == "stopped")
+        self.assertEqual(len(receiver.attempts), 1)
+        receiver.answer = lambda event: 200
+        self.connect(daemon, receiver, 200)  # stored again it goes on where it stood
+        receiver.wait(lambda: len(receiver.events) == 2)
+
+    def test_the_filter_decides(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        self.connect(daemon, receiver, filter={"machine": "M3", "verdict": ["reject", "rework"]})
+        self.store(daemon, [1], measured="25.03")
+        self.store(daemon, [2], machine="M3")
+        ids = self.store(daemon, [3], measured="25.03", machine="M3") + self.store(daemon, [4], measured="24.9", machine="M3")
+        self.store(daemon, [5], machine="M3")
+        receiver.wait(lambda: self.state(daemon)["position"] == 5)
+        self.assertEqual(receiver.ids(), ids)
+        late = self.receiver()
+        self.connect(daemon, late, name="late", start="beginning", filter={"part_id": "P2"})
+        late.wait(lambda: len(late.events) == 1)
+
+    def test_a_correction_is_told_too(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        self.connect(daemon, receiver)
+        first = self.store(daemon, [1])[0]
+        second = daemon.post(f"/v1/measurements/{first}/corrections", {"measured_mm": "25.02", "reason": "misread"}).json["id"]
+        receiver.wait(lambda: len(receiver.events) == 2)
+        self.assertEqual(receiver.ids(), [first, second])
+        self.assertEqual(receiver.events[1]["event"]["data"]["correction_of"], first)
+
+    def test_secrets_change_while_it_works(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        self.connect(daemon, receiver)
+        both = self.connect(daemon, receiver, 200, secrets=SECRETS)
+        self.assertEqual(both["secret_count"], 2)
+        body = {"kind": "webhook", "url": receiver.url, "timeout_s": 5}  # without secrets: those there are
+        self.assertEqual(daemon.request("PUT", "/v1/connections/mes", body).json["secret_count"], 2)
+        self.store(daemon, [1])
+        receiver.wait(lambda: receiver.events)
+        self.assertEqual(len(receiver.events[0]["headers"]["webhook-signature"].split()), 2)
+        problem = daemon.request("PUT", "/v1/connections/new", body)
+        self.assertEqual((problem.status, problem.json["errors"][0]["pointer"]), (422, "/secrets"))
+
+    def test_the_test_button(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        self.connect(daemon, receiver)
+        self.assertEqual(daemon.post("/v1/connections/mes/test", None).json, {"ok": True, "detail": "the receiver answers 204"})
+        request = receiver.events[0]
+        self.assertEqual(request["event"]["type"], "connection.test")
+        self.assertEqual(request["headers"]["webhook-signature"], signature(SECRETS[0], request["headers"], request["body"]))
+        receiver.answer = lambda event: 503
+        self.assertEqual(daemon.post("/v1/connections/mes/test", None).json, {"ok": False, "detail": "the receiver answers 503"})
+
+    def test_no_private_address_unless_allowed(self):
+        receiver = self.receiver()
+        daemon = self.daemon("--event-retention", "1000")
+        for number, host in enumerate(("localhost", "127.0.0.1", "[::1]", "0.0.0.0", "[::ffff:127.0.0.1]", "2130706433", "0x7f.1")):
+            body = {"kind": "webhook", "url": f"http://{host}:{receiver.server.server_address[1]}/", "secrets": SECRETS[:1]}
+            answer = daemon.request("PUT", f"/v1/connections/n{number}", body)
+            self.assertEqual(answer.status, 201, answer)
+            said = daemon.post(f"/v1/connections/n{number}/test", None).json
+            self.assertFalse(said["ok"], host)
+            self.assertRegex(said["detail"], "private network|resolve host", host)
+        self.assertEqual(receiver.attempts, [])
+
+    def test_a_certificate_nobody_vouches_for_is_refused(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        files = certificate(pathlib.Path(folder.name), "shop", 1)
+        tls = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        tls.load_cert_chain(*files)
+        receiver, daemon = self.receiver(tls=tls), self.daemon()
+        self.connect(daemon, receiver)
+        said = daemon.post("/v1/connections/mes/test", None).json
+        self.assertFalse(said["ok"])
+        self.assertIn("certificate", said["detail"])
+        self.assertEqual(receiver.attempts, [])
+
+    def test_bad_settings_are_named(self):
+        daemon = self.daemon()
+        problem = daemon.request("PUT", "/v1/connections/x", {
+            "kind": "webhook", "url": "ftp://h/", "secrets": ["whsec_x"], "filter": {"verdict": ["bad"], "colour": "red"},
+            "start": "soon", "timeout_s": 31})
+        self.assertEqual((problem.status, sorted(e["pointer"] for e in problem.json["errors"])),
+                         (422, ["/filter/colour", "/filter/verdict", "/secrets/0", "/start", "/timeout_s", "/url"]))
+        for url in ("http://name:word@host/", "no address at all", "file:///etc/passwd", "//host"):
+            problem = daemon.request("PUT", "/v1/connections/x", {"kind": "webhook", "url": url, "secrets": SECRETS[:1]})
+            self.assertEqual([e["pointer"] for e in problem.json["errors"]], ["/url"], url)
+
+
+@unittest.skipUnless(os.environ.get("FITGAUGE_DEEP") and shutil.which("npm"), "FITGAUGE_DEEP=1 and npm run it")
+class Verifiers(Receivers):
+    """The packages standardwebhooks and svix accept what is sent, and nothing else."""
+
+    def test_they_accept_what_is_sent(self):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-webhooks-"))
+        self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
+        shutil.copytree(SOURCES, folder, dirs_exist_ok=True)
+        subprocess.run(["npm", "install", "--no-package-lock", "--no-audit", "--no-fund", "--ignore-scripts",
+                        "--loglevel=error"], cwd=folder, check=True, timeout=240)
+        receiver, daemon = self.receiver(), self.daemon()
+        self.connect(daemon, receiver, secrets=SECRETS)
+        self.store(daemon, range(20), comment="Ø 25 \U0001f527 \"quoted\" \\ \u0001")
+        receiver.wait(lambda: len(receiver.events) == 20)
+        lines = [json.dumps({"secret": secret, "body": request["body"].decode(), "headers": request["headers"]})
+                 for request in receiver.events for secret in SECRETS]
+        done = subprocess.run(["node", "verify.mjs"], cwd=folder, input="\n".join(lines), capture_output=True, text=True,
+                              check=True, timeout=120)
+        self.assertEqual(sorted(set(done.stdout.split("\n"))), ["", "standard ok", "svix ok"], done.stdout + done.stderr)
+        self.assertEqual(done.stdout.count("ok"), 80)
+
+
+if __name__ == "__main__":
+    unittest.main()
