@@ -3,6 +3,7 @@
 import { s } from '../dom.js';
 import { NM_PER_UM, umText } from '../exact.js';
 import { number, signed, t, time } from '../i18n.js';
+import { brush } from './brush.js';
 import { histogram } from './histogram.js';
 import { rangeOf } from './series.js';
 
@@ -14,6 +15,8 @@ const RIGHT = 56;
 const HISTOGRAM = 150;
 /** Narrower figures have no histogram beside them. */
 const WIDE = 620;
+/** Points closer than this many pixels are a line; of those that are good nothing else is drawn. */
+const DENSE = 4;
 
 const SPREADS = { mr: 'MR', r: 'R', s: 's' };
 const MARKS = {
@@ -34,60 +37,100 @@ const spreadOf = (chart) => chart?.charts[1];
  * @param singles the values one by one, for the histogram
  * @param chart of the service (deviations in µm), or null
  * @param width in CSS pixels
- * @param onPick takes the index of a point
+ * @param view {from, to}: the first and the last point drawn
+ * @param onPick takes the index of a point; @param onStretch the first and the last index of a stretch
  */
-export function controlChartFigure(points, singles, chart, { width, picked, onPick }) {
+export function controlChartFigure(points, singles, chart, { width, view, picked, onPick, onStretch }) {
   const wide = width >= WIDE;
   const right = width - RIGHT - (wide ? HISTOGRAM : 0);
-  const x = (i) => round(LEFT + 12 + (right - LEFT - 24) * (points.length > 1 ? i / (points.length - 1) : 0.5));
+  const { from, to } = view;
+  const span = right - LEFT - 24;
+  const x = (i) => round(LEFT + 12 + span * (to > from ? (i - from) / (to - from) : 0.5));
   const height = HEIGHT.values + (chart ? HEIGHT.ranges : 0) + AXIS;
-  const pick = (event) => {
-    const place = event.currentTarget.getBoundingClientRect();
-    const at = (event.clientX - place.left) * width / place.width;
-    const near = Math.round((at - LEFT - 12) / Math.max(right - LEFT - 24, 1) * (points.length - 1));
-    onPick(Math.min(Math.max(near, 0), points.length - 1));
+  const scene = { points, from, to, x, right, dense: span < DENSE * (to - from) };
+  const figure = s('svg.control-chart', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': t('trend.chart', { count: to - from + 1 }) },
+    values(scene, singles, chart, wide && { from: right + RIGHT, to: width - 8 }),
+    chart && ranges(spreadOf(chart), scene),
+    axis(scene, height),
+    picked >= from && picked <= to && picked !== null && s('path.picked', { d: `M${x(picked)} ${TOP - 8}V${height - AXIS}` }));
+  const indexAt = (clientX) => {
+    const place = figure.getBoundingClientRect();
+    const near = from + Math.round(((clientX - place.left) * width / place.width - LEFT - 12) / Math.max(span, 1) * (to - from));
+    return Math.min(Math.max(near, from), to);
   };
-  return s('svg.control-chart', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': t('trend.chart', { count: points.length }), onclick: pick },
-    values(points, singles, chart, x, right, wide && { from: right + RIGHT, to: width - 8 }),
-    chart && ranges(spreadOf(chart), points.length, x, right),
-    axis(points, x, right, height),
-    picked !== null && points[picked] && s('path.picked', { d: `M${x(picked)} ${TOP - 8}V${height - AXIS}` }));
+  return brush(figure, { indexAt, top: TOP, height: height - AXIS - TOP, onPick, onStretch });
 }
 
-function values(points, singles, chart, x, right, beside) {
+/** The indices that are in sight. */
+const sight = ({ from, to }) => Array.from({ length: to - from + 1 }, (_, i) => from + i);
+
+/** A line through what is in sight; where it is dense, from the least to the greatest of each column of pixels. */
+function runOf({ from, to, x, dense }, y) {
+  if (!dense) return sight({ from, to }).map((i, n) => `${n ? 'L' : 'M'}${x(i)} ${y(i)}`).join('');
+  const columns = new Map();
+  for (let i = from; i <= to; ++i) {
+    const column = Math.round(x(i));
+    const at = y(i);
+    const known = columns.get(column);
+    if (!known) columns.set(column, [at, at]);
+    else if (at < known[0]) known[0] = at;
+    else if (at > known[1]) known[1] = at;
+  }
+  return [...columns].map(([column, [least, greatest]], n) => `${n ? 'L' : 'M'}${column} ${least}V${greatest}`).join('');
+}
+
+/** What gets a mark of its own: every point; where they are dense, those that are not good, one a pixel. */
+function marked({ points, from, to, x, dense }) {
+  if (!dense) return sight({ from, to });
+  const taken = new Set();
+  return sight({ from, to }).filter((i) => {
+    const { verdict } = points[i].record;
+    const place = `${verdict} ${Math.round(x(i))}`;
+    return verdict !== 'good' && !taken.has(place) && taken.add(place);
+  });
+}
+
+function values(scene, singles, chart, beside) {
+  const { points, x, right } = scene;
   const own = locationOf(chart);
   const ofMeans = Boolean(points[0].members);
   const control = own ? [own.upper_limit, own.lower_limit].map((value) => value * NM_PER_UM) : [];
   const range = rangeOf(points, [...control, ...singles.map(({ deviation }) => deviation)]);
   const bottom = HEIGHT.values - 18;
   const y = (nm) => round(TOP + (bottom - TOP) * (range.high - Math.min(Math.max(nm, range.low), range.high)) / (range.high - range.low));
-  const broken = rulesAt(chart);
+  const broken = [...rulesAt(chart)].filter(([i]) => i >= scene.from && i <= scene.to);
   const at = (i) => [x(i), y(points[i].deviation)];
+  const target = (range.upper + range.lower) / 2;
   return s('g',
     s('text.unit', { x: LEFT - 10, y: 12, 'text-anchor': 'end' }, 'µm'),
-    !ofMeans && [s('path.limit', { d: steps(points, 'upper', x, y, right) }), s('path.limit', { d: steps(points, 'lower', x, y, right) })],
+    !ofMeans && [s('path.limit', { d: steps(scene, 'upper', y) }), s('path.limit', { d: steps(scene, 'lower', y) })],
+    s('path.target', { d: `M${LEFT} ${y(target)}H${right}` }), label(LEFT - 10, y(target), signed(umText(target)), 'end'),
     label(LEFT - 10, y(range.upper), signed(umText(range.upper)), 'end'), label(LEFT - 10, y(range.lower), signed(umText(range.lower)), 'end'),
     own && controlLines(own, (value) => y(value * NM_PER_UM), right, [y(range.upper), y(range.lower)]),
-    s('path.run', { d: points.map((_, i) => `${i ? 'L' : 'M'}${at(i).join(' ')}`).join('') }),
-    [...broken].map(([i]) => s('circle.broken', { cx: at(i)[0], cy: at(i)[1], r: 9 })),
-    points.map(({ record }, i) => s('path.point', { d: MARKS[record.verdict], transform: `translate(${at(i).join(' ')})`, 'data-verdict': record.verdict })),
-    spaced([...broken], x).map(([i, rules]) => s('text.rule', { x: at(i)[0], y: at(i)[1] - 13, 'text-anchor': 'middle' }, [...rules].join(','))),
+    s('path.run', { d: runOf(scene, (i) => y(points[i].deviation)) }),
+    spaced(broken, x, scene.dense ? 2 : 0).map(([i]) => s('circle.broken', { cx: at(i)[0], cy: at(i)[1], r: 9 })),
+    marked(scene).map((i) => s('path.point', { d: MARKS[points[i].record.verdict], transform: `translate(${at(i).join(' ')})`, 'data-verdict': points[i].record.verdict })),
+    spaced(broken, x, 18).map(([i, rules]) => s('text.rule', { x: at(i)[0], y: at(i)[1] - 13, 'text-anchor': 'middle' }, [...rules].join(','))),
     beside && histogram(singles, range, y, beside, { top: TOP, bottom }));
 }
 
-function ranges(own, count, x, right) {
+function ranges(own, scene) {
+  const { points, to, x, right, dense } = scene;
   const top = HEIGHT.values + 14;
   const bottom = HEIGHT.values + HEIGHT.ranges - 8;
   const most = Math.max(own.upper_limit, ...own.points, 1e-6);
   const y = (value) => round(bottom - (bottom - top) * value / most);
   // The first value has no range: the row begins one later.
-  const first = count - own.points.length;
+  const first = points.length - own.points.length;
+  const from = Math.max(scene.from, first);
+  const at = (i) => y(own.points[i - first]);
   return s('g.ranges',
     s('text.unit', { x: LEFT - 10, y: top - 4, 'text-anchor': 'end' }, SPREADS[own.name]),
     s('path.axis', { d: `M${LEFT} ${bottom}H${right}` }),
     controlLines({ ...own, lower_limit: null }, y, right, []),
-    s('path.run', { d: own.points.map((value, i) => `${i ? 'L' : 'M'}${x(i + first)} ${y(value)}`).join('') }),
-    own.points.map((value, i) => s('circle', { cx: x(i + first), cy: y(value), r: 2.5, class: value > own.upper_limit ? 'outside' : 'inside' })));
+    s('path.run', { d: runOf({ from, to, x, dense }, at) }),
+    sight({ from, to }).map((i) => [i, own.points[i - first] > own.upper_limit ? 'outside' : 'inside']).filter(([, name]) => !dense || name === 'outside')
+      .map(([i, name]) => s('circle', { cx: x(i), cy: at(i), r: 2.5, class: name })));
 }
 
 /** Centre and control limits with their values at the right; none over another. */
@@ -114,30 +157,32 @@ export function rulesAt(chart) {
   return broken;
 }
 
-/** Numbers that would stand over each other are left out but for the first. */
-function spaced(marks, x) {
+/** Marks that would stand over each other are left out but for the first. */
+function spaced(marks, x, distance) {
   let last = -Infinity;
   return marks.sort(([one], [other]) => one - other).filter(([i]) => {
-    if (x(i) - last < 18) return false;
+    if (x(i) - last < distance) return false;
     last = x(i);
     return true;
   });
 }
 
 /** A limit as a line with a step where it changes. */
-function steps(points, limit, x, y, right) {
-  const lines = points.map((point, i) => (i ? `H${x(i)}V${y(point[limit])}` : `M${LEFT} ${y(point[limit])}`));
-  return `${lines.join('')}H${right}`;
+function steps({ points, from, to, x, right }, limit, y) {
+  let path = `M${LEFT} ${y(points[from][limit])}`;
+  for (let i = from + 1; i <= to; ++i) {
+    if (points[i][limit] !== points[i - 1][limit]) path += `H${x(i)}V${y(points[i][limit])}`;
+  }
+  return `${path}H${right}`;
 }
 
 /** Time and part of the first, the middle and the last value. */
-function axis(points, x, right, height) {
-  const last = points.length - 1;
-  const ends = right - LEFT > 420 && last > 4 ? [0, Math.round(last / 2), last] : [...new Set([0, last])];
+function axis({ points, from: first, to: last, x, right }, height) {
+  const ends = right - LEFT > 420 && last - first > 4 ? [first, Math.round((first + last) / 2), last] : [...new Set([first, last])];
   return s('g.time', s('path.axis', { d: `M${LEFT} ${height - AXIS + 2}H${right}` }), ends.map((i) => {
     const at = new Date(points[i].record.measured_at);
     const day = at.toISOString().slice(5, 10);
-    return s('text', { x: i === 0 ? LEFT : i === last ? right : x(i), y: height - 8, 'text-anchor': i === 0 ? 'start' : i === last ? 'end' : 'middle' },
+    return s('text', { x: i === first ? LEFT : i === last ? right : x(i), y: height - 8, 'text-anchor': i === first ? 'start' : i === last ? 'end' : 'middle' },
       [points[i].record.part_id, `${day} ${time(at).slice(0, 5)}`].filter(Boolean).join(' · ').slice(-28));
   }));
 }

@@ -10,16 +10,18 @@ import { fragment, go } from '../route.js';
 import { controlChartFigure, rulesAt } from '../trend/control_chart.js';
 import { capability, controlChart } from '../trend/figures.js';
 import { newestValues } from '../trend/recent_values.js';
+import { Stretch } from '../trend/stretch.js';
 import { meanPoint, pointOf, sizeOf, subgroupsOf } from '../trend/series.js';
 import { capabilityTiles, countTiles } from '../trend/tiles.js';
 import { distanceText, measuredText, verdictMark } from '../verdict.js';
 
-const COUNTS = [50, 100, 200, 500, 1000];
+const COUNTS = [50, 100, 200, 500, 1000, 5000, 10000];
 const RULES = [1, 2, 3, 4];
 const KINDS = ['i_mr', 'xbar_r', 'xbar_s'];
 const ROWS = 12;
-/** Many events make one drawing. */
+/** Many events make one drawing: one of so many ms, and as many more as there are values by ten. */
 const DRAW_MS = 120;
+const VALUES_PER_MS = 10;
 
 export function mount(main, route) {
   const leaving = new AbortController();
@@ -34,6 +36,7 @@ export function mount(main, route) {
   const rules = RULES.map((rule) => h('input', { type: 'checkbox', value: rule, checked: (options.rules ?? '1234').includes(rule), onchange: () => compute() }));
   const freeze = h('button', { type: 'button', onclick: () => toggleFrozen() });
   const chart = h('figure', { tabindex: 0, 'aria-label': t('trend.browse'), onkeydown: (event) => browse(event) });
+  const stretch = new Stretch(() => drawSoon());
   const tiles = h('dl.tiles');
   const indices = h('div.indices');
   const detail = h('div.detail', { role: 'status' });
@@ -51,6 +54,7 @@ export function mount(main, route) {
   let figures = { chart: null, indices: null };
   let picked = null;
   let timer = 0;
+  let frame = 0;
 
   count.append(...COUNTS.map((each) => option(each, String(each), each === (Number(options.count) || 100))));
   kind.append(...KINDS.map((each) => option(each, t(`trend.kind.${each}`), each === options.kind)));
@@ -60,7 +64,7 @@ export function mount(main, route) {
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('field.characteristic'), characteristic),
       field(t('job.designation'), designation), field(t('trend.count'), count), kindField),
     note, h('div.sums', tiles, indices),
-    h('div.sheet', chart, detail,
+    h('div.sheet', chart, stretch.element, detail,
       h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
     table));
 
@@ -156,9 +160,19 @@ export function mount(main, route) {
   }
 
   function drawChart() {
-    if (!points.length) return;
-    chart.replaceChildren(controlChartFigure(drawn, points, figures.chart, { width: Math.max(chart.clientWidth, 300), picked, onPick: pick }));
+    if (!points.length || chart.querySelector('.brush')) return; // not under the finger
+    chart.replaceChildren(controlChartFigure(drawn, points, figures.chart, {
+      width: Math.max(chart.clientWidth, 300), view: stretch.of(drawn.length), picked, onPick: pick, onStretch: (from, to) => stretch.choose(from, to),
+    }));
     refill(detail, picked === null ? h('p.aside', [left && t('trend.left_out', { count: left }), priceText()].filter(Boolean).join(' ')) : pointDetail(drawn[picked], rulesAt(figures.chart).get(picked)));
+  }
+
+  /** A slider says more often where it is than a screen shows. */
+  function drawSoon() {
+    frame ||= requestAnimationFrame(() => {
+      frame = 0;
+      drawChart();
+    });
   }
 
   /** What the rules cost: points to a false alarm. */
@@ -174,7 +188,9 @@ export function mount(main, route) {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!step || !drawn.length) return;
     event.preventDefault();
-    pick(Math.min(Math.max((picked ?? drawn.length) + step, 0), drawn.length - 1));
+    const next = Math.min(Math.max((picked ?? drawn.length) + step, 0), drawn.length - 1);
+    stretch.reveal(next);
+    pick(next);
   }
 
   function toggleFrozen() {
@@ -204,7 +220,7 @@ export function mount(main, route) {
     timer ||= setTimeout(() => {
       timer = 0;
       compute();
-    }, DRAW_MS);
+    }, DRAW_MS + points.length / VALUES_PER_MS);
     return null;
   }
 
@@ -216,6 +232,7 @@ export function mount(main, route) {
     leaving.abort();
     resized.disconnect();
     clearTimeout(timer);
+    cancelAnimationFrame(frame);
   };
 }
 

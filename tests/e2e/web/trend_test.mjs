@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, afterEach, before, describe, it } from 'node:test';
 
-import { close, launch, open, openIn, picture } from './support/browser.mjs';
+import { close, findings, launch, open, openIn, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
 import { Gate } from './support/gate.mjs';
 
@@ -130,7 +130,7 @@ describe('the trend', () => {
     page = await open(browser, daemon, '#/parts');
     let asked = 0;
     // The second reading comes with the stream of events: its answer is older than the event that overtakes it.
-    await page.route('**/v1/measurements?*last=*', async (route) => {
+    await page.route('**/v1/measurements?*sort=newest*', async (route) => {
       const answer = await route.fetch();
       if (++asked === 2) {
         await post('25.002');
@@ -169,6 +169,44 @@ describe('the trend', () => {
     await page.uncheck('.rules input[value="1"]');
     await page.waitForFunction(() => !document.querySelector('.control-chart .broken'));
     await picture(page, 'trend-control', { fullPage: true });
+  });
+
+  it('shows 10,000 values, a stretch of them that is drawn across, and the record of a point in it', async () => {
+    const size = (i) => (25.01 + ((i * 7919) % 1000) / 200_000 + (i === 9000 ? 0.02 : 0)).toFixed(6);
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 10_000 }, (_, i) => ({ designation: '25 H7', measured_mm: size(i), characteristic: 'many', part_id: `T-${i}` })));
+    page = await open(browser, daemon, '#/trend?characteristic=many&count=10000');
+    await page.waitForFunction(() => document.querySelector('.tiles dd')?.textContent === '9999');
+    assert.equal((await page.$$('.point')).length, 1); // where they are dense the good are a line
+    assert.ok(await page.isHidden('.stretch'));
+    assert.equal(await page.$eval('.control-chart .target', (line) => line.nextSibling.textContent), '+10.5');
+    const { x, y, width, height } = await (await page.$('.control-chart')).boundingBox();
+    const drawAcross = async (from, to) => {
+      await page.mouse.move(x + from * width, y + height / 2);
+      await page.mouse.down();
+      await page.mouse.move(x + to * width, y + height / 2, { steps: 3 });
+      await page.mouse.up();
+    };
+    const { left, right } = await page.$eval('.control-chart .time .axis', (line) => {
+      const at = line.getBoundingClientRect();
+      const chart = line.ownerSVGElement.getBoundingClientRect();
+      return { left: (at.left - chart.left) / chart.width, right: (at.right - chart.left) / chart.width };
+    });
+    const place = (share) => left + (right - left) * share;
+    await drawAcross(place(0.875), place(0.9));
+    await page.waitForSelector('.stretch:visible');
+    const [from, to, of] = (await page.textContent('.stretch span')).match(/\d+/g).map(Number);
+    assert.ok(of === 10_000 && from < 9001 && to > 9001 && to - from < 500, `${from} ${to}`);
+    const [point] = await page.$$('.point[data-verdict="reject"]');
+    const at = await point.boundingBox();
+    await page.mouse.click(at.x + at.width / 2, at.y + at.height / 2);
+    await page.waitForFunction(() => /T-9000/.test(document.querySelector('.detail').textContent));
+    assert.match(await page.textContent('.detail'), /Reject25\.03\d* mm/);
+    await page.$eval('.stretch input', (slider) => { slider.value = 0; slider.dispatchEvent(new Event('input')); });
+    await page.waitForFunction(() => /^1 to/.test(document.querySelector('.stretch span').textContent));
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'trend-stretch', { fullPage: true });
+    await page.getByRole('button', { name: 'Show all' }).click();
+    await page.waitForSelector('.stretch', { state: 'hidden' });
   });
 
   it('charts the means of subgroups, and leaves out one that is still being measured', async () => {
