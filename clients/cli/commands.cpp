@@ -94,6 +94,16 @@ void add_measure(CLI::App& app, Action& chosen) {
   measure->add_option("--state", options->state_file, "File that says how far a stopped run was");
   measure->add_option("--chunk", options->chunk_rows, "Rows of one request, else 100000")
       ->check(CLI::Range(1, 100'000));
+  measure
+      ->add_option("--map", options->columns,
+                   "Column and field: Istwert=measured_mm; also date and time, or none")
+      ->allow_extra_args(false);
+  measure->add_option("--set", options->constants, "Field and value of all rows: machine=M3")
+      ->allow_extra_args(false);
+  measure->add_option("--time-zone", options->time_zone, "Of times without an offset");
+  measure->add_option("--encoding", options->encoding, "auto, utf-8, utf-16 or windows-1252");
+  measure->add_flag("--leave-out-others", options->leave_out_others,
+                    "Columns that are no field are left out");
   measure->add_flag("--again", options->again, "Store rows that were stored before once more");
   measure->add_flag("--exit-verdict", options->exit_verdict, "The exit code is the worst verdict");
 }

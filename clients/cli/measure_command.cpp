@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/input_file.hpp"
+#include "cli/measure_table.hpp"
 #include "cli/progress.hpp"
 #include "cli/retry.hpp"
 
@@ -74,12 +75,34 @@ class Upload {
 
  private:
   Outcome<CsvChunks> open_input() {
+    if (is_converted(options_)) return open_converted();
     auto opened = InputFile::open(options_.input);
     if (!opened) return opened.error();
     const auto file = std::make_shared<InputFile>(std::move(*opened));
     progress_.bytes_in_all = file->size();
-    CsvChunks chunks([file](std::span<char> into) { return file->read(into); },
-                     {.rows = options_.chunk_rows});
+    return begin_chunks([file](std::span<char> into) { return file->read(into); });
+  }
+
+  /// The whole table as the service takes it. The same rows become the same text, however the file
+  /// grows.
+  Outcome<CsvChunks> open_converted() {
+    auto bytes = read_file(options_.input);
+    if (!bytes) return bytes.error();
+    auto text = converted_table(*bytes, options_);
+    if (!text)
+      return Failure{text.error().exit_code, fmt::format("{}: {}", name_, text.error().message)};
+    const auto whole = std::make_shared<std::string>(*std::move(text));
+    const auto taken = std::make_shared<std::size_t>(0);
+    progress_.bytes_in_all = whole->size();
+    return begin_chunks([whole, taken](std::span<char> into) -> Outcome<std::size_t> {
+      const std::size_t count = whole->copy(into.data(), into.size(), *taken);
+      *taken += count;
+      return count;
+    });
+  }
+
+  Outcome<CsvChunks> begin_chunks(CsvChunks::Read read) {
+    CsvChunks chunks(std::move(read), {.rows = options_.chunk_rows});
     if (const auto header = chunks.read_header(); !header) {
       return Failure{header.error().exit_code,
                      fmt::format("{}: {}", name_, header.error().message)};

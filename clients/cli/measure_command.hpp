@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/context.hpp"
 #include "cli/csv_chunks.hpp"
@@ -15,6 +16,12 @@ struct MeasureOptions {
   std::string input;  ///< a CSV file, or `-`
   std::string state_file{};
   std::size_t chunk_rows = 100'000;
+  // How a table of the shop is turned into measurements; none of them: it is sent as it is.
+  std::string encoding{};
+  std::vector<std::string> columns{};    ///< `Istwert=measured_mm`
+  std::vector<std::string> constants{};  ///< `machine=M3`
+  std::string time_zone{};
+  bool leave_out_others = false;
   bool again = false;
   bool exit_verdict = false;  ///< the exit code is the worst verdict
 };

@@ -41,7 +41,8 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
       continue;
     }
     const auto body = api::parse_stored_json(document.text, "a connection");
-    auto definition = body ? read_definition(document.name, *body) : body.error();
+    auto definition = body ? read_definition(document.name, *body, {.roots = all->around_.folders})
+                           : body.error();
     if (definition) {
       all->begin(*std::move(definition), false);
     } else {
@@ -148,7 +149,7 @@ Result<bool> Connections::put(const app::ConnectionCalls::Put& order) {
   auto body = api::parse_json(order.body);
   if (!body) return body.error();
   if (before) keep_secrets(*body, before->definition);
-  auto definition = read_definition(order.name, *body);
+  auto definition = read_definition(order.name, *body, {.roots = around_.folders});
   if (!definition) return definition.error();
   if (const FollowerOptions* const follower = follower_options(*definition)) {
     // Where it begins is known before it is there: nothing that comes after the answer is missed.

@@ -19,17 +19,37 @@ using api::JsonValue;
 
 struct Kind {
   std::string_view name;
-  void (*read)(FieldReader& fields, FieldErrors& errors, Definition& into);  ///< null: not built
+  void (*read)(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
+               Definition& into);  ///< null: not built
 };
 
-void read_webhook_kind(FieldReader& fields, FieldErrors& errors, Definition& into) {
+void read_lsv2_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions&,
+                    Definition& into) {
+  into.options = read_lsv2(into.name, fields, errors);
+}
+
+void read_webhook_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions&,
+                       Definition& into) {
   into.options = read_webhook(into.name, fields, errors);
 }
 
+void read_folder_in_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
+                         Definition& into) {
+  into.options = read_folder_in(into.name, allowed, fields, errors);
+}
+
+void read_folder_out_kind(FieldReader& fields, FieldErrors& errors,
+                          const FolderPermissions& allowed, Definition& into) {
+  into.options = read_folder_out(into.name, allowed, fields, errors);
+}
+
 constexpr Kind kKinds[] = {
-    {"lsv2", read_lsv2},    {"webhook", read_webhook_kind},
-    {"folder_in", nullptr}, {"folder_out", nullptr},
-    {"mqtt", nullptr},      {"sparkplug", nullptr},
+    {"lsv2", read_lsv2_kind},
+    {"webhook", read_webhook_kind},
+    {"folder_in", read_folder_in_kind},
+    {"folder_out", read_folder_out_kind},
+    {"mqtt", nullptr},
+    {"sparkplug", nullptr},
 };
 
 std::string kinds_built() {
@@ -104,14 +124,15 @@ void keep_secrets(JsonValue& body, const Definition& before) {
   }
 }
 
-Result<Definition> read_definition(std::string name, const JsonValue& body) {
+Result<Definition> read_definition(std::string name, const JsonValue& body,
+                                   const FolderPermissions& allowed) {
   if (const auto checked = check_name(name); !checked) return checked.error();
   FieldErrors errors;
   FieldReader fields(body, "", errors);
   Definition definition{.name = std::move(name)};
   if (const Kind* kind = read_kind(fields)) {
     definition.kind = kind->name;
-    kind->read(fields, errors, definition);
+    kind->read(fields, errors, allowed, definition);
     fields.refuse_unknown();
   }
   if (auto error = errors.take()) return *std::move(error);

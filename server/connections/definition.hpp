@@ -6,6 +6,8 @@
 
 #include "api/wire/json_value.hpp"
 #include "collector/collector_options.hpp"
+#include "connections/folder_in.hpp"
+#include "connections/folder_out.hpp"
 #include "connections/webhook.hpp"
 
 namespace fitgauge::connections {
@@ -16,7 +18,8 @@ struct Definition {
   std::string kind{};
   std::string text{};      ///< JSON, as it is stored
   std::string settings{};  ///< the same without what only this service may know
-  std::variant<collector::MachineOptions, WebhookOptions> options{};
+  std::variant<collector::MachineOptions, WebhookOptions, FolderInOptions, FolderOutOptions>
+      options{};
 };
 
 /// Letters, digits, - and _, 1 to 63 of them. @errors PathMalformed
@@ -26,7 +29,9 @@ Result<void> check_name(std::string_view name);
 void keep_secrets(api::JsonValue& body, const Definition& before);
 
 /// @param body an object with `kind` and what its kind takes.
+/// @param allowed which folders it may name.
 /// @errors PathMalformed; RequestInvalid with every bad field.
-Result<Definition> read_definition(std::string name, const api::JsonValue& body);
+Result<Definition> read_definition(std::string name, const api::JsonValue& body,
+                                   const FolderPermissions& allowed);
 
 }  // namespace fitgauge::connections

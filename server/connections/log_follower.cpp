@@ -15,6 +15,7 @@ constexpr std::size_t kPage = 256;
 constexpr std::chrono::milliseconds kBetweenSaves{1000};
 constexpr std::chrono::milliseconds kLongestSleep{30'000};
 constexpr std::chrono::seconds kFirstPause{1};
+constexpr std::int64_t kMostWait = 3600;
 
 struct Page {
   std::vector<Outgoing> measurements{};
@@ -55,6 +56,8 @@ void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerO
   if (start && *start != "now" && *start != "beginning") {
     fields.report(ErrorCode::FieldInvalid, "start", "start is now or beginning");
   }
+  options.longest_wait = std::chrono::seconds(
+      fields.integer_or("longest_wait_s", options.longest_wait.count(), 1, kMostWait));
 }
 
 Result<Progress> begin_progress(const FollowerOptions& options, app::Application& app) {
@@ -136,8 +139,9 @@ void LogFollower::run(bool has_begun, const std::stop_token& stop) {
     if (pause_.count() > 0) {
       bell_->wait(stop, pause_, false);
       guarded("connection", [&] { deliver(stop); });
-    } else if (pending_.empty()) {
-      wait(stop, is_saved && !cannot_read_ ? kLongestSleep : kBetweenSaves);
+    } else if (ripe() == 0) {
+      const bool is_idle = pending_.empty() && is_saved && !cannot_read_;
+      wait(stop, is_idle ? kLongestSleep : kBetweenSaves);
     }
   }
   save(true);
@@ -180,9 +184,40 @@ Result<void> LogFollower::read() {
   return {};
 }
 
+std::size_t LogFollower::ripe() const {
+  if (pending_.empty()) return 0;
+  const std::int64_t age =
+      around_.clock.now().nanoseconds - (*pending_.front())->received_at.nanoseconds;
+  // After a kill what was decided before it goes out first, when all of it is read.
+  if (progress_.planned > progress_.position) {
+    const bool is_read = read_to_ >= progress_.planned || pending_.size() >= kPage;
+    return is_read ? pending_.size() : 0;
+  }
+  const bool is_ripe = pending_.size() >= kPage || std::chrono::nanoseconds(age) >= options_.gather;
+  return is_ripe ? pending_.size() : 0;
+}
+
+std::size_t LogFollower::planned(std::size_t count) {
+  if (!options_.plans || count == 0) return count;
+  if (progress_.planned <= progress_.position) {
+    count = std::min(count, kPage);
+    progress_.planned = (*pending_[count - 1])->id;
+    is_dirty_ = true;
+    if (!save(true)) {
+      progress_.planned = 0;
+      return 0;
+    }
+  }
+  return static_cast<std::size_t>(std::count_if(
+      pending_.begin(), pending_.end(),
+      [this](const Outgoing& outgoing) { return (*outgoing)->id <= progress_.planned; }));
+}
+
 void LogFollower::deliver(const std::stop_token& stop) {
-  if (stop.stop_requested() || pending_.empty()) return;
-  const Delivery delivery = outlet_->deliver(pending_, stop);
+  if (stop.stop_requested()) return;
+  const std::size_t count = planned(ripe());
+  if (count == 0) return;
+  const Delivery delivery = outlet_->deliver(std::span(pending_).first(count), stop);
   if (delivery.dealt_with > 0) progress_.position = (*pending_[delivery.dealt_with - 1])->id;
   pending_.erase(pending_.begin(),
                  pending_.begin() + static_cast<std::ptrdiff_t>(delivery.dealt_with));
@@ -211,7 +246,7 @@ void LogFollower::take(const Delivery& delivery) {
     pause_ = delivery.wait.value_or(is_first ? kFirstPause : 2 * pause_);
     pause_ = std::clamp(pause_, kFirstPause, options_.longest_wait);
   }
-  if (!delivery.refused.empty()) save(true);
+  if (!delivery.refused.empty() || options_.plans) save(true);
 }
 
 void LogFollower::finish_attempt(const std::optional<std::string>& why) {

@@ -51,9 +51,12 @@ struct FollowerOptions {
   LogFilter filter{};
   bool from_beginning = false;             ///< of the log; else from now on
   std::chrono::seconds longest_wait{300};  ///< between two attempts in vain
+  std::chrono::seconds gather{0};          ///< what is younger waits for more
+  /// What goes out together is decided before, so that after a kill the same goes out together.
+  bool plans = false;
 };
 
-/// Reads `filter` and `start` (now or beginning). What is wrong goes to `errors`.
+/// Reads `filter`, `start` (now or beginning) and `longest_wait_s`. What is wrong goes to `errors`.
 void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerOptions& options);
 
 /// Decides where a connection that has not begun begins, so that it misses nothing from now on.
@@ -81,6 +84,10 @@ class LogFollower final : public Worker {
   /// Reads what comes next, if there is room. @errors those of storage.
   Result<void> read();
   void deliver(const std::stop_token& stop);
+  /// How many of those that are pending go out now.
+  std::size_t ripe() const;
+  /// @returns how many go out together; none while that cannot be kept.
+  std::size_t planned(std::size_t count);
   void take(const Delivery& delivery);
   void finish_attempt(const std::optional<std::string>& why);
   /// Unless it was saved less than a second ago. @returns whether nothing is left to save.

@@ -83,9 +83,9 @@ void read_patterns(FieldReader& fields, FieldErrors& errors, MachineOptions& mac
 
 }  // namespace
 
-void read_lsv2(FieldReader& fields, FieldErrors& errors, Definition& into) {
+MachineOptions read_lsv2(std::string_view name, FieldReader& fields, FieldErrors& errors) {
   MachineOptions machine;
-  machine.name = into.name;
+  machine.name = name;
   machine.machine = fields.optional_text("machine").value_or("");
   if (machine.machine.size() > kLongestMachine) {
     fields.report(ErrorCode::FieldTooLong, "machine",
@@ -97,7 +97,7 @@ void read_lsv2(FieldReader& fields, FieldErrors& errors, Definition& into) {
   read_patterns(fields, errors, machine);
   machine.interval = std::chrono::seconds(
       fields.integer_or("interval_s", machine.interval.count(), 1, kMostInterval));
-  into.options = std::move(machine);
+  return machine;
 }
 
 }  // namespace fitgauge::connections

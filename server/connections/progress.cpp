@@ -28,6 +28,7 @@ std::string text_of(const JsonValue& object, std::string_view name) {
 
 Progress read(const JsonValue& stored) {
   Progress progress{.position = whole_number(stored, "position"),
+                    .planned = whole_number(stored, "planned"),
                     .refused = static_cast<std::uint64_t>(whole_number(stored, "refused"))};
   if (const JsonValue* letters = stored.find("dead_letters")) {
     for (const JsonValue& letter : letters->items) {
@@ -44,6 +45,7 @@ std::string write(const Progress& progress) {
   api::JsonWriter json(text);
   json.begin_object()
       .member("position", progress.position)
+      .member("planned", progress.planned)
       .member("refused", progress.refused)
       .key("dead_letters")
       .begin_array();

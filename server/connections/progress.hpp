@@ -13,6 +13,7 @@ namespace fitgauge::connections {
 /// How far an outgoing connection has come. Kept in the database beside what it follows.
 struct Progress {
   std::int64_t position = 0;  ///< the last measurement that is dealt with
+  std::int64_t planned = 0;   ///< what goes out together next ends there; up to `position`: nothing
   std::uint64_t refused = 0;
   std::vector<app::DeadLetter> dead_letters{};  ///< the newest first
 

@@ -26,7 +26,6 @@ constexpr std::size_t kLongestKey = 64;
 constexpr std::size_t kMostKeys = 4;
 constexpr std::size_t kLongestUrl = 2000;
 constexpr std::int64_t kLongestTimeout = 30;
-constexpr std::int64_t kLongestWait = 3600;
 /// So that how far it came is kept soon.
 constexpr std::chrono::milliseconds kLongestStretch{500};
 constexpr int kMostAttempts = 5;  ///< of an event that the receiver does not understand
@@ -168,8 +167,6 @@ WebhookOptions read_webhook(std::string_view name, FieldReader& fields, FieldErr
   read_follower(fields, errors, options.follower);
   options.timeout = std::chrono::seconds(
       fields.integer_or("timeout_s", options.timeout.count(), 1, kLongestTimeout));
-  options.follower.longest_wait = std::chrono::seconds(
-      fields.integer_or("longest_wait_s", options.follower.longest_wait.count(), 1, kLongestWait));
   return options;
 }
 

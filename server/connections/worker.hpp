@@ -1,10 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/application.hpp"
 #include "app/service/connection_state.hpp"
@@ -16,7 +18,8 @@ namespace fitgauge::connections {
 struct Surroundings {
   app::Application& app;
   const Clock& clock;
-  bool may_reach_private = false;  ///< addresses of this machine and its networks
+  std::vector<std::filesystem::path> folders{};  ///< that connections made over HTTP may name
+  bool may_reach_private = false;                ///< addresses of this machine and its networks
   /// The event's name and a sentence, for the log of the service; called on any thread.
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };

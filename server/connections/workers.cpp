@@ -42,6 +42,12 @@ struct MakeWorker {
   std::unique_ptr<Worker> operator()(const WebhookOptions& webhook) const {
     return std::make_unique<LogFollower>(webhook.follower, make_webhook(webhook, around), around);
   }
+  std::unique_ptr<Worker> operator()(const FolderInOptions& folder) const {
+    return make_folder_in(folder, around);
+  }
+  std::unique_ptr<Worker> operator()(const FolderOutOptions& folder) const {
+    return std::make_unique<LogFollower>(folder.follower, make_folder_out(folder), around);
+  }
 };
 
 struct TestConnection {
@@ -54,13 +60,22 @@ struct TestConnection {
   app::ConnectionTest operator()(const WebhookOptions& webhook) const {
     return test_webhook(webhook, around, stop);
   }
+  app::ConnectionTest operator()(const FolderInOptions& folder) const {
+    return test_folder_in(folder);
+  }
+  app::ConnectionTest operator()(const FolderOutOptions& folder) const {
+    return test_folder_out(folder);
+  }
 };
 
 }  // namespace
 
 const FollowerOptions* follower_options(const Definition& definition) {
-  const auto* const webhook = std::get_if<WebhookOptions>(&definition.options);
-  return webhook == nullptr ? nullptr : &webhook->follower;
+  if (const auto* const webhook = std::get_if<WebhookOptions>(&definition.options)) {
+    return &webhook->follower;
+  }
+  const auto* const folder = std::get_if<FolderOutOptions>(&definition.options);
+  return folder == nullptr ? nullptr : &folder->follower;
 }
 
 std::unique_ptr<Worker> make_worker(const Definition& definition, const Surroundings& around) {

@@ -35,6 +35,7 @@ struct Config {
   std::string control_setup;
   bool control_write = false;
   std::string connections;
+  std::vector<std::string> connection_folders;
   bool allow_private_addresses = false;
 };
 

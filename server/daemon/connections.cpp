@@ -124,7 +124,7 @@ Result<Definition> ConnectionReader::read() const {
   std::string named = name->text;
   std::erase_if(body.members, [](const auto& member) { return member.first == "name"; });
   if (const auto loaded = load_patterns(body); !loaded) return loaded.error();
-  auto definition = connections::read_definition(std::move(named), body);
+  auto definition = connections::read_definition(std::move(named), body, {.all = true});
   if (!definition) return errors(definition.error());
   return definition;
 }
@@ -173,13 +173,14 @@ Result<std::unique_ptr<connections::Connections>> start_connections(const Config
   auto configured = read_connections(config.connections);
   if (!configured) return configured.error();
   return connections::Connections::start(
-      *std::move(configured), {.app = app,
-                               .clock = clock,
-                               .may_reach_private = config.allow_private_addresses,
-                               .tell = [](std::string_view event, const std::string& detail) {
-                                 event == "connection_recovered" ? log_info(event, detail)
-                                                                 : log_warning(event, detail);
-                               }});
+      *std::move(configured),
+      {.app = app,
+       .clock = clock,
+       .folders = {config.connection_folders.begin(), config.connection_folders.end()},
+       .may_reach_private = config.allow_private_addresses,
+       .tell = [](std::string_view event, const std::string& detail) {
+         event == "connection_recovered" ? log_info(event, detail) : log_warning(event, detail);
+       }});
 }
 
 }  // namespace fitgauge::daemon

@@ -18,6 +18,8 @@ _fitgauge() {
     --designation | --subgroup | --target-mm | --confidence | --rules) return ;;
     --kind) _fitgauge_words 'i_mr xbar_r xbar_s ewma cusum'; return ;;
     --subgroups) _fitgauge_words 'use ignore'; return ;;
+    --map | --time-zone) return ;;
+    --encoding) _fitgauge_words 'auto utf-8 utf-16 windows-1252'; return ;;
     --verdict) _fitgauge_words 'good rework reject indeterminate'; return ;;
     --history) _fitgauge_words 'current all'; return ;;
     --feature) _fitgauge_words 'hole shaft'; return ;;
@@ -40,7 +42,7 @@ _fitgauge() {
   local i
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case ${COMP_WORDS[i]} in
-      --json | --record | --again | --exit-verdict | --block-skip | --force) ;;
+      --json | --record | --again | --exit-verdict | --leave-out-others | --block-skip | --force) ;;
       -*) ((++i)) ;;
       *) words+=("${COMP_WORDS[i]}") ;;
     esac
@@ -55,7 +57,7 @@ _fitgauge() {
       options='--rule --uncertainty-um --coverage-factor --probability --part-material --part-expansion
                --scale-temperature-c --scale-material --scale-expansion --record --part-id --characteristic --order
                --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um' ;;
-    measure) options='--state --chunk --again --exit-verdict' ;;
+    measure) options='--state --chunk --map --set --time-zone --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;
     export) options="$filters --format --output" ;;
     summary) options="$filters --group-by" ;;

@@ -22,6 +22,27 @@ Fields lsv2_fields() {
   };
 }
 
+Fields folder_in_fields() {
+  return Fields{{"folder", schema::text(), "Of this machine, an absolute path"}} +
+         schema::optional(
+             {{"files", schema::array(schema::text(100)), "Names with * and ?; *.csv and such"},
+              {"map", schema::map(schema::text()),
+               "A column's name and the field it is, date or time; empty leaves it out"},
+              {"set", schema::map(schema::text()), "A field and its value for every row"},
+              {"time_zone", schema::text(), "Of times without an offset: Europe/Berlin"},
+              {"encoding", schema::text(), "auto, utf-8, utf-16, windows-1252; auto when absent"},
+              {"other_columns", schema::words({"refuse", "leave_out"}), "refuse when absent"},
+              {"interval_s", schema::integer(1, 3600), "Between two looks; 10 when absent"},
+              {"rest_s", schema::integer(1, 3600),
+               "Size and time of a file are the same for so long; 2 when absent"}});
+}
+
+/// Which stands among the fields of lsv2.
+Fields without_interval(Fields fields) {
+  std::erase_if(fields, [](const schema::Field& field) { return field.name == "interval_s"; });
+  return fields;
+}
+
 Fields filter_fields() {
   Fields fields;
   for (const std::string_view name : app::kTextFilters) {
@@ -46,6 +67,19 @@ Fields webhook_fields() {
   return Fields{{"url", schema::text(2000), "https://host/path"},
                 {"timeout_s", schema::integer(1, 30), "Of a request; 15 when absent", false}} +
          follower_fields();
+}
+
+Fields folder_out_own_fields() {
+  return schema::optional(
+      {{"format", schema::words({"csv", "ndjson"}), "csv when absent"},
+       {"split", schema::words({"none", "part_id", "order"}),
+        "A file has measurements of one of these alone; none when absent"},
+       {"every_s", schema::integer(1, 86'400), "What is younger waits for more; 60 when absent"}});
+}
+
+Fields folder_out_fields() {
+  return Fields{{"folder", schema::text(), "Of this machine, an absolute path"}} +
+         folder_out_own_fields() + follower_fields();
 }
 
 Fields secret_fields() {
@@ -86,17 +120,20 @@ Fields state_fields() {
 }  // namespace
 
 void add_connection_schemas(Schemas& schemas) {
-  schemas.push_back({"ConnectionOrder",
-                     schema::any_of({order_of("lsv2", lsv2_fields()),
-                                     order_of("webhook", webhook_fields() + secret_fields())})});
+  schemas.push_back(
+      {"ConnectionOrder", schema::any_of({order_of("lsv2", lsv2_fields()),
+                                          order_of("webhook", webhook_fields() + secret_fields()),
+                                          order_of("folder_in", folder_in_fields()),
+                                          order_of("folder_out", folder_out_fields())})});
   schemas.push_back(
       {"Connection",
        schema::object(
            Fields{{"name", schema::text(), ""},
-                  {"kind", schema::words({"lsv2", "webhook"}), ""},
+                  {"kind", schema::words({"lsv2", "webhook", "folder_in", "folder_out"}), ""},
                   {"direction", schema::words({"in", "out"}), ""},
                   {"read_only", schema::boolean(), "Stands in the configuration file"}} +
-           schema::optional(lsv2_fields() + webhook_fields()) +
+           schema::optional(lsv2_fields() + webhook_fields() +
+                            without_interval(folder_in_fields()) + folder_out_own_fields()) +
            Fields{{"secret_count", schema::count(), "How many secrets there are", false}} +
            state_fields())});
   schemas.push_back(

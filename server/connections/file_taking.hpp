@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "connections/folder_in.hpp"
+
+namespace fitgauge::connections {
+
+/// What became of a file.
+struct TakenFile {
+  bool was_taken_before = false;
+  std::size_t measurements = 0;
+};
+
+/// Stores what a file says, all rows or none. The same bytes are stored once for a connection:
+/// their digest is kept for ever in the transaction that stores the rows. Waits.
+/// @param bytes with at least http::Request::kBodyPadding bytes of room behind them.
+/// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
+Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& around,
+                            std::string_view file_name, const std::string& bytes);
+
+/// What is wrong with a file, for the one who wrote it: lines, and what to do.
+std::string told(std::string_view file_name, const Error& error);
+
+/// Whether an error is one of the storage, not of the file.
+bool is_of_storage(const Error& error);
+
+}  // namespace fitgauge::connections

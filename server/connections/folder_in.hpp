@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/wire/field_reader.hpp"
+#include "connections/folder_path.hpp"
+#include "connections/worker.hpp"
+#include "sheet/shop_csv.hpp"
+
+namespace fitgauge::connections {
+
+/// A folder that others put files of measurements into.
+struct FolderInOptions {
+  std::string name{};  ///< of the connection
+  std::filesystem::path folder{};
+  std::vector<std::string> files{"*.csv", "*.txt", "*.ndjson", "*.jsonl"};  ///< in either case
+  sheet::ShopCsvOptions csv{};        ///< of what is no NDJSON by its name
+  std::chrono::seconds interval{10};  ///< between two looks; the kernel tells changes at once
+  std::chrono::seconds rest{2};       ///< size and time must have been the same for so long
+  std::size_t most_file_bytes = std::size_t{32} << 20;
+  std::size_t most_entries = 100'000;  ///< of one look
+};
+
+/// Reads what the kind folder_in takes: `folder`, `files`, `map`, `set`, `encoding`, `time_zone`,
+/// `other_columns`, `interval_s`, `rest_s`. What is wrong goes to `errors`.
+FolderInOptions read_folder_in(std::string_view name, const FolderPermissions& allowed,
+                               api::FieldReader& fields, api::FieldErrors& errors);
+
+/// Takes the files of a folder, each once, and moves them to its folder `done`, or with a text that
+/// names line and remedy to `failed`. @param around outlives it.
+std::unique_ptr<Worker> make_folder_in(const FolderInOptions& options, const Surroundings& around);
+
+/// Whether the folder can be read, and files moved in it.
+app::ConnectionTest test_folder_in(const FolderInOptions& options);
+
+}  // namespace fitgauge::connections

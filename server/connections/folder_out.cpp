@@ -1,0 +1,153 @@
+#include "connections/folder_out.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <vector>
+
+#include "api/measurements/measurement_codec.hpp"
+#include "app/measurements/record.hpp"
+#include "base/text.hpp"
+#include "connections/whole_file.hpp"
+
+namespace fitgauge::connections {
+namespace {
+
+namespace fs = std::filesystem;
+using Format = FolderOutOptions::Format;
+using Split = FolderOutOptions::Split;
+
+constexpr std::size_t kLongestKey = 60;
+
+/// Measurements that stand in one file.
+struct File {
+  std::string key{};
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+  std::string text{};
+};
+
+std::string_view key_of(const app::Measurement& measurement, Split split) {
+  if (split == Split::None) return {};
+  const auto& text = split == Split::Part ? measurement.texts.part_id : measurement.texts.order;
+  return text.value_or("");
+}
+
+/// What a name of a file may have; the numbers before it keep two apart that become alike.
+std::string plain(std::string_view key) {
+  std::string name(key.substr(0, kLongestKey));
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) { return !is_ascii_alphanumeric(c) && c != '-' && c != '_'; }, '_');
+  return name;
+}
+
+class FolderOut final : public Outlet {
+ public:
+  explicit FolderOut(FolderOutOptions options) : options_(std::move(options)) {}
+
+  Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
+
+ private:
+  std::vector<File> files_of(std::span<const Outgoing> measurements) const;
+  fs::path path_of(const File& file) const;
+
+  const FolderOutOptions options_;
+};
+
+std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements) const {
+  std::vector<File> files;
+  for (const Outgoing& outgoing : measurements) {
+    const app::Measurement& measurement = **outgoing;
+    const std::string_view key = key_of(measurement, options_.split);
+    auto file = std::find_if(files.begin(), files.end(),
+                             [&](const File& other) { return other.key == key; });
+    if (file == files.end()) {
+      files.push_back({.key = std::string(key), .first = measurement.id});
+      file = std::prev(files.end());
+      if (options_.format == Format::Csv) file->text = api::measurement_csv_header();
+    }
+    file->last = measurement.id;
+    if (options_.format == Format::Csv) {
+      api::append_measurement_csv(file->text, measurement);
+    } else {
+      app::append_record(file->text, measurement);
+      file->text += '\n';
+    }
+  }
+  return files;
+}
+
+fs::path FolderOut::path_of(const File& file) const {
+  std::string name = fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
+  if (!file.key.empty()) name += "-" + plain(file.key);
+  return options_.folder / (name + (options_.format == Format::Csv ? ".csv" : ".ndjson"));
+}
+
+Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::stop_token&) {
+  Delivery delivery;
+  for (const File& file : files_of(measurements)) {
+    const fs::path path = path_of(file);
+    if (!write_whole_file(path, file.text)) {
+      delivery.failure = fmt::format("cannot write {}: {}", path.string(), std::strerror(errno));
+      return delivery;
+    }
+    ++delivery.files;
+    delivery.bytes += file.text.size();
+  }
+  delivery.dealt_with = measurements.size();
+  return delivery;
+}
+
+template <class Word>
+Word read_word(std::string_view name, api::FieldReader& fields, Word fallback,
+               std::initializer_list<std::pair<std::string_view, Word>> words,
+               std::string_view said) {
+  const auto text = fields.optional_text(name);
+  if (!text) return fallback;
+  const auto found = std::find_if(words.begin(), words.end(),
+                                  [&](const auto& word) { return word.first == *text; });
+  if (found != words.end()) return found->second;
+  fields.report(ErrorCode::FieldInvalid, name, std::string(said));
+  return fallback;
+}
+
+}  // namespace
+
+FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions& allowed,
+                                 api::FieldReader& fields, api::FieldErrors& errors) {
+  FolderOutOptions options;
+  options.follower.name = name;
+  options.folder = read_folder(fields, allowed);
+  options.format =
+      read_word("format", fields, Format::Csv, {{"csv", Format::Csv}, {"ndjson", Format::Ndjson}},
+                "format is csv or ndjson");
+  options.split =
+      read_word("split", fields, Split::None,
+                {{"none", Split::None}, {"part_id", Split::Part}, {"order", Split::Order}},
+                "split is none, part_id or order");
+  read_follower(fields, errors, options.follower);
+  options.follower.gather = std::chrono::seconds(fields.integer_or("every_s", 60, 1, 86'400));
+  options.follower.plans = true;
+  return options;
+}
+
+std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options) {
+  return std::make_unique<FolderOut>(options);
+}
+
+app::ConnectionTest test_folder_out(const FolderOutOptions& options) {
+  const fs::path path = options.folder / fmt::format(".{}.test", options.follower.name);
+  if (!write_whole_file(path, "fitgauge\n")) {
+    return {.ok = false,
+            .detail = fmt::format("cannot write into {}: {}", options.folder.string(),
+                                  std::strerror(errno))};
+  }
+  std::error_code failure;
+  fs::remove(path, failure);
+  return {.ok = true, .detail = "a file can be written"};
+}
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "connections/folder_path.hpp"
+#include "connections/log_follower.hpp"
+
+namespace fitgauge::connections {
+
+/// A folder that others take files of measurements from.
+struct FolderOutOptions {
+  FollowerOptions follower{};
+  std::filesystem::path folder{};
+  enum class Format { Csv, Ndjson } format = Format::Csv;
+  enum class Split { None, Part, Order } split = Split::None;  ///< a file has one of these alone
+};
+
+/// Reads what the kind folder_out takes: `folder`, `format`, `split`, `every_s`, `filter`, `start`,
+/// `longest_wait_s`. What is wrong goes to `errors`.
+FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions& allowed,
+                                 api::FieldReader& fields, api::FieldErrors& errors);
+
+/// Writes NAME-FIRST-LAST.csv, where the numbers are the positions of the measurements in the log;
+/// beside, and renamed when it is whole and on disk.
+std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options);
+
+/// Whether a file can be written there.
+app::ConnectionTest test_folder_out(const FolderOutOptions& options);
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+#include "sheet/text_encoding.hpp"
+#include "sheet/time_zone.hpp"
+
+namespace fitgauge::sheet {
+
+/// Texts by names.
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+/// How a shop's table becomes measurements.
+struct ShopCsvOptions {
+  Encoding encoding = Encoding::Detected;
+  Words columns{};    ///< the table's name of a column, the field it is; empty: it is left out
+  Words constants{};  ///< a field and its value, for every row
+  std::optional<TimeZone> zone{};  ///< of times without an offset
+  bool leaves_out_others = false;  ///< columns that are no field and that `columns` lacks
+};
+
+/// Turns a table as gauges and spreadsheets write it into CSV as /v1/measurements takes it: UTF-8,
+/// `;` between the cells, the fields by their names, one line for one line, so that errors name the
+/// lines of the shop's file.
+///
+/// Read are `sep=;` before the header, `;`, a tab or `,` between the cells, empty columns and rows
+/// without text, blanks around a text, names in either case, and times of a clock on the wall.
+/// A table may have `date` and `time` (by `columns`) instead of measured_at.
+/// @param fields the names of a measurement's fields.
+/// @errors TextEncoding; CsvMalformed and TimeMalformed, whose `where` is the line.
+Result<std::string> shop_csv(std::string_view bytes, const ShopCsvOptions& options,
+                             std::span<const std::string_view> fields);
+
+}  // namespace fitgauge::sheet

@@ -1,0 +1,305 @@
+"""Watched folders: each file once, whole or not at all, whatever a shop writes and whenever the power goes."""
+
+import collections
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+from support.cli import FITGAUGE
+from support.daemon import TRACEABLE, Daemon
+
+DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
+ROWS = "designation;measured_mm;part_id\n" + "".join(f"25 H7;25,01;P{number}\n" for number in range(5))
+WRITES = "openat,rename,renameat,renameat2,unlink,write,pwrite64,fdatasync,fsync,ftruncate,mkdir"
+
+
+class Folders(unittest.TestCase):
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-folders-"))
+        self.addCleanup(shutil.rmtree, self.root, ignore_errors=True)
+        self.folder = self.root / "in"
+        self.folder.mkdir()
+
+    def daemon(self, **named):
+        daemon = Daemon("--connection-folders", self.root, **named)
+        self.addCleanup(daemon.cleanup)
+        return daemon
+
+    def connect(self, daemon, status=201, name="cmm", **more):
+        answer = daemon.request("PUT", f"/v1/connections/{name}", {
+            "kind": "folder_in", "folder": str(self.folder), "interval_s": 1, "rest_s": 1, **more})
+        self.assertEqual(answer.status, status, answer)
+        return answer.json
+
+    def drop(self, name, content):
+        """As a program that writes beside and renames."""
+        beside = self.root / (name + ".beside")
+        beside.write_bytes(content if isinstance(content, bytes) else content.encode())
+        beside.rename(self.folder / name)
+
+    def wait(self, condition, seconds=60):
+        deadline = time.monotonic() + seconds
+        while not condition():
+            if time.monotonic() > deadline:
+                raise AssertionError(sorted(str(path.relative_to(self.root)) for path in self.root.rglob("*")))
+            time.sleep(0.02)
+
+    def files(self, folder=""):
+        return sorted(path.name for path in (self.folder / folder).glob("*") if path.is_file())
+
+    def parts(self, daemon):
+        return [row.get("part_id") for row in daemon.stored()]
+
+
+class Taking(Folders):
+    def test_a_file_is_taken_once_however_often_it_appears(self):
+        daemon = self.daemon().start()
+        made = self.connect(daemon)
+        self.assertEqual((made["direction"], made["folder"]), ("in", str(self.folder)))
+        self.drop("a.csv", ROWS)
+        self.wait(lambda: self.files("done") == ["a.csv"])
+        self.assertEqual(self.parts(daemon), [f"P{number}" for number in range(5)])
+        self.assertEqual({row["caller"] for row in daemon.stored()}, {"cmm"})
+        self.drop("a.csv", ROWS)
+        self.drop("other.csv", ROWS)
+        self.wait(lambda: self.files("done") == ["a.csv", "a.csv.1", "other.csv"])
+        self.assertEqual(len(self.parts(daemon)), 5)
+        self.assertIn("file_taken_before", daemon.log)
+        self.drop("b.ndjson", '{"designation":"25 H7","measured_mm":25.02,"part_id":"N"}\n')
+        self.wait(lambda: "N" in self.parts(daemon))
+        state = daemon.get("/v1/connections/cmm").json
+        self.assertEqual((state["state"], state["files"], state["measurements"]), ("ok", 2, 6))
+        self.assertEqual(self.files(), [])
+
+    def test_only_whole_files_are_taken(self):
+        daemon = self.daemon().start()
+        self.connect(daemon, rest_s=2)
+        with open(self.folder / "slow.csv", "w") as file:
+            for line in ROWS.splitlines(True):
+                file.write(line)
+                file.flush()
+                time.sleep(0.7)
+        self.wait(lambda: self.files("done") == ["slow.csv"])
+        self.assertEqual(len(self.parts(daemon)), 5)
+        self.assertEqual(self.files("failed"), [])
+
+    def test_what_is_not_wanted_stays(self):
+        daemon = self.daemon().start()
+        self.connect(daemon, files=["*.CSV"])
+        for name in (".hidden.csv", "readme.md", "a.csv.part", "b.ndjson"):
+            self.drop(name, ROWS)
+        (self.folder / "folder.csv").mkdir()
+        os.symlink("/etc/passwd", self.folder / "link.csv")
+        self.drop("a.csv", ROWS)
+        self.wait(lambda: self.files("done") == ["a.csv"])
+        time.sleep(2.5)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted(
+            [".hidden.csv", "readme.md", "a.csv.part", "b.ndjson", "folder.csv", "link.csv", "done"]))
+
+    def test_a_wrong_file_is_told_with_line_and_remedy(self):
+        daemon = self.daemon().start()
+        self.connect(daemon)
+        self.drop("bad.csv", "designation;measured_mm\n25 H7;25,01\n25 H7;oops\n25 H99;25\n")
+        self.drop("time.csv", "designation;measured_mm;measured_at\n25 H7;25,01;20.11.2026 08:00:00\n")
+        self.drop("cut.csv", ROWS[:-3].rsplit(";", 1)[0] + "\n")
+        self.drop("none.csv", "")
+        self.drop("bin.csv", bytes(range(256)) * 100)
+        self.wait(lambda: len(self.files("failed")) == 10)
+        self.assertEqual(daemon.stored(), [])
+        told = {path.name.removesuffix(".error.txt"): path.read_text() for path in (self.folder / "failed").glob("*.error.txt")}
+        self.assertRegex(told["bad.csv"], "line 3: measured_mm: .*not a decimal number")
+        self.assertRegex(told["bad.csv"], "line 4: .*H99")
+        self.assertIn("line 2 has the time '20.11.2026 08:00:00' without an offset", told["time.csv"])
+        self.assertRegex(told["cut.csv"], "line 6 has 2 cells and the header 3")
+        self.assertEqual((self.folder / "failed" / "bin.csv").read_bytes(), bytes(range(256)) * 100)
+        state = daemon.get("/v1/connections/cmm").json
+        self.assertEqual((state["state"], state["unreadable"]), ("ok", 5))
+        # Put right and put back, it is taken.
+        self.drop("bad.csv", "designation;measured_mm\n25 H7;25,01\n")
+        self.wait(lambda: len(daemon.stored()) == 1)
+
+    def test_the_table_of_a_shop(self):
+        daemon = self.daemon().start()
+        self.connect(daemon, map={"Teil": "part_id", "Istwert": "measured_mm", "Datum": "date", "Uhrzeit": "time", "Nr.": ""},
+                     set={"designation": "25 H7", "machine": "M3"}, time_zone="Europe/Berlin")
+        table = "sep=;\r\nNr.;TEIL; Istwert ;Datum;Uhrzeit;\r\n1;Ø-1;25,0131;20.11.2026;08:00:00;\r\n;;;;;\r\n2;Ø-2; 25,03 ;20.07.2026;8:00;\r\n"
+        for name, content in (("a.csv", table.encode("cp1252")), ("b.csv", table.encode("utf-16")), ("c.txt", table.encode())):
+            self.drop(name, content)
+        self.wait(lambda: len(self.files("done")) == 3)
+        rows = daemon.stored()
+        self.assertEqual([(r["part_id"], r["measured_mm"], r["verdict"], r["machine"], r["measured_at"]) for r in rows[:2]], [
+            ("Ø-1", 25.0131, "good", "M3", "2026-11-20T07:00:00Z"), ("Ø-2", 25.03, "reject", "M3", "2026-07-20T06:00:00Z")])
+        self.assertEqual(len(rows), 6)
+        # The command line reads the same.
+        path = self.root / "same.csv"
+        path.write_bytes(table.replace("Ø-", "cli-").encode("cp1252"))
+        done = subprocess.run([FITGAUGE, "measure", path, "--server", f"http://127.0.0.1:{daemon.port}",
+                               "--state", self.root / "state", "--map", "Teil=part_id", "--map", "Istwert=measured_mm",
+                               "--map", "Datum=date", "--map", "Uhrzeit=time", "--map", "Nr.=", "--set", "designation=25 H7",
+                               "--set", "machine=M3", "--time-zone", "Europe/Berlin"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        cli = daemon.stored()[6:]
+        self.assertEqual([(r["part_id"], r["measured_at"]) for r in cli],
+                         [("cli-1", "2026-11-20T07:00:00Z"), ("cli-2", "2026-07-20T06:00:00Z")])
+
+    def test_a_folder_that_is_away_comes_back(self):
+        daemon = self.daemon().start()
+        self.folder.rmdir()
+        self.connect(daemon)
+        self.wait(lambda: daemon.get("/v1/connections/cmm").json["state"] == "failing")
+        self.assertFalse(daemon.post("/v1/connections/cmm/test", None).json["ok"])
+        self.folder.mkdir()
+        self.wait(lambda: daemon.get("/v1/connections/cmm").json["state"] == "ok")
+        self.assertEqual(daemon.post("/v1/connections/cmm/test", None).json["ok"], True)
+        self.drop("a.csv", ROWS)
+        self.wait(lambda: len(self.parts(daemon)) == 5)
+
+    def test_no_folder_beside_those_allowed(self):
+        daemon = self.daemon().start()
+        os.symlink("/etc", self.root / "link")
+        for folder in ("/etc", str(self.root / ".." / "x"), "relative", str(self.root / "link"), str(self.root) + "x"):
+            answer = daemon.request("PUT", "/v1/connections/x", {"kind": "folder_in", "folder": folder})
+            self.assertEqual((answer.status, [e["pointer"] for e in answer.json["errors"]]), (422, ["/folder"]), folder)
+        problem = daemon.request("PUT", "/v1/connections/x", {
+            "kind": "folder_in", "folder": str(self.folder), "map": {"a": "colour"}, "set": {"measured_mm": "1"},
+            "time_zone": "Mars/Base", "encoding": "ebcdic", "files": ["a/b"], "other_columns": "x", "rest_s": 0}).json
+        self.assertEqual(sorted(e["pointer"] for e in problem["errors"]), [
+            "/encoding", "/files/0", "/map/a", "/other_columns", "/rest_s", "/set/measured_mm", "/time_zone"])
+
+
+class Writing(Folders):
+    def out(self, daemon, status=201, name="caq", **more):
+        answer = daemon.request("PUT", f"/v1/connections/{name}", {
+            "kind": "folder_out", "folder": str(self.folder), "every_s": 1, **more})
+        self.assertEqual(answer.status, status, answer)
+        return answer.json
+
+    def rows(self):
+        """Of all files in the order of their names, by the csv module."""
+        found = []
+        for path in sorted(self.folder.glob("*.csv")):
+            with open(path, encoding="utf-8", newline="") as file:
+                found += csv.DictReader(file)
+        return found
+
+    def store(self, daemon, numbers, **more):
+        for number in numbers:
+            answer = daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "part_id": f"P{number}", **more})
+            self.assertEqual(answer.status, 201, answer)
+
+    def test_what_is_stored_is_written_whole(self):
+        daemon = self.daemon().start()
+        self.assertEqual(self.out(daemon)["direction"], "out")
+        self.store(daemon, range(5), comment='=HYPERLINK("http://x")')
+        self.wait(lambda: len(self.rows()) == 5)
+        rows = self.rows()
+        self.assertEqual([row["part_id"] for row in rows], [f"P{number}" for number in range(5)])
+        self.assertEqual({(row["measured_mm"], row["verdict"], row["comment"][:2]) for row in rows}, {("25.01", "good", "'=")})
+        self.assertRegex(self.files()[0], r"^caq-000000000001-00000000000\d\.csv$")
+        self.assertEqual([name for name in self.files() if not name.endswith(".csv")], [])
+        self.wait(lambda: daemon.get("/v1/connections/caq").json["position"] == 5)
+        self.assertTrue(daemon.post("/v1/connections/caq/test", None).json["ok"])
+        self.assertEqual(daemon.request("DELETE", "/v1/connections/caq").status, 204)
+
+    def test_a_file_for_each_order(self):
+        daemon = self.daemon().start()
+        self.out(daemon, split="order", format="ndjson", filter={"machine": "M3"})
+        for number in range(6):
+            self.store(daemon, [number], order=f"WO/{number % 2}", machine="M3")
+        self.store(daemon, [9])
+        self.wait(lambda: sum(len(path.read_text().splitlines()) for path in self.folder.glob("*.ndjson")) == 6)
+        for path in self.folder.glob("*.ndjson"):
+            orders = {json.loads(line)["order"] for line in path.read_text().splitlines()}
+            self.assertEqual(len(orders), 1)
+            self.assertIn(orders.pop().replace("/", "_"), path.name)
+
+    def test_killed_it_goes_on_where_it_stood(self):
+        daemon = self.daemon().start()
+        self.out(daemon)
+        for number in range(0, 40, 10):
+            self.store(daemon, range(number, number + 10))
+            time.sleep(0.4)
+            daemon.kill()
+            daemon.start()
+        self.wait(lambda: {row["part_id"] for row in self.rows()} == {f"P{number}" for number in range(40)})
+        self.assertEqual(len(self.rows()), 40)  # a file that comes again replaces itself
+
+    def test_a_folder_that_is_away_comes_back(self):
+        daemon = self.daemon().start()
+        self.folder.rmdir()
+        self.out(daemon, longest_wait_s=1)
+        self.store(daemon, range(3))
+        self.wait(lambda: daemon.get("/v1/connections/caq").json["state"] == "failing")
+        self.assertFalse(daemon.post("/v1/connections/caq/test", None).json["ok"])
+        self.folder.mkdir()
+        self.wait(lambda: len(self.rows()) == 3)
+        problem = daemon.request("PUT", "/v1/connections/x", {"kind": "folder_out", "folder": "/etc", "format": "xls",
+                                                              "split": "day", "every_s": 0}).json
+        self.assertEqual(sorted(e["pointer"] for e in problem["errors"]), ["/every_s", "/folder", "/format", "/split"])
+
+
+def can_trace():
+    return shutil.which("strace") and subprocess.run(["strace", "-qq", "-o", "/dev/null", "true"], check=False).returncode == 0
+
+
+@unittest.skipUnless(can_trace(), "needs strace and the right to trace")
+class Killed(Folders):
+    """kill -9 at the N-th call of a thread that writes, while two files are taken and one is refused; then a start
+    that takes the rest."""
+
+    def taking(self, *strace):
+        """A daemon that takes three files while strace follows it; gives both."""
+        shutil.rmtree(self.folder)
+        self.folder.mkdir()
+        daemon = self.daemon(environment=TRACEABLE).start()
+        self.connect(daemon)
+        tracer = subprocess.Popen(["strace", "-f", "-p", str(daemon.process.pid), "-e", f"trace={WRITES}", *strace],
+                                  stderr=subprocess.PIPE, text=True)
+        self.addCleanup(tracer.stderr.close)
+        self.addCleanup(tracer.kill)
+        self.assertIn("attached", tracer.stderr.readline())
+        threading.Thread(target=tracer.stderr.read, daemon=True).start()
+        time.sleep(0.3)  # the other threads are attached too
+        for number, rows in enumerate((ROWS, ROWS.replace(";P", ";Q"), "designation;measured_mm\n25 H7;oops\n")):
+            self.drop(f"{number}.csv", rows)
+        return daemon, tracer
+
+    def all_dealt_with(self):
+        return self.files("done") == ["0.csv", "1.csv"] and self.files("failed") == ["2.csv", "2.csv.error.txt"]
+
+    def longest_thread(self):
+        trace = self.root / "trace"
+        daemon, tracer = self.taking("-o", str(trace))
+        self.wait(self.all_dealt_with)
+        daemon.cleanup()
+        tracer.wait(30)
+        calls = collections.Counter(line.split()[0] for line in trace.read_text(errors="replace").splitlines() if "(" in line)
+        return max(calls.values())
+
+    def test_no_file_is_lost_and_none_taken_twice(self):
+        count = self.longest_thread()
+        killed = 0
+        for number in range(1, count + 1, 1 if DEEP else max(1, count // 8)):
+            with self.subTest(call=number, of=count):
+                daemon, tracer = self.taking("-o", "/dev/null", "-e", f"inject={WRITES}:signal=SIGKILL:when={number}")
+                self.wait(lambda: self.all_dealt_with() or daemon.process.poll() is not None)
+                killed += daemon.process.poll() is not None
+                daemon.kill()
+                tracer.wait(30)
+                daemon.start()
+                self.wait(self.all_dealt_with)
+                self.assertEqual(sorted(self.parts(daemon)), sorted(f"{c}{n}" for c in "PQ" for n in range(5)))
+                self.assertEqual(self.files(), [])
+                daemon.cleanup()
+        self.assertGreater(killed, 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
