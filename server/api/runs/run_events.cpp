@@ -6,6 +6,7 @@
 #include "api/wire/event_text.hpp"
 #include "api/wire/json_value.hpp"
 #include "api/wire/json_writer.hpp"
+#include "api/wire/stored_member.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -95,15 +96,17 @@ http::Response run_events(std::shared_ptr<app::ActiveRun> run,
 Result<http::Response> finished_run_events(const std::string& report,
                                            std::optional<std::string_view> last) {
   if (last == kEnd) return http::Response(204);
-  const Result<JsonValue> run = parse_stored_json(report, "report of a run");
-  if (!run) return run.error();
+  const auto screen = stored_member(report, "screen", "report of a run");
+  if (!screen) return screen.error();
   std::string body;
   std::size_t number = 0;
   const std::size_t had = lines_had(last);
-  if (const JsonValue* screen = run->find("screen")) {
-    for (const JsonValue& line : screen->items) {
+  if (!screen->empty()) {
+    const auto read = parse_stored_json(*screen, "report of a run", [&](const JsonValue& line) {
       if (++number > had) append_line(body, line.text, number);
-    }
+      return true;
+    });
+    if (!read) return read.error();
   }
   append_event(body, kEnd, kEnd, report);
   return event_response(std::move(body));

@@ -7,6 +7,7 @@
 #include "api/runs/run_posting.hpp"
 #include "api/runs/trace_codec.hpp"
 #include "api/wire/event_text.hpp"
+#include "api/wire/stored_member.hpp"
 #include "app/measurements/measurement.hpp"
 #include "app/runs/run_service.hpp"
 #include "base/text.hpp"
@@ -56,15 +57,9 @@ void get_parameters(const Services& services, const http::Request& request,
                     http::Responder responder) {
   with_run_json(services, request, std::move(responder),
                 [](const std::string& report) -> Result<http::Response> {
-                  const auto run = parse_stored_json(report, "report of a run");
-                  if (!run) return run.error();
-                  const JsonValue* parameters = run->find("parameters");
-                  std::string body;
-                  JsonWriter json(body);
-                  write_json(json, parameters != nullptr
-                                       ? *parameters
-                                       : JsonValue{.kind = JsonValue::Kind::Object});
-                  return json_response(std::move(body));
+                  auto parameters = stored_member(report, "parameters", "report of a run");
+                  if (!parameters) return parameters.error();
+                  return json_response(parameters->empty() ? "{}" : *std::move(parameters));
                 });
 }
 

@@ -173,8 +173,9 @@ Result<JsonValue> parse_json(std::string_view text, const JsonItemHandler& handl
   return builder.take();
 }
 
-Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what) {
-  auto value = parse_json(text);
+Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what,
+                                    const JsonItemHandler& handle_item) {
+  auto value = parse_json(text, handle_item);
   if (value) return value;
   return Error{ErrorCode::StorageCorrupt,
                fmt::format("the stored {} cannot be read ({}); restore a backup or delete it", what,

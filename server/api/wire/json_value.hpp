@@ -44,7 +44,8 @@ Result<JsonValue> parse_json(std::string_view text, const JsonItemHandler& handl
 
 /// The same of a text the service has stored itself. @param what names it in the message.
 /// @errors StorageCorrupt.
-Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what);
+Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what,
+                                    const JsonItemHandler& handle_item = {});
 
 /// `pointer` with one more token, escaped as RFC 6901 has it.
 std::string pointer_to(std::string_view pointer, std::string_view token);
