@@ -82,16 +82,16 @@ class Hostile(ControlTest):
 
 
 class Ending(ControlTest):
-    """Moves that would last for minutes do not keep the service from anything."""
+    """Long moves without an end do not keep the service from anything."""
 
     def lasting_runs(self):
         program = self.upload_program(
             "lasting", "TOOL CALL 30 Z", "CC X+0 Y+0", "L X+4 FMAX", "L Z-1 FMAX",
-            "CP IPA+999999 IZ-5 DR+ FMAX")
+            "LBL 1", "CP IPA+999999 IZ+0 DR+ FMAX", ENDLESS)
         runs = []
         for _ in range(2):
             answer = self.post_run(program, part(PLANE, LOBES), {"Prefer": "respond-async"},
-                                   limits={"seconds": 60})
+                                   limits={"blocks": 100_000_000, "seconds": 60})
             self.assertEqual(answer.status, 202, answer)
             runs.append(answer.headers["location"])
         deadline = time.monotonic() + 20
