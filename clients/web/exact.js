@@ -62,14 +62,20 @@ function unscaled(nm, scale, places) {
 export const mmText = (nm, places = 3) => unscaled(nm, 6, places);
 export const umText = (nm) => unscaled(nm, 3, 0);
 
+/** [lower, upper] limit of a job or a record in nm; infinite where a drawing has none. */
+export const boundsOf = ({ lower_limit_mm: lower, upper_limit_mm: upper }) =>
+  [lower === undefined ? -Infinity : nmFromMm(lower), upper === undefined ? Infinity : nmFromMm(upper)];
+
 /**
  * The verdict of whole nanometres, as the service gives it (limits inclusive); null where this page
  * cannot tell. @param guard k times u in nm: beside a limit by less, the value is indeterminate
  */
-export function judge(measured, { feature, lower_limit_mm: lower, upper_limit_mm: upper }, guard = 0) {
-  const below = nmFromMm(lower) - measured;
-  const above = measured - nmFromMm(upper);
-  if (![below, above, guard].every(Number.isSafeInteger)) return null;
+export function judge(measured, limits, guard = 0) {
+  const { feature } = limits;
+  const [lower, upper] = boundsOf(limits);
+  const below = lower - measured;
+  const above = measured - upper;
+  if (!Number.isSafeInteger(guard) || ![below, above].every((nm) => Number.isSafeInteger(nm) || nm === -Infinity)) return null;
   if (below <= -guard && above <= -guard) return 'good';
   if (below > guard) return feature === 'hole' ? 'rework' : 'reject';
   if (above > guard) return feature === 'hole' ? 'reject' : 'rework';

@@ -1,7 +1,7 @@
 /** The four verdicts: each has a word, a shape and a colour of its own. */
 
 import { h, s } from './dom.js';
-import { nmFromMm, nmFromUm, mmText, umText } from './exact.js';
+import { boundsOf, nmFromMm, nmFromUm, mmText, umText } from './exact.js';
 import { number, t } from './i18n.js';
 
 export const VERDICTS = ['good', 'rework', 'reject', 'indeterminate'];
@@ -30,8 +30,9 @@ export function verdictMark(verdict) {
 /** "8 µm below the upper limit": where the value lies from the limit that is nearest to it. */
 export function distanceText(record) {
   const measured = nmFromMm(record.corrected_mm ?? record.measured_mm);
-  const toUpper = record.upper_limit_mm === undefined ? Infinity : nmFromMm(record.upper_limit_mm) - measured;
-  const toLower = record.lower_limit_mm === undefined ? Infinity : measured - nmFromMm(record.lower_limit_mm);
+  const [lower, upper] = boundsOf(record);
+  const toUpper = upper - measured;
+  const toLower = measured - lower;
   const limit = Math.abs(toUpper) <= Math.abs(toLower) ? 'upper' : 'lower';
   const distance = limit === 'upper' ? toUpper : -toLower;
   if (distance === 0) return t(`distance.on.${limit}`);
@@ -40,11 +41,9 @@ export function distanceText(record) {
 
 /** "25.000 to 25.021 mm" with equally many decimals. */
 export function limitsText(limits) {
-  const one = limits.lower_limit_mm ?? limits.upper_limit_mm;
-  if (limits.lower_limit_mm === undefined || limits.upper_limit_mm === undefined) {
-    return `${limits.upper_limit_mm === undefined ? '\u2265' : '\u2264'} ${number(mmText(nmFromMm(one)))} mm`;
-  }
-  const [lower, upper] = [limits.lower_limit_mm, limits.upper_limit_mm].map(nmFromMm);
+  const [lower, upper] = boundsOf(limits);
+  if (upper === Infinity) return `≥ ${number(mmText(lower))} mm`;
+  if (lower === -Infinity) return `≤ ${number(mmText(upper))} mm`;
   const places = Math.max(...[lower, upper].map((nm) => mmText(nm).split('.')[1].length));
   return t('limits.range', { lower: number(mmText(lower, places)), upper: number(mmText(upper, places)) });
 }

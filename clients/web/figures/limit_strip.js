@@ -1,28 +1,32 @@
 /** The tolerance zone as a strip with the measured value on it; beyond its ends the mark is an arrow. */
 
 import { s } from '../dom.js';
-import { mmText, nmFromMm } from '../exact.js';
+import { boundsOf, mmText, nmFromMm } from '../exact.js';
 import { number, t } from '../i18n.js';
 
 const WIDTH = 600;
 const FROM = 150;
 const TO = 450;
 
+/** @param record limits, with what was measured or without; where a limit is missing the zone has no end */
 export function limitStrip(record) {
-  const lower = nmFromMm(record.lower_limit_mm);
-  const upper = nmFromMm(record.upper_limit_mm);
-  const places = Math.max(...[lower, upper].map((nm) => mmText(nm).split('.')[1].length));
-  const label = (x, nm) => s('text', { x, y: 62, 'text-anchor': 'middle' }, number(mmText(nm, places)));
+  const [lower, upper] = boundsOf(record);
+  const limits = [[FROM, lower], [TO, upper]].filter(([, nm]) => Number.isFinite(nm));
+  const places = Math.max(...limits.map(([, nm]) => mmText(nm).split('.')[1].length));
+  const from = Number.isFinite(lower) ? FROM : 0;
+  const to = Number.isFinite(upper) ? TO : WIDTH;
   return s('svg.strip', { viewBox: `0 0 ${WIDTH} 70`, role: 'img', 'aria-label': t('panel.strip') },
     s('path.axis', { d: `M0 24H${WIDTH}` }),
-    s('rect.zone', { x: FROM, y: 12, width: TO - FROM, height: 24 }),
-    s('path.limit', { d: `M${FROM} 4V44M${TO} 4V44` }),
-    label(FROM, lower), label(TO, upper),
-    record.measured_mm !== undefined && mark(nmFromMm(record.measured_mm), lower, upper));
+    s('rect.zone', { x: from, y: 12, width: to - from, height: 24 }),
+    s('path.limit', { d: limits.map(([x]) => `M${x} 4V44`).join('') }),
+    limits.map(([x, nm]) => s('text', { x, y: 62, 'text-anchor': 'middle' }, number(mmText(nm, places)))),
+    record.measured_mm !== undefined && mark(nmFromMm(record.measured_mm), limits, nmFromMm(record.nominal_mm)));
 }
 
-function mark(measured, lower, upper) {
-  const x = FROM + (TO - FROM) * (measured - lower) / Math.max(upper - lower, 1);
+/** The zone between two limits is as wide as the strip has it, and so is the way from one alone to the nominal size. */
+function mark(measured, [[start, first], [, last] = []], nominal) {
+  const width = last === undefined ? Math.abs(first - nominal) : last - first;
+  const x = start + (TO - FROM) * (measured - first) / Math.max(width, 1);
   if (x < 12) return s('path.beyond', { d: 'M2 24l16-12v24z' });
   if (x > WIDTH - 12) return s('path.beyond', { d: `M${WIDTH - 2} 24l-16-12v24z` });
   return s('circle.dot', { cx: x.toFixed(1), cy: 24, r: 10 });

@@ -5,25 +5,32 @@ import { h, refill } from '../dom.js';
 import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
 import { number, signed, t } from '../i18n.js';
 import { readJson, store } from '../stored.js';
-import { verdictShape } from '../verdict.js';
+import { limitsText, verdictShape } from '../verdict.js';
 
 const KEPT_PLAN = 'plan';
 const KEPT_LIST = 'plans';
 
-/** What a characteristic is measured against, for people: Ø 25 H7, or 40 +0.1/-0.1. */
+const given = (um) => (um === undefined ? undefined : nmFromUm(um));
+
+/** What a characteristic is measured against, for people: Ø 25 H7, 40 +0.1/-0.1, or ≤ 0.05 mm. */
 export const sizeText = (one) => {
   if (one.designation) return `Ø ${number(one.designation)}`;
   if (one.tolerance_class) return `Ø ${number(one.nominal_mm)} ${one.tolerance_class}`;
-  return `${number(one.nominal_mm)} ${[one.upper_um, one.lower_um].map((um) => signed(mmText(nmFromUm(um), 0))).join('/')}`;
+  const deviations = [one.upper_um, one.lower_um].map(given);
+  if (deviations.includes(undefined)) return limitsText(ownLimits(one));
+  return `${number(one.nominal_mm)} ${deviations.map((nm) => signed(mmText(nm, 0))).join('/')}`;
 };
 
-/** The limits of a drawing, as the service gives those of a class. */
+/** The limits of a drawing, one or both, as the service gives those of a class; null for a class. */
 export function ownLimits(one) {
-  if (one.upper_um === undefined) return null;
-  const [nominal, upper, lower] = [nmFromMm(one.nominal_mm), nmFromUm(one.upper_um), nmFromUm(one.lower_um)];
+  const [upper, lower] = [one.upper_um, one.lower_um].map(given);
+  if (upper === undefined && lower === undefined) return null;
+  const nominal = nmFromMm(one.nominal_mm);
   return {
-    nominal_mm: one.nominal_mm, feature: one.feature, upper_deviation_um: one.upper_um, lower_deviation_um: one.lower_um, basis: 'explicit',
-    upper_limit_mm: mmText(nominal + upper, 0), lower_limit_mm: mmText(nominal + lower, 0), tolerance_um: umText(upper - lower),
+    nominal_mm: one.nominal_mm, feature: one.feature, basis: 'explicit',
+    ...(upper !== undefined && { upper_deviation_um: one.upper_um, upper_limit_mm: mmText(nominal + upper, 0) }),
+    ...(lower !== undefined && { lower_deviation_um: one.lower_um, lower_limit_mm: mmText(nominal + lower, 0) }),
+    ...(upper !== undefined && lower !== undefined && { tolerance_um: umText(upper - lower) }),
   };
 }
 

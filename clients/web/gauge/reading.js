@@ -1,7 +1,7 @@
 /** What a line that was typed or scanned means. Whatever is not wholly one thing is nothing. */
 
 import { parseDesignation } from '../designation.js';
-import { nmFromMm, parseMeasured } from '../exact.js';
+import { boundsOf, nmFromMm, parseMeasured } from '../exact.js';
 
 /** Keys of one scan follow each other faster than fingers. */
 export const BURST_GAP_MS = 30;
@@ -64,7 +64,10 @@ const FAR = 5;
 /** Whether a value is asked about. Without limits (the service is away and never gave them) half to twice the nominal size has to do. */
 export function isFar(nm, { limits, nominal_nm: nominal }) {
   if (!limits) return 2 * nm < nominal || nm > 2 * nominal;
-  const [lower, upper] = [limits.lower_limit_mm, limits.upper_limit_mm].map(nmFromMm);
-  const far = FAR * Math.max(upper - lower, 1);
+  const [lower, upper] = boundsOf(limits);
+  const own = nmFromMm(limits.nominal_mm);
+  // A limit that stands alone is as far from the nominal size as a tolerance is wide.
+  const tolerance = Number.isFinite(upper - lower) ? upper - lower : Math.min(Math.abs(upper - own), Math.abs(own - lower));
+  const far = FAR * Math.max(tolerance, 1);
   return nm < lower - far || nm > upper + far;
 }

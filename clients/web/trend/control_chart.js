@@ -100,13 +100,14 @@ function values(scene, singles, chart, beside) {
   const y = (nm) => round(TOP + (bottom - TOP) * (range.high - Math.min(Math.max(nm, range.low), range.high)) / (range.high - range.low));
   const broken = [...rulesAt(chart)].filter(([i]) => i >= scene.from && i <= scene.to);
   const at = (i) => [x(i), y(points[i].deviation)];
+  const limits = [range.upper, range.lower].filter(Number.isFinite);
   const target = (range.upper + range.lower) / 2;
   return s('g',
     s('text.unit', { x: LEFT - 10, y: 12, 'text-anchor': 'end' }, 'µm'),
-    !ofMeans && [s('path.limit', { d: steps(scene, 'upper', y) }), s('path.limit', { d: steps(scene, 'lower', y) })],
-    s('path.target', { d: `M${LEFT} ${y(target)}H${right}` }), label(LEFT - 10, y(target), signed(umText(target)), 'end'),
-    label(LEFT - 10, y(range.upper), signed(umText(range.upper)), 'end'), label(LEFT - 10, y(range.lower), signed(umText(range.lower)), 'end'),
-    own && controlLines(own, (value) => y(value * NM_PER_UM), right, [y(range.upper), y(range.lower)]),
+    !ofMeans && ['upper', 'lower'].filter((limit) => limits.includes(range[limit])).map((limit) => s('path.limit', { d: steps(scene, limit, y) })),
+    limits.length === 2 && s('path.target', { d: `M${LEFT} ${y(target)}H${right}` }),
+    [...limits, ...(limits.length === 2 ? [target] : [])].map((nm) => label(LEFT - 10, y(nm), signed(umText(nm)), 'end')),
+    own && controlLines(own, (value) => y(value * NM_PER_UM), right, limits.map(y)),
     s('path.run', { d: runOf(scene, (i) => y(points[i].deviation)) }),
     spaced(broken, x, scene.dense ? 2 : 0).map(([i]) => s('circle.broken', { cx: at(i)[0], cy: at(i)[1], r: 9 })),
     marked(scene).map((i) => s('path.point', { d: MARKS[points[i].record.verdict], transform: `translate(${at(i).join(' ')})`, 'data-verdict': points[i].record.verdict })),

@@ -9,6 +9,9 @@ export const FEWEST = 25;
 
 const post = async (what, body, signal) => (await request('POST', url(['statistics', what]), { body, signal })).json();
 
+/** A limit that a drawing does not have is not sent. */
+const decimal = (um) => (um === undefined ? undefined : new Decimal(String(um)));
+
 /** Deviations in µm as the service printed them: nothing is rounded on the way. */
 const valuesOf = (points) => points.map(({ record }) => new Decimal(String(record.deviation_um)));
 
@@ -33,7 +36,7 @@ export async function capability(points, groups, signal) {
   const same = points.every(({ upper, lower }) => upper === points[0].upper && lower === points[0].lower);
   if (!same || (groups ?? points).length < 2) return null;
   return orNull(post('capability', {
-    ...dataOf(points, groups), lower: new Decimal(String(record.lower_deviation_um)), upper: new Decimal(String(record.upper_deviation_um)),
+    ...dataOf(points, groups), lower: decimal(record.lower_deviation_um), upper: decimal(record.upper_deviation_um),
   }, signal));
 }
 

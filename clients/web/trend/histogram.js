@@ -8,11 +8,13 @@ const BARS = 12;
 const STEPS = 48;
 
 export function histogram(points, range, y, { from, to }, { top, bottom }) {
-  const bar = Math.max((range.upper - range.lower) / BARS, 1);
+  const limits = [range.upper, range.lower].filter(Number.isFinite);
+  const bar = Math.max(limits.length === 2 ? (range.upper - range.lower) / BARS : (range.high - range.low) / (2 * BARS), 1);
+  const base = Number.isFinite(range.lower) ? range.lower : range.low;
   const counts = new Map();
   for (const { deviation } of points) {
     const near = Math.min(Math.max(deviation, range.low), range.high);
-    const index = Math.floor((near - range.lower) / bar);
+    const index = Math.floor((near - base) / bar);
     counts.set(index, (counts.get(index) ?? 0) + 1);
   }
   const { mean, deviation } = statisticsOf(points);
@@ -21,10 +23,10 @@ export function histogram(points, range, y, { from, to }, { top, bottom }) {
   const x = (count) => Math.round(10 * (from + (to - from) * count / most)) / 10;
   return s('g.histogram',
     s('path.axis', { d: `M${from} ${top}V${bottom}` }),
-    s('path.limit', { d: `M${from} ${y(range.upper)}H${to}M${from} ${y(range.lower)}H${to}` }),
+    s('path.limit', { d: limits.map((nm) => `M${from} ${y(nm)}H${to}`).join('') }),
     [...counts].map(([index, count]) => {
-      const start = y(range.lower + (index + 1) * bar);
-      return s('rect', { x: from, y: start + 0.5, width: x(count) - from, height: Math.max(y(range.lower + index * bar) - start - 1, 1) });
+      const start = y(base + (index + 1) * bar);
+      return s('rect', { x: from, y: start + 0.5, width: x(count) - from, height: Math.max(y(base + index * bar) - start - 1, 1) });
     }),
     deviation > 0 && s('path.curve', { d: curve((nm) => x(peak * Math.exp(-0.5 * ((nm - mean) / deviation) ** 2)), y, range) }));
 }

@@ -8,13 +8,14 @@ const FARTHEST = 3;
 
 /** What a record was measured against: a size and class, or the limits of a drawing. */
 export const sizeOf = (record) => record.designation
-  ?? `${record.nominal_mm} ${[record.upper_deviation_um, record.lower_deviation_um].map((um) => (um > 0 ? `+${um}` : um)).join('/')} µm`;
+  ?? `${record.nominal_mm} ${[record.upper_deviation_um, record.lower_deviation_um].map((um = '–') => (um > 0 ? `+${um}` : um)).join('/')} µm`;
 
+/** A limit that a drawing does not have is infinite. */
 export const pointOf = (record) => ({
   record,
   deviation: nmFromUm(record.deviation_um),
-  upper: nmFromUm(record.upper_deviation_um),
-  lower: nmFromUm(record.lower_deviation_um),
+  upper: record.upper_deviation_um === undefined ? Infinity : nmFromUm(record.upper_deviation_um),
+  lower: record.lower_deviation_um === undefined ? -Infinity : nmFromUm(record.lower_deviation_um),
 });
 
 /**
@@ -44,15 +45,16 @@ export function meanPoint(members) {
   };
 }
 
-/** The range of the vertical axis. @param others values in nm that are to be seen too */
+/** The range of the vertical axis, with the limits, of which one may be infinite. @param others values in nm that are to be seen too */
 export function rangeOf(points, others = []) {
   const upper = Math.max(...points.map((point) => point.upper));
   const lower = Math.min(...points.map((point) => point.lower));
-  const tolerance = Math.max(upper - lower, 1);
+  const limits = [lower, upper].filter(Number.isFinite);
+  const tolerance = Math.max(limits.length === 2 ? upper - lower : Math.abs(limits[0]), 1);
   const near = [...points.map(({ deviation }) => deviation), ...others].map((deviation) => Math.min(Math.max(deviation, lower - FARTHEST * tolerance), upper + FARTHEST * tolerance));
-  const high = Math.max(upper, ...near);
-  const low = Math.min(lower, ...near);
-  const margin = (high - low) / 12;
+  const high = Math.max(...limits, ...near);
+  const low = Math.min(...limits, ...near);
+  const margin = Math.max((high - low) / 12, 1);
   return { high: high + margin, low: low - margin, upper, lower };
 }
 

@@ -99,9 +99,9 @@ export function mount(main, route) {
     const { text: designation, own, uncertainty } = job.current();
     const given = FIELDS.map((name) => [name, job.inputs[name].value.trim()]).filter(([, value]) => value);
     const rule = uncertainty ? { rule: 'guard_band', uncertainty_um: new Decimal(uncertainty) } : {};
+    const exact = (value) => (value === undefined ? undefined : new Decimal(String(value)));
     const limits = own ? {
-      nominal_mm: new Decimal(String(own.nominal_mm)), feature: own.feature,
-      upper_um: new Decimal(String(own.upper_deviation_um)), lower_um: new Decimal(String(own.lower_deviation_um)),
+      nominal_mm: exact(own.nominal_mm), feature: own.feature, upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
     } : { designation };
     return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...rule };
   }
@@ -175,7 +175,12 @@ export function mount(main, route) {
     plan.list();
     job.keyed();
   }, { signal });
-  plan.list().then(() => route.options.plan && choosePlan(route.options.plan));
+  plan.list().then(() => {
+    if (route.options.plan) return choosePlan(route.options.plan);
+    // Where there are plans, a station begins with the scan of one.
+    if (plan.known.length && document.activeElement === job.input && !job.designation) entry.focus();
+    return undefined;
+  });
   if (job.designation) entry.focus();
   else job.input.focus();
   return () => leaving.abort();

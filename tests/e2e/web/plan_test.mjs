@@ -34,8 +34,7 @@ describe('a plan', () => {
   it('is taken up by a scan of its part number, and each value steps on', async () => {
     page = await open(browser, daemon, '#/gauge?gauge=own-gauge');
     await page.waitForSelector('.plan select:visible');
-    await page.click('.verdict');
-    await line('4711-A');
+    await line('4711-A'); // without a touch: a station with plans begins with a scan
     await progress('1 of 3');
     await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
     assert.equal(await page.inputValue('[name="part_id"]'), '');
@@ -68,6 +67,34 @@ describe('a plan', () => {
     assert.deepEqual(records.map(({ part_id, characteristic, verdict: word, gauge }) => [part_id, characteristic, word, gauge]), [
       ['SN-00017', 'bore-A', 'reject', 'G-07'], ['SN-00017', 'slot', 'good', 'own-gauge'], ['SN-00017', 'journal', 'indeterminate', 'own-gauge']]);
     assert.deepEqual([records[1].basis, records[1].upper_limit_mm, records[1].lower_limit_mm], ['explicit', 8.036, 7.996]);
+    await close(page);
+  });
+
+  it('measures against one limit, with the service and without', async () => {
+    await daemon.send('PUT', '/v1/plans/FLAT-1', { characteristics: [
+      { name: 'flange', nominal_mm: 2, feature: 'shaft', upper_um: 50 }, { name: 'depth', nominal_mm: 12, feature: 'hole', lower_um: -100 }] });
+    page = await open(browser, daemon, '#/gauge?plan=FLAT-1');
+    await progress('1 of 2');
+    assert.deepEqual(await page.$$eval('.tiles-of-plan .aside', (all) => all.map((each) => each.textContent)), ['≤ 2.050 mm', '≥ 11.900 mm']);
+    const measure = async (name, value, word, provisional = '') => {
+      await page.waitForFunction((wanted) => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes(wanted), name);
+      await line(value);
+      await page.waitForSelector(`.verdict[data-verdict="${word}"]${provisional}`);
+    };
+    await measure('flange', '2.012', 'good');
+    assert.match(await page.textContent('.verdict'), /38 µm below the upper limit/);
+    await picture(page, 'gauge-one-limit');
+    await measure('depth', '11.899', 'rework');
+    await page.click('.tiles-of-plan li:first-child button');
+    await daemon.stop();
+    await measure('flange', '2.051', 'rework', '[data-provisional]');
+    await measure('depth', '11.9', 'good', '[data-provisional]');
+    await daemon.start();
+    await page.waitForSelector('.link[data-state="up"]');
+    assert.deepEqual((await daemon.stored()).slice(-4).map(({ characteristic, verdict: word }) => [characteristic, word]),
+      [['flange', 'good'], ['depth', 'rework'], ['flange', 'rework'], ['depth', 'good']]);
+    assert.doesNotMatch(await page.textContent('main'), /NaN|undefined|Infinity/);
+    page.errors.length = 0;
     await close(page);
   });
 

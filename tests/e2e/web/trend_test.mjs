@@ -178,7 +178,7 @@ describe('the trend', () => {
     await page.waitForFunction(() => document.querySelector('.tiles dd')?.textContent === '9999');
     assert.equal((await page.$$('.point')).length, 1); // where they are dense the good are a line
     assert.ok(await page.isHidden('.stretch'));
-    assert.equal(await page.$eval('.control-chart .target', (line) => line.nextSibling.textContent), '+10.5');
+    assert.equal(await page.$$eval('.control-chart text', (texts) => texts.map((text) => text.textContent).slice(1, 4).join()), '+21,0,+10.5');
     const { x, y, width, height } = await (await page.$('.control-chart')).boundingBox();
     const drawAcross = async (from, to) => {
       await page.mouse.move(x + from * width, y + height / 2);
@@ -207,6 +207,16 @@ describe('the trend', () => {
     await picture(page, 'trend-stretch', { fullPage: true });
     await page.getByRole('button', { name: 'Show all' }).click();
     await page.waitForSelector('.stretch', { state: 'hidden' });
+  });
+
+  it('draws a drawing with one limit', async () => {
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({ nominal_mm: 8, feature: 'hole', upper_um: 36, measured_mm: `8.0${10 + (i * 7) % 20}`, characteristic: 'one-limit' })));
+    page = await open(browser, daemon, '#/trend?characteristic=one-limit');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 30);
+    assert.equal((await page.$$('.control-chart g:first-child > .limit')).length, 1);
+    assert.equal(await page.$('.control-chart .target'), null);
+    assert.match(await page.textContent('.indices'), /Cpk/);
+    assert.doesNotMatch(await page.textContent('.trend'), /NaN|undefined|Infinity/);
   });
 
   it('charts the means of subgroups, and leaves out one that is still being measured', async () => {
