@@ -8,15 +8,17 @@ const SIZE = 480;
 const MARGIN = 0.12;
 const KINDS = ['rapid', 'feed', 'arc', 'probe'];
 
-/** @param moves of the trace; @param features of the workpiece, drawn behind them */
+/** {element, show}: `show` marks one move. @param moves of the trace; @param features of the workpiece, drawn behind them */
 export function pathFigure(moves, features) {
   const contacts = moves.map((move) => move.contact_mm).filter(Boolean);
   const views = [['Y', 'programs.plan'], ['Z', 'programs.side']];
-  return h('div.paths',
-    views.map(([up, name]) => h('figure', h('figcaption', t(name)), view(up, moves, contacts, features, t(name)))),
+  const drawn = views.map(([up, name]) => [name, view(up, moves, contacts, features, t(name))]);
+  const element = h('div.paths',
+    drawn.map(([name, { figure }]) => h('figure', h('figcaption', t(name)), figure)),
     h('ul.legend', KINDS.filter((kind) => moves.some((move) => move.kind === kind)).map((kind) =>
       h('li', s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' }, s(`path.${kind}`, { d: 'M0 6H32' })), t(`programs.kind.${kind}`))),
     contacts.length > 0 && h('li', s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' }, s('circle.contact', { cx: 16, cy: 6, r: 5 })), t('programs.kind.contact'))));
+  return { element, show: (move) => drawn.forEach(([, { mark }]) => mark(move)) };
 }
 
 function view(up, moves, contacts, features, name) {
@@ -24,7 +26,8 @@ function view(up, moves, contacts, features, name) {
   const frame = frameOf(up, moves, contacts, behind);
   const at = (point) => [SIZE * (point.X - frame.left) / frame.size, SIZE * (frame.top - point[up]) / frame.size].map((value) => value.toFixed(1)).join(' ');
   const scale = SIZE / frame.size;
-  return s('svg.path-view', { viewBox: `0 0 ${SIZE} ${SIZE}`, role: 'img', 'aria-label': `${name}: ${t('programs.path_summary', { moves: moves.length, contacts: contacts.length })}` },
+  const here = s('g.here');
+  const figure = s('svg.path-view', { viewBox: `0 0 ${SIZE} ${SIZE}`, role: 'img', 'aria-label': `${name}: ${t('programs.path_summary', { moves: moves.length, contacts: contacts.length })}` },
     behind.map(({ kind, points, round }) => (round
       ? s(`circle.${kind}`, { cx: at(round.centre).split(' ')[0], cy: at(round.centre).split(' ')[1], r: (round.radius * scale).toFixed(1) })
       : s(`path.${kind}`, { d: `M${points.map(at).join('L')}Z` }))),
@@ -32,7 +35,12 @@ function view(up, moves, contacts, features, name) {
       d: moves.filter((move) => move.kind === kind).map((move) => `M${at(move.start_mm)}L${at(move.end_mm)}`).join(''),
     })),
     contacts.map((contact) => s('circle.contact', { cx: at(contact).split(' ')[0], cy: at(contact).split(' ')[1], r: 5 })),
-    s('text', { x: SIZE - 6, y: SIZE - 8, 'text-anchor': 'end' }, `X → ${up} ↑`));
+    s('text', { x: SIZE - 6, y: SIZE - 8, 'text-anchor': 'end' }, `X → ${up} ↑`), here);
+  const mark = (move) => {
+    const [x, y] = at(move.end_mm).split(' ');
+    here.replaceChildren(s('path', { d: `M${at(move.start_mm)}L${at(move.end_mm)}` }), s('circle', { cx: x, cy: y, r: 8 }));
+  };
+  return { figure, mark };
 }
 
 /** A square around what matters: the workpiece, the contacts and the probing moves, else every move. */

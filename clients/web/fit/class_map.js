@@ -50,11 +50,11 @@ export class ClassMap {
   #choice({ name, upper, lower }, y) {
     const input = h('input', { type: 'radio', name: this.group, value: name, onchange: () => this.#pick(name) });
     input.checked = name === this.chosen;
-    return h('label', { title: `${name}  ${signed(upper / 1000)} / ${signed(lower / 1000)} µm` }, input,
+    return h('label', input,
       s('svg', { viewBox: `0 0 44 ${HEIGHT}`, preserveAspectRatio: 'none', 'aria-hidden': 'true' },
         s('path.zero', { d: `M0 ${y(0)}H44` }),
         s('rect', { x: 7, y: y(upper), width: 30, height: Math.max(y(lower) - y(upper), 1.5) })),
-      h('span', isoClass(name)?.letters ?? name));
+      h('span', isoClass(name)?.letters ?? name), [upper, lower].map((nm) => h('span.um', signed(nm / 1000))));
   }
 
   #pick(name) {

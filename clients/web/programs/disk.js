@@ -6,6 +6,7 @@ import { Decimal } from '../exact.js';
 /** "TNC:\nc_prog\8255.h" and "nc_prog/8255.h" name the same file. */
 export const relative = (path) => path.replace(/^TNC:\\?/i, '').replaceAll('\\', '/');
 export const onControl = (path) => `TNC:\\${relative(path).replaceAll('/', '\\')}`;
+export const fileName = (path) => path.slice(Math.max(path.lastIndexOf('\\'), path.lastIndexOf('/')) + 1);
 export const isProgram = (path) => /\.[hi]$/i.test(path);
 
 const fileUrl = (path, options) => url(['files', ...relative(path).split('/')], options);
@@ -18,6 +19,9 @@ export const removeFile = (path) => request('DELETE', fileUrl(path));
 export async function check(path) {
   return (await (await request('POST', fileUrl(path, { action: 'check' }))).json()).diagnostics;
 }
+
+/** The newest runs of a program. */
+export const listRuns = async (path, limit) => (await getJson(url(['runs'], { program: onControl(path), limit }))).runs;
 
 export const listSetups = async () => (await getJson(url(['setups']))).setups.map((setup) => setup.name);
 export const readSetup = async (name) => (await get(url(['setups', name]))).text();

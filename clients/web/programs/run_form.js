@@ -1,16 +1,21 @@
 /** A run: the setup it runs on, the parameters set before it, and how it goes. */
 
 import { request, url } from '../api.js';
-import { field, h } from '../dom.js';
+import { field, h, refill } from '../dom.js';
 import { readEvents } from '../events.js';
 import { toJson } from '../exact.js';
-import { explain, t } from '../i18n.js';
-import { listSetups, onControl, readParameters, readSetup, writeSetup } from './disk.js';
+import { dateTime, explain, t } from '../i18n.js';
+import { listRuns, listSetups, onControl, readParameters, readSetup, writeSetup } from './disk.js';
 import { runReport, screenOf } from './run_report.js';
 
+/** So many earlier runs of a program are offered. */
+const MOST_RUNS = 10;
+
 export class RunForm {
-  /** @param onDiagnostics takes what a refused program has wrong; @param onRun the id of a run */
-  constructor({ onDiagnostics, onRun }) {
+  /** @param onDiagnostics takes what a refused program has wrong; @param onRun the id of a run; @param onMove the move that is shown */
+  constructor({ onDiagnostics, onRun, onMove }) {
+    this.onMove = onMove;
+    this.earlier = h('nav.earlier', { 'aria-label': t('programs.earlier') });
     this.onDiagnostics = onDiagnostics;
     this.onRun = onRun;
     this.setup = h('select', { onchange: () => this.#loadSetup() });
@@ -29,7 +34,7 @@ export class RunForm {
           h('div.line', field(t('programs.setup_name'), this.setupName),
             h('button', { type: 'button', onclick: () => this.#storeSetup() }, t('programs.store_setup')))),
         h('p.actions', this.start, this.cancel), this.note),
-      this.state, this.report);
+      this.earlier, this.state, this.report);
   }
 
   /** @param chosen the name of a setup */
@@ -39,6 +44,24 @@ export class RunForm {
     this.setup.replaceChildren(h('option', { value: '' }, t('programs.own_setup')), ...names.map((name) => h('option', { value: name }, name)));
     this.setup.value = names.includes(chosen) ? chosen : '';
     if (this.setup.value) await this.#loadSetup();
+    await this.#listEarlier();
+  }
+
+  /** The line of the program that was touched: shows the move that it commands. */
+  toLine(line) {
+    this.slider?.toLine(this.program, line);
+  }
+
+  async #listEarlier() {
+    const runs = await listRuns(this.program, MOST_RUNS);
+    refill(this.earlier, runs.length > 0 && h('h3', t('programs.earlier')), runs.length > 0 && h('ul', runs.map(({ id, status, created_at: at }) => h('li', h('button.quiet', {
+      type: 'button', 'aria-current': id === this.shown && 'true', onclick: () => this.#try(() => this.#openRun(id)),
+    }, `${t(`run.${status}`)} · ${dateTime(new Date(at))}`)))));
+  }
+
+  async #openRun(id) {
+    this.onRun(id, this.setup.value);
+    await this.showRun(id);
   }
 
   async showRun(id) {
@@ -47,7 +70,10 @@ export class RunForm {
 
   async #show(run) {
     this.state.textContent = [t(`run.${run.status}`), run.verdict && t(`verdict.${run.verdict}`)].filter(Boolean).join(', ');
-    this.report.replaceChildren(...await runReport(run));
+    this.shown = run.id;
+    this.slider = null;
+    this.report.replaceChildren(...await runReport(run, { onMoves: (slider) => { this.slider = slider; }, onMove: this.onMove }));
+    await this.#listEarlier();
   }
 
   async #loadSetup() {

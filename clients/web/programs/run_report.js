@@ -5,15 +5,16 @@ import { h } from '../dom.js';
 import { pathFigure } from '../figures/path_figure.js';
 import { explain, number, t } from '../i18n.js';
 import { verdictMark } from '../verdict.js';
+import { fileName } from './disk.js';
 import { logFrame } from './log_frame.js';
-
-const fileName = (path) => path.slice(path.lastIndexOf('\\') + 1);
+import { MoveSlider } from './move_slider.js';
 
 export const screenOf = (lines) => h('pre.screen', { tabindex: 0, 'aria-label': t('programs.screen') }, lines.join('\n') || ' ');
 
-export async function runReport(run) {
+/** @param onMoves takes the slider through the moves once they are there; @param onMove the move it shows */
+export async function runReport(run, { onMoves, onMove }) {
   const path = h('div');
-  drawPath(run, path);
+  drawPath(run, path, { onMoves, onMove });
   return [
     h('div.line', h('p.headline', t(`run.${run.status}`)), run.verdict && verdictMark(run.verdict),
       h('p.aside', t('programs.ran', { blocks: run.blocks_executed, seconds: number((run.machining_time_s ?? 0).toFixed(1)) }))),
@@ -36,11 +37,18 @@ function measured(measurements) {
     h('thead', h('tr', head.map((name) => h('th', { scope: 'col' }, t(name))))), h('tbody', rows));
 }
 
-async function drawPath(run, place) {
+async function drawPath(run, place, { onMoves, onMove }) {
   try {
     const [trace, order] = await Promise.all([
       getJson(url(['runs', run.id, 'trace'])), getJson(url(['runs', run.id, 'request']))]);
-    if (trace.moves.length) place.replaceChildren(pathFigure(trace.moves, order.setup?.workpiece?.features ?? []));
+    if (!trace.moves.length) return;
+    const figure = pathFigure(trace.moves, order.setup?.workpiece?.features ?? []);
+    const slider = new MoveSlider(trace.moves, (move) => {
+      figure.show(move);
+      onMove(move);
+    });
+    place.replaceChildren(figure.element, slider.element);
+    onMoves(slider);
   } catch (problem) {
     place.replaceChildren(h('p.aside', explain(problem)));
   }

@@ -3,7 +3,7 @@
 import { confirm } from '../confirm.js';
 import { h } from '../dom.js';
 import { explain, t } from '../i18n.js';
-import { check, isProgram, listFiles, readText, removeFile, writeFile } from '../programs/disk.js';
+import { check, fileName, isProgram, listFiles, readText, removeFile, writeFile } from '../programs/disk.js';
 import { FileList } from '../programs/file_list.js';
 import { RunForm } from '../programs/run_form.js';
 import { sourceText } from '../programs/source.js';
@@ -13,7 +13,7 @@ export function mount(main, route) {
   let current = route.path.join('/');
   let text = '';
   const files = new FileList({ onPick: (path) => pick(path), onUpload: upload });
-  const form = new RunForm({ onDiagnostics: show, onRun: (run, setup) => remember({ run, setup }) });
+  const form = new RunForm({ onDiagnostics: show, onRun: (run, setup) => remember({ run, setup }), onMove: showLine });
   const title = h('h2.title');
   const note = h('p.note', { role: 'status' });
   const source = h('div.listing');
@@ -39,7 +39,15 @@ export function mount(main, route) {
   }
 
   function show(diagnostics) {
-    source.replaceChildren(...sourceText(current, text, diagnostics));
+    source.replaceChildren(...sourceText(current, text, diagnostics, (line) => form.toLine(line)));
+  }
+
+  /** The line of a move, where it is one of the program that is open. */
+  function showLine({ program: where, line }) {
+    source.querySelector('.here')?.classList.remove('here');
+    const [row] = fileName(where).toLowerCase() === fileName(current).toLowerCase() ? source.querySelectorAll(`.source li:nth-child(${line})`) : [];
+    row?.classList.add('here');
+    row?.scrollIntoView({ block: 'nearest' });
   }
 
   async function list() {
@@ -52,7 +60,7 @@ export function mount(main, route) {
     nothing.hidden = current !== '';
     program.hidden = current === '';
     if (!current) return;
-    title.textContent = current.slice(current.lastIndexOf('/') + 1);
+    title.textContent = fileName(current);
     text = await readText(current);
     show([]);
     form.element.hidden = !isProgram(current);

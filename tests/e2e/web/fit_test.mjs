@@ -74,6 +74,9 @@ describe('the fit', () => {
   it('offers every class of the size, also by the arrow keys', async () => {
     page = await open(browser, daemon, '#/fit/25H7/g6');
     await page.waitForSelector('.class-zones :checked');
+    // Each zone with its deviations, in letters one can read.
+    assert.deepEqual(await page.$$eval('.class-zones label:has(:checked)', (zones) => zones.map((zone) => [...zone.querySelectorAll('span')].map((each) => each.textContent).join())), ['H,+21,0', 'g,−7,−20']);
+    assert.ok(await page.$$eval('.class-zones .um', (texts) => texts.every((text) => parseFloat(getComputedStyle(text).fontSize) >= 12)));
     await page.focus('.class-map:nth-child(2) input:checked');
     await page.keyboard.press('ArrowRight');
     await page.waitForFunction(() => decodeURIComponent(location.hash) === '#/fit/25H7/h6');

@@ -64,6 +64,27 @@ describe('the programs', () => {
     assert.equal(await page.textContent('.report .mark-of'), 'Good');
     assert.equal((await page.$$('.path-view:first-of-type .contact')).length, 8); // four touches, in two views
     assert.match(hash(), /run=r\d+/);
+    // The slider goes through the moves, a line of the program goes to its move, and an earlier run comes back.
+    const { moves } = await daemon.json(`/v1/runs/${/run=([^&]+)/.exec(hash())[1]}/trace`);
+    const first = moves.findIndex((move) => move.contact_mm);
+    await page.$eval('.moves input', (slider, at) => { slider.value = at; slider.dispatchEvent(new Event('input')); }, first);
+    const said = () => page.textContent('.moves output');
+    assert.match(await said(), new RegExp(`^${first + 1} of ${moves.length} · .*line ${moves[first].line} · Probing · X .*F .*Contact X`));
+    assert.equal((await page.$$('.path-view .here circle')).length, 2);
+    const own = moves.findIndex((move) => /8255\.h$/i.test(move.program));
+    if (own >= 0) {
+      await page.click(`.source li:nth-child(${moves[own].line})`);
+      assert.match(await said(), new RegExp(`8255\\.h line ${moves[own].line} `, 'i'));
+      assert.equal(await page.$eval('.source .here', (row) => [...row.parentNode.children].indexOf(row) + 1), moves[own].line);
+    }
+    const ran = hash();
+    await page.click('.run button[type="submit"]');
+    await page.waitForFunction(() => document.querySelectorAll('.earlier button').length === 2);
+    assert.notEqual(hash(), ran);
+    await page.click('.earlier li:last-child button');
+    await page.waitForSelector('.earlier li:last-child [aria-current]');
+    assert.equal(hash(), ran);
+    await page.waitForSelector('.path-view .contact');
     const again = await openIn(page.context(), daemon, new URL(page.url()).hash);
     await again.waitForSelector('.path-view .contact');
     await picture(again, 'programs', { fullPage: true });
