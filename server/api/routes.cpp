@@ -8,6 +8,7 @@
 #include "api/limits/verdicts_resource.hpp"
 #include "api/log/log_resource.hpp"
 #include "api/measurements/measurements_resource.hpp"
+#include "api/mtconnect/mtconnect_resource.hpp"
 #include "api/plans/plans_resource.hpp"
 #include "api/runs/runs_resource.hpp"
 #include "api/runs/setups_resource.hpp"
@@ -47,6 +48,7 @@ http::RouteTable make_routes(const Services& services) {
   add_runs_routes(routes, services);
   add_cycles_routes(routes);
   add_connections_routes(routes, services);
+  add_mtconnect_routes(routes, services);
   add_events_routes(routes, services);
   add_service_routes(routes, services);
   add_page_routes(routes);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/text.hpp"
 
@@ -13,6 +14,15 @@ constexpr std::size_t kMostCells = 1000;
 constexpr std::string_view kDate = "date";
 constexpr std::string_view kTime = "time";
 constexpr std::string_view kMeasuredAt = "measured_at";
+
+/// Columns that a list of /v1/measurements has as CSV, and no other table has all of.
+constexpr std::array<std::string_view, 5> kOfExport = {"id", "source", "basis", "verdict",
+                                                       "upper_deviation_um"};
+/// What an export calls the fields of a drawing's limits; a class of the tables says them as well.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kLimitsOfExport = {
+    {{"feature", "feature"},
+     {"upper_deviation_um", "upper_um"},
+     {"lower_deviation_um", "lower_um"}}};
 
 Error at_line(ErrorCode code, std::size_t line, std::string_view what) {
   return {code, fmt::format("line {} {}", line, what), fmt::format("line {}", line)};
@@ -153,6 +163,9 @@ class Converter {
   /// The field of a column: empty where it is left out, as it is where nobody knows it.
   std::string field_of(std::string_view column) const;
   void read_header(const Record& record);
+  std::string field_of_export(std::string_view column) const;
+  /// @errors CsvMalformed: it is not of a gauge.
+  Result<void> check_export(const Record& record);
   Result<void> convert_row(const Record& record);
   Result<std::string> measured_at(const Record& record, std::string_view text) const;
   const std::string* cell(const Record& record, std::string_view field) const;
@@ -160,8 +173,11 @@ class Converter {
 
   const ShopCsvOptions& options_;
   const std::span<const std::string_view> fields_;
-  std::vector<std::string> header_;  ///< fields; empty: left out
-  bool has_clock_ = false;           ///< date and time in columns of their own
+  std::vector<std::string> header_;   ///< fields; empty: left out
+  bool has_clock_ = false;            ///< date and time in columns of their own
+  std::optional<std::size_t> basis_;  ///< of an export: the columns that decide
+  std::optional<std::size_t> source_;
+  bool has_drawn_limits_ = true;  ///< the row of an export that is converted
   std::string out_;
 };
 
@@ -176,11 +192,36 @@ std::string Converter::field_of(std::string_view column) const {
   return options_.leaves_out_others ? std::string() : std::string(name);
 }
 
+std::string Converter::field_of_export(std::string_view column) const {
+  for (const auto& [of_export, field] : kLimitsOfExport) {
+    if (column == of_export) return std::string(field);
+  }
+  const bool is_field = std::find(fields_.begin(), fields_.end(), column) != fields_.end();
+  return is_field ? std::string(column) : std::string();
+}
+
+Result<void> Converter::check_export(const Record& record) {
+  if (!basis_) return {};
+  has_drawn_limits_ = record.cells[*basis_] == "explicit";
+  if (record.cells[*source_] == "gauge") return {};
+  return at_line(ErrorCode::CsvMalformed, record.line,
+                 "is of a simulation, and would come in as measured: export with source=gauge");
+}
+
 void Converter::read_header(const Record& record) {
+  const auto place = [&record](std::string_view name) -> std::optional<std::size_t> {
+    const auto found = std::find(record.cells.begin(), record.cells.end(), name);
+    if (found == record.cells.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - record.cells.begin());
+  };
+  const bool is_export = std::all_of(kOfExport.begin(), kOfExport.end(),
+                                     [&](std::string_view name) { return place(name); });
+  if (is_export) {
+    basis_ = place("basis");
+    source_ = place("source");
+  }
   for (const std::string& column : record.cells) {
-    std::string field = field_of(column);
-    // What stands in the rows wins over what is said for all.
-    header_.push_back(std::move(field));
+    header_.push_back(is_export ? field_of_export(column) : field_of(column));
   }
   has_clock_ = std::find(header_.begin(), header_.end(), kDate) != header_.end();
   bool is_first = true;
@@ -235,6 +276,7 @@ Result<void> Converter::convert_row(const Record& record) {
         ErrorCode::CsvMalformed, record.line,
         fmt::format("has {} cells and the header {}", record.cells.size(), header_.size()));
   }
+  if (const auto checked = check_export(record); !checked) return checked.error();
   bool is_first = true;
   std::size_t inside = 0;  // line ends in cells that are kept
   const auto append = [&](std::string_view value) {
@@ -245,7 +287,11 @@ Result<void> Converter::convert_row(const Record& record) {
   };
   for (std::size_t i = 0; i < header_.size(); ++i) {
     const std::string& field = header_[i];
-    const std::string_view value = bare(record.cells[i]);
+    std::string_view value = bare(record.cells[i]);
+    const bool is_limit =
+        std::any_of(kLimitsOfExport.begin(), kLimitsOfExport.end(),
+                    [&field](const auto& limit) { return limit.second == field; });
+    if (is_limit && !has_drawn_limits_) value = {};
     if (field.empty() || field == kDate || field == kTime) continue;
     if (field != kMeasuredAt || value.empty()) {
       append(value);

@@ -32,6 +32,8 @@ struct ShopCsvOptions {
 ///
 /// Read are `sep=;` before the header, `;`, a tab or `,` between the cells, empty columns and rows
 /// without text, blanks around a text, names in either case, and times of a clock on the wall.
+/// The CSV of a list of measurements is taken back: what was computed is left out, and limits of a
+/// class are those of the class.
 /// A table may have `date` and `time` (by `columns`) instead of measured_at.
 /// @param fields the names of a measurement's fields.
 /// @errors TextEncoding; CsvMalformed and TimeMalformed, whose `where` is the line.

@@ -1093,6 +1093,11 @@ class Client:
         """Tries the other side once: `ok` and `detail`."""
         return loads(self._perform(_Request("POST", _path("connections", name, "test"))).body)
 
+    def mtconnect(self, request: str, *, start: int | None = None, count: int | None = None) -> str:
+        """An MTConnect document: `probe`, `current` or `sample`, from a sequence on."""
+        return self._bytes("/mtconnect/" + urllib.parse.quote(request, safe="") + _query({"from": start, "count": count}),
+                           "text/xml").decode()
+
     def cycles(self) -> list[dict[str, Any]]:
         """The touch-probe cycles with their parameters and results."""
         return self._get("/v1/cycles")["cycles"]

@@ -149,6 +149,29 @@ class Taking(Folders):
         self.assertEqual([(r["part_id"], r["measured_at"]) for r in cli],
                          [("cli-1", "2026-11-20T07:00:00Z"), ("cli-2", "2026-07-20T06:00:00Z")])
 
+    def test_what_is_exported_comes_in_again(self):
+        first, second = self.daemon().start(), self.daemon().start()
+        for row in ({"designation": "25 H7", "measured_mm": "25.013", "part_id": "=1+1", "measured_at": "2026-11-20T08:00:00+01:00"},
+                    {"nominal_mm": 8, "feature": "shaft", "upper_um": 0, "lower_um": "-9", "measured_mm": "7.9955", "comment": "a;\n\"b\""},
+                    {"nominal_mm": 8, "feature": "hole", "upper_um": 5, "measured_mm": "8.0001", "order": "WO"},
+                    {"designation": "25 g6", "measured_mm": "24.99", "rule": "guard_band", "uncertainty_um": "0.8", "coverage_factor": "1.5"},
+                    {"designation": "25 H7", "measured_mm": "25.01", "rule": "conformance", "uncertainty_um": 1, "probability": "0.9",
+                     "temperature_c": 23, "part_material": "steel", "scale_temperature_c": "21.5", "scale_expansion_um_per_m_k": 8}):
+            self.assertEqual(first.measure(row).status, 201, row)
+        self.connect(second)
+        self.drop("export.csv", first.get("/v1/measurements", Accept="text/csv").body)
+        self.wait(lambda: self.files("done") + self.files("failed"))
+        self.assertEqual(self.files("failed"), [])
+
+        def plain(daemon):
+            return [{name: value for name, value in row.items() if name not in ("id", "received_at", "caller")}
+                    for row in daemon.stored()]
+        self.assertEqual(plain(second), plain(first))
+        header, end, rows = first.get("/v1/measurements", Accept="text/csv").body.partition(b"\r\n")
+        self.drop("simulated.csv", header + end + rows.replace(b",gauge,", b",simulation,", 1))
+        self.wait(lambda: self.files("failed"))
+        self.assertIn("line 2 is of a simulation", (self.folder / "failed" / "simulated.csv.error.txt").read_text())
+
     def test_a_folder_that_is_away_comes_back(self):
         daemon = self.daemon().start()
         self.folder.rmdir()

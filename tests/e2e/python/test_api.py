@@ -178,6 +178,9 @@ class EveryRoute(ControlTest):
         self.assertEqual(client.connection("mill")["address"], "127.0.0.1:1")
         self.assertFalse(client.test_connection("mill")["ok"])
         client.delete_connection("mill")
+        self.assertIn("FEATURE_MEASUREMENT", client.mtconnect("probe"))
+        self.assertIn("nextSequence", client.mtconnect("sample", start=1, count=2))
+        self.assertIn("PartCount", client.mtconnect("current"))
         self.assertEqual(client.wait_until_ready()["database"], client.ready()["database"])
         with fitgauge.Client("http://127.0.0.1:1") as nobody, self.assertRaises(fitgauge.NoAnswer):
             nobody.wait_until_ready(timeout=0.2)

@@ -297,6 +297,9 @@ class Answers(ContractTest):
         self.expect("getConnection", 200, name="mill")
         self.expect("testConnection", 200, name="mill")
         self.expect("testConnection", 404, name="none")
+        for name in ("probeMtconnect", "currentMtconnect", "sampleMtconnect"):
+            self.expect(name, 200)
+        self.expect("sampleMtconnect", 404, **{"from": 10**9})
         self.expect("deleteConnection", 204, name="mill")
         self.expect("deleteConnection", 404, name="mill")
         self.expect("getConnection", 404, name="mill")

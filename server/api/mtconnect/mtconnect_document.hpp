@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/measurements/measurement.hpp"
+
+// MTConnect 2.4: a device `Gauge` whose observations are the measurements of the log.
+
+namespace fitgauge::api::mtconnect {
+
+/// Sequence 1 is that the gauge is there; measurement n of the log has two: its part and itself.
+constexpr std::uint64_t part_sequence(std::int64_t id) {
+  return 2 * static_cast<std::uint64_t>(id);
+}
+constexpr std::uint64_t feature_sequence(std::int64_t id) { return part_sequence(id) + 1; }
+/// The first measurement that has a sequence from `sequence` on.
+constexpr std::int64_t measurement_at(std::uint64_t sequence) {
+  return static_cast<std::int64_t>(sequence / 2);
+}
+
+/// What every document says of the agent.
+struct Agent {
+  std::string_view origin;  ///< of the data folder: 16 hexadecimal digits
+  Timestamp now;
+  Timestamp began;          ///< since when the gauge is there
+  std::int64_t newest = 0;  ///< measurements in the log
+};
+
+/// How many values were judged so, in all; counted for PART_COUNT.
+struct Counts {
+  std::int64_t good = 0;
+  std::int64_t rework = 0;
+  std::int64_t reject = 0;
+  std::int64_t indeterminate = 0;
+};
+
+/// Gathers the observations of a document.
+class Streams {
+ public:
+  explicit Streams(const Agent& agent) : agent_(agent) {}
+
+  void add_availability();
+  /// @param from observations before this sequence are left out.
+  void add(const app::Measurement& measurement, std::uint64_t from = 0);
+  void add_counts(const Counts& counts, Timestamp at);
+  /// No measurement is known yet.
+  void add_unavailable();
+  /// There are none.
+  void add_assets();
+  std::size_t count() const { return count_; }
+
+  /// @param next the sequence to ask from next.
+  std::string document(std::uint64_t next) const;
+
+ private:
+  const Agent agent_;
+  std::string events_;
+  std::size_t count_ = 0;
+};
+
+std::string devices_document(const Agent& agent);
+/// @param code OUT_OF_RANGE and such.
+std::string error_document(const Agent& agent, std::string_view code, std::string_view message);
+
+}  // namespace fitgauge::api::mtconnect
