@@ -60,6 +60,12 @@ export class Entry {
     }, { signal, capture: true });
   }
 
+  /** Says why what a gauge sent is no value; what is typed meanwhile stays. */
+  unread(reason) {
+    this.element.classList.add('refusing');
+    this.#say(reason);
+  }
+
   /** A line that came another way: a gauge that typed into the dialog for keys. */
   take(text) {
     this.input.value = text;

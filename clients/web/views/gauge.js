@@ -14,6 +14,7 @@ import { Panel } from '../gauge/panel.js';
 import { ownLimits, Plan } from '../gauge/plan.js';
 import { Reactions } from '../gauge/reaction.js';
 import { Recent } from '../gauge/recent.js';
+import { SerialGauge } from '../gauge/serial.js';
 import { soundChoice } from '../gauge/sound.js';
 import { explain, t } from '../i18n.js';
 import { isKept } from '../kept_page.js';
@@ -44,8 +45,9 @@ export function mount(main, route) {
     }),
   });
   const pad = new NumberPad(entry.input);
+  const serial = new SerialGauge({ onValue: (text) => entry.take(text), onUnread: (reason) => entry.unread(reason), leaving: leaving.signal });
   const job = new Job({
-    designation: route.path[0] ?? '', options: route.options, choices: [soundChoice(), pad.choice],
+    designation: route.path[0] ?? '', options: route.options, choices: [soundChoice(), pad.choice, serial.element],
     onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
   });
   const recent = new Recent({ onCorrect: (record, what) => entry.correct(record, what) });

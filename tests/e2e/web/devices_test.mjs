@@ -1,0 +1,174 @@
+/** What a station has on its table: a scanner of badges, a number pad, a gauge on a wire, a loudspeaker. */
+
+import assert from 'node:assert/strict';
+import { describe, it } from 'node:test';
+
+import { close, findings, launch, open, openIn, picture } from './support/browser.mjs';
+import { Daemon, sleep } from './support/daemon.mjs';
+import { PAIR_MS, scan } from './support/scanner.mjs';
+
+describe('a badge', () => {
+  it('logs in by a scan, another one logs in another, and no key is seen or kept', async () => {
+    const browser = await launch();
+    const daemon = await new Daemon('--auth', 'read-open').start();
+    const [ada, bob] = [await daemon.key('ada', 'operator'), await daemon.key('bob', 'operator')];
+    const page = await open(browser, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    const says = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.badge').textContent), text);
+    for (const [i, [key, value]] of [[ada, '25.01'], [bob, '25.011']].entries()) {
+      await scan(page, key);
+      await says(`Key ${key.slice(0, 7)}… in use`);
+      await scan(page, value);
+      await page.waitForFunction((count) => document.querySelectorAll('.recent li.stored').length === count, i + 1);
+    }
+    for (const [name, value] of [['ada', 25.01], ['bob', 25.011]]) {
+      const { measurements } = await (await fetch(`${daemon.url}/v1/measurements?caller=${name}`, { headers: { Authorization: `Bearer ${ada}` } })).json();
+      assert.deepEqual(measurements.map((record) => record.measured_mm), [value]);
+    }
+    await picture(page, 'gauge-badge');
+    await page.getByRole('button', { name: 'Log out' }).click();
+    await says('^$');
+    await scan(page, `fg_${'0'.repeat(64)}`);
+    await says('not valid');
+    assert.equal(await page.$('dialog'), null);
+    const text = await page.evaluate(() => [document.body.textContent, ...Object.values(localStorage), ...Object.values(sessionStorage)].join());
+    assert.ok(![ada, bob].some((key) => text.includes(key)));
+    await close(page);
+    await browser.close();
+    await daemon.cleanup();
+  });
+});
+
+describe('a number pad', () => {
+  it('types for those who have no keyboard, and leaves the verdict in sight', async () => {
+    const browser = await launch();
+    const daemon = await new Daemon().start();
+    const page = await open(browser, daemon, '#/gauge/25H7', { viewport: { width: 1024, height: 768 }, locale: 'de-DE', hasTouch: true });
+    await page.waitForSelector('.echo .figures');
+    if (await page.isHidden('.pad')) {
+      await page.click('.more summary');
+      await page.check('[name="pad"]');
+    }
+    const touch = async (keys) => { for (const key of keys) await page.getByRole('button', { name: key, exact: true }).tap(); };
+    await touch(['2', '5', ',', '0', '1', '4', 'Letztes Zeichen löschen', '3']);
+    assert.equal(await page.inputValue('#value'), '25,013');
+    assert.deepEqual(await page.evaluate(() => [document.activeElement.id, document.activeElement.inputMode]), ['value', 'none']);
+    await page.tap('.entry .primary');
+    await page.waitForSelector('.verdict[data-verdict="good"]');
+    assert.deepEqual((await daemon.stored()).map((record) => record.measured_mm), [25.013]);
+    const seen = () => page.$eval('.verdict', (panel) => panel.getBoundingClientRect().bottom <= innerHeight);
+    assert.ok(await seen());
+    await page.reload();
+    await page.waitForSelector('.pad:visible');
+    for (const [width, height] of [[390, 844], [1024, 768], [1366, 768]]) {
+      await page.setViewportSize({ width, height });
+      assert.deepEqual(await findings(page), [], `${width}`);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width}`);
+      await picture(page, `gauge-pad-${width}`);
+    }
+    await close(page);
+    await browser.close();
+    await daemon.cleanup();
+  });
+});
+
+describe('a gauge on a serial port', () => {
+  it('types its values, whole ones only, and says what it cannot read', async () => {
+    const browser = await launch();
+    const daemon = await new Daemon().start();
+    const context = await browser.newContext({ locale: 'en-GB', viewport: { width: 1280, height: 800 } });
+    // A port as Web Serial has it; `feed` is the gauge.
+    await context.addInitScript(() => {
+      const port = {
+        async open(options) {
+          globalThis.opened = options;
+          port.readable = new ReadableStream({ start: (controller) => { globalThis.feed = (text) => controller.enqueue(new TextEncoder().encode(text)); } });
+        },
+        async close() { port.readable = null; },
+      };
+      Object.defineProperty(navigator, 'serial', { value: { requestPort: async () => port, getPorts: async () => [] } });
+    });
+    const page = await openIn(context, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    await page.click('.more summary');
+    await page.selectOption('[name="serial_baud"]', '4800');
+    await page.getByRole('button', { name: 'Connect', exact: true }).click();
+    await page.getByRole('button', { name: 'Disconnect' }).waitFor();
+    assert.deepEqual(await page.evaluate(() => globalThis.opened), { baudRate: 4800 });
+    const feed = (text) => page.evaluate((sent) => globalThis.feed(sent), text);
+    const note = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('#entry-note').textContent), text);
+    const rows = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.recent li.stored').length === wanted, count);
+    await feed('5.013\r\n'); // the port was opened in the middle of 25.013
+    await note('may be cut');
+    await sleep(250);
+    await feed('01A+0025.013\r');
+    await rows(1);
+    await sleep(PAIR_MS);
+    await feed('25,0');
+    await feed('11 mm\r\n');
+    await rows(2);
+    for (const line of ['25.013in', '01A-0025.013', '25.013 25.014', 'ERR 91']) {
+      await sleep(PAIR_MS);
+      await feed(`${line}\r\n`);
+      await note(line.startsWith('01A-') ? 'neither a value' : 'does not fit the pattern');
+    }
+    const unfold = () => page.$eval('.more', (more) => { more.open = true; });
+    await unfold();
+    await page.fill('[name="serial_pattern"]', 'D=(\\d+\\.\\d+);OK');
+    await page.press('[name="serial_pattern"]', 'Tab');
+    await sleep(PAIR_MS);
+    await feed('D=25.0123;OK\r\n');
+    await rows(3);
+    assert.deepEqual((await daemon.stored()).map((record) => record.measured_mm), [25.013, 25.011, 25.0123]);
+    await unfold();
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'gauge-serial', { fullPage: true });
+    await page.getByRole('button', { name: 'Disconnect' }).click();
+    await page.getByRole('button', { name: 'Connect', exact: true }).waitFor();
+    await close(page);
+    await browser.close();
+    await daemon.cleanup();
+  });
+});
+
+describe('a station with sound', () => {
+  it('is silent until it is switched on, then has a sound of its own for each verdict, also after a reload', async () => {
+    const browser = await launch();
+    const daemon = await new Daemon().start();
+    const page = await open(browser, daemon, '#/gauge/25H7');
+    // What is to be heard: each oscillator that is started, by its frequency.
+    await page.addInitScript(() => {
+      globalThis.heard = [];
+      const create = AudioContext.prototype.createOscillator;
+      AudioContext.prototype.createOscillator = function listened() {
+        const tone = create.call(this);
+        const { start } = tone;
+        tone.start = (at) => {
+          globalThis.heard.push(tone.frequency.value);
+          return start.call(tone, at);
+        };
+        return tone;
+      };
+    });
+    await page.reload();
+    const measure = async (text, verdict) => {
+      await page.waitForSelector('.echo .figures');
+      await page.focus('#value');
+      await page.keyboard.type(`${text}\n`);
+      await page.waitForSelector(`.verdict[data-verdict="${verdict}"]`);
+      return page.evaluate(() => globalThis.heard.splice(0));
+    };
+    assert.deepEqual(await measure('25.01', 'good'), []);
+    await page.click('.more summary');
+    await page.check('[name="sound"]');
+    assert.deepEqual(await page.evaluate(() => globalThis.heard.splice(0)), [880], 'it shows what it is like');
+    const rejected = await measure('25.03', 'reject');
+    assert.equal(rejected.length, 2);
+    await page.reload();
+    assert.deepEqual(await measure('25.02', 'good'), [880]);
+    assert.ok((await measure('24.99', 'rework')).join() !== rejected.join());
+    await close(page);
+    await browser.close();
+    await daemon.cleanup();
+  });
+});
