@@ -85,7 +85,7 @@ class FolderIn final : public Worker {
   struct Seen {
     Look look{};
     Time since{};
-    bool is_stuck = false;  ///< taken, and cannot be moved away
+    bool is_taken = false;  ///< and could not be moved away yet
   };
 
   void run(const std::stop_token& stop);
@@ -95,6 +95,8 @@ class FolderIn final : public Worker {
   /// Takes what is at rest. @returns why not.
   std::optional<std::string> look(const std::stop_token& stop);
   std::optional<std::string> take(const std::string& name, Seen& seen);
+  /// Of a file that is taken. @returns why it stays, until the next look.
+  std::optional<std::string> move_away(const fs::path& path) const;
   std::optional<std::string> fail(const std::string& name, const Error& error);
   bool is_wanted(const std::string& name) const;
   void finish_attempt(const std::optional<std::string>& why);
@@ -190,7 +192,7 @@ std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
     const auto known = seen_.find(name);
     if (known != seen_.end() && known->second.look == seen.look) seen = known->second;
     const bool is_whole = moved_in_.contains(name) || at - seen.since >= options_.rest;
-    if (is_whole && !seen.is_stuck) ready.emplace_back(seen.look.changed_ns, name);
+    if (is_whole) ready.emplace_back(seen.look.changed_ns, name);
     is_restless_ = is_restless_ || !is_whole;
     now.emplace(name, seen);
   }
@@ -207,6 +209,7 @@ std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
 
 std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
   const fs::path path = options_.folder / name;
+  if (seen.is_taken) return move_away(path);
   if (seen.look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
     return fail(name, {ErrorCode::BodyTooLarge,
                        fmt::format("it has more than {} MiB: cut it into several files",
@@ -247,12 +250,15 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
                                                   "to done",
                                                   options_.name, name));
   }
+  seen.is_taken = true;
+  return move_away(path);
+}
+
+std::optional<std::string> FolderIn::move_away(const fs::path& path) const {
   const fs::path done = options_.folder / "done";
   std::error_code failure;
   fs::create_directories(done, failure);
-  auto why = move_to(path, done / free_name(name, done));
-  seen.is_stuck = why.has_value();
-  return why;
+  return move_to(path, done / free_name(path.filename().string(), done));
 }
 
 std::optional<std::string> FolderIn::fail(const std::string& name, const Error& error) {

@@ -102,6 +102,7 @@ HttpAnswer HttpPoster::post(const std::vector<std::string>& lines, std::string_v
   handle.set(CURLOPT_PROTOCOLS_STR, "http,https");
   handle.set(CURLOPT_USERAGENT, "fitgauge/" FITGAUGE_VERSION);
   handle.set(CURLOPT_NOSIGNAL, 1L);
+  handle.set(CURLOPT_QUICK_EXIT, 1L);  // a name that is looked up yet holds up no end
   handle.set(CURLOPT_PROXY, "");
   handle.set(CURLOPT_CONNECTTIMEOUT, kConnectSeconds);
   handle.set(CURLOPT_TIMEOUT, static_cast<long>(options_.timeout.count()));

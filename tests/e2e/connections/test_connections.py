@@ -77,6 +77,7 @@ class Configured(unittest.TestCase):
         daemon.start()
         found = daemon.get("/v1/connections").json["connections"]
         self.assertEqual([(each["name"], each["read_only"]) for each in found], [("other", True)])
+        self.assertEqual(daemon.stop(), 0)  # its log is written
         self.assertIn("connection_not_started", daemon.log)
 
 

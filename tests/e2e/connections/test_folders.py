@@ -71,9 +71,10 @@ class Taking(Folders):
         self.drop("other.csv", ROWS)
         self.wait(lambda: self.files("done") == ["a.csv", "a.csv.1", "other.csv"])
         self.assertEqual(len(self.parts(daemon)), 5)
-        self.assertIn("file_taken_before", daemon.log)
+        self.wait(lambda: "file_taken_before" in daemon.log)
         self.drop("b.ndjson", '{"designation":"25 H7","measured_mm":25.02,"part_id":"N"}\n')
-        self.wait(lambda: "N" in self.parts(daemon))
+        self.wait(lambda: "b.ndjson" in self.files("done"))
+        self.assertIn("N", self.parts(daemon))
         state = daemon.get("/v1/connections/cmm").json
         self.assertEqual((state["state"], state["files"], state["measurements"]), ("ok", 2, 6))
         self.assertEqual(self.files(), [])
@@ -160,7 +161,7 @@ class Taking(Folders):
             self.assertEqual(first.measure(row).status, 201, row)
         self.connect(second)
         self.drop("export.csv", first.get("/v1/measurements", Accept="text/csv").body)
-        self.wait(lambda: self.files("done") + self.files("failed"))
+        self.wait(lambda: "export.csv" in self.files("done") + self.files("failed"))
         self.assertEqual(self.files("failed"), [])
 
         def plain(daemon):
@@ -169,7 +170,7 @@ class Taking(Folders):
         self.assertEqual(plain(second), plain(first))
         header, end, rows = first.get("/v1/measurements", Accept="text/csv").body.partition(b"\r\n")
         self.drop("simulated.csv", header + end + rows.replace(b",gauge,", b",simulation,", 1))
-        self.wait(lambda: self.files("failed"))
+        self.wait(lambda: "simulated.csv" in self.files("failed"))
         self.assertIn("line 2 is of a simulation", (self.folder / "failed" / "simulated.csv.error.txt").read_text())
 
     def test_a_folder_that_is_away_comes_back(self):
@@ -183,6 +184,20 @@ class Taking(Folders):
         self.assertEqual(daemon.post("/v1/connections/cmm/test", None).json["ok"], True)
         self.drop("a.csv", ROWS)
         self.wait(lambda: len(self.parts(daemon)) == 5)
+
+    def test_a_file_that_cannot_be_moved_away_is_taken_once(self):
+        daemon = self.daemon().start()
+        (self.folder / "done").write_text("in the way")
+        self.connect(daemon)
+        self.drop("a.csv", ROWS)
+        self.wait(lambda: daemon.get("/v1/connections/cmm").json["state"] == "failing")
+        self.assertIn("cannot be moved", daemon.get("/v1/connections/cmm").json["last_error"])
+        attempts = daemon.get("/v1/connections/cmm").json["attempts"]
+        self.wait(lambda: daemon.get("/v1/connections/cmm").json["attempts"] > attempts + 1)
+        self.assertEqual((len(self.parts(daemon)), daemon.get("/v1/connections/cmm").json["state"]), (5, "failing"))
+        (self.folder / "done").unlink()
+        self.wait(lambda: self.files("done") == ["a.csv"])
+        self.assertEqual(len(self.parts(daemon)), 5)
 
     def test_no_folder_beside_those_allowed(self):
         daemon = self.daemon().start()

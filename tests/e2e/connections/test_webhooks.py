@@ -77,6 +77,7 @@ class Webhooks(Receivers):
                              ("measurement.recorded", f"P{number}", event["data"]["received_at"]))
         record = daemon.get(f"/v1/measurements/{ids[0]}").json
         self.assertEqual(receiver.events[0]["event"]["data"], record)
+        receiver.wait(lambda: self.state(daemon)["position"] == 20)
         state = self.state(daemon)
         self.assertEqual((state["state"], state["position"], state["behind"], state["measurements"], state["last_error"]),
                          ("ok", 20, 0, 17, None))
@@ -99,11 +100,11 @@ class Webhooks(Receivers):
         self.connect(daemon, receiver, timeout_s=1)
         ids = self.store(daemon, range(12))
         receiver.wait(lambda: self.state(daemon)["state"] == "failing")
-        self.assertRegex(self.state(daemon)["last_error"], "the receiver answers 5|Timeout|timed out")
+        self.assertRegex(self.state(daemon)["last_error"], "the receiver answers [345]|imed out|imeout")
         receiver.wait(lambda: len(receiver.distinct()) == 12)
         self.assertEqual(receiver.distinct(), ids)
         self.assertEqual(script, [])
-        self.assertIn("connection_failing", daemon.log)
+        receiver.wait(lambda: "connection_failing" in daemon.log)
         receiver.wait(lambda: "connection_recovered" in daemon.log)
         self.assertEqual(self.state(daemon)["dead_letters"], [])
 
@@ -145,7 +146,8 @@ class Webhooks(Receivers):
         receiver.wait(lambda: len(receiver.events) == 2)
         self.assertEqual(receiver.ids(), [ids[0], ids[2]])
         self.assertEqual(sum(r["event"]["data"]["part_id"] == "P1" for r in receiver.attempts), 5)
-        receiver.wait(lambda: self.state(daemon)["dead_letters"])
+        receiver.wait(lambda: self.state(daemon)["position"] == 3)
+        time.sleep(1.5)  # how far it came is kept
         daemon.kill()
         daemon.start()
         state = self.state(daemon)
