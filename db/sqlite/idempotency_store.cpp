@@ -22,6 +22,15 @@ struct IdempotencyStore::Statements {
                             kIdempotentAnswers.is_sound())),
         // An expired answer that was not purged yet makes room.
         insert(c, kIdempotentAnswers.insert("INSERT OR REPLACE")),
+        newest(c, "SELECT max(id) FROM measurements"),
+        forwarded(c, fmt::format("SELECT key, caller, method, path, body_digest, status, "
+                                 "content_type, location, body, expires_at, {} FROM "
+                                 "idempotent_answers WHERE measurement BETWEEN ? AND ? AND "
+                                 "path LIKE '/v1/measurements%' AND expires_at > ? ORDER BY id",
+                                 kIdempotentAnswers.is_sound())),
+        is_kept(c,
+                "SELECT 1 FROM idempotent_answers WHERE key = ? AND caller = ? AND method = ? AND "
+                "path = ? AND expires_at > ?"),
         remove(c,
                "DELETE FROM idempotent_answers WHERE id IN "
                "(SELECT id FROM idempotent_answers WHERE expires_at <= ? LIMIT ?) RETURNING 1") {}
@@ -30,6 +39,9 @@ struct IdempotencyStore::Statements {
   std::chrono::hours retention;
   sqlite::Statement find;
   sqlite::Statement insert;
+  sqlite::Statement newest;
+  sqlite::Statement forwarded;
+  sqlite::Statement is_kept;
   sqlite::Statement remove;
 };
 
@@ -68,8 +80,40 @@ Result<StoredAnswer> IdempotencyStore::once(const IdempotentRequest& request,
                                      std::chrono::nanoseconds(statements_->retention).count();
   statements_->insert.run(request.key, request.caller, request.method, request.path, request.body,
                           answer->status, answer->content_type, answer->location,
-                          Blob{answer->body}, expires_at);
+                          Blob{answer->body}, expires_at,
+                          statements_->newest.returning<std::optional<std::int64_t>>());
   return answer;
+}
+
+void IdempotencyStore::visit_forwarded(std::int64_t first, std::int64_t last,
+                                       const Visitor& visit) const {
+  Rows rows = statements_->forwarded.query(first, last, statements_->clock.now().nanoseconds);
+  while (rows.next()) {
+    require_sound(rows, 10, kIdempotentAnswers);
+    visit({.request = {.caller = rows.get<std::string>(1),
+                       .method = rows.get<std::string>(2),
+                       .path = rows.get<std::string>(3),
+                       .key = rows.get<std::string>(0),
+                       .body = rows.get<Digest>(4)},
+           .answer = {.status = rows.get<int>(5),
+                      .content_type = rows.get<std::string>(6),
+                      .location = rows.get<std::string>(7),
+                      .body = std::string(rows.get<Blob>(8).bytes)},
+           .expires_at_ns = rows.get<std::int64_t>(9)});
+  }
+}
+
+void IdempotencyStore::keep(const Forwarded& forwarded) {
+  const IdempotentRequest& request = forwarded.request;
+  const bool is_kept = statements_->is_kept
+                           .query(request.key, request.caller, request.method, request.path,
+                                  statements_->clock.now().nanoseconds)
+                           .next();
+  if (is_kept) return;
+  const StoredAnswer& answer = forwarded.answer;
+  statements_->insert.run(request.key, request.caller, request.method, request.path, request.body,
+                          answer.status, answer.content_type, answer.location, Blob{answer.body},
+                          forwarded.expires_at_ns, std::optional<std::int64_t>());
 }
 
 std::int64_t IdempotencyStore::purge(std::int64_t limit) {

@@ -12,16 +12,6 @@ namespace fitgauge::store {
 
 using sqlite::Rows;
 
-namespace {
-
-std::int64_t visit_all(Rows rows, const LogStore::Visitor& visit) {
-  std::int64_t count = 0;
-  for (; rows.next(); ++count) visit(rows.get<Digest>(0));
-  return count;
-}
-
-}  // namespace
-
 struct LogStore::Statements {
   explicit Statements(sqlite::Connection& c)
       : state(c, fmt::format("SELECT origin, name, chained, size, {} FROM log WHERE id = 1",
@@ -34,8 +24,7 @@ struct LogStore::Statements {
         put_node(c, "INSERT OR REPLACE INTO log_nodes (level, node, hash) VALUES (?, ?, ?)"),
         nodes(c,
               "SELECT hash FROM log_nodes WHERE level = ? AND node >= ? AND node < ? "
-              "ORDER BY node"),
-        leaves(c, "SELECT hash FROM measurements WHERE id > ? ORDER BY id LIMIT ?") {}
+              "ORDER BY node") {}
 
   sqlite::Statement state;
   sqlite::Statement set_name;
@@ -45,7 +34,6 @@ struct LogStore::Statements {
   sqlite::Statement add_key;
   sqlite::Statement put_node;
   sqlite::Statement nodes;
-  sqlite::Statement leaves;
 };
 
 LogStore::LogStore(sqlite::Connection& connection)
@@ -92,11 +80,11 @@ void LogStore::grow(std::int64_t size, std::span<const Node> nodes) {
 
 std::int64_t LogStore::nodes(int level, std::int64_t first, std::int64_t count,
                              const Visitor& visit) const {
-  return visit_all(statements_->nodes.query(level, first, first + count), visit);
-}
-
-std::int64_t LogStore::leaves(std::int64_t after, std::int64_t count, const Visitor& visit) const {
-  return visit_all(statements_->leaves.query(after, count), visit);
+  std::int64_t visited = 0;
+  for (Rows rows = statements_->nodes.query(level, first, first + count); rows.next(); ++visited) {
+    visit(rows.get<Digest>(0));
+  }
+  return visited;
 }
 
 }  // namespace fitgauge::store

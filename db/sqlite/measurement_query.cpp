@@ -21,7 +21,10 @@ template <class Add>
 void for_each_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.verdict) add("m.verdict = ?", *filter.verdict);
   if (filter.source) add("m.source = ?", *filter.source);
-  if (filter.run_id) add("m.run_id = ?", *filter.run_id);
+  if (filter.run_id) {
+    add("m.run_id = ?", *filter.run_id);
+    add("coalesce(m.origin, 0) = ?", filter.run_origin);
+  }
   if (filter.designation) {
     add("m.nominal_nm = ?", filter.designation->nominal_nm);
     add("m.tolerance_class = ?", std::string_view(filter.designation->tolerance_class));

@@ -39,7 +39,7 @@ MeasurementSummary::MeasurementSummary(sqlite::Connection& c, TextField group_by
                            "SELECT value, kind, statistics, 0 FROM measurement_aggregates "
                            "WHERE level = ? AND node = ? AND field = ? AND value = ?"),
       corrected_(c,
-                 "SELECT correction_of FROM measurements WHERE correction_of IS NOT NULL "
+                 "SELECT DISTINCT correction_of FROM measurements WHERE correction_of IS NOT NULL "
                  "ORDER BY correction_of") {}
 
 Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilter& filter,

@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "sqlite/log_query.hpp"
 #include "sqlite/measurement_indexer.hpp"
 #include "sqlite/measurement_insert.hpp"
 #include "sqlite/measurement_query.hpp"
@@ -31,14 +32,17 @@ MeasurementRow read_row(const Rows& rows) {
 
 constexpr std::string_view kValueColumns =
     "m.id, coalesce(m.corrected_nm, m.measured_nm), m.nominal_nm + m.lower_deviation_nm, "
-    "m.nominal_nm + m.upper_deviation_nm, m.subgroup";
+    "m.nominal_nm + m.upper_deviation_nm, m.subgroup, coalesce(m.origin, 0), "
+    "CASE WHEN m.origin > 0 THEN coalesce(m.number, m.seq) ELSE m.id END";
 
 MeasuredValue read_value(const Rows& rows) {
   return {.id = rows.get<std::int64_t>(0),
           .measured_nm = rows.get<std::int64_t>(1),
           .lower_limit_nm = rows.get<std::int64_t>(2),
           .upper_limit_nm = rows.get<std::int64_t>(3),
-          .subgroup = rows.get<std::optional<std::string_view>>(4)};
+          .subgroup = rows.get<std::optional<std::string_view>>(4),
+          .origin = rows.get<std::int64_t>(5),
+          .number = rows.get<std::int64_t>(6)};
 }
 
 /// Visits a page of the rows that match. @param read visits a row and gives its id
@@ -68,7 +72,15 @@ struct MeasurementsStore::Statements {
         newest(c, "SELECT id FROM measurements ORDER BY id DESC LIMIT 1"),
         by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
         correction(c, "SELECT id FROM measurements WHERE correction_of = ?"),
-        revision(c, "SELECT 1 FROM table_revisions WHERE number = ?"),
+        revision(c,
+                 "SELECT 1 FROM table_revisions WHERE number = ?1 UNION ALL "
+                 "SELECT 1 FROM origin_revisions WHERE number = -?1"),
+        first_forwarded(c, "SELECT min(first_row) FROM origins"),
+        newest_of_own(c, "SELECT max(seq) FROM measurements WHERE origin = 0"),
+        by_number(c, "SELECT id FROM measurements WHERE origin = ? AND number = ?"),
+        by_place(c, "SELECT id FROM measurements WHERE origin = ? AND seq = ? AND number IS NULL"),
+        log_rows(c, measurement_columns()),
+        log_hashes(c, "hash"),
         indexer(c),
         whole_rows(c, measurement_columns()),
         values(c, std::string(kValueColumns)),
@@ -97,6 +109,27 @@ struct MeasurementsStore::Statements {
     seen_revision = number;
   }
 
+  /// Up to this id all rows are of this folder.
+  std::int64_t alone() {
+    const auto first = first_forwarded.returning<std::optional<std::int64_t>>();
+    return first ? *first - 1 : kLastId;
+  }
+
+  std::int64_t own_rows(std::int64_t first_others) {
+    return newest_of_own.returning<std::optional<std::int64_t>>().value_or(first_others);
+  }
+
+  /// Numbers rows of this folder in its own log, where others have come between.
+  std::vector<MeasurementRow> numbered(std::span<const MeasurementRow> rows) {
+    std::vector<MeasurementRow> numbered(rows.begin(), rows.end());
+    std::int64_t place = own_rows(alone());
+    for (MeasurementRow& row : numbered) {
+      row.origin = 0;
+      row.seq = ++place;
+    }
+    return numbered;
+  }
+
   std::optional<std::int64_t> corrected_by(std::int64_t id) {
     Rows rows = correction.query(id);
     return rows.next() ? std::optional(rows.get<std::int64_t>(0)) : std::nullopt;
@@ -113,12 +146,19 @@ struct MeasurementsStore::Statements {
   Statement by_id;
   Statement correction;
   Statement revision;
+  Statement first_forwarded;
+  Statement newest_of_own;
+  Statement by_number;
+  Statement by_place;
+  LogQuery log_rows;
+  LogQuery log_hashes;
   MeasurementIndexer indexer;
   MeasurementQuery whole_rows;
   MeasurementQuery values;
   MeasurementQuery ids;
   std::map<TextField, MeasurementSummary> summaries;
   std::optional<std::int64_t> seen_revision;
+  bool may_hold_others = true;  ///< of the writer's: no other connection appends
 };
 
 MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
@@ -134,11 +174,44 @@ Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
     }
     if (row.table_revision) statements_->require_revision(*row.table_revision);
   }
-  statements_->insert.append(rows);
+  if (statements_->may_hold_others) statements_->may_hold_others = statements_->alone() != kLastId;
+  if (statements_->may_hold_others) {
+    statements_->insert.append(statements_->numbered(rows));
+  } else {
+    statements_->insert.append(rows);
+  }
   for (const MeasurementRow& row : rows) {
     if (row.correction_of) statements_->indexer.corrected(*row.correction_of);
   }
   return {};
+}
+
+void MeasurementsStore::append_forwarded(std::span<const MeasurementRow> rows) {
+  statements_->may_hold_others = true;
+  statements_->insert.append(rows);
+  for (const MeasurementRow& row : rows) {
+    if (row.correction_of) statements_->indexer.corrected(*row.correction_of);
+  }
+}
+
+std::optional<std::int64_t> MeasurementsStore::find_forwarded(std::int64_t origin,
+                                                              std::int64_t number) const {
+  for (Statement* by : {&statements_->by_number, &statements_->by_place}) {
+    if (Rows rows = by->query(origin, number); rows.next()) return rows.get<std::int64_t>(0);
+  }
+  return std::nullopt;
+}
+
+void MeasurementsStore::list_log(std::int64_t origin, std::int64_t after, std::int64_t limit,
+                                 const Visitor& visit) const {
+  statements_->log_rows.run(origin, statements_->alone(), after, limit,
+                            [&](const Rows& rows) { visit(read_row(rows)); });
+}
+
+std::int64_t MeasurementsStore::log_hashes(std::int64_t origin, std::int64_t after,
+                                           std::int64_t limit, const HashVisitor& visit) const {
+  return statements_->log_hashes.run(origin, statements_->alone(), after, limit,
+                                     [&](const Rows& rows) { visit(rows.get<Digest>(0)); });
 }
 
 bool MeasurementsStore::find(std::int64_t id, const Visitor& visit) const {
@@ -197,6 +270,11 @@ bool MeasurementsStore::index_step() { return statements_->indexer.step(); }
 
 void MeasurementsStore::verify_index(const std::function<void(std::string)>& note) const {
   statements_->indexer.verify(note);
+}
+
+std::int64_t MeasurementsStore::log_size() const {
+  const std::int64_t alone = statements_->alone();
+  return alone == kLastId ? last_id() : statements_->own_rows(alone);
 }
 
 std::int64_t MeasurementsStore::last_id() const {

@@ -33,7 +33,8 @@ inline constexpr SealedTable kApiKeys{"api_keys", "id",
                                       "name, role, token_hash, created_at, revoked_at"};
 inline constexpr SealedTable kIdempotentAnswers{
     "idempotent_answers", "id",
-    "key, caller, method, path, body_digest, status, content_type, location, body, expires_at"};
+    "key, caller, method, path, body_digest, status, content_type, location, body, expires_at, "
+    "measurement"};
 inline constexpr SealedTable kFileRevisions{"file_revisions", "revision",
                                             "path, path_key, content, modified_at, caller"};
 inline constexpr SealedTable kDocuments{"documents", "name",
@@ -44,6 +45,12 @@ inline constexpr SealedTable kRunTraces{"run_traces", "run", "run, trace"};
 inline constexpr SealedTable kRunFiles{"run_files", "run", "run, name_key, path, content"};
 inline constexpr SealedTable kLog{"log", "id", "origin, name, chained, size"};
 inline constexpr SealedTable kLogKeys{"log_keys", "number", "vkey, created_at"};
+inline constexpr SealedTable kOrigins{"origins", "number", "digits, first_row, size, checkpoint"};
+inline constexpr SealedTable kOriginKeys{"origin_keys", "number", "origin, vkey, created_at"};
+inline constexpr SealedTable kOriginForks{"origin_forks", "number",
+                                          "origin, checkpoint, created_at"};
+inline constexpr SealedTable kOriginRevisions{"origin_revisions", "number", "id"};
+inline constexpr SealedTable kForwarding{"forwarding", "id", "id, centre, size"};
 inline constexpr SealedTable kEvents{"events", "id", "type, payload, created_at"};
 
 std::span<const SealedTable> sealed_tables();

@@ -12,6 +12,7 @@ Stores::Stores(sqlite::Connection& connection, const Clock& clock,
       documents(connection),
       runs(connection),
       events(connection),
-      log(connection) {}
+      log(connection),
+      origins(connection) {}
 
 }  // namespace fitgauge::store

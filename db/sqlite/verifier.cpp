@@ -94,6 +94,9 @@ void Verifier::check_schema() {
 
 void Verifier::check_tables() {
   const TablesStore& tables = session_.stores.tables;
+  for (const OriginsStore::Revision& other : session_.stores.origins.revisions()) {
+    revisions_.insert(-other.number);  // of a station: its content is there
+  }
   for (const TableRevision& revision : tables.list()) {
     if (!revisions_.insert(revision.number).second) continue;
     const auto loaded = tables.load(revision.number);

@@ -98,7 +98,9 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
     do {
       errors.push_back(run_in_savepoint(*jobs[errors.size()]));
     } while (errors.size() < jobs.size() && MaintenancePace::Clock::now() < end);
+    const std::int64_t own_rows = session().stores.measurements.log_size();
     session().commit.run();
+    counters_.own_rows = own_rows;  // before the outcomes are told
     succeed();
     const auto now = MaintenancePace::Clock::now();
     pace_.committed(now);

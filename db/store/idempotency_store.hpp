@@ -54,6 +54,19 @@ class IdempotencyStore {
   Result<StoredAnswer> once(const IdempotentRequest& request,
                             const std::function<Result<StoredAnswer>()>& work);
 
+  /// An answer that was kept where a row was stored, on its way with it.
+  struct Forwarded {
+    IdempotentRequest request{};
+    StoredAnswer answer{};
+    std::int64_t expires_at_ns = 0;
+  };
+  /// Visits the answers of measurements (a path from `/v1/measurements` on) kept while the newest
+  /// one was one of these ids.
+  using Visitor = std::function<void(const Forwarded&)>;
+  void visit_forwarded(std::int64_t first, std::int64_t last, const Visitor& visit) const;
+  /// Keeps an answer from elsewhere, unless there is one of that key already.
+  void keep(const Forwarded& forwarded);
+
   /// Deletes up to `limit` expired answers. @returns how many.
   std::int64_t purge(std::int64_t limit);
 

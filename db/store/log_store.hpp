@@ -20,7 +20,7 @@ class Connection;
 }
 
 /// The log that the measurements of a data folder form: its origin, its keys, and those nodes of
-/// its tree that are kept. The leaves stand in the measurements.
+/// its tree that are kept. The leaves stand in the measurements (MeasurementsStore::log_hashes).
 class LogStore {
  public:
   explicit LogStore(sqlite::Connection& connection);
@@ -53,8 +53,6 @@ class LogStore {
   using Visitor = std::function<void(const Digest&)>;
   /// Visits the nodes of a level from `first` on. @returns how many there were, at most `count`.
   std::int64_t nodes(int level, std::int64_t first, std::int64_t count, const Visitor& visit) const;
-  /// Visits the hashes of the rows with the ids after `after`, all greater than `chained`.
-  std::int64_t leaves(std::int64_t after, std::int64_t count, const Visitor& visit) const;
 
  private:
   struct Statements;

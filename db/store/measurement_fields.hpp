@@ -59,6 +59,11 @@ void for_each_later_field(Row&& row, Field&& field) {
   field("scale_expansion", row.scale_expansion);
   field("part_material", row.part_material);
   field("scale_material", row.scale_material);
+  field("origin", row.origin);
+  field("seq", row.seq);
+  field("number", row.number);
+  field("corrected_origin", row.corrected_origin);
+  field("corrected_number", row.corrected_number);
 }
 
 template <class Row, class Field>

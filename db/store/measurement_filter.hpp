@@ -65,6 +65,7 @@ struct MeasurementFilter {
   std::array<std::optional<std::string>, kTextColumns.size()> texts{};  ///< by index_of()
   std::optional<DesignationFilter> designation{};
   std::optional<std::int64_t> run_id{};
+  std::int64_t run_origin = 0;  ///< whose run it is; 0: of this folder
   std::optional<Verdict> verdict{};
   std::optional<Source> source = Source::Gauge;    ///< none: all
   std::optional<std::int64_t> from_ns{};           ///< from <= measured_at

@@ -73,7 +73,21 @@ struct MeasurementRow {
   std::optional<std::string_view> part_material{};
   std::optional<std::string_view> scale_material{};
 
+  // Of rows that another folder has forwarded, and of those stored beside them:
+  std::optional<std::int64_t> origin{};  ///< OriginsStore::Origin::number; 0 is this folder
+  std::optional<std::int64_t> seq{};     ///< in the log of its origin; none: it is the id
+  std::optional<std::int64_t> number{};  ///< in the id it got there; none: it is the seq
+  /// What correction_of is called where it was stored; none: it is of this folder.
+  std::optional<std::int64_t> corrected_origin{};
+  std::optional<std::int64_t> corrected_number{};
+
   Digest hash{};  ///< of its leaf in the log; of rows from before the log, MeasurementHasher's
+
+  bool is_forwarded() const { return origin.value_or(0) > 0; }
+  /// Where it stands in the log of its origin, from 1 on.
+  std::int64_t place_in_log() const { return seq.value_or(id); }
+  /// The number in its public id.
+  std::int64_t public_number() const { return is_forwarded() ? number.value_or(*seq) : id; }
 
   std::int64_t upper_limit_nm() const { return nominal_nm + upper_deviation_nm; }
   std::int64_t lower_limit_nm() const { return nominal_nm + lower_deviation_nm; }

@@ -28,6 +28,8 @@ struct MeasuredValue {
   std::int64_t lower_limit_nm = 0;
   std::int64_t upper_limit_nm = 0;
   std::optional<std::string_view> subgroup{};  ///< the database's own while a visitor runs
+  std::int64_t origin = 0;                     ///< 0: of this folder
+  std::int64_t number = 0;                     ///< in its public id
 };
 
 /// Measurements, kept for ever: the database refuses UPDATE and DELETE.
@@ -42,6 +44,13 @@ class MeasurementsStore {
   ///   corrected before.
   Result<void> append(std::span<const MeasurementRow> rows);
 
+  /// Appends rows that another folder has stored, which say whose they are and where they stand in
+  /// its log; else as append(). What they correct may have been corrected before.
+  void append_forwarded(std::span<const MeasurementRow> rows);
+
+  /// The id of the row that is called `number` at its origin, if it is here.
+  std::optional<std::int64_t> find_forwarded(std::int64_t origin, std::int64_t number) const;
+
   using Visitor = std::function<void(const MeasurementRow&)>;
 
   /// @returns whether there is such a row; `visit` was called with it if so.
@@ -49,6 +58,15 @@ class MeasurementsStore {
 
   /// The id of the row that corrects `id`, if one does.
   std::optional<std::int64_t> corrected_by(std::int64_t id) const;
+
+  /// Visits up to `limit` rows of an origin (0: this folder) that come after the place `after` in
+  /// its log, in the log's order.
+  void list_log(std::int64_t origin, std::int64_t after, std::int64_t limit,
+                const Visitor& visit) const;
+  /// The hashes of those rows. @returns how many there were.
+  using HashVisitor = std::function<void(const Digest&)>;
+  std::int64_t log_hashes(std::int64_t origin, std::int64_t after, std::int64_t limit,
+                          const HashVisitor& visit) const;
 
   /// Visits up to `limit` rows that match, in storage order or from the newest on, those that come
   /// after `after` on this way (0: from its beginning). @returns the cursor for the next page, or
@@ -65,6 +83,9 @@ class MeasurementsStore {
   /// The oldest of the newest `count` rows that match; none when none does.
   std::optional<std::int64_t> first_of_newest(const MeasurementFilter& filter,
                                               std::size_t count) const;
+
+  /// How many rows of this folder's own there are.
+  std::int64_t log_size() const;
 
   /// The newest id, 0 when there is none.
   std::int64_t last_id() const;

@@ -10,6 +10,7 @@
 #include "store/keys_store.hpp"
 #include "store/log_store.hpp"
 #include "store/measurements_store.hpp"
+#include "store/origins_store.hpp"
 #include "store/runs_store.hpp"
 #include "store/tables_store.hpp"
 
@@ -35,6 +36,7 @@ struct Stores {
   RunsStore runs;
   EventsStore events;
   LogStore log;
+  OriginsStore origins;
 };
 
 }  // namespace fitgauge::store

@@ -15,6 +15,7 @@ struct WriterCounters {
       {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5}};
   Histogram<9> batch_jobs{{1, 2, 4, 8, 16, 32, 64, 256, 1024}};
   std::atomic<std::uint64_t> failed_commits{0};
+  std::atomic<std::int64_t> own_rows{0};    ///< MeasurementsStore::log_size() after the last commit
   std::atomic<std::uint64_t> log_pages{0};  ///< in the write-ahead log after the last commit
 };
 

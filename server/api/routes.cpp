@@ -6,6 +6,7 @@
 #include "api/limits/gauges_resource.hpp"
 #include "api/limits/limits_resource.hpp"
 #include "api/limits/verdicts_resource.hpp"
+#include "api/log/intake_resource.hpp"
 #include "api/log/log_resource.hpp"
 #include "api/measurements/measurements_resource.hpp"
 #include "api/mtconnect/mtconnect_resource.hpp"
@@ -37,6 +38,7 @@ http::RouteTable make_routes(const Services& services) {
   add_verdicts_routes(routes, services);
   add_measurements_routes(routes, services);
   add_log_routes(routes, services);
+  add_intake_routes(routes, services);
   add_certificates_routes(routes, services);
   add_statistics_routes(routes, services);
   add_stored_statistics_routes(routes, services);

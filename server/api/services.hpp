@@ -10,6 +10,7 @@
 namespace fitgauge::app {
 class TableCatalog;
 class LogService;
+class LogIntake;
 class MeasurementService;
 class FileService;
 class DocumentService;
@@ -26,6 +27,7 @@ class VerdictCounts;
 struct Services {
   app::TableCatalog& tables;
   app::LogService& log;
+  app::LogIntake& intake;
   app::MeasurementService& measurements;
   app::FileService& files;
   app::DocumentService& documents;

@@ -47,6 +47,68 @@ std::optional<std::string> check_verdict(const store::MeasurementRow& row, const
                      word(again.result.verdict));
 }
 
+constexpr std::string_view kOfNoOrigin = "is of a folder that is not known: its origin was altered";
+
+/// What rows are called, also by what a daemon beside this process has stored since it was
+/// attached. One thread at a time.
+class LaterNames {
+ public:
+  LaterNames(store::Database& database, const TableCatalog& tables, const Origins& origins)
+      : database_(database), tables_(tables), origins_(origins) {}
+
+  RowNames names() const {
+    return {.revision_id =
+                [this](std::int64_t number) {
+                  const std::string_view known = tables_.revision_id(number);
+                  return known.empty() ? find(revisions_, number) : known;
+                },
+            .origin =
+                [this](std::int64_t number) {
+                  const std::string_view known = origins_.digits(number);
+                  return known.empty() ? find(digits_, number) : known;
+                }};
+  }
+
+ private:
+  using Names = std::map<std::int64_t, std::string>;
+
+  std::string_view find(const Names& names, std::int64_t number) const {
+    if (!names.contains(number)) read();
+    const auto found = names.find(number);
+    return found == names.end() ? std::string_view() : found->second;
+  }
+
+  void read() const {
+    (void)database_.readers().wait([this](const store::Stores& stores) -> Result<bool> {
+      for (const store::TableRevision& revision : stores.tables.list()) {
+        revisions_.emplace(revision.number, revision.id);
+      }
+      for (const auto& revision : stores.origins.revisions()) {
+        revisions_.emplace(-revision.number, revision.id);
+      }
+      for (const auto& origin : stores.origins.list()) {
+        digits_.emplace(origin.number, origin.digits);
+      }
+      return true;
+    });
+  }
+
+  store::Database& database_;
+  const TableCatalog& tables_;
+  const Origins& origins_;
+  mutable Names revisions_;
+  mutable Names digits_;
+};
+
+/// The log that a checkpoint is of; that of this folder, where it is of none that is here.
+std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
+  const auto checkpoint = tlog::parse_checkpoint(note);
+  for (const auto& [origin, facts] : logs) {
+    if (checkpoint && checkpoint->origin == facts.name) return origin;
+  }
+  return 0;
+}
+
 /// What verify says of a measurement that is altered, has a wrong verdict, or both.
 std::optional<std::string> finding_of(const std::optional<std::string>& altered,
                                       const std::optional<std::string>& verdict) {
@@ -96,23 +158,28 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
                                .tell = options.log_told});
   if (!log) return log.error();
   app->log_ = *std::move(log);
-  const std::string_view origin = app->log_->origin();
+  const Origins& origins = app->log_->origins();
+  app->intake_ = std::make_unique<LogIntake>(
+      *app->database_, *app->tables_, app->log_->origins(), clock,
+      [tell = options.log_told](std::string_view event, const std::string& detail) {
+        if (tell) tell(event, detail);
+      });
   auto keys = KeyService::open(*app->database_, clock);
   if (!keys) return keys.error();
   app->keys_ = *std::move(keys);
   app->measurements_ = std::make_unique<MeasurementService>(
-      *app->database_, *app->tables_, origin,
+      *app->database_, *app->tables_, origins,
       MeasurementServiceOptions{.most_waiting = options.write_queue,
                                 .commit_each = options.commit_each});
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
   app->documents_ = std::make_unique<DocumentService>(*app->database_, clock);
   if (!options.attach) {
     app->runs_ =
-        std::make_unique<RunService>(*app->database_, *app->tables_, clock, origin,
+        std::make_unique<RunService>(*app->database_, *app->tables_, clock, origins.own(),
                                      RunServiceOptions{.workers = options.run_workers,
                                                        .keeps_newest = options.keeps_newest_run});
   }
-  app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origin,
+  app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origins,
                                                 app->committed_, options.event_retention);
   if (!options.attach) {
     app->log_->start();
@@ -122,12 +189,18 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   return app;
 }
 
-std::optional<tlog::Hash> Application::kept_node(const tlog::Node& node) const {
+std::optional<tlog::Hash> Application::kept_node(std::int64_t origin,
+                                                 const tlog::Node& node) const {
   std::optional<tlog::Hash> kept;
   const auto read = database_->readers().wait([&](const store::Stores& stores) -> Result<bool> {
-    stores.log.nodes(static_cast<int>(node.level / tlog::kTileHeight),
-                     static_cast<std::int64_t>(node.index), 1,
-                     [&](const Digest& hash) { kept = hash; });
+    const int level = static_cast<int>(node.level / tlog::kTileHeight);
+    const auto index = static_cast<std::int64_t>(node.index);
+    const auto take = [&](const Digest& hash) { kept = hash; };
+    if (origin == 0) {
+      stores.log.nodes(level, index, 1, take);
+    } else {
+      stores.origins.nodes(origin, level, index, 1, take);
+    }
     return true;
   });
   return read ? kept : std::nullopt;
@@ -165,57 +238,55 @@ Result<void> Application::backup(const std::filesystem::path& file) const {
 }
 
 std::optional<std::string> Application::check_leaf(const store::MeasurementRow& row) const {
-  if (row.id <= log_->chained() || LeafMaker()(from_store(row, row_names())) == row.hash) {
+  if (row.id <= log_->chained() ||
+      LeafMaker()(from_store(row, row_names(*tables_, log_->origins()))) == row.hash) {
     return std::nullopt;
   }
   return altered_finding();
-}
-
-RowNames Application::row_names() const {
-  return {.revision_id = [this](std::int64_t number) { return tables_->revision_id(number); },
-          .origin = log_->origin()};
-}
-
-/// A revision that a daemon beside this process has stored since it was attached.
-std::string_view Application::later_revision(std::int64_t number,
-                                             std::map<std::int64_t, std::string>& later) const {
-  if (const auto known = later.find(number); known != later.end()) return known->second;
-  const auto read = database_->readers().wait([&](const store::Stores& stores) -> Result<bool> {
-    for (store::TableRevision& revision : stores.tables.list()) {
-      later.emplace(revision.number, std::move(revision.id));
-    }
-    return true;
-  });
-  return read ? std::string_view(later[number]) : std::string_view();
 }
 
 Result<Application::Verification> Application::verify(
     const std::map<std::string, std::string>& checkpoints) const {
   // The daemon's own checkpoint is read before the rows, so that they have all that it covers.
   const auto own = read_small_file(directory_ / kCheckpointFile);
-  const auto facts = LogService::facts(*database_);
-  if (!facts && facts.error().code != ErrorCode::StorageCorrupt) return facts.error();
-  std::map<std::int64_t, std::string> later;
-  RowNames names = row_names();
-  names.revision_id = [&](std::int64_t number) -> std::string_view {
-    const std::string_view known = tables_->revision_id(number);
-    return known.empty() ? later_revision(number, later) : known;
-  };
-  if (!facts) {  // what the log says of itself is damaged: that is a finding, and there may be more
+  const LaterNames later(*database_, *tables_, log_->origins());
+  const RowNames names = later.names();
+  const auto logs = LogService::logs(*database_);
+  if (!logs && logs.error().code != ErrorCode::StorageCorrupt) return logs.error();
+  if (!logs) {  // what the log says of itself is damaged: that is a finding, and there may be more
     return verification_of(database_->verify([&](const store::MeasurementRow& row) {
       return finding_of(std::nullopt, check_verdict(row, names));
     }));
   }
-  LogCheck log(*facts, names, [this](const tlog::Node& node) { return kept_node(node); });
-  if (own && *own && !(*own)->empty()) log.expect(std::string(kCheckpointFile), **own);
-  for (const auto& [place, note] : checkpoints) log.expect(place, note);
+  std::map<std::int64_t, LogCheck> checks;
+  for (const auto& [origin, facts] : *logs) {
+    const auto kept = [this, number = origin](const tlog::Node& node) {
+      return kept_node(number, node);
+    };
+    LogCheck& check = checks.try_emplace(origin, facts, names, kept).first->second;
+    if (!facts.checkpoint.empty()) check.expect("its newest checkpoint", facts.checkpoint);
+  }
+  if (own && *own && !(*own)->empty()) {
+    checks.at(0).expect(std::string(kCheckpointFile), **own);
+  }
+  for (const auto& [place, note] : checkpoints) {
+    checks.at(origin_of(note, *logs)).expect(place, note);
+  }
   auto report = database_->verify([&](const store::MeasurementRow& row) {
-    return finding_of(log.add(row), check_verdict(row, names));
+    const auto check = checks.find(row.origin.value_or(0));
+    const auto altered =
+        check != checks.end() ? check->second.add(row) : std::optional<std::string>(kOfNoOrigin);
+    return finding_of(altered, check_verdict(row, names));
   });
   auto verification = verification_of(std::move(report));
   if (!verification) return verification;
-  verification->head = log.head_text();
-  for (std::string& finding : log.finish()) verification->findings.push_back(std::move(finding));
+  for (auto& [origin, check] : checks) {
+    if (origin != 0) verification->head += '\n';
+    verification->head += check.head_text();
+    for (std::string& finding : check.finish()) {
+      verification->findings.push_back(std::move(finding));
+    }
+  }
   return verification;
 }
 

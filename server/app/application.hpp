@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "app/files/file_service.hpp"
+#include "app/log/log_intake.hpp"
+#include "app/log/log_outbox.hpp"
 #include "app/log/log_service.hpp"
 #include "app/measurements/measurement_service.hpp"
 #include "app/runs/run_service.hpp"
@@ -68,6 +70,8 @@ class Application {
 
   TableCatalog& tables() { return *tables_; }
   LogService& log() { return *log_; }
+  LogIntake& intake() { return *intake_; }
+  LogOutbox outbox() { return {*database_, *tables_, *log_}; }
   MeasurementService& measurements() { return *measurements_; }
   EventService& events() { return *events_; }
   KeyService& keys() { return *keys_; }
@@ -91,7 +95,7 @@ class Application {
   struct Verification {
     std::int64_t measurements = 0;
     std::vector<std::string> findings;  ///< empty: all is well
-    std::string head;                   ///< the log as it was found: name, size and root
+    std::string head;  ///< the logs as they were found: name, size and root of each
   };
   /// Checks the file, the schema, every table revision, the log against what this folder and
   /// `checkpoints` (notes by what they are called) have signed, and that each verdict follows from
@@ -100,12 +104,10 @@ class Application {
 
  private:
   Application();
-  RowNames row_names() const;
-  std::string_view later_revision(std::int64_t number,
-                                  std::map<std::int64_t, std::string>& later) const;
   Result<Verification> verification_of(Result<store::VerifyReport> report) const;
   std::optional<std::string> check_leaf(const store::MeasurementRow& row) const;
-  std::optional<tlog::Hash> kept_node(const tlog::Node& node) const;
+  std::optional<tlog::Hash> kept_node(std::int64_t origin, const tlog::Node& node) const;
+  struct LogChecks;
 
   // Declared in the order of construction: each member uses only those above it.
   std::filesystem::path directory_;
@@ -115,6 +117,7 @@ class Application {
   std::unique_ptr<store::Database> database_;
   std::unique_ptr<TableCatalog> tables_;
   std::unique_ptr<LogService> log_;
+  std::unique_ptr<LogIntake> intake_;
   std::unique_ptr<MeasurementService> measurements_;
   std::unique_ptr<EventService> events_;
   std::unique_ptr<KeyService> keys_;

@@ -65,11 +65,11 @@ std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements) co
     auto file = std::find_if(files.begin(), files.end(),
                              [&](const File& other) { return other.key == key; });
     if (file == files.end()) {
-      files.push_back({.key = std::string(key), .first = measurement.id});
+      files.push_back({.key = std::string(key), .first = measurement.row});
       file = std::prev(files.end());
       if (options_.format == Format::Csv) file->text = api::measurement_csv_header();
     }
-    file->last = measurement.id;
+    file->last = measurement.row;
     if (options_.format == Format::Csv) {
       api::append_measurement_csv(file->text, measurement);
     } else {

@@ -201,7 +201,7 @@ std::size_t LogFollower::planned(std::size_t count) {
   if (!options_.plans || count == 0) return count;
   if (progress_.planned <= progress_.position) {
     count = std::min(count, kPage);
-    progress_.planned = (*pending_[count - 1])->id;
+    progress_.planned = (*pending_[count - 1])->row;
     is_dirty_ = true;
     if (!save(true)) {
       progress_.planned = 0;
@@ -210,7 +210,7 @@ std::size_t LogFollower::planned(std::size_t count) {
   }
   return static_cast<std::size_t>(std::count_if(
       pending_.begin(), pending_.end(),
-      [this](const Outgoing& outgoing) { return (*outgoing)->id <= progress_.planned; }));
+      [this](const Outgoing& outgoing) { return (*outgoing)->row <= progress_.planned; }));
 }
 
 void LogFollower::deliver(const std::stop_token& stop) {
@@ -218,7 +218,7 @@ void LogFollower::deliver(const std::stop_token& stop) {
   const std::size_t count = planned(ripe());
   if (count == 0) return;
   const Delivery delivery = outlet_->deliver(std::span(pending_).first(count), stop);
-  if (delivery.dealt_with > 0) progress_.position = (*pending_[delivery.dealt_with - 1])->id;
+  if (delivery.dealt_with > 0) progress_.position = (*pending_[delivery.dealt_with - 1])->row;
   pending_.erase(pending_.begin(),
                  pending_.begin() + static_cast<std::ptrdiff_t>(delivery.dealt_with));
   if (pending_.empty()) progress_.position = read_to_;

@@ -101,7 +101,7 @@ struct Commands {
     key->require_subcommand(1);
     create = key->add_subcommand("create", "Create a key and show it once");
     create->add_option("--name", name, "Who the key is for")->required();
-    create->add_option("--role", role, "viewer, operator or admin")->required();
+    create->add_option("--role", role, "viewer, operator, admin or station")->required();
     revoke = key->add_subcommand("revoke", "Revoke a key");
     revoke->add_option("--name", name, "The key's name")->required();
     list = key->add_subcommand("list", "List the keys");

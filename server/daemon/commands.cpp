@@ -78,7 +78,7 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
   const auto known = app::role_from_word(role);
   if (!known) {
     return Error{ErrorCode::ConfigInvalid,
-                 fmt::format("role is viewer, operator or admin, not '{}'", role)};
+                 fmt::format("role is viewer, operator, admin or station, not '{}'", role)};
   }
   // A key may be made before the first start; then the database is made too.
   const auto app = open(config, !is_new(config.data));

@@ -9,6 +9,7 @@
 
 #include "app/log/log_keys.hpp"
 #include "base/text.hpp"
+#include "daemon/forwarding.hpp"
 #include "virtual_control/control_model.hpp"
 
 namespace fitgauge::daemon {
@@ -199,6 +200,18 @@ const std::vector<Setting>& settings() {
       {.name = "allow-private-addresses",
        .help = "Webhooks may reach this machine and private networks; else public addresses alone",
        .flag = &Config::allow_private_addresses},
+      {.name = "forward-to",
+       .help = "Centre that gets a copy of the log, as https://host:port; empty for none",
+       .text = &Config::forward_to},
+      {.name = "forward-key-file",
+       .help = "File with the key of the role station that the centre has given",
+       .text = &Config::forward_key_file},
+      {.name = "forward-ca",
+       .help = "Authorities of the centre's certificate (PEM); empty for those of the system",
+       .text = &Config::forward_ca},
+      {.name = "forward-insecure",
+       .help = "The centre may be reached by http:// beyond this machine",
+       .flag = &Config::forward_insecure},
   };
   return kSettings;
 }
@@ -300,7 +313,7 @@ Result<void> check(const Config& config) {
   if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
     return invalid("tls-client-ca needs tls-cert and tls-key");
   }
-  return {};
+  return check_forwarding(config);
 }
 
 std::string to_toml(const Config& config) {

@@ -37,6 +37,10 @@ struct Config {
   std::string connections;
   std::vector<std::string> connection_folders;
   bool allow_private_addresses = false;
+  std::string forward_to;
+  std::string forward_key_file;
+  std::string forward_ca;
+  bool forward_insecure = false;
 };
 
 /// One setting: its place in Config, its names and its documentation.

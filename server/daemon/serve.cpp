@@ -22,6 +22,7 @@
 #include "daemon/connections.hpp"
 #include "daemon/control.hpp"
 #include "daemon/file_limit.hpp"
+#include "daemon/forwarding.hpp"
 #include "daemon/healthcheck.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
@@ -186,20 +187,24 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   auto connecting = start_connections(config, app, clock);
   if (!connecting) return connecting.error();
   connections::Connections& outside = **connecting;
+  auto forwarding = start_forwarder(config, app);
 
   api::Metrics metrics;
   const auto verdicts = std::make_shared<api::VerdictCounts>(app.measurements());
   verdicts->refresh([] {});
-  metrics.add([verdicts, &app, &clock, &machine_clock, &config, &outside](api::Exposition& out) {
+  metrics.add([verdicts, &app, &clock, &machine_clock, &config, &outside,
+               &forwarding](api::Exposition& out) {
     verdicts->write(out);
     write_application_metrics(app, out);
     write_clock_metrics(clock, machine_clock, out);
     write_storage_metrics(config.data, out);
     write_process_metrics(out);
     write_connection_metrics(outside.states(), clock, out);
+    write_outbox_metrics(forwarding.get(), clock, out);
   });
   const api::Services services{.tables = app.tables(),
                                .log = app.log(),
+                               .intake = app.intake(),
                                .measurements = app.measurements(),
                                .files = app.files(),
                                .documents = app.documents(),
@@ -247,6 +252,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   control->reset();
   server.stop();
   connecting->reset();
+  forwarding.reset();
   // The application drains its queues first: the answers of its last jobs find no connection.
   opened->reset();
   started->reset();

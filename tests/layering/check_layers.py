@@ -17,7 +17,7 @@ FOLDERS = {
     "machine": "server/machine", "probing": "server/probing",
     "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http", "tlog": "server/tlog",
     "control_link": "server/control_link", "log_reader": "server/log_reader", "certificate": "server/certificate", "sheet": "server/sheet",
-    "api": "server/api", "virtual_control": "server/virtual_control", "collector": "server/collector", "connections": "server/connections", "daemon": "server/daemon", "clients": "clients",
+    "api": "server/api", "virtual_control": "server/virtual_control", "collector": "server/collector", "forwarder": "server/forwarder", "connections": "server/connections", "daemon": "server/daemon", "clients": "clients",
 }
 DOMAIN = {"iso286", "tabfile", "gauging", "metrology", "klartext", "machine", "probing", "program", "run"}
 

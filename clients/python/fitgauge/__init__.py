@@ -925,6 +925,11 @@ class Client:
         """A tile of the log as C2SP tlog-tiles names it: `0/000`, `entries/000.p/3`."""
         return self._bytes("/v1/log/tile/" + path)
 
+    def put_log(self, origin: str, place: int, batch: bytes) -> dict[str, Any]:
+        """Forwards records of another data folder, as a station does; the head of its log that is here then."""
+        path = _path("log", origin, str(place))
+        return loads(self._put(path, batch, "application/x-ndjson").body)
+
     def events(self, last_event_id: str | None = None, source: str | None = None) -> Iterator[Event]:
         """What happens, for ever: measurement.recorded, verdict.reject, run.finished. When the connection
         breaks it is made again, and goes on after the last event, or after `last_event_id` to begin with.

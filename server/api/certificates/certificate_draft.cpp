@@ -60,8 +60,8 @@ std::string member(const JsonValue& document, std::string_view name) {
 void CertificateDraft::add(const app::Measurement& m) {
   ++count_;
   ++verdicts_.at(static_cast<std::size_t>(m.result.verdict));
-  last_id_ = m.id;
-  if (first_id_.empty()) first_id_ = app::measurement_id_text(m.id, m.origin);
+  last_id_ = app::measurement_id_text(m.id, m.origin);
+  if (first_id_.empty()) first_id_ = last_id_;
   if (m.texts.gauge) gauges_[std::string(*m.texts.gauge)];
   if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
   if (order_.as_json) {

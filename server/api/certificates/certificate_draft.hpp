@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/service/document_service.hpp"
 #include "app/measurements/measurement.hpp"
+#include "app/service/document_service.hpp"
 #include "certificate/certificate.hpp"
 
 namespace fitgauge::api {
@@ -30,7 +30,7 @@ class CertificateDraft {
 
   const CertificateOrder& order() const { return order_; }
   std::size_t count() const { return count_; }
-  std::int64_t last_id() const { return last_id_; }  ///< of the measurements; 0 before the first
+  const std::string& last_id() const { return last_id_; }  ///< of the measurements
 
   void add(const app::Measurement& measurement);
   /// The gauges in use, as they are stored.
@@ -57,7 +57,7 @@ class CertificateDraft {
   std::map<std::string, Gauge> gauges_;  ///< those that were used
   std::map<std::string, int> revisions_;
   std::string first_id_;
-  std::int64_t last_id_ = 0;
+  std::string last_id_;
 };
 
 }  // namespace fitgauge::api

@@ -54,15 +54,17 @@ void finish(const Services& services, const std::shared_ptr<CertificateDraft>& d
       [&services, draft, shared](const Result<std::vector<app::NamedDocument>>& gauges) {
         if (!gauges) return shared->fail(gauges.error());
         draft->add_gauges(*gauges);
-        services.log.prove(draft->last_id(), [&services, draft,
-                                              shared](const Result<app::LogService::Proof>& proof) {
-          if (!proof) return shared->fail(proof.error());
-          services.runs.prepare(
-              [now = services.clock.now(), head = proof->head, draft, shared] {
-                shared->answer(written(*draft, now, head->note).with("Vary", "Accept"));
-              },
-              [shared](Error error) { shared->fail(std::move(error)); });
-        });
+        const auto last = services.measurements.parse_id(draft->last_id());
+        if (!last) return shared->fail(last.error());
+        services.log.prove(
+            *last, [&services, draft, shared](const Result<app::LogService::Proof>& proof) {
+              if (!proof) return shared->fail(proof.error());
+              services.runs.prepare(
+                  [now = services.clock.now(), head = proof->head, draft, shared] {
+                    shared->answer(written(*draft, now, head->note).with("Vary", "Accept"));
+                  },
+                  [shared](Error error) { shared->fail(std::move(error)); });
+            });
       });
 }
 

@@ -64,7 +64,7 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   chosen_text(m.caller.value_or(""));
   text(m.run_id ? app::run_id_text(*m.run_id, m.origin) : "");
   text(m.cycle ? std::to_string(*m.cycle) : "");
-  text(m.correction_of ? app::measurement_id_text(*m.correction_of, m.origin) : "");
+  text(m.correction_of ? corrected_id_text(m) : "");
   chosen_text(m.correction_reason.value_or(""));
   const auto decimal = [&text](const std::optional<std::int64_t>& value, int scale) {
     text(value ? format_decimal(*value, scale) : "");

@@ -133,7 +133,12 @@ Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
   const app::Measurement* row = reader.end();
   if (auto error = errors.take()) return *std::move(error);
   MeasurementBatch batch{.rows = {*row}, .single = true, .texts = sources};
-  batch.rows.front().correction_of = sources->original->id;
+  const app::Measurement& original = *sources->original;
+  batch.rows.front().correction_of = original.id;
+  if (original.origin_number != 0) {
+    batch.rows.front().corrected_elsewhere = {
+        .row = original.row, .origin = original.origin_number, .digits = original.origin};
+  }
   batch.rows.front().correction_reason = reason;
   return batch;
 }
@@ -155,7 +160,7 @@ void correct(const SharedPosting& posting, const app::Measurement& original) {
   record(posting, *std::move(batch));
 }
 
-void find_and_correct(const SharedPosting& posting, std::int64_t id) {
+void find_and_correct(const SharedPosting& posting, const app::RecordName& id) {
   const auto original = std::make_shared<std::optional<app::KeptMeasurement>>();
   posting->services.measurements.find(
       id, [original](const app::Measurement& found) { original->emplace(found); },

@@ -44,8 +44,9 @@ void append_row(std::string& out, Form form, const app::Measurement& measurement
 
 /// Where a page begins.
 struct Cursor {
-  std::int64_t after = 0;             ///< the id before its first row
-  std::optional<std::int64_t> as_of;  ///< the state its list is read in; none: the newest
+  std::int64_t after = 0;                 ///< the row before its first
+  std::optional<std::int64_t> as_of;      ///< the state its list is read in; none: the newest
+  std::optional<app::RecordName> record;  ///< or it begins behind this one
 };
 
 /// `m100.m250`: the rows after m100, in the state when m250 was the newest.
@@ -59,10 +60,13 @@ Result<Cursor> cursor_of(const Services& services, const http::Request& request)
   if (!text) return Cursor();
   const std::size_t point = text->find('.');
   const auto after = services.measurements.parse_id(text->substr(0, point));
-  if (after && point == std::string_view::npos) return Cursor{.after = *after, .as_of = {}};
-  if (after) {
+  if (after && point == std::string_view::npos)
+    return Cursor{.after = 0, .as_of = {}, .record = *after};
+  if (after && after->origin == 0) {
     const auto as_of = services.measurements.parse_id(text->substr(point + 1));
-    if (as_of) return Cursor{.after = *after, .as_of = *as_of};
+    if (as_of && as_of->origin == 0) {
+      return Cursor{.after = after->number, .as_of = as_of->number, .record = {}};
+    }
   }
   return Error{ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
 }
@@ -90,6 +94,7 @@ class MeasurementStream final : public http::BodyStream,
           if (!page->next) return sink->finish(std::move(*piece));
           self->after_ = *page->next;
           self->query_.as_of = page->as_of;
+          self->query_.after.reset();
           sink->put(std::move(*piece));
         });
   }
@@ -182,7 +187,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
     query.designation = *std::move(designation);
   }
   if (const auto text = request.text("run_id")) {
-    const auto run = services.runs.parse_id(*text);
+    const auto run = services.measurements.parse_run(*text);
     if (!run) return Error{ErrorCode::QueryInvalid, "run_id is the id of a run", "run_id"};
     query.run_id = *run;
   }
@@ -208,6 +213,7 @@ void list_measurements(const Services& services, const http::Request& request,
   auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   query->as_of = cursor->as_of;
+  query->after = cursor->record;
   query->newest_first = request.text("sort") == "newest";
   if (const auto last = request.integer("last")) {
     if (limit || request.text("after")) {

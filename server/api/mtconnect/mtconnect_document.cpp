@@ -86,12 +86,12 @@ void Streams::add_availability() {
 
 void Streams::add(const app::Measurement& measurement, std::uint64_t from) {
   const std::string at = format_rfc3339(measurement.received_at);
-  if (part_sequence(measurement.id) >= from) {
+  if (part_sequence(measurement.row) >= from) {
     ++count_;
     const std::string part = escaped(measurement.texts.part_id.value_or(""));
     events_ += fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>
 )",
-                           part_sequence(measurement.id), at, part.empty() ? "UNAVAILABLE" : part);
+                           part_sequence(measurement.row), at, part.empty() ? "UNAVAILABLE" : part);
   }
   ++count_;
   std::string cells = fmt::format(
@@ -105,7 +105,7 @@ void Streams::add(const app::Measurement& measurement, std::uint64_t from) {
   events_ += fmt::format(
       R"(<FeatureMeasurementTable dataItemId="feature" sequence="{}" timestamp="{}" count="1"><Entry key="{}">{}</Entry></FeatureMeasurementTable>
 )",
-      feature_sequence(measurement.id), at, key_of(measurement.texts.characteristic.value_or("")),
+      feature_sequence(measurement.row), at, key_of(measurement.texts.characteristic.value_or("")),
       cells);
 }
 

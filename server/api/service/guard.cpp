@@ -10,7 +10,8 @@ namespace {
 constexpr std::string_view kTokenPrefix = "fg_";
 
 /// What a route asks for, in rising order: `public` (health, even in keys mode), `open`, and roles.
-enum class Access { Public, Open, Viewer, Operator, Admin };
+/// `station` is what an administrator may too, and no operator.
+enum class Access { Public, Open, Viewer, Operator, Admin, Station };
 
 Access access_of(const http::Route& route) {
   const std::string_view access = route.access;
@@ -18,7 +19,17 @@ Access access_of(const http::Route& route) {
   if (access == "viewer") return Access::Viewer;
   if (access == "operator") return Access::Operator;
   if (access == "public") return Access::Public;
+  if (access == "station") return Access::Station;
   return Access::Admin;
+}
+
+app::Role role_for(Access access) {
+  switch (access) {
+    case Access::Admin: return app::Role::Admin;
+    case Access::Operator: return app::Role::Operator;
+    case Access::Station: return app::Role::Station;
+    default: return app::Role::Viewer;
+  }
 }
 
 bool is_write(http::Method method) {
@@ -108,13 +119,11 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
                  "send a key: `Authorization: Bearer fg_…`; an administrator makes one with "
                  "`fitgauged key create`"};
   }
-  const int needed = access == Access::Admin      ? static_cast<int>(app::Role::Admin)
-                     : access == Access::Operator ? static_cast<int>(app::Role::Operator)
-                                                  : static_cast<int>(app::Role::Viewer);
-  if (static_cast<int>(caller->role) < needed) {
+  const app::Role needed = role_for(access);
+  if (!may(caller->role, needed)) {
     return Error{ErrorCode::Forbidden, "the key " + caller->name + " is of a " +
                                            std::string(word(caller->role)) + ", this needs " +
-                                           std::string(word(static_cast<app::Role>(needed)))};
+                                           std::string(word(needed))};
   }
   return std::optional<http::Response>();
 }

@@ -17,7 +17,7 @@ constexpr int kScale = 6;
 constexpr double kMillion = 1e6;
 
 /// What is computed from a selection, given the newest id there was.
-using Figure = std::function<Result<std::string>(ValueSelection&&, std::int64_t as_of)>;
+using Figure = std::function<Result<std::string>(ValueSelection&&, const std::string& as_of)>;
 
 /// Reads the values that the filters choose and computes from them, where both may take long.
 void answer_with(const Services& services, const http::Request& request, http::Responder responder,
@@ -49,7 +49,7 @@ bool ignores_subgroups(const http::Request& request) {
   return request.text("subgroups") == "ignore";
 }
 
-void write_selection(JsonWriter& json, const SelectedValues& selected, std::int64_t as_of) {
+void write_selection(JsonWriter& json, const SelectedValues& selected, const std::string& as_of) {
   const auto limit = [&json](std::string_view name, const std::optional<Length>& value) {
     if (value) json.member_mm(name, *value);
   };
@@ -57,9 +57,9 @@ void write_selection(JsonWriter& json, const SelectedValues& selected, std::int6
       .begin_object()
       .member("count", std::uint64_t{selected.count})
       .member("subgroups", std::uint64_t{selected.subgroups.size()})
-      .member("first_id", app::measurement_id_text(selected.first_id, selected.origin))
-      .member("last_id", app::measurement_id_text(selected.last_id, selected.origin))
-      .member("as_of", app::measurement_id_text(as_of, selected.origin));
+      .member("first_id", selected.first_id.text())
+      .member("last_id", selected.last_id.text())
+      .member("as_of", as_of);
   limit("lower_limit_mm", selected.lower_limit);
   limit("upper_limit_mm", selected.upper_limit);
   json.end_object();
@@ -72,8 +72,7 @@ PointName name_in(const SelectedValues& selected) {
       json.member("subgroup", selected.subgroups[violation.index]);
     } else {
       const std::size_t later = violation.chart == "mr" ? 1 : 0;
-      json.member("id",
-                  app::measurement_id_text(selected.ids[violation.index + later], selected.origin));
+      json.member("id", selected.ids[violation.index + later].text());
     }
   };
 }
@@ -86,7 +85,7 @@ void find_capability(const Services& services, const http::Request& request,
       static_cast<long double>(request.integer("confidence").value_or(kUsual)) / kMillion;
   answer_with(services, request, std::move(responder),
               [target, confidence, ignore = ignores_subgroups(request)](
-                  ValueSelection&& selection, std::int64_t as_of) -> Result<std::string> {
+                  ValueSelection&& selection, const std::string& as_of) -> Result<std::string> {
                 auto selected = take(std::move(selection), ignore);
                 if (!selected) return selected.error();
                 if (target) selected->limits.target = exact_mm(*target);
@@ -163,7 +162,7 @@ void find_chart(const Services& services, const http::Request& request, http::Re
   if (!stored) return responder.fail(stored.error());
   answer_with(services, request, std::move(responder),
               [stored = *std::move(stored)](ValueSelection&& selection,
-                                            std::int64_t as_of) -> Result<std::string> {
+                                            const std::string& as_of) -> Result<std::string> {
                 metrology::ChartPlan plan = stored.plan;
                 auto selected = take(std::move(selection), stored.ignores_subgroups);
                 if (!selected) return selected.error();

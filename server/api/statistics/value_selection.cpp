@@ -37,17 +37,16 @@ std::string ValueSelection::text_of(const Limits& limits) {
 Result<void> ValueSelection::add(const app::MeasuredValue& value) {
   const Limits limits{value.lower_limit, value.upper_limit};
   if (!limits_) limits_ = limits;
-  origin_ = value.origin;
+  const SelectedValues::Id id{.number = value.id, .origin = value.origin};
   if (limits != *limits_) {
     return Error{ErrorCode::LimitsMixed,
                  fmt::format("{} has the limits {}, {} has {}: select values of one size by "
                              "characteristic or designation",
-                             app::measurement_id_text(ids_.front(), origin_), text_of(*limits_),
-                             app::measurement_id_text(value.id, origin_), text_of(limits))};
+                             ids_.front().text(), text_of(*limits_), id.text(), text_of(limits))};
   }
-  bytes_ += sizeof(Wide) + sizeof(std::int64_t);
+  bytes_ += sizeof(Wide) + sizeof(id);
   names_subgroups_ = names_subgroups_ || value.subgroup.has_value();
-  if (!value.subgroup && !ungrouped_) ungrouped_ = value.id;
+  if (!value.subgroup && !ungrouped_) ungrouped_ = id;
   if (!ungrouped_) join(*value.subgroup);
   if (bytes_ > most_bytes_) {
     return Error{ErrorCode::StatisticsTooMany,
@@ -56,7 +55,7 @@ Result<void> ValueSelection::add(const app::MeasuredValue& value) {
                              counts_.size())};
   }
   counts_.push_back(value.measured.count());
-  ids_.push_back(value.id);
+  ids_.push_back(id);
   return {};
 }
 
@@ -86,7 +85,6 @@ Result<SelectedValues> ValueSelection::selected() {
                         .lower_limit = limits_->lower,
                         .upper_limit = limits_->upper,
                         .count = counts_.size(),
-                        .origin = origin_,
                         .first_id = ids_.front(),
                         .last_id = ids_.back()};
 }
@@ -103,8 +101,7 @@ Result<SelectedValues> ValueSelection::by_subgroup() && {
   auto made = selected();
   if (!made) return made;
   if (ungrouped_) {
-    return unbalanced(fmt::format("measurement {} names no subgroup",
-                                  app::measurement_id_text(*ungrouped_, origin_)));
+    return unbalanced(fmt::format("measurement {} names no subgroup", ungrouped_->text()));
   }
   std::vector<std::size_t> sizes(names_.size());
   for (const std::uint32_t group : groups_) ++sizes[group];

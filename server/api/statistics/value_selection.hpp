@@ -17,19 +17,26 @@ metrology::Exact exact_mm(Length length);
 
 /// The stored values a figure is computed from, in mm, with the limits all of them have.
 struct SelectedValues {
+  /// Of a measurement, as measurement_id_text() takes it.
+  struct Id {
+    std::int64_t number = 0;
+    std::string_view origin{};
+
+    std::string text() const { return app::measurement_id_text(number, origin); }
+  };
+
   metrology::Subgroups data;
   metrology::SpecificationLimits limits{};
   std::optional<Length> lower_limit;
   std::optional<Length> upper_limit;
-  std::vector<std::int64_t> ids{};       ///< of the values, where they come one by one
+  std::vector<Id> ids{};                 ///< of the values, where they come one by one
   std::vector<std::string> subgroups{};  ///< the names of the subgroups, else
   std::size_t count = 0;
-  std::string_view origin{};  ///< of the ids
-  std::int64_t first_id = 0;  ///< in storage order
-  std::int64_t last_id = 0;
+  Id first_id{};  ///< in storage order
+  Id last_id{};
 };
 
-/// Collects values as they are read. Its memory is bounded: 24 bytes a value, and the names of the
+/// Collects values as they are read. Its memory is bounded: 40 bytes a value, and the names of the
 /// subgroups.
 class ValueSelection {
  public:
@@ -66,11 +73,10 @@ class ValueSelection {
   const std::size_t most_bytes_;
   std::size_t bytes_ = 0;
   std::optional<Limits> limits_;
-  std::string_view origin_;
   std::vector<metrology::Wide> counts_;  ///< in nm
-  std::vector<std::int64_t> ids_;
+  std::vector<SelectedValues::Id> ids_;
   bool names_subgroups_ = false;
-  std::optional<std::int64_t> ungrouped_;  ///< the first value without a subgroup
+  std::optional<SelectedValues::Id> ungrouped_;  ///< the first value without a subgroup
   // While every value has one:
   std::vector<std::uint32_t> groups_;  ///< the number of the subgroup of each value
   std::unordered_map<std::string, std::uint32_t> numbers_;

@@ -27,6 +27,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::Unauthenticated:
     case ErrorCode::KeyInvalid: return 401;
     case ErrorCode::Forbidden:
+    case ErrorCode::LogKeyUnknown:
     case ErrorCode::OriginRefused: return 403;
     case ErrorCode::ClassUnknown:
     case ErrorCode::RevisionUnknown:
@@ -44,6 +45,8 @@ int status_of(ErrorCode code) {
     case ErrorCode::NotAcceptable: return 406;
     case ErrorCode::RequestTimeout: return 408;
     case ErrorCode::IdempotencyInProgress:
+    case ErrorCode::LogPosition:
+    case ErrorCode::LogForked:
     case ErrorCode::MeasurementCorrected:
     case ErrorCode::MeasurementSimulated:
     case ErrorCode::ConnectionReadOnly:
@@ -92,6 +95,11 @@ int status_of(ErrorCode code) {
     case ErrorCode::FieldConflict:
     case ErrorCode::SetupInvalid:
     case ErrorCode::ProgramInvalid:
+    case ErrorCode::LogRootMismatch:
+    case ErrorCode::LogRecordInvalid:
+    case ErrorCode::NoteUnverified:
+    case ErrorCode::NoteMalformed:
+    case ErrorCode::KeyMalformed:
     case ErrorCode::ProgramUnknown: return 422;
     default: return 400;
   }

@@ -31,7 +31,15 @@ void LogCheck::expect(const std::string& place, std::string_view note) {
 std::optional<std::string> LogCheck::add(const store::MeasurementRow& row) {
   const Measurement measurement = from_store(row, names_);
   const tlog::Hash leaf = leaf_(measurement);
-  whole_ = whole_ && row.id == static_cast<std::int64_t>(frontier_.size()) + 1;
+  const auto expected = static_cast<std::int64_t>(frontier_.size()) + 1;
+  if (whole_ && row.place_in_log() != expected) {
+    whole_ = false;
+    // Where its place is its id, the gap before it is named by that.
+    if (row.origin || row.seq) {
+      return fmt::format("stands at {} in the log {}, where {} comes next", row.place_in_log(),
+                         facts_.name, expected);
+    }
+  }
   if (whole_) {
     compare_nodes(frontier_.append(leaf));
     const auto [first, last] = expected_.equal_range(frontier_.size());

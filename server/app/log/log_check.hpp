@@ -19,8 +19,8 @@ namespace fitgauge::app {
 /// What is said of a measurement whose record no longer gives its leaf.
 std::string altered_finding();
 
-/// Makes the log again from the records while they are read in the order of their ids, and holds it
-/// against what was stored and what was signed.
+/// Makes a log again, that of this folder or one that was forwarded, from its records while they
+/// are read in their order, and holds it against what was stored and what was signed.
 class LogCheck {
  public:
   /// Gives the kept hash of a node of level 8, 16, …; none where there is none.
@@ -32,7 +32,7 @@ class LogCheck {
   /// Takes a checkpoint to compare with. @param place what a finding calls it.
   void expect(const std::string& place, std::string_view note);
 
-  /// What is wrong with the next measurement, if anything.
+  /// What is wrong with the next measurement of this log, if anything.
   std::optional<std::string> add(const store::MeasurementRow& row);
 
   /// What is wrong with the whole, after the last measurement.

@@ -13,6 +13,8 @@
 namespace fitgauge::app {
 namespace {
 
+constexpr std::string_view kNextKey = "\nnext key ";
+
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 64;
@@ -91,6 +93,19 @@ Result<std::string> renew_log_key(const fs::path& folder) {
   const auto made = tlog::SigningKey::make(used.verifier().name());
   if (const auto written = write_log_keys(folder, {made, used}); !written) return written.error();
   return made.verifier().text();
+}
+
+std::string next_key_line(const tlog::VerifierKey& key) {
+  return fmt::format("{}{}\n", kNextKey.substr(1), key.text());
+}
+
+std::optional<tlog::VerifierKey> next_key_of(std::string_view text) {
+  const std::size_t at = text.find(kNextKey);
+  if (at == text.npos) return std::nullopt;
+  const std::size_t begin = at + kNextKey.size();
+  const auto key = tlog::VerifierKey::parse(
+      text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin));
+  return key ? std::optional(*key) : std::nullopt;
 }
 
 Result<void> replace_file(const fs::path& file, std::string_view content, bool durably) {

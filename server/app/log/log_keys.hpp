@@ -31,6 +31,11 @@ Result<void> write_log_keys(const std::filesystem::path& folder,
 /// @returns the new public key. @errors StorageUnavailable when there is none yet; KeyMalformed.
 Result<std::string> renew_log_key(const std::filesystem::path& folder);
 
+/// What a checkpoint says below its root that hands over to another key: `next key VKEY`.
+std::string next_key_line(const tlog::VerifierKey& key);
+/// The key that a note's text hands over to; none where it does not.
+std::optional<tlog::VerifierKey> next_key_of(std::string_view text);
+
 /// Replaces a small file in one step. @param durably it is on disk when this returns.
 /// @errors StorageUnavailable.
 Result<void> replace_file(const std::filesystem::path& file, std::string_view content,

@@ -8,34 +8,27 @@
 #include "store/storage_failure.hpp"
 
 namespace fitgauge::app {
-namespace {
-
-template <class Visit>
-void visit_rows(const store::Stores& stores, std::int64_t after, std::int64_t count, Visit visit) {
-  if (count <= 0) return;
-  const store::MeasurementFilter all{.source = std::nullopt, .history = true};
-  stores.measurements.list(all, after, static_cast<std::size_t>(count), visit);
-}
-
-}  // namespace
 
 std::vector<tlog::Hash> LogReader::leaves(std::int64_t after, std::int64_t count) {
   std::vector<tlog::Hash> leaves;
   leaves.reserve(static_cast<std::size_t>(count));
-  visit_rows(
-      stores_, after, std::min(count, chained_ - after),
-      [&](const store::MeasurementRow& row) { leaves.push_back(leaf_(from_store(row, names_))); });
+  if (after < chained_) {
+    stores_.measurements.list_log(origin_, after, std::min(count, chained_ - after),
+                                  [&](const store::MeasurementRow& row) {
+                                    leaves.push_back(leaf_(from_store(row, names_)));
+                                  });
+  }
   const auto made = static_cast<std::int64_t>(leaves.size());
   if (made < count) {
-    stores_.log.leaves(std::max(after, chained_), count - made,
-                       [&](const Digest& leaf) { leaves.push_back(leaf); });
+    stores_.measurements.log_hashes(origin_, std::max(after, chained_), count - made,
+                                    [&](const Digest& leaf) { leaves.push_back(leaf); });
   }
   return leaves;
 }
 
 std::vector<std::string> LogReader::records(std::int64_t after, std::int64_t count) const {
   std::vector<std::string> records;
-  visit_rows(stores_, after, count, [&](const store::MeasurementRow& row) {
+  stores_.measurements.list_log(origin_, after, count, [&](const store::MeasurementRow& row) {
     append_record(records.emplace_back(), from_store(row, names_));
   });
   return records;
@@ -49,8 +42,13 @@ std::vector<tlog::Hash> LogReader::hashes(unsigned tile_level, std::uint64_t fir
   if (tile_level == 0) {
     hashes = leaves(begin, many);
   } else {
-    stores_.log.nodes(static_cast<int>(tile_level), begin, many,
-                      [&](const Digest& hash) { hashes.push_back(hash); });
+    const auto take = [&](const Digest& hash) { hashes.push_back(hash); };
+    const int level = static_cast<int>(tile_level);
+    if (origin_ == 0) {
+      stores_.log.nodes(level, begin, many, take);
+    } else {
+      stores_.origins.nodes(origin_, level, begin, many, take);
+    }
   }
   if (hashes.size() != count) {
     throw store::StorageFailure(
@@ -71,6 +69,12 @@ tlog::Hash LogReader::node(const tlog::Node& node) {
     }
   }
   return level.front();
+}
+
+tlog::Frontier LogReader::frontier(std::uint64_t size) {
+  std::vector<tlog::Hash> roots;
+  for (const tlog::Node& each : tlog::subtrees(0, size)) roots.push_back(node(each));
+  return {size, std::move(roots)};
 }
 
 std::string LogReader::tile(const tlog::Tile& tile) {

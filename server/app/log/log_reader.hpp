@@ -12,11 +12,16 @@
 
 namespace fitgauge::app {
 
-/// Reads the log in one state of the database: records, leaves and nodes. Used inside a read job.
+/// Reads the log of this folder, or that of one whose records were forwarded, in one state of the
+/// database: records, leaves and nodes. Used inside a read job.
 class LogReader {
  public:
-  LogReader(const store::Stores& stores, const RowNames& names)
-      : stores_(stores), names_(names), chained_(stores.log.state().chained) {}
+  /// @param origin 0: this folder.
+  LogReader(const store::Stores& stores, const RowNames& names, std::int64_t origin = 0)
+      : stores_(stores),
+        names_(names),
+        origin_(origin),
+        chained_(origin == 0 ? stores.log.state().chained : 0) {}
 
   /// The leaves of the rows after `after`, at most `count`.
   std::vector<tlog::Hash> leaves(std::int64_t after, std::int64_t count);
@@ -28,6 +33,9 @@ class LogReader {
   /// @throws store::StorageFailure when a node is not there.
   tlog::Hash node(const tlog::Node& node);
 
+  /// The right edge of the tree of the first `size` leaves. @pre as for node().
+  tlog::Frontier frontier(std::uint64_t size);
+
   /// The bytes of a tile (C2SP tlog-tiles). @pre as for node().
   std::string tile(const tlog::Tile& tile);
 
@@ -36,6 +44,7 @@ class LogReader {
 
   const store::Stores& stores_;
   const RowNames& names_;
+  const std::int64_t origin_;
   const std::int64_t chained_;  ///< rows up to here do not carry their leaf: it is made again
   LeafMaker leaf_;
   tlog::TreeHasher hasher_;

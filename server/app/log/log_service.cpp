@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
 #include <utility>
 
 #include "app/log/log_keys.hpp"
 #include "app/log/log_reader.hpp"
 #include "app/measurements/mapping.hpp"
+#include "app/measurements/measurement_storage.hpp"
 #include "app/tables/table_catalog.hpp"
 #include "base/guarded.hpp"
 #include "store/database.hpp"
@@ -60,11 +62,6 @@ Result<std::unique_ptr<LogService>> LogService::open(store::Database& database,
   return log;
 }
 
-RowNames LogService::row_names() const {
-  return {.revision_id = [this](std::int64_t number) { return tables_.revision_id(number); },
-          .origin = origin_};
-}
-
 Result<void> LogService::load() {
   struct Loaded {
     store::LogStore::State state;
@@ -74,14 +71,14 @@ Result<void> LogService::load() {
   const auto loaded =
       database_.readers().wait([this](const store::Stores& stores) -> Result<Loaded> {
         Loaded found{.state = stores.log.state(), .keys = stores.log.keys(), .frontier = {}};
-        origin_ = to_hex(found.state.origin).substr(0, kDigitsInIds);
+        origins_.remember(0, to_hex(found.state.origin).substr(0, kDigitsInIds));
+        for (const auto& origin : stores.origins.list()) {
+          origins_.remember(origin.number, origin.digits);
+        }
         if (options_.attach) return found;
-        const RowNames names = row_names();
+        const RowNames names = row_names(tables_, origins_);
         LogReader reader(stores, names);
-        const auto size = static_cast<std::uint64_t>(found.state.size);
-        std::vector<tlog::Hash> roots;
-        for (const tlog::Node& node : tlog::subtrees(0, size)) roots.push_back(reader.node(node));
-        found.frontier = tlog::Frontier(size, std::move(roots));
+        found.frontier = reader.frontier(static_cast<std::uint64_t>(found.state.size));
         return found;
       });
   // What is damaged is for verify to tell.
@@ -91,7 +88,7 @@ Result<void> LogService::load() {
   if (options_.attach) return {};
   frontier_ = loaded->frontier;
   name_ = loaded->state.name.value_or(
-      fmt::format("fitgauge/{}/{}", options_.name, origin_.substr(0, kDigitsInName)));
+      fmt::format("fitgauge/{}/{}", options_.name, origin().substr(0, kDigitsInName)));
   if (const auto keys = load_keys(loaded->keys); !keys) return keys;
   look_at_older_checkpoint();
   sign();
@@ -117,6 +114,7 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
     }
   }
   signers_ = *std::move(keys);
+  signer_ = signers_.front();
   std::vector<std::string> all = known;
   const std::string newest = signers_.front().verifier().text();
   const bool is_new = std::find(known.begin(), known.end(), newest) == known.end();
@@ -251,7 +249,7 @@ Result<void> LogService::take_leaves(const std::stop_token& stop, Stretch& stret
     const auto size = static_cast<std::int64_t>(grown.size());
     const auto leaves = database_.readers().wait(
         [this, size](const store::Stores& stores) -> Result<std::vector<tlog::Hash>> {
-          const RowNames names = row_names();
+          const RowNames names = row_names(tables_, origins_);
           return LogReader(stores, names).leaves(size, kLeavesAtATime);
         });
     if (!leaves) return leaves.error();
@@ -273,7 +271,11 @@ void LogService::sign() {
   head->checkpoint = {.origin = name_, .size = frontier_.size(), .root = frontier_.root()};
   std::vector<const tlog::SigningKey*> keys;
   for (const tlog::SigningKey& key : signers_) keys.push_back(&key);
-  head->note = tlog::sign_note(head->checkpoint.text(), keys);
+  std::string text = head->checkpoint.text();
+  // Who holds the old key says which one comes next: anybody can put a second signature under a
+  // note.
+  if (keys.size() > 1) text += next_key_line(signers_.front().verifier());
+  head->note = tlog::sign_note(text, keys);
   if (const auto kept = replace_file(options_.directory / kCheckpointFile, head->note, false);
       !kept) {
     tell("log_checkpoint_not_kept", kept.error().message);
@@ -298,16 +300,16 @@ std::string LogService::head_text() const {
 /// Asks again for those whose measurement is covered now, and refuses those whose time is over.
 void LogService::end_waiters(std::unique_lock<std::mutex>& lock) {
   const auto now = Steady::now();
-  const auto size = static_cast<std::int64_t>(head_.get()->checkpoint.size);
+  const std::uint64_t size = head_.get()->checkpoint.size;
   const auto first = std::stable_partition(
       waiters_.begin(), waiters_.end(),
-      [&](const Waiter& waiter) { return waiter.id > size && waiter.deadline > now; });
+      [&](const Waiter& waiter) { return waiter.index >= size && waiter.deadline > now; });
   std::vector<Waiter> over(std::make_move_iterator(first), std::make_move_iterator(waiters_.end()));
   waiters_.erase(first, waiters_.end());
   lock.unlock();
   for (Waiter& waiter : over) {
     guarded("a proof that was waited for", [&] {
-      if (waiter.id <= size) return prove(waiter.id, std::move(waiter.done));
+      if (waiter.index < size) return prove(waiter.name, std::move(waiter.done));
       waiter.done(Error{ErrorCode::StorageBusy,
                         "no checkpoint covers the measurement yet; ask again in a second"});
     });
@@ -315,33 +317,87 @@ void LogService::end_waiters(std::unique_lock<std::mutex>& lock) {
   lock.lock();
 }
 
-Result<LogService::Proof> LogService::read_proof(const store::Stores& stores, std::int64_t id) {
+Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
+                                                 const RecordName& name) {
   // The state of the job's first statement is not older than a head that was taken before it.
-  Proof proof{
-      .index = static_cast<std::uint64_t>(id - 1), .leaf = {}, .path = {}, .head = head_.get()};
-  if (id > stores.measurements.last_id()) {
-    return Error{ErrorCode::MeasurementUnknown,
-                 fmt::format("there is no measurement '{}'", measurement_id_text(id, origin_))};
+  Proof proof{.index = 0, .leaf = {}, .path = {}, .head = head_.get()};
+  const auto row = row_of(stores, name);
+  std::int64_t place = 0;
+  if (row) {
+    stores.measurements.find(
+        *row, [&](const store::MeasurementRow& found) { place = found.place_in_log(); });
   }
+  if (place == 0) {
+    return Error{ErrorCode::MeasurementUnknown,
+                 fmt::format("there is no measurement '{}'",
+                             measurement_id_text(name.number, origins_.digits(name.origin)))};
+  }
+  proof.index = static_cast<std::uint64_t>(place - 1);
+  if (name.origin != 0) proof.head = countersigned(stores, name.origin);
   const std::uint64_t size = proof.head->checkpoint.size;
   if (proof.index >= size) return proof;
-  const RowNames names = row_names();
-  LogReader reader(stores, names);
+  const RowNames names = row_names(tables_, origins_);
+  LogReader reader(stores, names, name.origin);
   proof.leaf = reader.node({.level = 0, .index = proof.index});
   proof.path = tlog::inclusion_proof(proof.index, size,
                                      [&](const tlog::Node& node) { return reader.node(node); });
   return proof;
 }
 
-void LogService::prove(std::int64_t id, Done<Proof> done) {
+/// The head of a forwarded log, with a signature of this folder beside the station's.
+std::shared_ptr<const LogService::Head> LogService::countersigned(const store::Stores& stores,
+                                                                  std::int64_t origin) const {
+  auto head = std::make_shared<Head>();
+  head->note = stores.origins.find(origin)->checkpoint;
+  head->checkpoint = tlog::parse_checkpoint(head->note).value();
+  const std::string_view text = std::string_view(head->note).substr(0, head->note.find("\n\n") + 1);
+  const tlog::SigningKey* const key = &*signer_;
+  const std::string own = tlog::sign_note(text, {&key, 1});
+  head->note += own.substr(text.size() + 1);
+  return head;
+}
+
+std::string LogService::sign_at(const store::Stores& stores, std::uint64_t size) const {
+  const RowNames names = row_names(tables_, origins_);
+  LogReader reader(stores, names);
+  const tlog::Checkpoint checkpoint{
+      .origin = name_, .size = size, .root = reader.frontier(size).root()};
+  const tlog::SigningKey* const key = &*signer_;
+  return tlog::sign_note(checkpoint.text(), {&key, 1});
+}
+
+std::vector<std::string> LogService::hand_overs() const {
+  std::vector<std::string> notes;
+  const std::string prefix = std::string(kCheckpointFile) + ".";
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator(options_.directory, failure)) {
+    if (!entry.path().filename().string().starts_with(prefix)) continue;
+    const auto note = read_small_file(entry.path());
+    if (note && *note && next_key_of(**note)) notes.push_back(**note);
+  }
+  // A later one has signed as many measurements or more.
+  std::sort(notes.begin(), notes.end(), [](const std::string& a, const std::string& b) {
+    const auto size = [](const std::string& note) {
+      const auto checkpoint = tlog::parse_checkpoint(note);
+      return checkpoint ? checkpoint->size : 0;
+    };
+    return size(a) < size(b);
+  });
+  return notes;
+}
+
+void LogService::prove(const RecordName& name, Done<Proof> done) {
   const auto asked = Steady::now();
   database_.readers().submit(
-      [this, id](const store::Stores& stores) { return read_proof(stores, id); },
-      [this, id, asked, done = std::move(done)](Result<Proof> proof) mutable {
+      [this, name](const store::Stores& stores) { return read_proof(stores, name); },
+      [this, name, asked, done = std::move(done)](Result<Proof> proof) mutable {
         if (!proof || proof->index < proof->head->checkpoint.size) return done(std::move(proof));
         std::unique_lock lock(mutex_);
         if (!stopped_) {
-          waiters_.push_back({.id = id, .deadline = asked + kPatience, .done = std::move(done)});
+          waiters_.push_back({.name = name,
+                              .index = proof->index,
+                              .deadline = asked + kPatience,
+                              .done = std::move(done)});
           dirty_ = true;
           return wake_.notify_one();
         }
@@ -357,23 +413,39 @@ void LogService::tile(std::string_view path, Done<TileBytes> done) {
   }
   database_.readers().submit(
       [this, tile = *tile](const store::Stores& stores) -> Result<TileBytes> {
-        const RowNames names = row_names();
+        const RowNames names = row_names(tables_, origins_);
         return TileBytes{.bytes = LogReader(stores, names).tile(tile),
                          .is_full = tile.width == tlog::kTileWidth};
       },
       std::move(done));
 }
 
-Result<LogService::Facts> LogService::facts(store::Database& database) {
-  return database.readers().wait([](const store::Stores& stores) -> Result<Facts> {
-    const store::LogStore::State state = stores.log.state();
-    Facts facts{
-        .name = state.name.value_or(""), .chained = state.chained, .size = state.size, .keys = {}};
-    for (const std::string& text : stores.log.keys()) {
-      // One that was altered does not fit its seal, which verify tells.
-      if (const auto key = tlog::VerifierKey::parse(text)) facts.keys.push_back(*key);
+Result<LogService::Logs> LogService::logs(store::Database& database) {
+  // A key that was altered does not fit its seal, which verify tells.
+  const auto parsed = [](const std::vector<std::string>& texts) {
+    std::vector<tlog::VerifierKey> keys;
+    for (const std::string& text : texts) {
+      if (const auto key = tlog::VerifierKey::parse(text)) keys.push_back(*key);
     }
-    return facts;
+    return keys;
+  };
+  return database.readers().wait([&](const store::Stores& stores) -> Result<Logs> {
+    const store::LogStore::State state = stores.log.state();
+    Logs logs;
+    logs[0] = {.name = state.name.value_or(""),
+               .chained = state.chained,
+               .size = state.size,
+               .keys = parsed(stores.log.keys()),
+               .checkpoint = {}};
+    for (const auto& origin : stores.origins.list()) {
+      const auto keys = parsed(stores.origins.keys(origin.number));
+      logs[origin.number] = {.name = keys.empty() ? origin.digits : keys.front().name(),
+                             .chained = 0,
+                             .size = origin.size,
+                             .keys = keys,
+                             .checkpoint = origin.checkpoint};
+    }
+    return logs;
   });
 }
 

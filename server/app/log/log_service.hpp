@@ -5,13 +5,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
+#include "app/log/origins.hpp"
+#include "app/measurements/measurement.hpp"
 #include "base/clock.hpp"
 #include "base/result.hpp"
 #include "base/snapshot.hpp"
@@ -26,7 +30,6 @@ struct Stores;
 namespace fitgauge::app {
 
 class TableCatalog;
-struct RowNames;
 
 struct LogOptions {
   std::filesystem::path
@@ -50,7 +53,9 @@ class LogService {
   ~LogService();
 
   /// What the ids of this folder end with: the first 16 hexadecimal digits of its origin.
-  std::string_view origin() const { return origin_; }
+  std::string_view origin() const { return origins_.own(); }
+  /// Of all folders whose records stand here.
+  Origins& origins() { return origins_; }
   /// Rows up to this id, from before the log, do not carry their leaf.
   std::int64_t chained() const { return chained_; }
 
@@ -80,9 +85,10 @@ class LogService {
     std::vector<tlog::Hash> path;
     std::shared_ptr<const Head> head;
   };
-  /// That a measurement stands in the tree of a signed head. Waits up to 1.1 s for a head that has
-  /// it. @errors MeasurementUnknown, StorageUnavailable, StorageBusy.
-  void prove(std::int64_t id, Done<Proof> done);
+  /// That a measurement stands in the tree of a signed head: its station's, countersigned here,
+  /// where it was forwarded. Waits up to 1.1 s for a head that has it.
+  /// @errors MeasurementUnknown, StorageUnavailable, StorageBusy.
+  void prove(const RecordName& name, Done<Proof> done);
 
   struct TileBytes {
     std::string bytes;
@@ -97,13 +103,24 @@ class LogService {
     std::int64_t chained = 0;
     std::int64_t size = 0;
     std::vector<tlog::VerifierKey> keys;
+    std::string checkpoint;  ///< the newest that is kept in the database; of forwarded logs
   };
-  static Result<Facts> facts(store::Database& database);
+  /// By origin, of which 0 is this folder.
+  using Logs = std::map<std::int64_t, Facts>;
+  static Result<Logs> logs(store::Database& database);
+
+  /// The signed head of the first `size` measurements of this folder, which is not told to others
+  /// as the newest one is. @pre there are so many in the tree. Used inside a read job.
+  std::string sign_at(const store::Stores& stores, std::uint64_t size) const;
+
+  /// The checkpoints that hand over from a key to the next, as they are kept in the folder.
+  std::vector<std::string> hand_overs() const;
 
  private:
   using Steady = std::chrono::steady_clock;
   struct Waiter {
-    std::int64_t id = 0;
+    RecordName name{};
+    std::uint64_t index = 0;
     Steady::time_point deadline;
     Done<Proof> done;
   };
@@ -115,7 +132,6 @@ class LogService {
   Result<void> load_keys(const std::vector<std::string>& known);
   void set_aside(std::string_view name, std::string_view why);
   void look_at_older_checkpoint();
-  RowNames row_names() const;
   void run(const std::stop_token& stop);
   Steady::time_point next_wake() const;
   Result<void> grow(const std::stop_token& stop);
@@ -124,16 +140,18 @@ class LogService {
   void sign();
   void tell(std::string_view event, const std::string& detail) const;
   void end_waiters(std::unique_lock<std::mutex>& lock);
-  Result<Proof> read_proof(const store::Stores& stores, std::int64_t id);
+  Result<Proof> read_proof(const store::Stores& stores, const RecordName& name);
+  std::shared_ptr<const Head> countersigned(const store::Stores& stores, std::int64_t origin) const;
 
   store::Database& database_;
   const TableCatalog& tables_;
   const Clock& clock_;
   const LogOptions options_;
-  std::string origin_;
+  Origins origins_;
   std::string name_;
   std::int64_t chained_ = 0;
-  std::vector<tlog::SigningKey> signers_;  ///< the key in use, and once the one before
+  std::vector<tlog::SigningKey> signers_;   ///< the key in use, and once the one before
+  std::optional<tlog::SigningKey> signer_;  ///< the key in use
   Snapshot<std::string> verifier_keys_;
   Snapshot<Head> head_;
   tlog::Frontier frontier_;  ///< of the thread

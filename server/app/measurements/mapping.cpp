@@ -4,6 +4,9 @@
 #include <map>
 #include <utility>
 
+#include "app/log/origins.hpp"
+#include "app/tables/table_catalog.hpp"
+
 namespace fitgauge::app {
 namespace {
 
@@ -166,6 +169,11 @@ store::StoredAnswer to_store(Answer answer) {
           .body = std::move(answer.body)};
 }
 
+RowNames row_names(const TableCatalog& tables, const Origins& origins) {
+  return {.revision_id = [&tables](std::int64_t number) { return tables.revision_id(number); },
+          .origin = [&origins](std::int64_t number) { return origins.digits(number); }};
+}
+
 store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t> revision) {
   store::MeasurementRow row;
   row.id = m.id;
@@ -209,14 +217,21 @@ store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t>
   row.run_id = m.run_id;
   row.cycle = m.cycle;
   row.correction_of = m.correction_of;
+  if (m.corrected_elsewhere) {
+    row.correction_of = m.corrected_elsewhere->row;
+    row.corrected_origin = m.corrected_elsewhere->origin;
+    row.corrected_number = m.correction_of;
+  }
   row.correction_reason = m.correction_reason;
   return row;
 }
 
 Measurement from_store(const store::MeasurementRow& row, const RowNames& names) {
   Measurement m;
-  m.id = row.id;
-  m.origin = names.origin;
+  m.id = row.public_number();
+  m.origin_number = row.origin.value_or(0);
+  m.origin = names.origin(m.origin_number);
+  m.row = row.id;
   m.source = row.source == store::Source::Gauge ? Source::Gauge : Source::Simulation;
   m.measured_at = {row.measured_at_ns};
   m.received_at = {row.received_at_ns};
@@ -256,7 +271,12 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   m.caller = row.caller;
   m.run_id = row.run_id;
   m.cycle = row.cycle;
-  m.correction_of = row.correction_of;
+  m.correction_of = row.corrected_number ? row.corrected_number : row.correction_of;
+  if (row.corrected_origin && row.correction_of) {
+    m.corrected_elsewhere = {.row = *row.correction_of,
+                             .origin = *row.corrected_origin,
+                             .digits = names.origin(*row.corrected_origin)};
+  }
   m.correction_reason = row.correction_reason;
   return m;
 }

@@ -21,11 +21,12 @@ Result<iso286::TableData> from_store(const store::TableContent& content);
 store::MeasurementRow to_store(const Measurement& measurement,
                                std::optional<std::int64_t> revision);
 
-/// What the numbers in a row are called outside; valid as long as the catalog.
+/// What the numbers in a row are called outside; valid as long as the catalog and the origins.
 struct RowNames {
   std::function<std::string_view(std::int64_t number)> revision_id;
-  std::string_view origin;  ///< of the data folder
+  std::function<std::string_view(std::int64_t number)> origin;  ///< the digits
 };
+RowNames row_names(const TableCatalog& tables, const Origins& origins);
 Measurement from_store(const store::MeasurementRow& row, const RowNames& names);
 
 store::Verdict to_store(gauging::Verdict verdict);

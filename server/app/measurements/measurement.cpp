@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
+#include "app/log/origins.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::app {
@@ -16,16 +18,27 @@ std::string id_text(char prefix, std::int64_t id, std::string_view origin) {
   return fmt::format("{}{}-{}", prefix, id, origin);
 }
 
-std::optional<std::int64_t> parse_id(char prefix, std::string_view text, std::string_view origin) {
-  const std::size_t dash = text.find('-', 2);
-  if (dash != text.npos && text.substr(dash + 1) != origin) return std::nullopt;
-  text = text.substr(0, dash);
+std::optional<std::int64_t> parse_number(char prefix, std::string_view text) {
   std::int64_t id = 0;
   const char* const end = text.data() + text.size();
   const bool readable = text.size() > 1 && text.front() == prefix && text[1] != '0' &&
                         text[1] != '-' && std::from_chars(text.data() + 1, end, id).ptr == end &&
                         id > 0;
   return readable ? std::optional(id) : std::nullopt;
+}
+
+std::optional<RecordName> parse_id(char prefix, std::string_view text, const Origins& origins) {
+  const std::size_t dash = std::min(text.find('-', 2), text.size());
+  const auto number = parse_number(prefix, text.substr(0, dash));
+  const auto origin =
+      dash == text.size() ? std::optional<std::int64_t>(0) : origins.number(text.substr(dash + 1));
+  if (!number || !origin) return std::nullopt;
+  return RecordName{.origin = *origin, .number = *number};
+}
+
+Error unknown_run(std::string_view text) {
+  return {ErrorCode::RunUnknown,
+          "there is no run '" + std::string(first_characters(text, 40)) + "'"};
 }
 
 }  // namespace
@@ -119,16 +132,27 @@ std::string run_id_text(std::int64_t id, std::string_view origin) {
   return id_text(kRunPrefix, id, origin);
 }
 
-Result<std::int64_t> parse_measurement_id(std::string_view text, std::string_view origin) {
-  if (const auto id = parse_id(kMeasurementPrefix, text, origin)) return *id;
+std::string corrected_id_text(const Measurement& m) {
+  return measurement_id_text(*m.correction_of,
+                             m.corrected_elsewhere ? m.corrected_elsewhere->digits : m.origin);
+}
+
+Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins) {
+  if (const auto name = parse_id(kMeasurementPrefix, text, origins)) return *name;
   return Error{ErrorCode::MeasurementUnknown,
                "there is no measurement '" + std::string(first_characters(text, 40)) + "'"};
 }
 
 Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin) {
-  if (const auto id = parse_id(kRunPrefix, text, origin)) return *id;
-  return Error{ErrorCode::RunUnknown,
-               "there is no run '" + std::string(first_characters(text, 40)) + "'"};
+  const std::size_t dash = std::min(text.find('-', 2), text.size());
+  const auto number = parse_number(kRunPrefix, text.substr(0, dash));
+  if (!number || (dash < text.size() && text.substr(dash + 1) != origin)) return unknown_run(text);
+  return *number;
+}
+
+Result<RecordName> parse_run_id(std::string_view text, const Origins& origins) {
+  if (const auto name = parse_id(kRunPrefix, text, origins)) return *name;
+  return unknown_run(text);
 }
 
 }  // namespace fitgauge::app

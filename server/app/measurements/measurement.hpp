@@ -16,6 +16,8 @@
 
 namespace fitgauge::app {
 
+class Origins;
+
 /// Who measured: a gauge at a part, or the simulated machine.
 enum class Source : std::uint8_t { Gauge, Simulation };
 /// Where the limits come from: a class of the tables, a column of the shop's own, or the drawing.
@@ -69,11 +71,21 @@ struct Expansions {
   std::optional<std::string_view> scale_material;
 };
 
+/// A record that another folder has stored, and where it stands in this one.
+struct Elsewhere {
+  std::int64_t row = 0;
+  std::int64_t origin = 0;    ///< as Origins numbers them
+  std::string_view digits{};  ///< what its ids end with
+};
+
 /// One judged measurement, before and after it is stored. Its texts are views of the memory it was
 /// read from: the request's body, or the database's own page while a visitor runs.
 struct Measurement {
-  std::int64_t id = 0;      ///< 0 before it is stored
+  std::int64_t id = 0;      ///< the number in its id; 0 before it is stored
   std::string_view origin;  ///< where it was stored: what its ids end with
+  // Once it is read from the store:
+  std::int64_t row = 0;            ///< where it stands in this folder
+  std::int64_t origin_number = 0;  ///< of the folder that has stored it; 0 is this one
   Source source = Source::Gauge;
   Timestamp measured_at;
   Timestamp received_at;
@@ -102,9 +114,11 @@ struct Measurement {
   std::optional<std::string_view> caller;
   std::optional<std::int64_t> run_id;
   std::optional<std::int64_t> cycle;
-  std::optional<std::int64_t> correction_of;
+  std::optional<std::int64_t> correction_of;     ///< the number in the id of the one it replaces
+  std::optional<Elsewhere> corrected_elsewhere;  ///< where that one is of another folder
   std::optional<std::string_view> correction_reason;
   std::optional<std::int64_t> corrected_by;  ///< known where one measurement was asked for
+  std::string_view corrected_by_origin{};    ///< empty: that of this one
 
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }
@@ -163,8 +177,18 @@ void judge_size(Measurement& measurement, const CycleSize& size);
 /// @param origin of the data folder: 16 hexadecimal digits.
 std::string measurement_id_text(std::int64_t id, std::string_view origin);
 std::string run_id_text(std::int64_t id, std::string_view origin);
-/// @errors MeasurementUnknown, RunUnknown, also for the ids of another origin.
-Result<std::int64_t> parse_measurement_id(std::string_view text, std::string_view origin);
+/// The id of the record that this one replaces. @pre there is one.
+std::string corrected_id_text(const Measurement& measurement);
+/// @errors RunUnknown, also for the ids of another origin.
 Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin);
+
+/// A measurement or a run as its id names it.
+struct RecordName {
+  std::int64_t origin = 0;  ///< as Origins numbers them
+  std::int64_t number = 0;
+};
+/// @errors MeasurementUnknown, RunUnknown, also for the ids of origins that are not known.
+Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins);
+Result<RecordName> parse_run_id(std::string_view text, const Origins& origins);
 
 }  // namespace fitgauge::app

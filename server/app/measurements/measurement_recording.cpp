@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "app/log/origins.hpp"
 #include "app/measurements/mapping.hpp"
 #include "app/measurements/measurement_feed.hpp"
 #include "app/measurements/measurement_queue.hpp"
@@ -38,12 +39,12 @@ Error internal_error(const std::exception& bug) {
 }  // namespace
 
 MeasurementService::MeasurementService(store::Database& database, const TableCatalog& tables,
-                                       std::string_view origin,
+                                       const Origins& origins,
                                        const MeasurementServiceOptions& options)
     : database_(database),
       tables_(tables),
-      origin_(origin),
-      queue_(std::make_shared<MeasurementQueue>(database, origin, options.most_waiting,
+      origins_(origins),
+      queue_(std::make_shared<MeasurementQueue>(database, origins.own(), options.most_waiting,
                                                 options.commit_each)),
       long_requests_(std::make_unique<WorkerPool>(kLongRequests, options.most_waiting)) {}
 MeasurementService::~MeasurementService() = default;
@@ -91,7 +92,7 @@ void MeasurementService::record(std::vector<Measurement> measurements,
                            .render = std::move(render),
                            .done = std::move(done)});
   }
-  auto work = [measurements = std::move(measurements), revision, origin = origin_,
+  auto work = [measurements = std::move(measurements), revision, origin = origins_.own(),
                render = std::move(render)](store::Stores& stores) mutable -> Result<Answer> {
     const auto rendering = render();
     const auto first = append(stores, measurements, revision, origin, rendering.get());
@@ -116,7 +117,7 @@ Result<Answer> MeasurementService::record_while_reading(
   const auto take = [&](std::vector<Measurement> measurements) {
     if (!std::exchange(begun, true)) begin();
     if (!next_id) return;  // refused before a row was stored
-    next_id = number_from(*next_id, origin_, measurements);
+    next_id = number_from(*next_id, origins_.own(), measurements);
     MeasurementFeed::Piece piece;
     piece.reserve(measurements.size());
     append_rows(piece, measurements, revision_of(measurements, tables_), leaves);

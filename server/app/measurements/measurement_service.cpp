@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "app/log/origins.hpp"
 #include "app/measurements/mapping.hpp"
+#include "app/measurements/measurement_storage.hpp"
 #include "app/tables/table_catalog.hpp"
 #include "store/database.hpp"
 
@@ -18,7 +20,10 @@ store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
     filter.designation = {.nominal_nm = query.designation->nominal_size.length().count(),
                           .tolerance_class = query.designation->class_name};
   }
-  filter.run_id = query.run_id;
+  if (query.run_id) {
+    filter.run_id = query.run_id->number;
+    filter.run_origin = query.run_id->origin;
+  }
   if (query.verdict) filter.verdict = to_store(*query.verdict);
   filter.source = query.source ? std::optional(to_store(*query.source)) : std::nullopt;
   if (query.from) filter.from_ns = query.from->nanoseconds;
@@ -28,6 +33,10 @@ store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
   filter.history = query.history;
   filter.as_of_id = query.as_of;
   return filter;
+}
+
+Error unknown_cursor() {
+  return {ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
 }
 
 static_assert(kTextFilters.size() == store::kTextColumns.size(),
@@ -53,7 +62,7 @@ std::optional<Length> limit_of(std::int64_t nanometres) {
 }
 
 MeasuredValue measured_value(const store::MeasuredValue& value) {
-  return {.id = value.id,
+  return {.id = value.number,
           .measured = Length::nanometres(value.measured_nm),
           .lower_limit = limit_of(value.lower_limit_nm),
           .upper_limit = limit_of(value.upper_limit_nm),
@@ -62,23 +71,31 @@ MeasuredValue measured_value(const store::MeasuredValue& value) {
 
 }  // namespace
 
-RowNames MeasurementService::row_names() const {
-  return {.revision_id = [this](std::int64_t number) { return tables_.revision_id(number); },
-          .origin = origin_};
-}
-
-void MeasurementService::find(std::int64_t id, Visitor visit, Done<std::int64_t> done) {
+void MeasurementService::find(const RecordName& name, Visitor visit, Done<std::int64_t> done) {
   database_.readers().submit(
-      [this, id, visit = std::move(visit)](const store::Stores& stores) -> Result<std::int64_t> {
-        const RowNames names = row_names();
-        const bool found = stores.measurements.find(id, [&](const store::MeasurementRow& row) {
-          Measurement measurement = from_store(row, names);
-          measurement.corrected_by = stores.measurements.corrected_by(id);
-          visit(measurement);
-        });
-        if (found) return id;
+      [this, name, visit = std::move(visit)](const store::Stores& stores) -> Result<std::int64_t> {
+        const RowNames names = row_names(tables_, origins_);
+        const auto row = row_of(stores, name);
+        const auto newer = row ? stores.measurements.corrected_by(*row) : std::nullopt;
+        std::optional<Measurement> correction;
+        if (newer) {
+          stores.measurements.find(*newer, [&](const store::MeasurementRow& found) {
+            correction = from_store(found, names);
+          });
+        }
+        const bool found =
+            row && stores.measurements.find(*row, [&](const store::MeasurementRow& original) {
+              Measurement measurement = from_store(original, names);
+              if (correction) {
+                measurement.corrected_by = correction->id;
+                measurement.corrected_by_origin = correction->origin;
+              }
+              visit(measurement);
+            });
+        if (found) return *row;
         return Error{ErrorCode::MeasurementUnknown,
-                     "there is no measurement '" + measurement_id_text(id, origin_) + "'"};
+                     "there is no measurement '" +
+                         measurement_id_text(name.number, origins_.digits(name.origin)) + "'"};
       },
       std::move(done));
 }
@@ -87,16 +104,22 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
                               Visitor visit, Done<ListPage> done) {
   database_.readers().submit(
       [this, filter = measurement_filter(query), after, limit, last = query.last,
+       behind = query.after,
        order = query.newest_first ? store::ListOrder::NewestFirst : store::ListOrder::OldestFirst,
        visit = std::move(visit)](const store::Stores& stores) mutable -> Result<ListPage> {
         if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
+        if (behind) {
+          const auto row = row_of(stores, *behind);
+          if (!row) return unknown_cursor();
+          after = *row;
+        }
         if (last) {
           limit = *last;
           const auto first = stores.measurements.first_of_newest(filter, limit);
           if (!first) return ListPage{.next = std::nullopt, .as_of = *filter.as_of_id};
           if (order == store::ListOrder::OldestFirst) after = *first - 1;
         }
-        const RowNames names = row_names();
+        const RowNames names = row_names(tables_, origins_);
         const auto next = stores.measurements.list(
             filter, after, limit,
             [&](const store::MeasurementRow& row) { visit(from_store(row, names)); }, order);
@@ -105,16 +128,21 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
       std::move(done));
 }
 
-Result<std::int64_t> MeasurementService::read_values(const MeasurementQuery& query,
-                                                     const ValueVisitor& visit) {
+Result<std::string> MeasurementService::read_values(const MeasurementQuery& query,
+                                                    const ValueVisitor& visit) {
   constexpr std::size_t kRowsAJob = 20'000;  // other readers get their turn between two jobs
   store::MeasurementFilter filter = measurement_filter(query);
   std::optional<std::int64_t> after = 0;
+  std::string newest = measurement_id_text(query.as_of.value_or(0), origins_.own());
   while (after) {
     auto next = database_.readers().wait(
         [&](const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
           if (!filter.as_of_id) {
             filter.as_of_id = stores.measurements.last_id();
+            stores.measurements.find(*filter.as_of_id, [&](const store::MeasurementRow& row) {
+              newest = measurement_id_text(row.public_number(),
+                                           origins_.digits(row.is_forwarded() ? *row.origin : 0));
+            });
             if (query.last) {
               const auto first = stores.measurements.first_of_newest(filter, *query.last);
               if (!first) return std::optional<std::int64_t>();
@@ -126,7 +154,7 @@ Result<std::int64_t> MeasurementService::read_values(const MeasurementQuery& que
               filter, *after, kRowsAJob, [&](const store::MeasuredValue& value) {
                 if (!taken) return;
                 MeasuredValue measured = measured_value(value);
-                measured.origin = origin_;
+                measured.origin = origins_.digits(value.origin);
                 taken = visit(measured);
               });
           if (!taken) return taken.error();
@@ -135,7 +163,7 @@ Result<std::int64_t> MeasurementService::read_values(const MeasurementQuery& que
     if (!next) return next.error();
     after = *next;
   }
-  return *filter.as_of_id;
+  return newest;
 }
 
 void MeasurementService::summary(const MeasurementQuery& query, std::string_view group_by,

@@ -21,7 +21,7 @@ class Database;
 namespace fitgauge::app {
 
 class MeasurementQueue;
-struct RowNames;
+class Origins;
 class TableCatalog;
 class WorkerPool;
 
@@ -52,7 +52,7 @@ inline constexpr std::array<std::string_view, 11> kTextFilters = {
 struct MeasurementQuery {
   std::array<std::optional<std::string>, kTextFilters.size()> texts;
   std::optional<iso286::Designation> designation;
-  std::optional<std::int64_t> run_id;
+  std::optional<RecordName> run_id;
   std::optional<gauging::Verdict> verdict;
   std::optional<Source> source = Source::Gauge;  ///< none: all
   std::optional<Timestamp> from;                 ///< from <= measured_at
@@ -65,18 +65,19 @@ struct MeasurementQuery {
   // Of lists.
   bool newest_first = false;
   std::optional<std::size_t> last;  ///< only so many of the newest that match, on one page
+  std::optional<RecordName> after;  ///< begins behind this one, instead of a cursor
 };
 
 /// How a list goes on after a page.
 struct ListPage {
-  std::optional<std::int64_t> next;  ///< the last id of the page; none when nothing follows
+  std::optional<std::int64_t> next;  ///< the last row of the page; none when nothing follows
   std::int64_t as_of = 0;            ///< the state all pages of the list are read in
 };
 
 /// What figures are computed from. The text is valid during the visitor's call.
 struct MeasuredValue {
   std::int64_t id = 0;
-  std::string_view origin{};  ///< of the data folder; outlives the value
+  std::string_view origin{};  ///< where it was stored; outlives the value
   Length measured;
   std::optional<Length> lower_limit;
   std::optional<Length> upper_limit;
@@ -121,15 +122,17 @@ class Rendering {
 /// on a storage thread or, when refused at once, on the caller's. Thread-safe.
 class MeasurementService {
  public:
-  /// @param origin of the data folder; outlives the service.
-  MeasurementService(store::Database& database, const TableCatalog& tables, std::string_view origin,
+  /// @param origins outlive the service.
+  MeasurementService(store::Database& database, const TableCatalog& tables, const Origins& origins,
                      const MeasurementServiceOptions& options);
   ~MeasurementService();
 
   /// @errors MeasurementUnknown.
-  Result<std::int64_t> parse_id(std::string_view text) const {
-    return parse_measurement_id(text, origin_);
+  Result<RecordName> parse_id(std::string_view text) const {
+    return parse_measurement_id(text, origins_);
   }
+  /// @errors RunUnknown.
+  Result<RecordName> parse_run(std::string_view text) const { return parse_run_id(text, origins_); }
 
   template <class T>
   using Done = std::function<void(Result<T>)>;
@@ -163,21 +166,23 @@ class MeasurementService {
   /// Called on a reader thread; the measurement's texts are valid during the call.
   using Visitor = std::function<void(const Measurement&)>;
 
-  /// Visits one measurement; `corrected_by` is set if it was. @errors MeasurementUnknown.
-  void find(std::int64_t id, Visitor visit, Done<std::int64_t> done);
+  /// Visits one measurement; `corrected_by` is set if it was. @returns where it stands in this
+  /// folder. @errors MeasurementUnknown.
+  void find(const RecordName& name, Visitor visit, Done<std::int64_t> done);
 
-  /// Visits up to `limit` matching measurements that come after the id `after`, in storage order or
-  /// the other way round. A query
-  /// without `as_of` is read in the newest state; the pages that follow name the one it gives, so
-  /// that the list is of one piece however much is recorded and corrected meanwhile.
+  /// Visits up to `limit` matching measurements that come after the cursor `after`, in storage
+  /// order or the other way round. A query without `as_of` is read in the newest state; the pages
+  /// that follow name the one it gives, so that the list is of one piece however much is recorded
+  /// and corrected meanwhile.
   void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
             Done<ListPage> done);
 
   /// Visits what figures are computed from of all that match, in storage order and in one state,
   /// and ends with the first error the visitor gives. Blocks: for threads that take long requests.
-  /// @returns the id that was the newest. @errors StorageBusy, StorageUnavailable, ShuttingDown
+  /// @returns the id of the newest measurement in that state. @errors StorageBusy,
+  /// StorageUnavailable, ShuttingDown
   using ValueVisitor = std::function<Result<void>(const MeasuredValue&)>;
-  Result<std::int64_t> read_values(const MeasurementQuery& query, const ValueVisitor& visit);
+  Result<std::string> read_values(const MeasurementQuery& query, const ValueVisitor& visit);
 
   /// Groups by one of kTextFilters. @errors QueryInvalid for another field or too many groups.
   void summary(const MeasurementQuery& query, std::string_view group_by,
@@ -188,13 +193,12 @@ class MeasurementService {
   void run(std::function<void()> work, const std::function<void(Error)>& failed);
 
  private:
-  RowNames row_names() const;
   template <class Work>
   void submit(const std::optional<IdempotencyScope>& scope, Work work, Done<Answer> done);
 
   store::Database& database_;
   const TableCatalog& tables_;
-  const std::string_view origin_;
+  const Origins& origins_;
   const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs
   const std::unique_ptr<WorkerPool> long_requests_;
 };

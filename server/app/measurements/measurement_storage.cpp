@@ -14,12 +14,17 @@ namespace {
 bool is_by_tables(const Measurement& m) { return m.basis != LimitsBasis::Explicit; }
 
 /// The store knows ids as numbers: this error names them as the outside does.
-Error corrected_before(const store::Stores& stores, std::int64_t id, std::string_view origin) {
-  const auto newer = stores.measurements.corrected_by(id);
-  return {
-      ErrorCode::MeasurementCorrected,
-      fmt::format("measurement {} was corrected by {}: correct that one",
-                  measurement_id_text(id, origin), measurement_id_text(newer.value_or(0), origin))};
+Error corrected_before(const store::Stores& stores, const Measurement& correction,
+                       std::int64_t row) {
+  std::string newer = "one of another folder";
+  stores.measurements.find(stores.measurements.corrected_by(row).value_or(0),
+                           [&](const store::MeasurementRow& found) {
+                             if (found.is_forwarded()) return;
+                             newer = measurement_id_text(found.id, correction.origin);
+                           });
+  return {ErrorCode::MeasurementCorrected,
+          fmt::format("measurement {} was corrected by {}: correct that one",
+                      corrected_id_text(correction), newer)};
 }
 
 }  // namespace
@@ -64,13 +69,18 @@ Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measur
     append_rows(rows, measurements.first(count), revision, leaves);
     const auto appended = stores.measurements.append(rows);
     if (!appended && appended.error().code == ErrorCode::MeasurementCorrected) {
-      return corrected_before(stores, *rows.front().correction_of, origin);
+      return corrected_before(stores, measurements.front(), *rows.front().correction_of);
     }
     if (!appended) return appended.error();
     if (rendering != nullptr) rendering->add(measurements.first(count), leaves.records());
     measurements = measurements.subspan(count);
   }
   return first;
+}
+
+std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name) {
+  if (name.origin == 0) return name.number;
+  return stores.measurements.find_forwarded(name.origin, name.number);
 }
 
 Error too_much_work() {

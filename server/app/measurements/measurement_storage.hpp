@@ -40,6 +40,9 @@ Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measur
                             std::optional<std::int64_t> revision, std::string_view origin,
                             Rendering* rendering = nullptr);
 
+/// The row of a measurement in this folder, none where there is no such.
+std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name);
+
 /// More waits to be stored than may.
 Error too_much_work();
 

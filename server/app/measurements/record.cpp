@@ -66,9 +66,13 @@ void RecordWriter::append(const Measurement& m) {
   if (m.conformance) {
     text.raw(R"(,"conformance_probability":)").billionths(m.conformance->probability);
   }
-  if (m.corrected_by) given("corrected_by", measurement_id_text(*m.corrected_by, m.origin));
+  if (m.corrected_by) {
+    const std::string_view origin =
+        m.corrected_by_origin.empty() ? m.origin : m.corrected_by_origin;
+    given("corrected_by", measurement_id_text(*m.corrected_by, origin));
+  }
   if (m.corrected) text.raw(R"(,"corrected_mm":)").mm(*m.corrected);
-  if (m.correction_of) given("correction_of", measurement_id_text(*m.correction_of, m.origin));
+  if (m.correction_of) given("correction_of", corrected_id_text(m));
   if (m.coverage_factor) text.raw(R"(,"coverage_factor":)").raw(format(*m.coverage_factor));
   if (m.cycle) text.raw(R"(,"cycle":)").decimal(*m.cycle, 0);
   write_or_copy(text, Designation, limits, [&] {

@@ -72,9 +72,9 @@ class EventReader {
   }
 
   void tell(const Measurement& measurement) {
-    const bool told = position_.reject_is_due && position_.measurement == measurement.id;
+    const bool told = position_.reject_is_due && position_.measurement == measurement.row;
     const bool rejected = measurement.result.verdict == gauging::Verdict::Reject;
-    position_.measurement = measurement.id;
+    position_.measurement = measurement.row;
     position_.reject_is_due = rejected;
     if (!told) {
       visit_({.type = "measurement.recorded", .id = position_, .measurement = &measurement});
@@ -118,9 +118,7 @@ void EventService::read(std::optional<EventPosition> after, std::optional<Source
         if (!reader.can_go_on(*after, retention_)) {
           return Page{.position = reader.newest(), .gap = true};
         }
-        const RowNames names{
-            .revision_id = [this](std::int64_t number) { return tables_.revision_id(number); },
-            .origin = origin_};
+        const RowNames names = row_names(tables_, origins_);
         return Page{.position = reader.read(*after, source, limit, names)};
       },
       std::move(done));

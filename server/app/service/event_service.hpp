@@ -46,12 +46,12 @@ struct Event {
 class EventService {
  public:
   /// @param retention how many measurements and how many stored events a reader may be behind.
-  /// @param origin of the data folder; outlives the service.
-  EventService(store::Database& database, const TableCatalog& tables, std::string_view origin,
+  /// @param origins outlive the service.
+  EventService(store::Database& database, const TableCatalog& tables, const Origins& origins,
                CommitSignal& signal, std::int64_t retention)
       : database_(database),
         tables_(tables),
-        origin_(origin),
+        origins_(origins),
         signal_(signal),
         retention_(retention) {}
 
@@ -77,7 +77,7 @@ class EventService {
  private:
   store::Database& database_;
   const TableCatalog& tables_;
-  const std::string_view origin_;
+  const Origins& origins_;
   CommitSignal& signal_;
   std::int64_t retention_;
 };

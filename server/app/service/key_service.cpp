@@ -11,7 +11,7 @@ namespace {
 constexpr std::chrono::seconds kReloadInterval{2};
 
 static_assert(kShortestToken == store::kShortestToken);
-static_assert(static_cast<int>(Role::Admin) == static_cast<int>(store::Role::Admin));
+static_assert(static_cast<int>(Role::Station) == static_cast<int>(store::Role::Station));
 
 }  // namespace
 
@@ -20,12 +20,23 @@ std::string_view word(Role role) {
     case Role::Viewer: return "viewer";
     case Role::Operator: return "operator";
     case Role::Admin: return "admin";
+    case Role::Station: return "station";
   }
   return "";
 }
 
+bool may(Role role, Role needed) {
+  switch (needed) {
+    case Role::Viewer: return true;
+    case Role::Operator: return role == Role::Operator || role == Role::Admin;
+    case Role::Station: return role == Role::Station || role == Role::Admin;
+    case Role::Admin: break;
+  }
+  return role == Role::Admin;
+}
+
 std::optional<Role> role_from_word(std::string_view text) {
-  for (const Role role : {Role::Viewer, Role::Operator, Role::Admin}) {
+  for (const Role role : {Role::Viewer, Role::Operator, Role::Admin, Role::Station}) {
     if (text == word(role)) return role;
   }
   return std::nullopt;

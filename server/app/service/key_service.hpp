@@ -24,10 +24,14 @@ namespace fitgauge::app {
 /// Characters of a token that an administrator chooses.
 inline constexpr std::size_t kShortestToken = 16;
 
-/// What a caller may do; each role may do what the ones before it may.
-enum class Role : std::uint8_t { Viewer = 1, Operator = 2, Admin = 3 };
+/// What a caller may do. An operator may do what a viewer may, an administrator everything; a
+/// station may read, and forward its log.
+enum class Role : std::uint8_t { Viewer = 1, Operator = 2, Admin = 3, Station = 4 };
 
-/// `viewer`, `operator`, `admin`.
+/// Whether `role` may do what `needed` may.
+bool may(Role role, Role needed);
+
+/// `viewer`, `operator`, `admin`, `station`.
 std::string_view word(Role role);
 std::optional<Role> role_from_word(std::string_view text);
 

@@ -83,14 +83,17 @@ Result<std::unique_ptr<TableCatalog>> TableCatalog::open(store::Database& databa
   const auto loaded = database.writer().wait(
       [&clock](store::Stores& stores) { return load_or_import(stores, clock.now()); });
   if (!loaded) return loaded.error();
-  const auto revisions = database.readers().wait(
-      [](const store::Stores& stores) -> Result<std::vector<store::TableRevision>> {
-        return stores.tables.list();
+  const auto revisions =
+      database.readers().wait([&catalog](const store::Stores& stores) -> Result<bool> {
+        for (const auto& revision : stores.tables.list()) {
+          catalog->remember(revision.number, revision.id);
+        }
+        for (const auto& revision : stores.origins.revisions()) {
+          catalog->remember(-revision.number, revision.id);
+        }
+        return true;
       });
   if (!revisions) return revisions.error();
-  for (const store::TableRevision& revision : *revisions) {
-    catalog->remember(revision.number, revision.id);
-  }
   catalog->state_.set(std::make_shared<const TableState>(audit(*loaded)));
   return catalog;
 }
@@ -215,9 +218,10 @@ std::string_view TableCatalog::revision_id(std::int64_t number) const {
 
 std::optional<std::int64_t> TableCatalog::revision_number(std::string_view id) const {
   const std::lock_guard lock(ids_mutex_);
-  const auto found =
-      std::find_if(ids_.begin(), ids_.end(), [&](const auto& known) { return known.second == id; });
-  return found == ids_.end() ? std::nullopt : std::optional(found->first);
+  // From behind: a revision of this folder goes before the same one of another.
+  const auto found = std::find_if(ids_.rbegin(), ids_.rend(),
+                                  [&](const auto& known) { return known.second == id; });
+  return found == ids_.rend() ? std::nullopt : std::optional(found->first);
 }
 
 }  // namespace fitgauge::app

@@ -71,6 +71,9 @@ class TableCatalog {
   /// The id of a revision by its number, for reading stored rows; valid as long as the catalog.
   /// Empty for a number that was never given.
   std::string_view revision_id(std::int64_t number) const;
+  /// Takes note of a revision of another folder, under a number below 0.
+  void remember(std::int64_t number, std::string_view id);
+
   /// The number of a revision that revision_id knows.
   std::optional<std::int64_t> revision_number(std::string_view id) const;
 
@@ -86,7 +89,6 @@ class TableCatalog {
   using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
   void change(ColumnName column, Edit edit, std::optional<std::vector<std::string>> condition,
               Callback<ColumnStored> done);
-  void remember(std::int64_t number, std::string_view id);
 
   store::Database& database_;
   const Clock& clock_;

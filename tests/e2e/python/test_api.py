@@ -1,6 +1,7 @@
 """The Python client on a running service: every call, and every route of the API by some call."""
 
 import io
+import json
 import re
 from datetime import datetime, timedelta, timezone
 from decimal import Decimal
@@ -117,6 +118,10 @@ class EveryRoute(ControlTest):
         self.assertEqual(client.checkpoint().splitlines()[0], proof["checkpoint"].splitlines()[0])
         self.assertTrue(client.log_keys()[0].startswith("fitgauge/station/"))
         self.assertEqual(len(client.log_tile("0/000.p/2")), 64)
+        batch = json.dumps({"checkpoint": client.checkpoint(), "key": client.log_keys()[0]})
+        with self.assertRaises(fitgauge.Conflict) as own:  # no folder forwards to itself
+            client.put_log(record["id"].split("-")[1], 1, batch.encode())
+        self.assertEqual(own.exception.code, "log.forked")
         self.assertEqual((group["count"], group["mean_mm"], group["standard_deviation_mm"]),
                          (1, Decimal("25.0185"), None))
         events = client.events(last_event_id="m0.e0")

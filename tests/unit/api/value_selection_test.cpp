@@ -38,7 +38,9 @@ TEST_CASE("values one by one keep the order they are stored in, whatever subgrou
   CHECK(selection.names_subgroups());
   const SelectedValues selected = std::move(selection).one_by_one().value();
   CHECK(nanometres_of(selected) == std::vector<std::int64_t>{3, 1});
-  CHECK(selected.ids == std::vector<std::int64_t>{7, 9});
+  REQUIRE(selected.ids.size() == 2);
+  CHECK(selected.ids[0].number == 7);
+  CHECK(selected.ids[1].number == 9);
   CHECK(selected.data.size == 1);
   CHECK(*selected.limits.upper - *selected.limits.lower ==
         metrology::Exact(metrology::Integer(21), metrology::Integer(1000)));
@@ -54,8 +56,8 @@ TEST_CASE("subgroups stand in the order they begin in, their values in that of s
   CHECK(nanometres_of(selected) == std::vector<std::int64_t>{10, 11, 12, 20, 21, 22});
   CHECK(selected.data.size == 3);
   CHECK(selected.subgroups == std::vector<std::string>{"b", "a"});
-  CHECK(selected.first_id == 1);
-  CHECK(selected.last_id == 6);
+  CHECK(selected.first_id.number == 1);
+  CHECK(selected.last_id.number == 6);
 }
 
 TEST_CASE("subgroups that make no chart are refused") {

@@ -90,7 +90,7 @@ TEST_CASE("a request is stored while it is read, in its order") {
   }
   const auto last = wait_for<std::int64_t>([&](auto done) {
     service->measurements().find(
-        2000, [](const Measurement& m) { CHECK(m.measured == bore(1999).measured); },
+        {.number = 2000}, [](const Measurement& m) { CHECK(m.measured == bore(1999).measured); },
         std::move(done));
   });
   CHECK(last.has_value());
@@ -177,7 +177,7 @@ TEST_CASE("small requests at once are all stored, each with the ids of its own r
       if (!answer || ids.size() != 2 || ids[1] != ids[0] + 1) continue;
       const auto found = wait_for<std::int64_t>([&](auto done) {
         service->measurements().find(
-            ids[0],
+            {.number = ids[0]},
             [&](const Measurement& m) {
               if (m.measured == bore(number).measured) ++answered;
             },

@@ -37,6 +37,18 @@ struct Everything : Fixture {
               stores.log.add_key("key", 1);
               const LogStore::Node node{.level = 1, .index = 0, .hash = {}};
               stores.log.grow(1100, std::span(&node, 1));
+              const std::int64_t other = stores.origins.add("5f0c9a3e77d21b40");
+              stores.origins.set_head({.number = other,
+                                       .digits = {},
+                                       .first_row = 2000,
+                                       .size = 1,
+                                       .checkpoint = "fitgauge/b/5f0c9a3e"});
+              stores.origins.add_key(other, "key", 1);
+              stores.origins.keep_nodes(other, std::span(&node, 1));
+              CHECK(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 1));
+              CHECK_FALSE(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 2));
+              CHECK(stores.origins.add_revision("2026-a") == stores.origins.add_revision("2026-a"));
+              stores.origins.set_forwarded({.centre = "https://centre", .size = 7});
               return true;
             }).has_value());
     REQUIRE(database->verify(check_hash)->findings.empty());
@@ -92,6 +104,14 @@ const std::map<std::string, std::string> kFree = {
     {"log_nodes.level", "made from the leaves: the application compares them"},
     {"log_nodes.node", "as above"},
     {"log_nodes.hash", "as above"},
+    {"origins.number", "rows of it name another then: the application finds them"},
+    {"origin_keys.number", "in no answer"},
+    {"origin_forks.number", "in no answer"},
+    {"origin_revisions.number", "rows of it name another then, which is not there"},
+    {"origin_nodes.origin", "made from the leaves: the application compares them"},
+    {"origin_nodes.level", "as above"},
+    {"origin_nodes.node", "as above"},
+    {"origin_nodes.hash", "as above"},
     {"measurement_nodes.stale", "makes the aggregates anew"},
 };
 

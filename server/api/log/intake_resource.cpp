@@ -1,0 +1,100 @@
+#include "api/log/intake_resource.hpp"
+
+#include <fmt/format.h>
+
+#include "api/handlers.hpp"
+#include "api/log/batch_reader.hpp"
+#include "api/wire/json_writer.hpp"
+#include "api/wire/problem.hpp"
+#include "app/measurements/measurement_service.hpp"
+#include "tlog/base64.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::size_t kBodyLimit = std::size_t{32} << 20;
+
+void write_head(JsonWriter& json, const app::LogIntake::Head& head) {
+  json.begin_object()
+      .member("size", head.size)
+      .member("root", tlog::to_base64(head.root))
+      .end_object();
+}
+
+Error refusal(const app::LogIntake::Answer& answer, std::string_view origin) {
+  if (answer.outcome == app::LogIntake::Outcome::Forked) {
+    return {ErrorCode::LogForked,
+            fmt::format("the origin {} has two histories: its folder was copied and started twice, "
+                        "or an older copy was put back. Give one of them a folder of its own",
+                        origin)};
+  }
+  return {ErrorCode::LogPosition,
+          fmt::format("{} rows of the origin {} are here: go on behind them", answer.head.size,
+                      origin)};
+}
+
+http::Response response_of(const http::Request& request, const app::LogIntake::Answer& answer,
+                           std::string_view origin) {
+  std::string body;
+  if (answer.outcome == app::LogIntake::Outcome::Taken) {
+    JsonWriter json(body);
+    write_head(json, answer.head);
+    return {200, "application/json", std::move(body)};
+  }
+  http::Response response = problem(refusal(answer, origin), std::nullopt, request);
+  auto& text = std::get<std::string>(response.body);
+  text.pop_back();
+  text += ",\"head\":";
+  JsonWriter json(text);
+  write_head(json, answer.head);
+  text += '}';
+  return response;
+}
+
+void put_batch(const Services& services, const http::Request& request, http::Responder responder) {
+  const SharedResponder shared = share(std::move(responder));
+  services.measurements.run(
+      [&services, &request, shared] {
+        const auto batch =
+            read_batch(*request.text("origin"), *request.integer("from"), request.body());
+        if (!batch) return shared->fail(batch.error());
+        const auto answer = services.intake.take((*batch)->batch);
+        if (!answer) return shared->fail(answer.error());
+        shared->answer(response_of(request, *answer, (*batch)->batch.origin));
+      },
+      [shared](Error error) { shared->fail(std::move(error)); });
+}
+
+}  // namespace
+
+void add_intake_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back({
+      .method = http::Method::Put,
+      .pattern = "/v1/log/{origin}/{from}",
+      .handler = with(services, put_batch),
+      .summary = "Take what a station forwards",
+      .description =
+          "NDJSON: a line with `checkpoint`, `key` and `hand_overs`; up to 10,000 records as they "
+          "were first answered; a line for each answer kept under an idempotency key. Taken whole "
+          "where the first record continues the log of the origin and the root fits the signed "
+          "checkpoint; else 409 with the head that is here.",
+      .parameters = {{.name = "origin",
+                      .place = http::ParameterPlace::Path,
+                      .description = "What the ids of the station end with: 16 hexadecimal digits"},
+                     {.name = "from",
+                      .place = http::ParameterPlace::Path,
+                      .type = http::Integer{.min = 1},
+                      .description = "The place of the first record in its log, from 1"}},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/x-ndjson"},
+               .limit = kBodyLimit,
+               .schema = "LogBatch"},
+      .access = "station",
+      .operation = "putLogBatch",
+      .tag = "log",
+      .outcomes = {{.meaning = "All of it is durable: the log's head here", .schema = "LogHead"}},
+      .refusals = {403, 409, 422},
+  });
+}
+
+}  // namespace fitgauge::api

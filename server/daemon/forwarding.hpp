@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "api/service/exposition.hpp"
+#include "app/application.hpp"
+#include "base/clock.hpp"
+#include "daemon/config.hpp"
+#include "forwarder/forwarder.hpp"
+
+namespace fitgauge::daemon {
+
+/// Whether the settings of forwarding go together.
+/// @errors ConfigInvalid: no address of a centre, http:// beyond this machine, a key that cannot be
+///   read.
+Result<void> check_forwarding(const Config& config);
+
+/// Starts to forward the log to the centre; null when there is none.
+std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app);
+
+/// How much of the log the centre does not have, and for how long. @param forwarder may be null.
+void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& clock,
+                          api::Exposition& out);
+
+}  // namespace fitgauge::daemon

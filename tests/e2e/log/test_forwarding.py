@@ -1,0 +1,242 @@
+"""A station that forwards its log: its centre away, itself killed, the link between them cut at random bytes."""
+
+import os
+import random
+import re
+import shutil
+import threading
+import time
+import unittest
+
+from log.test_intake import origin_of, records_of
+from measurements.test_log import wait_for_size
+from measurements.test_storage import PART
+from support.cutting_proxy import CuttingProxy
+from support.daemon import SANITIZED, Daemon, command
+
+SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
+DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
+ROWS, KILLS, PIECE = (100_000, 20, 5_000) if DEEP else (1_500, 4, 300)
+PATIENCE = 120
+
+
+def wait_until(condition, what):
+    deadline = time.monotonic() + PATIENCE
+    while not (found := condition()):
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited in vain: {what}")
+        time.sleep(0.05)
+    return found
+
+
+def metric(daemon, name):
+    found = re.search(rf"^{name} (\S+)$", daemon.get("/metrics").text, re.MULTILINE)
+    return float(found.group(1)) if found else None
+
+
+def head_of(daemon, size):
+    return wait_for_size(daemon, size).split("\n")[1:3]
+
+
+class Forwarding(unittest.TestCase):
+    def setUp(self):
+        self.centre = self.made("--origin-name", "centre").start()
+
+    def made(self, *flags):
+        daemon = Daemon(*flags)
+        self.addCleanup(daemon.cleanup)
+        return daemon
+
+    def station(self, port, *flags, host="127.0.0.1"):
+        return self.made("--origin-name", "plant-3/press-7", "--forward-to", f"http://{host}:{port}", *flags)
+
+    def wait_for_rows(self, count, centre=None):
+        centre = centre or self.centre
+        wait_until(lambda: len(records_of(centre)) >= count, f"{count} rows at the centre")
+
+    def wait_until_drained(self, station):
+        wait_until(lambda: metric(station, "fitgauge_outbox_rows") == 0, "an empty outbox")
+
+    def assert_same(self, station):
+        """The centre holds exactly the station's rows, each once and in their order, under the same root."""
+        records = records_of(station)
+        self.assertEqual(records_of(self.centre), records)
+        last = records[-1].split('"id":"')[1].split('"')[0]
+        proof = self.centre.get(f"/v1/measurements/{last}/proof").json
+        self.assertEqual(proof["checkpoint"].split("\n")[1:3], head_of(station, len(records)))
+        verified = command("verify", "--data", self.centre.data)
+        self.assertEqual(verified.returncode, 0, verified.stdout)
+        return records
+
+    def test_a_value_is_at_the_centre_soon_after_it_was_stored(self):
+        station = self.station(self.centre.port).start()
+        self.assertEqual(metric(station, "fitgauge_outbox_rows"), 0)
+        record = station.measure({**PART, "part_id": "P-1"}, {"Idempotency-Key": "k-1"}).json
+        self.wait_for_rows(1)
+        self.assertEqual(self.centre.get(f"/v1/measurements/{record['id']}").json, record)
+        again = self.centre.measure({**PART, "part_id": "P-1"}, {"Idempotency-Key": "k-1"})
+        self.assertEqual(again.json, record, "the answer came with its row")
+        station.post(f"/v1/measurements/{record['id']}/corrections", {"measured_mm": 25.5, "reason": "misread"})
+        self.wait_for_rows(2)
+        self.assertIn("corrected_by", self.centre.get(f"/v1/measurements/{record['id']}").json)
+        self.wait_until_drained(station)
+        self.assertEqual(metric(station, "fitgauge_outbox_oldest_seconds"), 0)
+        self.assert_same(station)
+
+    def test_nothing_is_lost_or_doubled_however_the_link_and_both_ends_fail(self):
+        print(f"seed {SEED}")
+        chance = random.Random(SEED)
+        proxy = CuttingProxy(self.centre.port, SEED, longest=400_000 if DEEP else 60_000)
+        self.addCleanup(proxy.close)
+        station = self.station(proxy.port).start()
+        self.centre.kill()
+        stored = 0
+        while stored < ROWS:
+            parts = [{**PART, "part_id": f"{chance.getrandbits(128):032x}"} for _ in range(PIECE)]
+            self.assertEqual(station.measure(parts).status, 201)
+            stored += PIECE
+        self.assertEqual(wait_until(lambda: metric(station, "fitgauge_outbox_rows"), "a full outbox"), stored)
+        wait_until(lambda: metric(station, "fitgauge_outbox_oldest_seconds"), "an age")
+        for kill in range(KILLS):
+            if kill % 2:
+                station.kill()
+                station.start()
+                self.assertEqual(station.measure(PART).status, 201)
+                stored += 1
+            if kill % 3 == 0:
+                if self.centre.process.poll() is None:
+                    self.centre.kill()
+                self.centre.start()
+                proxy.port_behind = self.centre.port
+            time.sleep(chance.random())
+        proxy.cuts = False
+        begun = time.monotonic()
+        self.wait_until_drained(station)
+        print(f"{stored} rows; {proxy.cut} connections cut; drained after {time.monotonic() - begun:.1f} s")
+        self.assertGreater(proxy.cut, 0, "the link was never cut")
+        self.assertEqual(len(self.assert_same(station)), stored)
+
+    def test_a_station_that_was_away_sends_what_the_centre_lacks_and_no_more(self):
+        station = self.station(self.centre.port).start()
+        station.measure([PART] * 20)
+        self.wait_for_rows(20)
+        self.wait_until_drained(station)
+        station.stop()
+        backup = self.centre.folder / "backup"
+        shutil.copytree(self.centre.data, backup)
+        other = self.made("--origin-name", "centre")
+        self.centre.stop()
+        # The centre lost what came after its copy was made: the station's log fills it up again.
+        station.start()
+        station.measure([PART] * 10)
+        other.data = backup
+        other.listen = f"127.0.0.1:{self.centre.port}"
+        other.start()
+        self.centre = other
+        self.wait_for_rows(30)
+        self.wait_until_drained(station)
+        self.assert_same(station)
+
+    def test_a_folder_that_was_copied_is_named_at_both_ends(self):
+        station = self.station(self.centre.port).start()
+        station.measure([PART] * 3)
+        self.wait_for_rows(3)
+        self.wait_until_drained(station)
+        station.stop()
+        twin = self.station(self.centre.port)
+        shutil.copytree(station.data, twin.data)
+        station.start()
+        station.measure({**PART, "part_id": "first"})
+        self.wait_for_rows(4)
+        twin.start()
+        twin.measure({**PART, "part_id": "twin"})
+        wait_until(lambda: '"event":"forward_refused"' in twin.log, "a refusal that is named")
+        self.assertIn("copied and started twice", twin.log)
+        self.assertIn('"event":"log_forked"', self.centre.log)
+        self.assertEqual(metric(twin, "fitgauge_outbox_rows"), 1)
+        station.measure(PART)
+        self.wait_for_rows(5)
+        self.wait_until_drained(station)
+        self.assert_same(station)
+        self.assertEqual(len(records_of(twin)), 4)
+
+    def test_a_station_goes_on_with_a_new_key_of_its_log(self):
+        station = self.station(self.centre.port).start()
+        station.measure(PART)
+        self.wait_for_rows(1)
+        for _ in range(2):
+            station.stop()
+            self.assertEqual(station.command("log-key").returncode, 0)
+            station.start()
+        station.measure(PART)
+        self.wait_for_rows(2)
+        self.wait_until_drained(station)
+        self.assert_same(station)
+
+    def test_a_key_is_sent_and_one_of_another_role_is_refused(self):
+        centre = self.made("--auth", "keys").start()
+        tokens = {}
+        for role in ("operator", "station"):
+            made = centre.command("key", "create", "--name", role, "--role", role)
+            tokens[role] = re.search(r"fg_[0-9a-f]+", made.stdout).group()
+        key_file = centre.folder / "key"
+        key_file.write_text(tokens["operator"] + "\n")
+        station = self.station(centre.port, "--forward-key-file", key_file, host="localhost").start()
+        station.measure(PART)
+        wait_until(lambda: '"event":"forward_refused"' in station.log, "a refusal that is named")
+        key_file.write_text(tokens["station"] + "\n")
+        wait_until(lambda: metric(station, "fitgauge_outbox_rows") == 0, "an empty outbox")
+
+    def test_settings_that_would_send_in_the_clear_are_refused(self):
+        for flags, word in {("--forward-to", "http://centre.example"): "forward-insecure",
+                            ("--forward-to", "centre.example"): "https://host",
+                            ("--forward-to", "https://centre.example/v1"): "https://host",
+                            ("--forward-key-file", "/etc/hostname"): "forward-to",
+                            ("--forward-to", "https://centre.example", "--forward-key-file", "/no/file"):
+                                "cannot read"}.items():
+            checked = command(*flags, "--check-config")
+            self.assertEqual(checked.returncode, 2, checked)
+            self.assertIn(word, checked.stderr)
+        for flags in (("--forward-to", "https://centre.example:8286/"), ("--forward-to", "http://[::1]:8286"),
+                      ("--forward-to", "http://centre.example", "--forward-insecure")):
+            self.assertEqual(command(*flags, "--check-config").returncode, 0, flags)
+
+
+class Stations(unittest.TestCase):
+    def test_many_stations_forward_to_one_centre_at_once(self):
+        centre = Daemon("--origin-name", "centre").start()
+        self.addCleanup(centre.cleanup)
+        count, rows = (20, 5_000) if DEEP else (3 if SANITIZED else 5, 200)
+        stations = []
+        for _ in range(count):
+            station = Daemon("--origin-name", "press", "--forward-to", f"http://127.0.0.1:{centre.port}")
+            self.addCleanup(station.cleanup)
+            stations.append(station.start())
+
+        def fill(station):
+            for _ in range(0, rows, 100):
+                station.measure([PART] * 100)
+                centre.measure(PART)
+
+        threads = [threading.Thread(target=fill, args=(station,)) for station in stations]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        total = count * (rows + rows // 100)
+        wait_until(lambda: len(records_of(centre)) == total, "the rows of all")
+        for station in stations:
+            wait_until(lambda one=station: metric(one, "fitgauge_outbox_rows") == 0, "an empty outbox")
+        there = {}
+        for line in records_of(centre):
+            there.setdefault(origin_of([line]), []).append(line)
+        for station in stations:
+            records = records_of(station)
+            self.assertEqual(there.pop(origin_of(records)), records)
+        self.assertEqual(sum(map(len, there.values())), count * rows // 100, "the centre's own")
+        verified = centre.command("verify")
+        self.assertEqual(verified.returncode, 0, verified.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
