@@ -100,7 +100,7 @@ void answer_sample(const Gathering& gathering, std::uint64_t from, std::size_t c
   std::uint64_t next = page.next ? mtconnect::part_sequence(*page.next) + 2 : end;
   for (const auto& measurement : gathering.measurements) {
     if (streams.count() >= count) {
-      next = mtconnect::part_sequence((*measurement)->id);
+      next = mtconnect::part_sequence((*measurement)->row);
       break;
     }
     streams.add(**measurement, from);
