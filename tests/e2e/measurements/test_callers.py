@@ -189,7 +189,7 @@ class Keys(Callers):
     def test_a_role_that_is_none(self):
         made = self.daemon.command("key", "create", "--name", "x", "--role", "king")
         self.assertEqual(made.returncode, 2)
-        self.assertIn("viewer, operator or admin", made.stderr)
+        self.assertIn("viewer, operator, admin or station", made.stderr)
 
 
 class TheFirstKey(Callers):
