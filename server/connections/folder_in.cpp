@@ -165,7 +165,7 @@ void FolderIn::wait(const std::stop_token& stop, std::chrono::milliseconds most)
 
 bool FolderIn::is_wanted(const std::string& name) const {
   return !name.starts_with('.') &&
-         std::any_of(options_.files.begin(), options_.files.end(), [&](const std::string& glob) {
+         std::any_of(options_.names.begin(), options_.names.end(), [&](const std::string& glob) {
            return collector::matches({.folder = {}, .name = glob}, name);
          });
 }

@@ -19,7 +19,7 @@ namespace fitgauge::connections {
 struct FolderInOptions {
   std::string name{};  ///< of the connection
   std::filesystem::path folder{};
-  std::vector<std::string> files{"*.csv", "*.txt", "*.ndjson", "*.jsonl"};  ///< in either case
+  std::vector<std::string> names{"*.csv", "*.txt", "*.ndjson", "*.jsonl"};  ///< in either case
   sheet::ShopCsvOptions csv{};        ///< of what is no NDJSON by its name
   std::chrono::seconds interval{10};  ///< between two looks; the kernel tells changes at once
   std::chrono::seconds rest{2};       ///< size and time must have been the same for so long
@@ -27,7 +27,7 @@ struct FolderInOptions {
   std::size_t most_entries = 100'000;  ///< of one look
 };
 
-/// Reads what the kind folder_in takes: `folder`, `files`, `map`, `set`, `encoding`, `time_zone`,
+/// Reads what the kind folder_in takes: `folder`, `names`, `map`, `set`, `encoding`, `time_zone`,
 /// `other_columns`, `interval_s`, `rest_s`. What is wrong goes to `errors`.
 FolderInOptions read_folder_in(std::string_view name, const FolderPermissions& allowed,
                                api::FieldReader& fields, api::FieldErrors& errors);

@@ -14,7 +14,7 @@ using api::FieldErrors;
 using api::FieldReader;
 using api::JsonValue;
 
-constexpr std::size_t kMostFiles = 20;
+constexpr std::size_t kMostNames = 20;
 constexpr std::size_t kMostWords = 200;
 constexpr std::size_t kLongestGlob = 100;
 
@@ -24,24 +24,24 @@ bool is_field(std::string_view name) {
 }
 
 void read_files(FieldReader& fields, FieldErrors& errors, FolderInOptions& options) {
-  if (!fields.has("files")) return;
-  const JsonValue* const list = fields.array("files");
+  if (!fields.has("names")) return;
+  const JsonValue* const list = fields.array("names");
   if (list == nullptr) return;
-  options.files.clear();
+  options.names.clear();
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     const JsonValue& item = list->items[i];
     const bool is_glob = item.is(JsonValue::Kind::String) && !item.text.empty() &&
                          item.text.size() <= kLongestGlob &&
                          item.text.find('/') == std::string::npos;
     if (is_glob) {
-      options.files.push_back(item.text);
+      options.names.push_back(item.text);
     } else {
-      errors.add(ErrorCode::FieldInvalid, api::pointer_to(fields.at("files"), i),
+      errors.add(ErrorCode::FieldInvalid, api::pointer_to(fields.at("names"), i),
                  "a name of files without a folder, which may have * and ?: *.csv");
     }
   }
-  if (list->items.empty() || list->items.size() > kMostFiles) {
-    fields.report(ErrorCode::FieldInvalid, "files", fmt::format("1 to {} names", kMostFiles));
+  if (list->items.empty() || list->items.size() > kMostNames) {
+    fields.report(ErrorCode::FieldInvalid, "names", fmt::format("1 to {} names", kMostNames));
   }
 }
 

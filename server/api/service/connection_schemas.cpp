@@ -25,7 +25,7 @@ Fields lsv2_fields() {
 Fields folder_in_fields() {
   return Fields{{"folder", schema::text(), "Of this machine, an absolute path"}} +
          schema::optional(
-             {{"files", schema::array(schema::text(100)), "Names with * and ?; *.csv and such"},
+             {{"names", schema::array(schema::text(100)), "Of files, with * and ?; *.csv and such"},
               {"map", schema::map(schema::text()),
                "A column's name and the field it is, date or time; empty leaves it out"},
               {"set", schema::map(schema::text()), "A field and its value for every row"},

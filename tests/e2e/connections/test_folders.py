@@ -207,9 +207,9 @@ class Taking(Folders):
             self.assertEqual((answer.status, [e["pointer"] for e in answer.json["errors"]]), (422, ["/folder"]), folder)
         problem = daemon.request("PUT", "/v1/connections/x", {
             "kind": "folder_in", "folder": str(self.folder), "map": {"a": "colour"}, "set": {"measured_mm": "1"},
-            "time_zone": "Mars/Base", "encoding": "ebcdic", "files": ["a/b"], "other_columns": "x", "rest_s": 0}).json
+            "time_zone": "Mars/Base", "encoding": "ebcdic", "names": ["a/b"], "other_columns": "x", "rest_s": 0}).json
         self.assertEqual(sorted(e["pointer"] for e in problem["errors"]), [
-            "/encoding", "/files/0", "/map/a", "/other_columns", "/rest_s", "/set/measured_mm", "/time_zone"])
+            "/encoding", "/map/a", "/names/0", "/other_columns", "/rest_s", "/set/measured_mm", "/time_zone"])
 
 
 class Writing(Folders):

@@ -67,7 +67,7 @@ std::vector<app::Measurement> samples() {
   rows[7].run_id = 5;
   rows[7].cycle = 421;
   rows[7].measured = -Length::nanometres(1);
-  rows[8].standard_uncertainty = Length::micrometres(400);
+  rows[8].standard_uncertainty = Length::nanometres(400);
   rows[8].rule = gauging::DecisionRule::conformance(
                      *rows[8].standard_uncertainty,
                      gauging::ConformanceProbability::from_millionths(500'000).value())

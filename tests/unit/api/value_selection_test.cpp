@@ -81,7 +81,7 @@ TEST_CASE("values with other limits are not of one selection") {
 }
 
 TEST_CASE("a selection is bounded in bytes, the names of its subgroups among them") {
-  constexpr std::size_t kBytes = 24'000;
+  constexpr std::size_t kBytes = 40'000;
   ValueSelection values(kBytes);
   for (int i = 0; i < 1000; ++i) REQUIRE(values.add(value(i, i)).has_value());
   CHECK(values.add(value(1000, 0)).error().code == ErrorCode::StatisticsTooMany);
