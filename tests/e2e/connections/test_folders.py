@@ -93,7 +93,7 @@ class Taking(Folders):
 
     def test_what_is_not_wanted_stays(self):
         daemon = self.daemon().start()
-        self.connect(daemon, files=["*.CSV"])
+        self.connect(daemon, names=["*.CSV"])
         for name in (".hidden.csv", "readme.md", "a.csv.part", "b.ndjson"):
             self.drop(name, ROWS)
         (self.folder / "folder.csv").mkdir()
