@@ -138,14 +138,6 @@ void add_measurement_schemas(Schemas& schemas) {
                         "What stands beside the path to the root, from the leaf up (RFC 6962)"},
                        {"checkpoint", schema::text(), "A signed note"}})});
   schemas.push_back(
-      {"LogBatch",
-       schema::object(
-           {{"checkpoint", schema::text(), "Signed by the station, of the last record"},
-            {"key", schema::text(), "The vkey it is signed with"},
-            {"hand_overs", schema::array(schema::text()),
-             "Checkpoints that name a next key, signed by it and the one before", false}},
-           Others::Allowed)});
-  schemas.push_back(
       {"LogHead", schema::object({{"size", schema::count(), "Records of the origin that are here"},
                                   {"root", schema::text(), "Of their tree, in base64"}})});
   schemas.push_back({"VerdictCounts", verdict_counts()});
