@@ -125,21 +125,10 @@ void Collector::Machine::run(const std::stop_token& stop) {
 }
 
 void Collector::Machine::finish_round(const std::optional<std::string>& why) {
-  bool was_failing = false;
-  change([&](app::ConnectionState& state) {
-    was_failing = state.is_failing;
-    state.last_attempt_at = clock_.now();
-    ++state.attempts;
-    state.is_failing = why.has_value();
-    if (why) {
-      ++state.failures;
-      state.last_error = *why;
-    } else {
-      state.last_success_at = state.last_attempt_at;
-    }
-  });
-  if (why && !was_failing && hooks_.failed) hooks_.failed(options_.name, *why);
-  if (!why && was_failing && hooks_.recovered) hooks_.recovered(options_.name);
+  auto turn = app::AttemptTurn::None;
+  change([&](app::ConnectionState& state) { turn = app::note_attempt(state, clock_.now(), why); });
+  if (turn == app::AttemptTurn::Failing && hooks_.failed) hooks_.failed(options_.name, *why);
+  if (turn == app::AttemptTurn::Recovered && hooks_.recovered) hooks_.recovered(options_.name);
 }
 
 std::optional<std::string> Collector::Machine::round(const std::stop_token& stop) {

@@ -278,23 +278,11 @@ std::optional<std::string> FolderIn::fail(const std::string& name, const Error& 
 }
 
 void FolderIn::finish_attempt(const std::optional<std::string>& why) {
-  bool was_failing = false;
+  auto turn = app::AttemptTurn::None;
   change([&](app::ConnectionState& state) {
-    was_failing = state.is_failing;
-    state.last_attempt_at = around_.clock.now();
-    ++state.attempts;
-    state.is_failing = why.has_value();
-    if (why) {
-      ++state.failures;
-      state.last_error = *why;
-    } else {
-      state.last_success_at = state.last_attempt_at;
-    }
+    turn = app::note_attempt(state, around_.clock.now(), why);
   });
-  if (why && !was_failing) {
-    around_.tell("connection_failing", fmt::format("{}: {}", options_.name, *why));
-  }
-  if (!why && was_failing) around_.tell("connection_recovered", options_.name);
+  around_.tell_turn(turn, options_.name, why);
 }
 
 }  // namespace

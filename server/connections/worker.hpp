@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -22,6 +23,13 @@ struct Surroundings {
   bool may_reach_private = false;                ///< addresses of this machine and its networks
   /// The event's name and a sentence, for the log of the service; called on any thread.
   std::function<void(std::string_view event, const std::string& detail)> tell{};
+
+  /// Tells what an attempt of the connection of that name has changed. @param why it failed.
+  void tell_turn(app::AttemptTurn turn, const std::string& name,
+                 const std::optional<std::string>& why) const {
+    if (turn == app::AttemptTurn::Failing) tell("connection_failing", name + ": " + *why);
+    if (turn == app::AttemptTurn::Recovered) tell("connection_recovered", name);
+  }
 };
 
 /// A connection at work, on a thread of its own that ends with it.

@@ -51,6 +51,13 @@ struct ConnectionState {
   std::uint64_t refused = 0;       ///< dead letters, with those that are no more listed
 };
 
+/// What an attempt has changed: the first that fails, and the first that does not, are told.
+enum class AttemptTurn : std::uint8_t { None, Failing, Recovered };
+
+/// Notes an attempt that is over. @param why it failed; none: it did not.
+AttemptTurn note_attempt(ConnectionState& state, Timestamp now,
+                         const std::optional<std::string>& why);
+
 /// Since when nothing was dealt with, in nanoseconds; none before the first success.
 /// Of an outgoing connection the age of what is to go next, of another since its last success.
 std::optional<std::int64_t> lag(const ConnectionState& state, Timestamp now);
