@@ -35,7 +35,7 @@ constexpr std::string_view kKept = "public, max-age=31536000, immutable";
 http::Response response_of(const PageAsset& asset, std::span<const unsigned char> bytes,
                            std::string_view caching) {
   return http::Response(200, std::string(asset.content_type),
-                        std::string(bytes.begin(), bytes.end()))
+                        std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()))
       .with("Cache-Control", std::string(caching))
       .with("Content-Security-Policy", std::string(kPolicy))
       .with("Referrer-Policy", "no-referrer")
