@@ -10,7 +10,7 @@
 #include "api/wire/json_writer.hpp"
 #include "app/measurements/record.hpp"
 #include "base/text.hpp"
-#include "connections/http_poster.hpp"
+#include "http_client/http_client.hpp"
 #include "tlog/base64.hpp"
 
 namespace fitgauge::connections {
@@ -19,6 +19,7 @@ namespace {
 using api::FieldErrors;
 using api::FieldReader;
 using api::JsonValue;
+using http_client::HttpAnswer;
 
 constexpr std::string_view kSecretPrefix = "whsec_";
 constexpr std::size_t kShortestKey = 24;
@@ -56,7 +57,7 @@ void read_url(FieldReader& fields, WebhookOptions& options) {
   if (!url) return;
   const auto fault = url->size() > kLongestUrl
                          ? std::optional(fmt::format("at most {} bytes", kLongestUrl))
-                         : fault_of_url(*url);
+                         : http_client::fault_of_url(*url);
   if (fault) fields.report(ErrorCode::FieldInvalid, "url", *fault);
   options.url = *url;
 }
@@ -80,28 +81,31 @@ class Webhook final : public Outlet {
  public:
   Webhook(const WebhookOptions& options, const Surroundings& around)
       : around_(around),
-        keys_(options.keys),
-        poster_({.url = options.url,
-                 .timeout = options.timeout,
-                 .may_reach_private = around.may_reach_private}) {}
+        options_(options),
+        client_({.may_reach_private = around.may_reach_private}) {}
 
   Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
   HttpAnswer send(std::string_view id, std::string_view body, const std::stop_token& stop);
 
  private:
   const Surroundings& around_;
-  const std::vector<std::string> keys_;
-  HttpPoster poster_;
+  const WebhookOptions options_;
+  http_client::HttpClient client_;
   int attempts_ = 0;  ///< of the first event that is not dealt with
 };
 
 HttpAnswer Webhook::send(std::string_view id, std::string_view body, const std::stop_token& stop) {
   const std::string timestamp =
       std::to_string(around_.clock.now().nanoseconds / kNanosecondsPerSecond);
-  return poster_.post(
-      {fmt::format("webhook-id: {}", id), fmt::format("webhook-timestamp: {}", timestamp),
-       fmt::format("webhook-signature: {}", webhook_signature(keys_, id, timestamp, body))},
-      body, stop);
+  return client_.call(
+      {.url = options_.url,
+       .headers = {"Content-Type: application/json", fmt::format("webhook-id: {}", id),
+                   fmt::format("webhook-timestamp: {}", timestamp),
+                   fmt::format("webhook-signature: {}",
+                               webhook_signature(options_.keys, id, timestamp, body))},
+       .body = body,
+       .timeout = options_.timeout},
+      [&stop] { return !stop.stop_requested(); });
 }
 
 Delivery Webhook::deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) {

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
+
+#include "http_client/http_client.hpp"
 
 namespace fitgauge::forwarder {
 
@@ -13,29 +14,25 @@ struct CentreOptions {
   std::string authorities{};  ///< PEM file; the system's when empty
 };
 
-struct CentreAnswer {
-  long status = 0;  ///< 0: there was none
-  std::string body{};
-  std::string failure{};  ///< why there was none
-};
-
-/// One connection to the centre, kept between requests (libcurl). For one thread.
+/// One connection to the centre, kept between requests. For one thread.
 class CentreLink {
  public:
-  explicit CentreLink(CentreOptions options);
-  ~CentreLink();
-  CentreLink(const CentreLink&) = delete;
-  CentreLink& operator=(const CentreLink&) = delete;
+  using HttpAnswer = http_client::HttpAnswer;
+  using GoesOn = std::function<bool()>;
+
+  explicit CentreLink(CentreOptions options)
+      : options_(std::move(options)),
+        client_({.may_ask_proxy = true, .authorities = options_.authorities}) {}
 
   /// Puts NDJSON, compressed. The key is read anew each time: it may have been replaced.
-  /// @param waiting called some times a second meanwhile; false gives up.
-  CentreAnswer put(const std::string& path, std::string_view ndjson,
-                   const std::function<bool()>& waiting);
+  /// @param goes_on as HttpClient::call.
+  HttpAnswer put(const std::string& path, std::string_view ndjson, const GoesOn& goes_on);
 
  private:
-  struct Handle;
+  HttpAnswer call(http_client::HttpCall call, const std::string& path, const GoesOn& goes_on);
+
   const CentreOptions options_;
-  std::unique_ptr<Handle> handle_;
+  http_client::HttpClient client_;
 };
 
 }  // namespace fitgauge::forwarder

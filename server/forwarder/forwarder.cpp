@@ -103,7 +103,7 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
   if (!batch) return failed(Sent::Failed, batch.error().message);
   if (batch->records.empty()) return Sent::Nothing;
   const std::string path = fmt::format("/v1/log/{}/{}", options_.origin, batch->from);
-  const CentreAnswer answer = link_.put(path, batch_text(*batch), [this, &stop] {
+  const http_client::HttpAnswer answer = link_.put(path, batch_text(*batch), [this, &stop] {
     look();
     return !stop.stop_requested();
   });
@@ -111,7 +111,7 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
   return answered(answer, confirmed_ + static_cast<std::int64_t>(batch->records.size()));
 }
 
-Forwarder::Sent Forwarder::answered(const CentreAnswer& answer, std::int64_t end) {
+Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::int64_t end) {
   if (answer.status == 0) return failed(Sent::Failed, answer.failure);
   const auto json = api::parse_json(answer.body);
   if (answer.status == kOk) {

@@ -47,7 +47,7 @@ class Forwarder {
 
   void run(const std::stop_token& stop);
   Sent send(const std::stop_token& stop);
-  Sent answered(const CentreAnswer& answer, std::int64_t end);
+  Sent answered(const http_client::HttpAnswer& answer, std::int64_t end);
   Sent elsewhere(std::int64_t size, const std::string& root);
   Sent failed(Sent how, const std::string& why);
   void took(std::int64_t size);

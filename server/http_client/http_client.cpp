@@ -1,4 +1,4 @@
-#include "connections/http_poster.hpp"
+#include "http_client/http_client.hpp"
 
 #include <arpa/inet.h>
 #include <curl/curl.h>
@@ -9,9 +9,9 @@
 #include <charconv>
 
 #include "base/text.hpp"
-#include "connections/address_check.hpp"
+#include "http_client/address_check.hpp"
 
-namespace fitgauge::connections {
+namespace fitgauge::http_client {
 
 /// What an address must pass.
 struct AddressGate {
@@ -43,7 +43,18 @@ curl_socket_t open_socket(void* user, curlsocktype, curl_sockaddr* address) {
   return socket(address->family, address->socktype | SOCK_CLOEXEC, address->protocol);
 }
 
-std::size_t drop_body(char*, std::size_t, std::size_t size, void*) { return size; }
+struct TakenBody {
+  std::string& text;
+  std::size_t longest;
+};
+
+std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
+  const auto& body = *static_cast<const TakenBody*>(user);
+  if (body.longest == 0) return size;
+  if (body.text.size() + size > body.longest) return 0;
+  body.text.append(data, size);
+  return size;
+}
 
 /// `Retry-After` in seconds (RFC 9110, 10.2.3).
 std::size_t take_header(char* data, std::size_t, std::size_t size, void* user) {
@@ -61,13 +72,13 @@ std::size_t take_header(char* data, std::size_t, std::size_t size, void* user) {
   return size;
 }
 
-int look_for_stop(void* user, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
-  return static_cast<const std::stop_token*>(user)->stop_requested() ? 1 : 0;
+int look_around(void* user, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
+  return (*static_cast<const std::function<bool()>*>(user))() ? 0 : 1;
 }
 
 }  // namespace
 
-struct HttpPoster::Handle {
+struct HttpClient::Handle {
   Handle() : curl(curl_easy_init()) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -83,41 +94,45 @@ struct HttpPoster::Handle {
   std::array<char, CURL_ERROR_SIZE> error{};
 };
 
-HttpPoster::HttpPoster(HttpPosterOptions options)
+HttpClient::HttpClient(HttpClientOptions options)
     : options_(std::move(options)), handle_(std::make_unique<Handle>()) {
   handle_->gate.may_reach_private = options_.may_reach_private;
 }
-HttpPoster::~HttpPoster() = default;
+HttpClient::~HttpClient() = default;
 
-HttpAnswer HttpPoster::post(const std::vector<std::string>& lines, std::string_view body,
-                            const std::stop_token& stop) {
+HttpAnswer HttpClient::call(const HttpCall& call, const std::function<bool()>& goes_on) {
   Handle& handle = *handle_;
   curl_easy_reset(handle.curl);  // the options, not the connection
   HttpAnswer answer;
+  TakenBody body{.text = answer.body, .longest = call.longest_answer};
   HeaderList headers;
   headers.add("Expect:");  // no question whether the body is welcome
-  headers.add("Content-Type: application/json");
-  for (const std::string& line : lines) headers.add(line);
-  handle.set(CURLOPT_URL, options_.url.c_str());
+  for (const std::string& line : call.headers) headers.add(line);
+  handle.set(CURLOPT_URL, call.url.c_str());
   handle.set(CURLOPT_PROTOCOLS_STR, "http,https");
   handle.set(CURLOPT_USERAGENT, "fitgauge/" FITGAUGE_VERSION);
   handle.set(CURLOPT_NOSIGNAL, 1L);
   handle.set(CURLOPT_QUICK_EXIT, 1L);  // a name that is looked up yet holds up no end
-  handle.set(CURLOPT_PROXY, "");
+  if (!options_.may_ask_proxy) handle.set(CURLOPT_PROXY, "");
+  if (!options_.authorities.empty()) handle.set(CURLOPT_CAINFO, options_.authorities.c_str());
   handle.set(CURLOPT_CONNECTTIMEOUT, kConnectSeconds);
-  handle.set(CURLOPT_TIMEOUT, static_cast<long>(options_.timeout.count()));
+  handle.set(CURLOPT_TIMEOUT, static_cast<long>(call.timeout.count()));
   handle.set(CURLOPT_OPENSOCKETFUNCTION, &open_socket);
   handle.set(CURLOPT_OPENSOCKETDATA, &handle.gate);
   handle.set(CURLOPT_NOPROGRESS, 0L);
-  handle.set(CURLOPT_XFERINFOFUNCTION, &look_for_stop);
-  handle.set(CURLOPT_XFERINFODATA, &stop);
-  handle.set(CURLOPT_WRITEFUNCTION, &drop_body);
+  handle.set(CURLOPT_XFERINFOFUNCTION, &look_around);
+  handle.set(CURLOPT_XFERINFODATA, &goes_on);
+  handle.set(CURLOPT_WRITEFUNCTION, &take_body);
+  handle.set(CURLOPT_WRITEDATA, &body);
   handle.set(CURLOPT_HEADERFUNCTION, &take_header);
   handle.set(CURLOPT_HEADERDATA, &answer);
   handle.set(CURLOPT_ERRORBUFFER, handle.error.data());
   handle.set(CURLOPT_HTTPHEADER, headers.first);
-  handle.set(CURLOPT_POSTFIELDS, body.data());
-  handle.set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body.size()));
+  if (std::string_view(call.method) != "GET") {
+    handle.set(CURLOPT_CUSTOMREQUEST, call.method);
+    handle.set(CURLOPT_POSTFIELDS, call.body.data());
+    handle.set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(call.body.size()));
+  }
   handle.error.front() = '\0';
   handle.gate.has_refused = false;
 
@@ -154,4 +169,4 @@ std::optional<std::string> fault_of_url(const std::string& url) {
   return std::nullopt;
 }
 
-}  // namespace fitgauge::connections
+}  // namespace fitgauge::http_client

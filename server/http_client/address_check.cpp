@@ -1,4 +1,4 @@
-#include "connections/address_check.hpp"
+#include "http_client/address_check.hpp"
 
 #include <netinet/in.h>
 
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <span>
 
-namespace fitgauge::connections {
+namespace fitgauge::http_client {
 namespace {
 
 struct Network4 {
@@ -102,4 +102,4 @@ bool is_private_address(const sockaddr& address) {
   return is_private6(bytes);
 }
 
-}  // namespace fitgauge::connections
+}  // namespace fitgauge::http_client
