@@ -43,13 +43,15 @@ void read_folder_out_kind(FieldReader& fields, FieldErrors& errors,
   into.options = read_folder_out(into.name, allowed, fields, errors);
 }
 
+void read_mqtt_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
+                    Definition& into) {
+  into.options = read_mqtt(into.name, allowed, fields, errors);
+}
+
 constexpr Kind kKinds[] = {
-    {"lsv2", read_lsv2_kind},
-    {"webhook", read_webhook_kind},
-    {"folder_in", read_folder_in_kind},
-    {"folder_out", read_folder_out_kind},
-    {"mqtt", nullptr},
-    {"sparkplug", nullptr},
+    {"lsv2", read_lsv2_kind},           {"webhook", read_webhook_kind},
+    {"folder_in", read_folder_in_kind}, {"folder_out", read_folder_out_kind},
+    {"mqtt", read_mqtt_kind},           {"sparkplug", nullptr},
 };
 
 std::string kinds_built() {
@@ -81,15 +83,28 @@ const Kind* read_kind(FieldReader& fields) {
 }
 
 constexpr std::string_view kSecrets = "secrets";
+constexpr std::string_view kPassword = "password";
 
-/// What may be shown: how many secrets there are instead of them.
+/// What may be shown: how many secrets there are instead of them, and that there is a password.
 JsonValue shown(JsonValue body) {
   for (auto& [name, value] : body.members) {
-    if (name != kSecrets) continue;
-    name = "secret_count";
-    value = {.kind = JsonValue::Kind::Number, .text = std::to_string(value.items.size())};
+    if (name == kSecrets) {
+      name = "secret_count";
+      value = {.kind = JsonValue::Kind::Number, .text = std::to_string(value.items.size())};
+    } else if (name == kPassword) {
+      name = "password_set";
+      value = {.kind = JsonValue::Kind::Boolean, .boolean = true};
+    }
   }
   return body;
+}
+
+/// Whether both have the same text there, or none.
+bool is_same(const JsonValue& a, const JsonValue& b, std::string_view name) {
+  const JsonValue* const in_a = a.find(name);
+  const JsonValue* const in_b = b.find(name);
+  if (in_a == nullptr || in_b == nullptr) return in_a == in_b;
+  return in_a->text == in_b->text;
 }
 
 std::string text_of(const JsonValue& body) {
@@ -112,16 +127,17 @@ Result<void> check_name(std::string_view name) {
 }
 
 void keep_secrets(JsonValue& body, const Definition& before) {
-  const JsonValue* const kind = body.find("kind");
-  if (!body.is(JsonValue::Kind::Object) || body.find(kSecrets) != nullptr || kind == nullptr ||
-      kind->text != before.kind) {
-    return;
-  }
   const auto known = api::parse_json(before.text);
-  if (!known) return;
-  if (const JsonValue* const secrets = known->find(kSecrets)) {
-    body.members.emplace_back(kSecrets, *secrets);
-  }
+  if (!body.is(JsonValue::Kind::Object) || !known || !is_same(body, *known, "kind")) return;
+  const auto keep = [&](std::string_view name) {
+    const JsonValue* const secret = known->find(name);
+    if (secret != nullptr && body.find(name) == nullptr) body.members.emplace_back(name, *secret);
+  };
+  keep(kSecrets);
+  // It goes over the line: nobody who does not know it may send it elsewhere.
+  const bool is_same_broker = is_same(body, *known, "broker") && is_same(body, *known, "user") &&
+                              is_same(body, *known, "ca_file");
+  if (is_same_broker) keep(kPassword);
 }
 
 Result<Definition> read_definition(std::string name, const JsonValue& body,

@@ -8,6 +8,7 @@
 #include "collector/collector_options.hpp"
 #include "connections/folder_in.hpp"
 #include "connections/folder_out.hpp"
+#include "connections/mqtt/mqtt.hpp"
 #include "connections/webhook.hpp"
 
 namespace fitgauge::connections {
@@ -18,14 +19,16 @@ struct Definition {
   std::string kind{};
   std::string text{};      ///< JSON, as it is stored
   std::string settings{};  ///< the same without what only this service may know
-  std::variant<collector::MachineOptions, WebhookOptions, FolderInOptions, FolderOutOptions>
+  std::variant<collector::MachineOptions, WebhookOptions, FolderInOptions, FolderOutOptions,
+               MqttOptions>
       options{};
 };
 
 /// Letters, digits, - and _, 1 to 63 of them. @errors PathMalformed
 Result<void> check_name(std::string_view name);
 
-/// Adds what `before` knows and `body` leaves out: its secrets.
+/// Adds what `before` knows and `body` leaves out: its secrets, a password for the same broker and
+/// user alone.
 void keep_secrets(api::JsonValue& body, const Definition& before);
 
 /// @param body an object with `kind` and what its kind takes.

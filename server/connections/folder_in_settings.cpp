@@ -100,7 +100,7 @@ FolderInOptions read_folder_in(std::string_view name, const FolderPermissions& a
                                FieldReader& fields, FieldErrors& errors) {
   FolderInOptions options;
   options.name = name;
-  options.folder = read_folder(fields, allowed);
+  options.folder = read_path("folder", allowed, fields);
   read_files(fields, errors, options);
   options.csv.columns = read_words("map", fields, errors);
   check_columns(options.csv.columns, fields, errors);

@@ -120,7 +120,7 @@ FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions&
                                  api::FieldReader& fields, api::FieldErrors& errors) {
   FolderOutOptions options;
   options.follower.name = name;
-  options.folder = read_folder(fields, allowed);
+  options.folder = read_path("folder", allowed, fields);
   options.format =
       read_word("format", fields, Format::Csv, {{"csv", Format::Csv}, {"ndjson", Format::Ndjson}},
                 "format is csv or ndjson");

@@ -1,5 +1,7 @@
 #include "connections/folder_path.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace fitgauge::connections {
@@ -19,29 +21,31 @@ bool is_below(const fs::path& folder, const fs::path& root) {
 
 }  // namespace
 
-fs::path read_folder(api::FieldReader& fields, const FolderPermissions& allowed) {
-  const auto text = fields.text("folder");
+fs::path read_path(std::string_view name, const FolderPermissions& allowed,
+                   api::FieldReader& fields) {
+  const auto text = fields.text(name);
   if (!text) return {};
-  const fs::path folder(*text);
+  const fs::path path(*text);
   const bool climbs =
-      std::any_of(folder.begin(), folder.end(), [](const fs::path& part) { return part == ".."; });
-  if (!folder.is_absolute() || climbs || text->find('\0') != std::string::npos) {
-    fields.report(ErrorCode::FieldInvalid, "folder",
-                  "a folder is an absolute path without .., such as /srv/measurements/in");
+      std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
+  if (!path.is_absolute() || climbs || text->find('\0') != std::string::npos) {
+    fields.report(
+        ErrorCode::FieldInvalid, name,
+        fmt::format("{} is an absolute path without .., such as /srv/measurements", name));
     return {};
   }
   const bool is_allowed =
       allowed.all || std::any_of(allowed.roots.begin(), allowed.roots.end(),
-                                 [&](const fs::path& root) { return is_below(folder, root); });
+                                 [&](const fs::path& root) { return is_below(path, root); });
   if (!is_allowed) {
-    fields.report(ErrorCode::FieldInvalid, "folder",
+    fields.report(ErrorCode::FieldInvalid, name,
                   allowed.roots.empty()
-                      ? "no folder may be named over HTTP: set connection_folders in the "
+                      ? "no path may be named over HTTP: set connection_folders in the "
                         "configuration of the service, or write the connection into its file"
-                      : "the folder is not below those of connection_folders in the configuration "
+                      : "it is not below those of connection_folders in the configuration "
                         "of the service");
   }
-  return folder;
+  return path;
 }
 
 }  // namespace fitgauge::connections

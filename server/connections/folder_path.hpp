@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "api/wire/field_reader.hpp"
@@ -13,7 +14,9 @@ struct FolderPermissions {
   std::vector<std::filesystem::path> roots{};  ///< else these and what is below them
 };
 
-/// Reads the member `folder`: an absolute path. What is wrong goes to the reader's errors.
-std::filesystem::path read_folder(api::FieldReader& fields, const FolderPermissions& allowed);
+/// Reads a member that is an absolute path of this machine. What is wrong goes to the reader's
+/// errors.
+std::filesystem::path read_path(std::string_view name, const FolderPermissions& allowed,
+                                api::FieldReader& fields);
 
 }  // namespace fitgauge::connections

@@ -103,6 +103,7 @@ LogFollower::LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet
       around_(around),
       bell_(std::make_shared<Bell>()) {
   state_.is_outgoing = true;
+  outlet_->wake_by([bell = bell_] { bell->ring(); });
   around_.app.events().add(bell_);
   const bool has_begun = begin();
   thread_ = std::jthread([this, has_begun](const std::stop_token& stop) { run(has_begun, stop); });
@@ -216,7 +217,11 @@ std::size_t LogFollower::planned(std::size_t count) {
 void LogFollower::deliver(const std::stop_token& stop) {
   if (stop.stop_requested()) return;
   const std::size_t count = planned(ripe());
-  if (count == 0) return;
+  if (count == 0) {
+    const auto attempt = outlet_->idle(stop);
+    if (attempt && !stop.stop_requested()) take(*attempt);
+    return;
+  }
   const Delivery delivery = outlet_->deliver(std::span(pending_).first(count), stop);
   if (delivery.dealt_with > 0) progress_.position = (*pending_[delivery.dealt_with - 1])->row;
   pending_.erase(pending_.begin(),

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -43,6 +44,12 @@ class Outlet {
   /// Delivers in order as much as it will, at least one or a failure; waits, and ends soon after a
   /// stop. What is not dealt with comes again.
   virtual Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) = 0;
+
+  /// When there is nothing to go: at least every 30 s, and soon after `wake`. For what stays
+  /// connected. @returns an attempt, or none where there was nothing to do.
+  virtual std::optional<Delivery> idle(const std::stop_token&) { return std::nullopt; }
+  /// Before anything else. @param wake may be called on any thread, as long as the outlet is there.
+  virtual void wake_by(std::function<void()>) {}
 };
 
 /// What every outgoing connection has.

@@ -42,6 +42,9 @@ struct MakeWorker {
   std::unique_ptr<Worker> operator()(const WebhookOptions& webhook) const {
     return std::make_unique<LogFollower>(webhook.follower, make_webhook(webhook, around), around);
   }
+  std::unique_ptr<Worker> operator()(const MqttOptions& mqtt) const {
+    return std::make_unique<LogFollower>(mqtt.follower, make_mqtt(mqtt, around), around);
+  }
   std::unique_ptr<Worker> operator()(const FolderInOptions& folder) const {
     return make_folder_in(folder, around);
   }
@@ -60,6 +63,9 @@ struct TestConnection {
   app::ConnectionTest operator()(const WebhookOptions& webhook) const {
     return test_webhook(webhook, around, stop);
   }
+  app::ConnectionTest operator()(const MqttOptions& mqtt) const {
+    return test_broker(mqtt.broker, mqtt.follower.name, around, stop);
+  }
   app::ConnectionTest operator()(const FolderInOptions& folder) const {
     return test_folder_in(folder);
   }
@@ -71,11 +77,15 @@ struct TestConnection {
 }  // namespace
 
 const FollowerOptions* follower_options(const Definition& definition) {
-  if (const auto* const webhook = std::get_if<WebhookOptions>(&definition.options)) {
-    return &webhook->follower;
-  }
-  const auto* const folder = std::get_if<FolderOutOptions>(&definition.options);
-  return folder == nullptr ? nullptr : &folder->follower;
+  return std::visit(
+      [](const auto& options) -> const FollowerOptions* {
+        if constexpr (requires { options.follower; }) {
+          return &options.follower;
+        } else {
+          return nullptr;
+        }
+      },
+      definition.options);
 }
 
 std::unique_ptr<Worker> make_worker(const Definition& definition, const Surroundings& around) {
