@@ -9,6 +9,7 @@
 #include "api/measurements/measurement_row_fields.hpp"
 #include "base/digest.hpp"
 #include "base/text.hpp"
+#include "connections/dfq_file.hpp"
 #include "http/request.hpp"
 #include "sheet/measurement_fields.hpp"
 
@@ -42,14 +43,11 @@ bool is_ndjson(std::string_view file_name) {
   return name.ends_with(".ndjson") || name.ends_with(".jsonl");
 }
 
-/// The file as /v1/measurements takes it, with room behind it.
+/// A table or NDJSON as /v1/measurements takes it.
 Result<std::string> readable(const FolderInOptions& options, std::string_view file_name,
                              const std::string& bytes) {
-  Result<std::string> text = is_ndjson(file_name)
-                                 ? sheet::to_utf8(bytes, options.csv.encoding)
-                                 : sheet::shop_csv(bytes, options.csv, sheet::kMeasurementFields);
-  if (text) text->reserve(text->size() + http::Request::kBodyPadding);
-  return text;
+  return is_ndjson(file_name) ? sheet::to_utf8(bytes, options.csv.encoding)
+                              : sheet::shop_csv(bytes, options.csv, sheet::kMeasurementFields);
 }
 
 }  // namespace
@@ -68,23 +66,36 @@ bool is_of_storage(const Error& error) {
 }
 
 Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& around,
-                            std::string_view file_name, const std::string& bytes) {
+                            std::string_view file_name, const std::string& bytes,
+                            const std::string& description) {
   const auto tables = around.app.tables().tables();
   if (!tables) return tables.error();
-  const std::string key = to_hex(sha256(bytes));
-  const auto text = readable(options, file_name, bytes);
-  if (!text) return text.error();
+  const std::string body = description + bytes;
+  const std::string key = to_hex(sha256(body));
+  DfqText dfq;
+  std::string text;
+  if (is_dfq(file_name)) {
+    auto read = read_dfq(options, **tables, description, bytes);
+    if (!read) return read.error();
+    dfq = *std::move(read);
+    text = std::move(dfq.csv);
+  } else {
+    auto read = readable(options, file_name, bytes);
+    if (!read) return read.error();
+    text = *std::move(read);
+  }
+  text.reserve(text.size() + http::Request::kBodyPadding);
   api::MeasurementBatch batch;
   const auto decoded = api::decode_measurements(
-      *text, is_ndjson(file_name) ? "application/x-ndjson" : "text/csv",
+      text, is_ndjson(file_name) ? "application/x-ndjson" : "text/csv",
       {.tables = **tables, .received_at = around.clock.now(), .caller = options.name}, batch);
-  if (!decoded) return decoded.error();
+  if (!decoded) return at_lines_of(dfq, decoded.error());
   const std::size_t rows = batch.rows.size();
   const app::IdempotencyScope scope{.caller = options.name,
                                     .method = "FOLDER",
                                     .path = "folder_in",
                                     .key = key,
-                                    .body = bytes,
+                                    .body = body,
                                     .is_kept_for_ever = true};
   const auto is_new = std::make_shared<bool>(false);
   std::promise<Result<app::Answer>> promise;
@@ -112,7 +123,7 @@ std::string told(std::string_view file_name, const Error& error) {
   if (count > 1) text += fmt::format("\n{}.\n", error.message);
   text +=
       "\nPut it right and put the file back into the folder above. Names of columns and constants "
-      "are settings of the connection: map, set, time_zone, encoding.\n";
+      "are settings of the connection: map, set, time_zone, encoding, length_unit.\n";
   return text;
 }
 

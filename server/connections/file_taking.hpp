@@ -15,10 +15,11 @@ struct TakenFile {
 
 /// Stores what a file says, all rows or none. The same bytes are stored once for a connection:
 /// their digest is kept for ever in the transaction that stores the rows. Waits.
-/// @param bytes with at least http::Request::kBodyPadding bytes of room behind them.
+/// @param description of a DFX: the bytes of its DFD; else empty.
 /// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
 Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& around,
-                            std::string_view file_name, const std::string& bytes);
+                            std::string_view file_name, const std::string& bytes,
+                            const std::string& description = {});
 
 /// What is wrong with a file, for the one who wrote it: lines, and what to do.
 std::string told(std::string_view file_name, const Error& error);

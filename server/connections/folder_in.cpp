@@ -13,11 +13,13 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <span>
 #include <thread>
 
 #include "base/guarded.hpp"
 #include "base/text.hpp"
 #include "collector/collector_options.hpp"
+#include "connections/dfq_file.hpp"
 #include "connections/file_taking.hpp"
 #include "connections/whole_file.hpp"
 #include "control_link/descriptor.hpp"
@@ -31,6 +33,7 @@ using control_link::Descriptor;
 
 constexpr int kStopSliceMs = 100;  ///< how soon a stop is seen
 constexpr std::size_t kInotifyBuffer = 16'384;
+constexpr int kWaitsForDescription = 6;  ///< looks that a DFX waits for its DFD
 
 /// As a file looks from outside.
 struct Look {
@@ -95,9 +98,14 @@ class FolderIn final : public Worker {
   /// Takes what is at rest. @returns why not.
   std::optional<std::string> look(const std::stop_token& stop);
   std::optional<std::string> take(const std::string& name, Seen& seen);
-  /// Of a file that is taken. @returns why it stays, until the next look.
-  std::optional<std::string> move_away(const fs::path& path) const;
-  std::optional<std::string> fail(const std::string& name, const Error& error);
+  /// The DFD of a DFX: empty while it has to be waited for. @errors it is not there.
+  Result<std::string> description_of(const std::string& name, const Seen& seen);
+  /// The bytes of a file that has not changed since; nothing when it has. @errors why not.
+  Result<std::optional<std::string>> read_whole(const std::string& name, Seen& seen);
+  /// Of files that are taken. @returns why one stays, until the next look.
+  std::optional<std::string> move_away(const std::vector<std::string>& names) const;
+  /// @param names of the file, and of its description where it has one
+  std::optional<std::string> fail(const std::vector<std::string>& names, const Error& error);
   bool is_wanted(const std::string& name) const;
   void finish_attempt(const std::optional<std::string>& why);
 
@@ -114,6 +122,7 @@ class FolderIn final : public Worker {
   Descriptor inotify_;
   int watch_ = -1;
   std::map<std::string, Seen> seen_;
+  std::set<std::string> at_rest_;   ///< of these
   std::set<std::string> moved_in_;  ///< whole from the first moment on
   bool is_restless_ = false;        ///< a file is not yet at rest
 
@@ -200,31 +209,48 @@ std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
   moved_in_.clear();
   std::sort(ready.begin(), ready.end());
   std::optional<std::string> first;
+  at_rest_.clear();
+  for (const auto& [time, name] : ready) at_rest_.insert(name);
   for (const auto& [time, name] : ready) {
     if (stop.stop_requested()) break;
+    if (is_description(name)) continue;  // it goes with its DFX
     if (auto why = take(name, seen_[name]); why && !first) first = std::move(why);
   }
   return first;
 }
 
-std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
-  const fs::path path = options_.folder / name;
-  if (seen.is_taken) return move_away(path);
-  if (seen.look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
-    return fail(name, {ErrorCode::BodyTooLarge,
-                       fmt::format("it has more than {} MiB: cut it into several files",
-                                   options_.most_file_bytes >> 20)});
+Result<std::string> FolderIn::description_of(const std::string& name, const Seen& seen) {
+  const std::string stem = name.substr(0, name.rfind('.'));
+  for (const auto& [other, looked] : seen_) {
+    if (!is_description(other) || other.substr(0, other.rfind('.')) != stem) continue;
+    if (at_rest_.contains(other)) return other;
+    is_restless_ = true;
+    return std::string();
   }
-  const Descriptor file(open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+  if (std::chrono::steady_clock::now() - seen.since < kWaitsForDescription * options_.interval) {
+    is_restless_ = true;
+    return std::string();
+  }
+  return Error{
+      ErrorCode::RequestInvalid,
+      fmt::format("its description, {}.dfd, is not in the folder: put both into it", stem)};
+}
+
+Result<std::optional<std::string>> FolderIn::read_whole(const std::string& name, Seen& seen) {
+  const Descriptor file(open((options_.folder / name).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
   if (file.get() < 0) {
-    if (errno == ENOENT) return std::nullopt;  // taken away since
-    return fmt::format("{} cannot be read: {}", name, because());
+    if (errno == ENOENT) return std::optional<std::string>();  // taken away since
+    return Error{ErrorCode::StorageUnavailable,
+                 fmt::format("{} cannot be read: {}", name, because())};
   }
   std::string bytes(static_cast<std::size_t>(seen.look.size), '\0');
   std::size_t have = 0;
   while (have < bytes.size()) {
     const ssize_t count = ::read(file.get(), bytes.data() + have, bytes.size() - have);
-    if (count < 0) return fmt::format("{} cannot be read: {}", name, because());
+    if (count < 0) {
+      return Error{ErrorCode::StorageUnavailable,
+                   fmt::format("{} cannot be read: {}", name, because())};
+    }
     if (count == 0) break;
     have += static_cast<std::size_t>(count);
   }
@@ -232,18 +258,44 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
   if (fstat(file.get(), &status) != 0 || look_of(status) != seen.look || have != bytes.size()) {
     is_restless_ = true;  // it changes yet: the next look begins anew
     seen.since = std::chrono::steady_clock::now();
-    return std::nullopt;
+    return std::optional<std::string>();
   }
-  const auto taken = take_file(options_, around_, name, bytes);
+  return std::optional(std::move(bytes));
+}
+
+std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
+  std::vector<std::string> names = {name};
+  if (is_values_alone(name)) {
+    const auto description = description_of(name, seen);
+    if (!description) return fail(names, description.error());
+    if (description->empty()) return std::nullopt;
+    names.push_back(*description);
+  }
+  if (seen.is_taken) return move_away(names);
+  std::vector<std::string> contents;
+  for (const std::string& one : names) {
+    Seen& looked = seen_[one];
+    if (looked.look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
+      return fail(names, {ErrorCode::BodyTooLarge,
+                          fmt::format("it has more than {} MiB: cut it into several files",
+                                      options_.most_file_bytes >> 20)});
+    }
+    auto bytes = read_whole(one, looked);
+    if (!bytes) return bytes.error().message;
+    if (!*bytes) return std::nullopt;
+    contents.push_back(**std::move(bytes));
+  }
+  contents.resize(2);
+  const auto taken = take_file(options_, around_, name, contents[0], contents[1]);
   if (!taken) {
     if (is_of_storage(taken.error())) return taken.error().message;
-    return fail(name, taken.error());
+    return fail(names, taken.error());
   }
   change([&](app::ConnectionState& state) {
     state.measurements += taken->measurements;
     if (taken->was_taken_before) return;
     ++state.files;
-    state.bytes += bytes.size();
+    state.bytes += contents[0].size() + contents[1].size();
   });
   if (taken->was_taken_before) {
     around_.tell("file_taken_before", fmt::format("{}: {}: the same bytes are stored; it is moved "
@@ -251,20 +303,25 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
                                                   options_.name, name));
   }
   seen.is_taken = true;
-  return move_away(path);
+  return move_away(names);
 }
 
-std::optional<std::string> FolderIn::move_away(const fs::path& path) const {
+std::optional<std::string> FolderIn::move_away(const std::vector<std::string>& names) const {
   const fs::path done = options_.folder / "done";
   std::error_code failure;
   fs::create_directories(done, failure);
-  return move_to(path, done / free_name(path.filename().string(), done));
+  for (const std::string& name : names) {
+    if (auto why = move_to(options_.folder / name, done / free_name(name, done))) return why;
+  }
+  return std::nullopt;
 }
 
-std::optional<std::string> FolderIn::fail(const std::string& name, const Error& error) {
+std::optional<std::string> FolderIn::fail(const std::vector<std::string>& names,
+                                          const Error& error) {
   const fs::path folder = options_.folder / "failed";
   std::error_code failure;
   fs::create_directories(folder, failure);
+  const std::string& name = names.front();
   const std::string to = free_name(name, folder);
   // The text is there before the file is, so that a file in `failed` always has one.
   if (!write_whole_file(folder / (to + ".error.txt"), told(name, error))) {
@@ -274,7 +331,12 @@ std::optional<std::string> FolderIn::fail(const std::string& name, const Error& 
   around_.tell("file_refused",
                fmt::format("{}: {}: {}", options_.name, name,
                            error.details.empty() ? error.message : error.details.front().message));
-  return move_to(options_.folder / name, folder / to);
+  if (auto why = move_to(options_.folder / name, folder / to)) return why;
+  for (const std::string& beside : std::span(names).subspan(1)) {
+    if (auto why = move_to(options_.folder / beside, folder / free_name(beside, folder)))
+      return why;
+  }
+  return std::nullopt;
 }
 
 void FolderIn::finish_attempt(const std::optional<std::string>& why) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/wire/field_reader.hpp"
+#include "aqdef/limits.hpp"
 #include "connections/folder_path.hpp"
 #include "connections/worker.hpp"
 #include "sheet/shop_csv.hpp"
@@ -19,8 +20,10 @@ namespace fitgauge::connections {
 struct FolderInOptions {
   std::string name{};  ///< of the connection
   std::filesystem::path folder{};
-  std::vector<std::string> names{"*.csv", "*.txt", "*.ndjson", "*.jsonl"};  ///< in either case
-  sheet::ShopCsvOptions csv{};        ///< of what is no NDJSON by its name
+  std::vector<std::string> names{"*.csv", "*.txt", "*.ndjson", "*.jsonl",
+                                 "*.dfq", "*.dfd", "*.dfx"};  ///< in either case
+  sheet::ShopCsvOptions csv{};                                ///< of what is no NDJSON by its name
+  std::optional<aqdef::LengthUnit> length_unit{};             ///< of a DFQ that says none
   std::chrono::seconds interval{10};  ///< between two looks; the kernel tells changes at once
   std::chrono::seconds rest{2};       ///< size and time must have been the same for so long
   std::size_t most_file_bytes = std::size_t{32} << 20;
@@ -28,7 +31,7 @@ struct FolderInOptions {
 };
 
 /// Reads what the kind folder_in takes: `folder`, `names`, `map`, `set`, `encoding`, `time_zone`,
-/// `other_columns`, `interval_s`, `rest_s`. What is wrong goes to `errors`.
+/// `other_columns`, `length_unit`, `interval_s`, `rest_s`. What is wrong goes to `errors`.
 FolderInOptions read_folder_in(std::string_view name, const FolderPermissions& allowed,
                                api::FieldReader& fields, api::FieldErrors& errors);
 

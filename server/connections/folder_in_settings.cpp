@@ -115,6 +115,13 @@ FolderInOptions read_folder_in(std::string_view name, const FolderPermissions& a
                     "encoding is auto, utf-8, utf-16 or windows-1252");
     }
   }
+  if (const auto unit = fields.optional_text("length_unit")) {
+    options.length_unit = aqdef::length_unit(*unit);
+    if (!options.length_unit) {
+      fields.report(ErrorCode::FieldInvalid, "length_unit",
+                    "length_unit is mm, \xC2\xB5m, cm, m or inch");
+    }
+  }
   const auto others = fields.optional_text("other_columns");
   options.csv.leaves_out_others = others == "leave_out";
   if (others && *others != "leave_out" && *others != "refuse") {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "api/measurements/measurement_codec.hpp"
 #include "app/measurements/record.hpp"
 #include "base/text.hpp"
+#include "connections/dfq_file.hpp"
 #include "connections/whole_file.hpp"
 
 namespace fitgauge::connections {
@@ -27,6 +29,7 @@ struct File {
   std::int64_t first = 0;
   std::int64_t last = 0;
   std::string text{};
+  std::optional<aqdef::DfqWriter> dfq{};
 };
 
 std::string_view key_of(const app::Measurement& measurement, Split split) {
@@ -46,18 +49,41 @@ std::string plain(std::string_view key) {
 
 class FolderOut final : public Outlet {
  public:
-  explicit FolderOut(FolderOutOptions options) : options_(std::move(options)) {}
+  FolderOut(FolderOutOptions options, const Surroundings& around)
+      : options_(std::move(options)), around_(around) {}
 
   Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
 
  private:
-  std::vector<File> files_of(std::span<const Outgoing> measurements) const;
+  std::vector<File> files_of(std::span<const Outgoing> measurements,
+                             std::vector<app::DeadLetter>& refused) const;
+  /// @errors a DFQ cannot hold it.
+  Result<void> add(File& file, const app::Measurement& measurement) const;
   fs::path path_of(const File& file) const;
 
   const FolderOutOptions options_;
+  const Surroundings& around_;
 };
 
-std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements) const {
+Result<void> FolderOut::add(File& file, const app::Measurement& measurement) const {
+  switch (options_.format) {
+    case Format::Csv:
+      if (file.text.empty()) file.text = api::measurement_csv_header();
+      api::append_measurement_csv(file.text, measurement);
+      break;
+    case Format::Ndjson:
+      app::append_record(file.text, measurement);
+      file.text += '\n';
+      break;
+    case Format::Dfq:
+      if (!file.dfq) file.dfq.emplace(options_.dfq);
+      return add_to_dfq(*file.dfq, measurement);
+  }
+  return {};
+}
+
+std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements,
+                                      std::vector<app::DeadLetter>& refused) const {
   std::vector<File> files;
   for (const Outgoing& outgoing : measurements) {
     const app::Measurement& measurement = **outgoing;
@@ -67,15 +93,17 @@ std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements) co
     if (file == files.end()) {
       files.push_back({.key = std::string(key), .first = measurement.row});
       file = std::prev(files.end());
-      if (options_.format == Format::Csv) file->text = api::measurement_csv_header();
     }
     file->last = measurement.row;
-    if (options_.format == Format::Csv) {
-      api::append_measurement_csv(file->text, measurement);
-    } else {
-      app::append_record(file->text, measurement);
-      file->text += '\n';
+    if (const auto added = add(*file, measurement); !added) {
+      refused.push_back(
+          {.measurement = app::measurement_id_text(measurement.id, measurement.origin),
+           .reason = added.error().message,
+           .at = around_.clock.now()});
     }
+  }
+  for (File& file : files) {
+    if (file.dfq && !file.dfq->is_empty()) file.text = file.dfq->text();
   }
   return files;
 }
@@ -83,12 +111,16 @@ std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements) co
 fs::path FolderOut::path_of(const File& file) const {
   std::string name = fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
   if (!file.key.empty()) name += "-" + plain(file.key);
-  return options_.folder / (name + (options_.format == Format::Csv ? ".csv" : ".ndjson"));
+  constexpr std::array<std::string_view, 3> kEndings = {".csv", ".ndjson", ".dfq"};
+  name += kEndings.at(static_cast<std::size_t>(options_.format));
+  return options_.folder / name;
 }
 
 Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::stop_token&) {
   Delivery delivery;
-  for (const File& file : files_of(measurements)) {
+  std::vector<app::DeadLetter> refused;
+  for (const File& file : files_of(measurements, refused)) {
+    if (file.text.empty()) continue;  // nothing of it can be written
     const fs::path path = path_of(file);
     if (!write_whole_file(path, file.text)) {
       delivery.failure = fmt::format("cannot write {}: {}", path.string(), std::strerror(errno));
@@ -97,6 +129,7 @@ Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::s
     ++delivery.files;
     delivery.bytes += file.text.size();
   }
+  delivery.refused = std::move(refused);
   delivery.dealt_with = measurements.size();
   return delivery;
 }
@@ -114,6 +147,30 @@ Word read_word(std::string_view name, api::FieldReader& fields, Word fallback,
   return fallback;
 }
 
+/// A text of a part that stands in a field of a DFQ.
+void read_part_text(std::string_view name, int field, api::FieldReader& fields, std::string& into) {
+  const auto text = fields.optional_text(name);
+  if (!text) return;
+  into = *text;
+  if (const auto checked = aqdef::check_text(field, into); !checked || into.empty()) {
+    fields.report(ErrorCode::FieldInvalid, name,
+                  checked ? std::string("a text is wanted") : checked.error().message);
+  }
+}
+
+void read_dfq_options(api::FieldReader& fields, aqdef::DfqOptions& options) {
+  read_part_text("part_number", aqdef::k::kPartNumber, fields, options.part_number);
+  read_part_text("part_description", aqdef::k::kPartDescription, fields, options.part_description);
+  const auto name = fields.optional_text("time_zone");
+  if (!name) return;
+  auto zone = sheet::TimeZone::load(*name);
+  if (zone) {
+    options.zone = *std::move(zone);
+  } else {
+    fields.report(ErrorCode::FieldInvalid, "time_zone", zone.error().message);
+  }
+}
+
 }  // namespace
 
 FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions& allowed,
@@ -122,8 +179,10 @@ FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions&
   options.follower.name = name;
   options.folder = read_path("folder", allowed, fields);
   options.format =
-      read_word("format", fields, Format::Csv, {{"csv", Format::Csv}, {"ndjson", Format::Ndjson}},
-                "format is csv or ndjson");
+      read_word("format", fields, Format::Csv,
+                {{"csv", Format::Csv}, {"ndjson", Format::Ndjson}, {"dfq", Format::Dfq}},
+                "format is csv, ndjson or dfq");
+  read_dfq_options(fields, options.dfq);
   options.split =
       read_word("split", fields, Split::None,
                 {{"none", Split::None}, {"part_id", Split::Part}, {"order", Split::Order}},
@@ -134,8 +193,9 @@ FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions&
   return options;
 }
 
-std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options) {
-  return std::make_unique<FolderOut>(options);
+std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options,
+                                        const Surroundings& around) {
+  return std::make_unique<FolderOut>(options, around);
 }
 
 app::ConnectionTest test_folder_out(const FolderOutOptions& options) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string_view>
 
+#include "aqdef/dfq_writer.hpp"
 #include "connections/folder_path.hpp"
 #include "connections/log_follower.hpp"
 
@@ -13,18 +14,22 @@ namespace fitgauge::connections {
 struct FolderOutOptions {
   FollowerOptions follower{};
   std::filesystem::path folder{};
-  enum class Format { Csv, Ndjson } format = Format::Csv;
+  enum class Format { Csv, Ndjson, Dfq } format = Format::Csv;
   enum class Split { None, Part, Order } split = Split::None;  ///< a file has one of these alone
+  aqdef::DfqOptions dfq{};
 };
 
 /// Reads what the kind folder_out takes: `folder`, `format`, `split`, `every_s`, `filter`, `start`,
-/// `longest_wait_s`. What is wrong goes to `errors`.
+/// `longest_wait_s`, and for a DFQ `time_zone`, `part_number`, `part_description`. What is wrong
+/// goes to `errors`.
 FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions& allowed,
                                  api::FieldReader& fields, api::FieldErrors& errors);
 
 /// Writes NAME-FIRST-LAST.csv, where the numbers are the positions of the measurements in the log;
 /// beside, and renamed when it is whole and on disk.
-std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options);
+/// What a DFQ cannot hold is a dead letter. @param around outlives it.
+std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options,
+                                        const Surroundings& around);
 
 /// Whether a file can be written there.
 app::ConnectionTest test_folder_out(const FolderOutOptions& options);

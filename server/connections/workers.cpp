@@ -49,7 +49,7 @@ struct MakeWorker {
     return make_folder_in(folder, around);
   }
   std::unique_ptr<Worker> operator()(const FolderOutOptions& folder) const {
-    return std::make_unique<LogFollower>(folder.follower, make_folder_out(folder), around);
+    return std::make_unique<LogFollower>(folder.follower, make_folder_out(folder, around), around);
   }
 };
 

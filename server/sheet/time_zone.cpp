@@ -308,4 +308,10 @@ Result<Timestamp> TimeZone::instant(const WallTime& time) const {
                "the clock of the time zone has skipped this time, as it went forward"};
 }
 
+Timestamp TimeZone::shown(Timestamp time) const {
+  const std::int64_t utc = time.nanoseconds / kNanosecondsPerSecond -
+                           (time.nanoseconds % kNanosecondsPerSecond < 0 ? 1 : 0);
+  return {time.nanoseconds + offset_at(utc) * kNanosecondsPerSecond};
+}
+
 }  // namespace fitgauge::sheet

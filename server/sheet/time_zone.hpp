@@ -33,6 +33,8 @@ class TimeZone {
   /// The instant. An hour that comes twice is the first, as it is before the clock goes back.
   /// @errors TimeMalformed: the clock has skipped it.
   Result<Timestamp> instant(const WallTime& time) const;
+  /// What its clock shows at an instant, as if that were the time in UTC.
+  Timestamp shown(Timestamp time) const;
 
  private:
   /// A change of the clock by the rule of a footer: `M3.5.0/2`.

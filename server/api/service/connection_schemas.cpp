@@ -32,6 +32,7 @@ Fields folder_in_fields() {
               {"time_zone", schema::text(), "Of times without an offset: Europe/Berlin"},
               {"encoding", schema::text(), "auto, utf-8, utf-16, windows-1252; auto when absent"},
               {"other_columns", schema::words({"refuse", "leave_out"}), "refuse when absent"},
+              {"length_unit", schema::text(), "Of a DFQ that names none: mm, inch"},
               {"interval_s", schema::integer(1, 3600), "Between two looks; 10 when absent"},
               {"rest_s", schema::integer(1, 3600),
                "Size and time of a file are the same for so long; 2 when absent"}});
@@ -71,14 +72,17 @@ Fields webhook_fields() {
 
 Fields folder_out_own_fields() {
   return schema::optional(
-      {{"format", schema::words({"csv", "ndjson"}), "csv when absent"},
+      {{"format", schema::words({"csv", "ndjson", "dfq"}), "csv when absent"},
+       {"part_number", schema::text(30), "K1001 of a DFQ; - when absent"},
+       {"part_description", schema::text(80), "K1002 of a DFQ; - when absent"},
        {"split", schema::words({"none", "part_id", "order"}),
         "A file has measurements of one of these alone; none when absent"},
        {"every_s", schema::integer(1, 86'400), "What is younger waits for more; 60 when absent"}});
 }
 
 Fields folder_out_fields() {
-  return Fields{{"folder", schema::text(), "Of this machine, an absolute path"}} +
+  return Fields{{"folder", schema::text(), "Of this machine, an absolute path"},
+                {"time_zone", schema::text(), "Of the times in a DFQ; UTC when absent", false}} +
          folder_out_own_fields() + follower_fields();
 }
 

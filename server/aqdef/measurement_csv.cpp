@@ -1,0 +1,422 @@
+#include "aqdef/measurement_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "base/clock.hpp"
+#include "base/text.hpp"
+#include "sheet/measurement_fields.hpp"
+
+namespace fitgauge::aqdef {
+namespace {
+
+constexpr auto& kNames = sheet::kMeasurementFields;
+
+constexpr std::size_t place_of(std::string_view name) {
+  return static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
+}
+
+constexpr std::size_t kMeasured = place_of("measured_mm");
+constexpr std::size_t kNominal = place_of("nominal_mm");
+constexpr std::size_t kClass = place_of("tolerance_class");
+constexpr std::size_t kFeature = place_of("feature");
+constexpr std::size_t kUpper = place_of("upper_um");
+constexpr std::size_t kLower = place_of("lower_um");
+constexpr std::size_t kPartId = place_of("part_id");
+constexpr std::size_t kName = place_of("characteristic");
+constexpr std::size_t kOrder = place_of("order");
+constexpr std::size_t kOperation = place_of("operation");
+constexpr std::size_t kMachine = place_of("machine");
+constexpr std::size_t kOperator = place_of("operator");
+constexpr std::size_t kGauge = place_of("gauge");
+constexpr std::size_t kUnit = place_of("unit");
+constexpr std::size_t kComment = place_of("comment");
+constexpr std::size_t kSubgroup = place_of("subgroup");
+constexpr std::size_t kMeasuredAt = place_of("measured_at");
+static_assert(kMeasuredAt < kNames.size() && kPartId < kSubgroup);
+
+// Places between the separators of a value.
+constexpr std::size_t kAttributeCell = 1;
+constexpr std::size_t kTimeCell = 2;
+constexpr std::size_t kBatchCell = 4;
+constexpr std::size_t kOperatorCell = 6;
+constexpr std::size_t kMachineCell = 7;
+constexpr std::size_t kGaugeCell = 9;
+/// Those that no field of a measurement is for: events, cavity, process parameters.
+constexpr std::array<std::size_t, 3> kCarriedCells = {3, 5, 8};
+
+/// What the user field of a characteristic may say of its measurements.
+constexpr std::array<std::string_view, 5> kUserFields = {"feature", "rule", "uncertainty_um",
+                                                         "coverage_factor", "probability"};
+
+/// A characteristic that has none of them has no limits.
+constexpr std::array<int, 5> kTolerances = {k::kToleranceClass, k::kLowerLimit, k::kUpperLimit,
+                                            k::kLowerAllowance, k::kUpperAllowance};
+
+bool is_ascii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
+/// An apostrophe guards a text that a spreadsheet would run, and the reader takes it away.
+bool wants_guard(std::string_view text) {
+  const std::size_t first = text.find_first_not_of('\'');
+  return first != std::string_view::npos &&
+         std::string_view("=+-@\t").find(text[first]) != std::string_view::npos;
+}
+
+void append_cell(std::string& out, std::string_view text, bool is_chosen) {
+  const bool guard = is_chosen && wants_guard(text);
+  if (text.find_first_of(";\"\r") == std::string_view::npos) {
+    if (guard) out += '\'';
+    out += text;
+    return;
+  }
+  out += guard ? "\"'" : "\"";
+  for (const char c : text) {
+    if (c == '"') out += c;
+    out += c;
+  }
+  out += '"';
+}
+
+}  // namespace
+
+MeasurementCsv::MeasurementCsv(Read read, MeasurementOptions options)
+    : options_(std::move(options)), reader_(std::move(read), options_.encoding) {
+  for (const std::string_view name : kNames) {
+    if (!header_.empty()) header_ += ';';
+    header_ += name;
+  }
+  header_ += '\n';
+  for (const auto& [column, field] : options_.columns) {
+    if (!is_field_line(column) || column.size() != 5) continue;  // a column of a table
+    const auto number = parse_field_line(column);
+    mapped_.emplace_back(number->number, place_of(field));
+  }
+}
+
+std::optional<std::size_t> MeasurementCsv::mapped_place(int number) const {
+  for (const auto& [mapped, place] : mapped_) {
+    if (mapped == number) return place;
+  }
+  return std::nullopt;
+}
+
+Result<std::string_view> MeasurementCsv::utf8(std::string_view text) {
+  if (is_ascii(text)) return text;
+  auto decoded = reader_.description().decoded(text);
+  if (!decoded) return decoded.error();
+  return std::string_view(texts_.emplace_back(*std::move(decoded)));
+}
+
+std::string_view MeasurementCsv::entry(int first_field, int second_field,
+                                       std::string_view number) const {
+  number = trim(number);
+  std::uint32_t index = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
+  if (error != std::errc() || end != number.data() + number.size()) return number;
+  if (index == 0) return {};
+  const Description& description = reader_.description();
+  const std::string_view first = description.catalogue_text(first_field, index);
+  if (!first.empty()) return first;
+  const std::string_view second = description.catalogue_text(second_field, index);
+  return second.empty() ? number : second;
+}
+
+std::string MeasurementCsv::described_name(const Characteristic& characteristic) const {
+  const Description& description = reader_.description();
+  const std::string_view number = description.text(characteristic, k::kNumber);
+  const std::string_view name = description.text(characteristic, k::kDescription);
+  if (name.empty()) return std::string(number);
+  for (std::uint32_t index = 1; index <= description.count(); ++index) {
+    const Characteristic* const other = description.characteristic(index);
+    if (other == nullptr || other == &characteristic || other->part != characteristic.part ||
+        description.text(*other, k::kDescription) != name) {
+      continue;
+    }
+    if (description.text(*other, k::kNumber) != number) return fmt::format("{} {}", number, name);
+  }
+  return std::string(name);
+}
+
+std::string MeasurementCsv::reason_against(const Characteristic& characteristic) const {
+  const Description& description = reader_.description();
+  const std::string_view type = description.text(characteristic, k::kType);
+  if (!type.empty() && type != "0")
+    return fmt::format("it is of type {} (K2004), not measured", type);
+  const std::string_view unit = description.text(characteristic, k::kUnit);
+  if (!unit.empty() && !length_unit(unit)) {
+    return fmt::format("its unit {} is no length", first_characters(unit, 40));
+  }
+  const std::string_view nominal = description.text(characteristic, k::kNominal);
+  if (nominal.empty()) return "it has no nominal value (K2101)";
+  const auto size = parse_length(nominal, LengthUnit::Millimetre);
+  if (size && *size <= Length()) return "its nominal value (K2101) is not above 0";
+  const bool is_toleranced = std::any_of(kTolerances.begin(), kTolerances.end(), [&](int number) {
+    return description.find(characteristic, number) != nullptr;
+  });
+  return is_toleranced ? "" : "it has no limits (K2110, K2111)";
+}
+
+Result<void> MeasurementCsv::prepare_size(const Characteristic& characteristic,
+                                          Prepared& made) const {
+  const Description& description = reader_.description();
+  const auto read =
+      read_tolerance(description, characteristic, options_.length_unit, options_.limits_of);
+  if (!read) return read.error();
+  made.unit = read->unit;
+  made.fields[kNominal] = format_mm(read->nominal);
+  for (const std::string_view name : kUserFields) {
+    const std::string_view said = user_text(description, characteristic, name);
+    if (!said.empty()) made.fields[place_of(name)] = said;
+  }
+  if (!read->class_name.empty()) made.fields[kClass] = read->class_name;
+  if (!made.fields[kClass].empty()) {
+    made.fields[kFeature].clear();
+    return {};
+  }
+  if (read->limits.upper) made.fields[kUpper] = format_um(*read->limits.upper - read->nominal);
+  if (read->limits.lower) made.fields[kLower] = format_um(*read->limits.lower - read->nominal);
+  if (made.fields[kFeature].empty()) {
+    return at_line(characteristic.line,
+                   fmt::format("describes characteristic {} by limits, and a DFQ does not say "
+                               "whether it is a hole or a shaft: set feature, or write its class "
+                               "into K2103 and K2104",
+                               characteristic.index));
+  }
+  return {};
+}
+
+Result<MeasurementCsv::Prepared> MeasurementCsv::prepare(
+    const Characteristic& characteristic) const {
+  const Description& description = reader_.description();
+  Prepared made{.fields = std::vector<std::string>(kNames.size())};
+  if (const std::string reason = reason_against(characteristic); !reason.empty()) {
+    if (!options_.leaves_out_others) {
+      return at_line(
+          characteristic.line,
+          fmt::format("describes characteristic {}, which no measurement can hold, as {}: "
+                      "with leave_out the others are taken",
+                      characteristic.index, reason));
+    }
+    made.is_left_out = true;
+    return made;
+  }
+  for (const auto& [field, value] : options_.constants) {
+    const std::size_t place = place_of(field);
+    if (place < kNames.size()) made.fields[place] = value;
+  }
+  if (const auto sized = prepare_size(characteristic, made); !sized) return sized.error();
+  const auto take = [&made](std::size_t place, std::string_view text) {
+    if (!text.empty()) made.fields[place] = text;
+  };
+  take(kName, described_name(characteristic));
+  take(kOrder, description.part_text(characteristic, k::kContract));
+  take(kOperation, description.part_text(characteristic, k::kOperation));
+  take(kUnit, description.part_text(characteristic, k::kArea));
+  take(kUnit, description.part_text(characteristic, k::kPlant));
+  take(kMachine, description.part_text(characteristic, k::kPartMachine));
+  take(kMachine, description.part_text(characteristic, k::kPartMachineNumber));
+  for (const auto& [number, place] : mapped_) {
+    if (place >= kNames.size()) continue;
+    take(place, description.part_text(characteristic, number));
+    take(place, description.text(characteristic, number));
+  }
+  for (const int number : {k::kPartNumber, k::kPartDescription}) {
+    const std::string_view text = description.part_text(characteristic, number);
+    if (text.empty() || mapped_place(number)) continue;
+    made.carried.push_back({.number = number, .text = std::string(text)});
+  }
+  return made;
+}
+
+Result<const MeasurementCsv::Prepared*> MeasurementCsv::prepared(std::uint32_t index) {
+  if (prepared_.size() <= index) prepared_.resize(index + 1);
+  if (!prepared_[index]) {
+    auto made = prepare(*reader_.description().characteristic(index));
+    if (!made) return made.error();
+    prepared_[index] = *std::move(made);
+  }
+  return &*prepared_[index];
+}
+
+Result<std::string_view> MeasurementCsv::time_of(std::string_view text) {
+  text = trim(text);
+  if (text == last_time_) return std::string_view(last_instant_);
+  const auto wall = sheet::parse_wall_time(text);
+  if (!wall) {
+    const auto instant = parse_rfc3339(text);
+    if (!instant) {
+      return Error{kMalformed, fmt::format("has the time '{}': write 20.11.2026/08:00:00",
+                                           first_characters(text, 40))};
+    }
+    last_instant_ = text;
+  } else {
+    if (!options_.zone) {
+      return Error{
+          kMalformed,
+          fmt::format("has the time '{}' without an offset: name the time zone of its clock "
+                      "(time_zone)",
+                      first_characters(text, 40))};
+    }
+    const auto instant = options_.zone->instant(*wall);
+    if (!instant) {
+      return Error{kMalformed, fmt::format("has the time '{}', and {}", first_characters(text, 40),
+                                           instant.error().message)};
+    }
+    last_instant_ = format_rfc3339(*instant);
+  }
+  last_time_ = text;
+  return std::string_view(last_instant_);
+}
+
+Result<bool> MeasurementCsv::is_measured(const ValueSet& set, const Value& value) const {
+  const std::string_view attribute = trim(set.cell(value, kAttributeCell));
+  if (attribute == "255" || attribute == "256") return false;
+  if (!attribute.empty() && attribute != "0") {
+    if (options_.leaves_out_others) return false;
+    return at_line(value.line, fmt::format("has a value of attribute {}, which is not one that was "
+                                           "measured: with leave_out the others are taken",
+                                           first_characters(attribute, 20)));
+  }
+  if (!trim(set.cell(value, 0)).empty()) return true;
+  for (std::size_t place = 1; place < value.cells; ++place) {
+    if (trim(set.cell(value, place)).empty()) continue;
+    return at_line(value.line,
+                   fmt::format("has no value of characteristic {}, and its attribute is "
+                               "not 255 or 256",
+                               value.characteristic));
+  }
+  return false;
+}
+
+Result<void> MeasurementCsv::take_value_fields(const ValueSet& set_of, const Value& value) {
+  const auto take = [&](std::size_t place, std::string_view text) -> Result<void> {
+    if (trim(text).empty()) return {};
+    const auto decoded = utf8(trim(text));
+    if (!decoded) return decoded.error();
+    set(place, *decoded);
+    return {};
+  };
+  if (const auto time = trim(set_of.cell(value, kTimeCell)); !time.empty()) {
+    const auto instant = time_of(time);
+    if (!instant) return instant.error();
+    set(kMeasuredAt, *instant);
+  }
+  std::string_view batch = trim(set_of.cell(value, kBatchCell));
+  if (batch.starts_with('#')) batch.remove_prefix(1);
+  const std::string_view machine =
+      entry(k::kMachineNumber, k::kMachineName, set_of.cell(value, kMachineCell));
+  const std::string_view gauge =
+      entry(k::kGaugeNumber, k::kGaugeName, set_of.cell(value, kGaugeCell));
+  const std::string_view worker = set_of.cell(value, kOperatorCell);
+  std::string_view name = entry(k::kOperatorName, k::kOperatorFirstName, worker);
+  if (const auto first = entry(k::kOperatorFirstName, k::kOperatorName, worker); first != name) {
+    name = texts_.emplace_back(fmt::format("{} {}", first, name));
+  }
+  for (const auto& [place, text] :
+       {std::pair(kSubgroup, batch), std::pair(kMachine, machine), std::pair(kGauge, gauge),
+        std::pair(kOperator, name), std::pair(kPartId, set_of.field(value, k::kPartIdent)),
+        std::pair(kOrder, set_of.field(value, k::kOrder)),
+        std::pair(kComment, set_of.field(value, k::kText))}) {
+    if (const auto taken = take(place, text); !taken) return taken;
+  }
+  for (const auto& [number, place] : mapped_) {
+    if (level_of(number) != Level::Value || place >= kNames.size()) continue;
+    std::string_view text = set_of.field(value, number);
+    const auto* const cell = std::find(kCells.begin(), kCells.end(), number);
+    if (cell != kCells.end()) {
+      text = set_of.cell(value, static_cast<std::size_t>(cell - kCells.begin()));
+    }
+    if (const auto taken = take(place, text); !taken) return taken;
+  }
+  return {};
+}
+
+void MeasurementCsv::take_comment(const ValueSet& set_of, const Value& value,
+                                  const Prepared& prepared) {
+  Comment comment{.text = std::string(row_[kComment]), .fields = {}};
+  const auto carry = [&](int number, std::string_view text) {
+    text = trim(text);
+    if (text.empty() || mapped_place(number)) return;
+    const auto decoded = utf8(text);
+    comment.fields.push_back({.number = number, .text = std::string(decoded ? *decoded : text)});
+  };
+  for (const std::size_t place : kCarriedCells) {
+    const std::string_view text = set_of.cell(value, place);
+    if (trim(text) != "0") carry(kCells.at(place), text);
+  }
+  for (const ValueField& field : set_of.fields) {
+    const bool is_its = field.characteristic == value.characteristic || field.characteristic == 0;
+    const bool is_taken =
+        field.number == k::kPartIdent || field.number == k::kOrder || field.number == k::kText;
+    const bool is_there =
+        std::any_of(comment.fields.begin(), comment.fields.end(),
+                    [&](const CarriedField& other) { return other.number == field.number; });
+    if (is_its && !is_taken && !is_there) carry(field.number, set_of.field(value, field.number));
+  }
+  std::stable_sort(
+      comment.fields.begin(), comment.fields.end(),
+      [](const CarriedField& a, const CarriedField& b) { return a.number < b.number; });
+  comment.fields.insert(comment.fields.end(), prepared.carried.begin(), prepared.carried.end());
+  if (comment.fields.empty()) return;
+  row_[kComment] = texts_.emplace_back(format_comment(comment));
+}
+
+Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& value,
+                                          const Prepared& prepared, std::string& rows) {
+  texts_.clear();
+  row_.assign(prepared.fields.begin(), prepared.fields.end());
+  const std::string_view text = trim(set_of.cell(value, 0));
+  const auto measured = parse_length(text, prepared.unit);
+  if (!measured) {
+    return at_line(value.line, fmt::format("has the value '{}', which is no length",
+                                           first_characters(text, 40)));
+  }
+  row_[kMeasured] = texts_.emplace_back(format_mm(*measured));
+  if (const auto taken = take_value_fields(set_of, value); !taken) {
+    return at_line(value.line, taken.error().message);
+  }
+  take_comment(set_of, value, prepared);
+  for (std::size_t place = 0; place < row_.size(); ++place) {
+    if (place > 0) rows += ';';
+    append_cell(rows, row_[place], place >= kPartId && place <= kSubgroup);
+  }
+  rows += '\n';
+  return {};
+}
+
+Result<bool> MeasurementCsv::append(std::string& rows, std::vector<std::uint32_t>& lines) {
+  const auto next = reader_.next(set_);
+  if (!next || !*next) return next;
+  for (const Value& value : set_.values) {
+    const auto made = prepared(value.characteristic);
+    if (!made) return made.error();
+    if ((*made)->is_left_out) continue;
+    const auto measured = is_measured(set_, value);
+    if (!measured) return measured.error();
+    if (!*measured) continue;
+    if (const auto appended = append_value(set_, value, **made, rows); !appended) {
+      return appended.error();
+    }
+    lines.push_back(value.line);
+    has_values_ = true;
+  }
+  return true;
+}
+
+Result<void> MeasurementCsv::check() const {
+  if (const auto checked = reader_.check(); !checked) return checked;
+  if (!has_values_) {
+    return Error{kMalformed,
+                 "The file has no measured value. A DFD is read together with its DFX, of the same "
+                 "name"};
+  }
+  return {};
+}
+
+}  // namespace fitgauge::aqdef

@@ -1,0 +1,127 @@
+#include "connections/dfq_file.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "api/measurements/measurement_batch.hpp"
+#include "aqdef/measurement_csv.hpp"
+#include "base/text.hpp"
+
+namespace fitgauge::connections {
+namespace {
+
+aqdef::LimitsOfClass limits_by(const iso286::ToleranceTables& tables) {
+  return [&tables](Length nominal, const std::string& name) -> Result<aqdef::SizeLimits> {
+    const auto size = iso286::NominalSize::make(nominal);
+    if (!size) return size.error();
+    const auto limits = tables.limits_of_size(*size, name);
+    if (!limits) return limits.error();
+    return aqdef::SizeLimits{.upper = limits->upper_limit(), .lower = limits->lower_limit()};
+  };
+}
+
+Result<void> append_all(aqdef::MeasurementCsv& csv, DfqText& text) {
+  for (;;) {
+    const auto more = csv.append(text.csv, text.lines);
+    if (!more) return more.error();
+    if (!*more) return {};
+    if (text.lines.size() > api::kMostRows) {
+      return Error{
+          ErrorCode::BodyTooLarge,
+          fmt::format("it has more than {} values: cut it into several files", api::kMostRows)};
+    }
+  }
+}
+
+/// How a record is judged, as far as that is not by its limits alone.
+std::string rule_of(const app::Measurement& m) {
+  std::string rule;
+  const auto say = [&rule](std::string_view name, std::string_view text) {
+    if (!rule.empty()) rule += ';';
+    rule += fmt::format("{}={}", name, text);
+  };
+  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
+  if (m.standard_uncertainty) say("uncertainty_um", format_um(*m.standard_uncertainty));
+  if (m.coverage_factor) say("coverage_factor", format(*m.coverage_factor));
+  if (m.conformance) say("probability", format(m.rule.probability()));
+  return rule;
+}
+
+}  // namespace
+
+bool is_dfq(std::string_view file_name) {
+  const std::string name = ascii_lower(file_name);
+  return name.ends_with(".dfq") || name.ends_with(".dfx");
+}
+
+bool is_values_alone(std::string_view file_name) {
+  return ascii_lower(file_name).ends_with(".dfx");
+}
+
+bool is_description(std::string_view file_name) { return ascii_lower(file_name).ends_with(".dfd"); }
+
+Result<DfqText> read_dfq(const FolderInOptions& options, const iso286::ToleranceTables& tables,
+                         std::string_view description, std::string_view values) {
+  aqdef::MeasurementCsv csv(aqdef::read_text(description.empty() ? values : description),
+                            {.encoding = options.csv.encoding,
+                             .columns = options.csv.columns,
+                             .constants = options.csv.constants,
+                             .zone = options.csv.zone,
+                             .length_unit = options.length_unit,
+                             .leaves_out_others = options.csv.leaves_out_others,
+                             .limits_of = limits_by(tables)});
+  DfqText text{.csv = csv.header(), .lines = {}};
+  if (const auto appended = append_all(csv, text); !appended) {
+    Error error = appended.error();
+    if (!description.empty()) error.message = "the DFD: " + error.message;
+    return error;
+  }
+  if (!description.empty()) {
+    csv.go_on_with(aqdef::read_text(values));
+    if (const auto appended = append_all(csv, text); !appended) return appended.error();
+  }
+  if (const auto checked = csv.check(); !checked) return checked.error();
+  return text;
+}
+
+Error at_lines_of(const DfqText& text, Error error) {
+  for (Error& field : error.details) {
+    for (Error& place : field.details) {
+      std::size_t line = 0;
+      std::from_chars(place.where.data(), place.where.data() + place.where.size(), line);
+      if (line >= 2 && line - 2 < text.lines.size()) {
+        place.where = std::to_string(text.lines[line - 2]);
+      }
+    }
+  }
+  return error;
+}
+
+Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
+  if (m.source != app::Source::Gauge) {
+    return Error{ErrorCode::FieldInvalid, "it is of a simulation, which a DFQ cannot say"};
+  }
+  const std::string rule = rule_of(m);
+  aqdef::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
+  value.measured = m.decisive();
+  value.nominal = m.nominal_size;
+  if (m.has_upper_limit()) value.limits.upper = m.upper_limit();
+  if (m.has_lower_limit()) value.limits.lower = m.lower_limit();
+  value.class_name = m.class_name.value_or("");
+  value.is_hole = m.feature == iso286::Feature::Hole;
+  value.rule = rule;
+  value.part_id = m.texts.part_id.value_or("");
+  value.characteristic = m.texts.characteristic.value_or("");
+  value.order = m.texts.order.value_or("");
+  value.operation = m.texts.operation.value_or("");
+  value.machine = m.texts.machine.value_or("");
+  value.operator_name = m.texts.operator_id.value_or("");
+  value.gauge = m.texts.gauge.value_or("");
+  value.unit = m.texts.unit.value_or("");
+  value.comment = m.texts.comment.value_or("");
+  value.subgroup = m.texts.subgroup.value_or("");
+  return writer.add(value);
+}
+
+}  // namespace fitgauge::connections
