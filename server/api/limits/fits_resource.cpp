@@ -27,6 +27,18 @@ std::string fit_designation(Length nominal_size, std::string_view hole, std::str
   return text += shaft;
 }
 
+void write_fit_members(JsonWriter& json, const iso286::Fit& fit, std::string_view designation,
+                       const ToleranceTables& tables) {
+  json.member("designation", designation).key("hole");
+  write_limits(json, fit.hole, tables);
+  json.key("shaft");
+  write_limits(json, fit.shaft, tables);
+  json.member("type", word(fit.kind()))
+      .member_um("max_clearance_um", fit.max_clearance())
+      .member_um("min_clearance_um", fit.min_clearance());
+  write_statistical(json, fit);
+}
+
 Result<http::Response> fit_response(const iso286::FitDesignation& designation,
                                     const ToleranceTables& tables) {
   const auto hole = tables.find_class(designation.hole_class);
@@ -36,18 +48,13 @@ Result<http::Response> fit_response(const iso286::FitDesignation& designation,
   const auto fit = tables.fit(designation.nominal_size, *hole, *shaft);
   if (!fit) return fit.error();
 
-  const std::string text = fit_designation(designation.nominal_size.length(),
-                                           designation.hole_class, designation.shaft_class);
   std::string body;
   JsonWriter json(body);
-  json.begin_object().member("designation", std::string_view(text)).key("hole");
-  write_limits(json, fit->hole, tables);
-  json.key("shaft");
-  write_limits(json, fit->shaft, tables);
-  json.member("type", word(fit->kind()))
-      .member_um("max_clearance_um", fit->max_clearance())
-      .member_um("min_clearance_um", fit->min_clearance());
-  write_statistical(json, *fit);
+  json.begin_object();
+  write_fit_members(json, *fit,
+                    fit_designation(designation.nominal_size.length(), designation.hole_class,
+                                    designation.shaft_class),
+                    tables);
   json.end_object();
   http::Response response(200, "application/json", std::move(body));
   response.etag = etag_of(tables);
@@ -69,19 +76,20 @@ Result<http::Response> fit_of_one_segment(const http::Request& request,
   return fit_response(*designation, tables);
 }
 
-/// A fit found, in short: GET its designation for the limits.
-void write_found(JsonWriter& json, const metrology::FoundFit& found, Length nominal_size,
-                 const ToleranceTables& tables) {
+/// The fit as its own address answers it, with the names of its classes.
+Result<void> write_found(JsonWriter& json, const metrology::FoundFit& found,
+                         iso286::NominalSize size, const ToleranceTables& tables) {
+  const auto fit = tables.fit(size, found.hole, found.shaft);
+  if (!fit) return fit.error();
   const std::string_view hole = tables.class_name(found.hole);
   const std::string_view shaft = tables.class_name(found.shaft);
-  json.begin_object()
-      .member("designation", fit_designation(nominal_size, hole, shaft))
-      .member("hole_class", hole)
+  json.begin_object();
+  write_fit_members(json, *fit, fit_designation(size.length(), hole, shaft), tables);
+  json.member("hole_class", hole)
       .member("shaft_class", shaft)
       .member("preferred", found.preferred)
-      .member_um("max_clearance_um", found.most)
-      .member_um("min_clearance_um", found.least)
       .end_object();
+  return {};
 }
 
 Result<http::Response> search_fits(const http::Request& request, const ToleranceTables& tables) {
@@ -99,7 +107,9 @@ Result<http::Response> search_fits(const http::Request& request, const Tolerance
   JsonWriter json(body);
   json.begin_object().key("fits").begin_array();
   for (std::size_t i = 0; i < std::min(limit, found.size()); ++i) {
-    write_found(json, found[i], size->length(), tables);
+    if (const auto written = write_found(json, found[i], *size, tables); !written) {
+      return written.error();
+    }
   }
   json.end_array().member("total", std::uint64_t{found.size()}).end_object();
   http::Response response(200, "application/json", std::move(body));

@@ -38,15 +38,13 @@ schema::Fields verdict_fields() {
 
 namespace {
 
-void add_found_fits(Schemas& schemas) {
-  const std::string fit = schema::object({
-      {"designation", schema::text(), "25 H7/g6; GET it for the limits"},
-      {"hole_class", schema::text(), ""},
-      {"shaft_class", schema::text(), ""},
-      {"preferred", schema::boolean(), "By ISO 286-1, figure B.2"},
-      {"max_clearance_um", schema::number(), "Interference is negative"},
-      {"min_clearance_um", schema::number(), "Interference is negative"},
-  });
+void add_found_fits(Schemas& schemas, const schema::Fields& fit_fields) {
+  const std::string fit =
+      schema::object(fit_fields + schema::Fields{
+                                      {"hole_class", schema::text(), ""},
+                                      {"shaft_class", schema::text(), ""},
+                                      {"preferred", schema::boolean(), "By ISO 286-1, figure B.2"},
+                                  });
   schemas.push_back({"FoundFits", schema::object({{"fits", schema::array(fit), "The first"},
                                                   {"total", schema::count(), "All there are"}})});
 }
@@ -124,17 +122,17 @@ void add_limits_schemas(Schemas& schemas) {
       schema::object({{"probability_of_interference", schema::number(), ""}});
   const std::string statistical =
       schema::object({{"normal", likely, "Six standard deviations wide"}, {"uniform", likely, ""}});
-  schemas.push_back(
-      {"Fit", schema::object({
-                  {"designation", schema::text(), "25 H7/g6"},
-                  {"hole", schema::ref("Limits"), ""},
-                  {"shaft", schema::ref("Limits"), ""},
-                  {"type", schema::words({"clearance", "transition", "interference"}), ""},
-                  {"max_clearance_um", schema::number(), "ES - ei; negative: interference"},
-                  {"min_clearance_um", schema::number(), "EI - es; negative: interference"},
-                  {"statistical", statistical, "Sizes independent and centred"},
-              })});
-  add_found_fits(schemas);
+  const schema::Fields fit = {
+      {"designation", schema::text(), "25 H7/g6"},
+      {"hole", schema::ref("Limits"), ""},
+      {"shaft", schema::ref("Limits"), ""},
+      {"type", schema::words({"clearance", "transition", "interference"}), ""},
+      {"max_clearance_um", schema::number(), "ES - ei; negative: interference"},
+      {"min_clearance_um", schema::number(), "EI - es; negative: interference"},
+      {"statistical", statistical, "Sizes independent and centred"},
+  };
+  schemas.push_back({"Fit", schema::object(fit)});
+  add_found_fits(schemas, fit);
   add_limit_gauge(schemas);
   add_press_fit(schemas);
   const schema::Fields rule = schema::optional({

@@ -7,6 +7,7 @@
 #include "api/runs/run_posting.hpp"
 #include "api/runs/trace_codec.hpp"
 #include "api/wire/event_text.hpp"
+#include "api/wire/request_facts.hpp"
 #include "api/wire/stored_member.hpp"
 #include "app/measurements/measurement.hpp"
 #include "app/runs/run_service.hpp"
@@ -94,7 +95,7 @@ void get_file(const Services& services, const http::Request& request, http::Resp
 void get_trace(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
-  const bool csv = request.response_type() == "text/csv";
+  const bool csv = wants_csv(request);
   services.runs.trace(*id, [csv, shared = share(std::move(responder))](Result<std::string> trace) {
     if (!trace) return shared->fail(trace.error());
     Result<std::string> body = csv ? trace_csv(*trace) : std::move(trace);
@@ -226,7 +227,7 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .pattern = "/v1/runs/{id}/trace",
       .handler = with(services, get_trace),
       .summary = "Every move with the block that commanded it",
-      .parameters = {kId},
+      .parameters = {kId, csv_or_json()},
       .response_types = {"application/json", "text/csv"},
       .access = "viewer",
       .operation = "getRunTrace",

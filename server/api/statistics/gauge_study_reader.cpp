@@ -100,29 +100,41 @@ void number_within_operators(metrology::Readings& readings) {
   }
 }
 
-Result<std::string> components(FieldReader& fields, FieldErrors& errors, StudyMethod method) {
+/// What every method takes: a linearity and a stability have no use for it.
+struct Choices {
   StudyModel model = StudyModel::Auto;
+  std::optional<Exact> tolerance;
+};
+
+Choices read_choices(FieldReader& fields, FieldErrors& errors) {
+  Choices choices;
   if (const auto text = fields.optional_text("model")) {
     const auto given = metrology::study_model_from_word(*text);
     if (!given) {
       fields.report(ErrorCode::FieldInvalid, "model", "model is auto, interaction or pooled");
     }
-    model = given.value_or(model);
+    choices.model = given.value_or(choices.model);
   }
-  const auto tolerance = read_exact(fields, "tolerance", false, errors);
-  if (tolerance && *tolerance <= 0) {
+  choices.tolerance = read_exact(fields, "tolerance", false, errors);
+  if (choices.tolerance && *choices.tolerance <= 0) {
     fields.report(ErrorCode::LimitsInvalid, "tolerance", "the tolerance must be above 0");
   }
+  return choices;
+}
+
+Result<std::string> components(FieldReader& fields, FieldErrors& errors, StudyMethod method,
+                               const Choices& choices) {
   metrology::Readings readings = read_readings(fields, method, errors);
   fields.refuse_unknown();
   if (auto error = errors.take()) return *std::move(error);
   if (method == StudyMethod::Nested) number_within_operators(readings);
-  const auto study = metrology::study_gauge(readings, method, model);
+  const auto study = metrology::study_gauge(readings, method, choices.model);
   if (!study) return at_member("measurements", study.error());
   std::string out;
   JsonWriter json(out);
-  write_gauge_study(json, *study, method,
-                    tolerance ? std::optional(metrology::nearest(*tolerance)) : std::nullopt);
+  write_gauge_study(
+      json, *study, method,
+      choices.tolerance ? std::optional(metrology::nearest(*choices.tolerance)) : std::nullopt);
   return out;
 }
 
@@ -192,10 +204,11 @@ Result<std::string> gauge_study(const JsonValue& body) {
   FieldErrors errors;
   FieldReader fields(body, "", errors);
   const std::string word = fields.optional_text("method").value_or("anova");
+  const Choices choices = read_choices(fields, errors);
   if (word == "linearity") return linearity(fields, errors);
   if (word == "stability") return stability(fields, errors);
   const auto method = metrology::study_method_from_word(word);
-  if (method) return components(fields, errors, *method);
+  if (method) return components(fields, errors, *method, choices);
   fields.report(ErrorCode::FieldInvalid, "method",
                 "method is anova, average_range, type3, nested, linearity or stability");
   return *errors.take();

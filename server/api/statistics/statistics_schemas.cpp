@@ -159,32 +159,44 @@ std::string study_rows(const Fields& own) {
   return schema::array(order(fields));
 }
 
+/// An order of a study by its method; whatever that is may stand beside a model and a tolerance.
+std::string study_order(const schema::Field& method, const std::string& model_of,
+                        const std::string& tolerance_for, const schema::Field& rows) {
+  return order(
+      {method,
+       {"model",
+        schema::with_default(schema::words({"auto", "interaction", "pooled"}), R"("auto")"),
+        model_of, false},
+       {"tolerance", schema::exact(), tolerance_for, false},
+       rows});
+}
+
 void add_gauge_study_orders(Schemas& schemas) {
+  const std::string unused = "Without effect here";
   schemas.push_back(
       {"Type1Order", order({{"values", exact_values(), "Two or more, of one master"},
                             {"reference", schema::exact(), "The size of the master"},
                             {"tolerance", schema::exact(), "Of what will be measured"}})});
   schemas.push_back(
       {"VariationStudyOrder",
-       order({{"method",
-               schema::with_default(schema::words({"anova", "average_range", "type3", "nested"}),
-                                    R"("anova")"),
-               "", false},
-              {"model",
-               schema::with_default(schema::words({"auto", "interaction", "pooled"}), R"("auto")"),
-               "Of anova", false},
-              {"tolerance", schema::exact(), "For the shares of it", false},
-              {"measurements", study_rows({{"part", label(), ""}}),
-               "Each with an operator, but for type3"}})});
-  schemas.push_back({"LinearityStudyOrder",
-                     order({{"method", schema::words({"linearity"}), ""},
-                            {"measurements",
-                             study_rows({{"reference", schema::exact(), "Of the master"}}), ""}})});
+       study_order({"method",
+                    schema::with_default(
+                        schema::words({"anova", "average_range", "type3", "nested"}), R"("anova")"),
+                    "", false},
+                   "Of anova", "For the shares of it",
+                   {"measurements", study_rows({{"part", label(), ""}}),
+                    "Each with an operator, but for type3"})});
+  schemas.push_back(
+      {"LinearityStudyOrder",
+       study_order(
+           {"method", schema::words({"linearity"}), ""}, unused, unused,
+           {"measurements", study_rows({{"reference", schema::exact(), "Of the master"}}), ""})});
   schemas.push_back(
       {"StabilityStudyOrder",
-       order({{"method", schema::words({"stability"}), ""},
-              {"measurements", study_rows({{"at", label(), "The same for readings of one time"}}),
-               "As many at each time"}})});
+       study_order(
+           {"method", schema::words({"stability"}), ""}, unused, unused,
+           {"measurements", study_rows({{"at", label(), "The same for readings of one time"}}),
+            "As many at each time"})});
   schemas.push_back({"GaugeStudyOrder", schema::any_of({schema::ref("VariationStudyOrder"),
                                                         schema::ref("LinearityStudyOrder"),
                                                         schema::ref("StabilityStudyOrder")})});

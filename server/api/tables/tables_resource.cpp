@@ -13,11 +13,6 @@ namespace {
 using iso286::Feature;
 using iso286::ToleranceTables;
 
-bool wants_csv(const http::Request& request) {
-  if (const auto format = request.text("format")) return *format == "csv";
-  return request.response_type() == "text/csv";
-}
-
 /// A strong tag names one form of one revision.
 std::string form_etag(const ToleranceTables& tables, std::string_view form) {
   return '"' + tables.revision().id + '.' + std::string(form) + '"';
@@ -135,9 +130,7 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .handler = table_handler(services, cache, feature),
       .summary = "Limit deviations of every class and size range",
       .parameters = {{.name = "classes", .description = "H7,JS7: only these classes"},
-                     {.name = "format",
-                      .type = http::Words{{"json", "csv"}},
-                      .description = "Instead of Accept"},
+                     csv_or_json(),
                      {.name = "revision", .description = "Answers from an older revision"}},
       .response_types = {"application/json", "text/csv"},
       .access = "open",

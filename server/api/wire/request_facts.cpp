@@ -37,6 +37,16 @@ Preference preference_of(const http::Request& request) {
   return found;
 }
 
+bool wants_csv(const http::Request& request) {
+  if (const auto format = request.text("format")) return *format == "csv";
+  return request.response_type() == "text/csv";
+}
+
+http::Parameter csv_or_json() {
+  return {
+      .name = "format", .type = http::Words{{"json", "csv"}}, .description = "Instead of Accept"};
+}
+
 bool prefers_async(const http::Request& request) {
   bool found = false;
   for_each_preference(request, [&](const NameValue& preference) {

@@ -18,6 +18,11 @@ Preference preference_of(const http::Request& request);
 /// Whether `Prefer: respond-async` asks for an answer before the work is done.
 bool prefers_async(const http::Request& request);
 
+/// Whether CSV is wanted where there is JSON too: `format` decides, else Accept.
+bool wants_csv(const http::Request& request);
+/// The query parameter of such a route.
+http::Parameter csv_or_json();
+
 /// Whether Accept-Encoding takes gzip (RFC 9110, 12.5.3).
 bool accepts_gzip(const http::Request& request);
 

@@ -70,10 +70,12 @@ class Statistics(DaemonTest):
         rows = [{"part": row["part"], "value": row["value"]} for row in STUDY]
         self.assertIsNone(self.compute("grr", {"method": "type3", "measurements": rows})["av"])
         linear = self.compute("grr", {"method": "linearity", "measurements": [
-            {"reference": x, "value": f"{1.1 * x + 0.05:.3f}"} for x in (1, 1, 2, 3)]})
+            {"reference": x, "value": f"{1.1 * x + 0.05:.3f}"} for x in (1, 1, 2, 3)],
+            "model": "auto", "tolerance": 60})
         self.assertAlmostEqual(linear["slope"]["value"], 0.1, places=15)
         stable = self.compute("grr", {"method": "stability", "measurements": [
-            {"at": f"2026-11-{day:02}", "value": value} for day in range(1, 6) for value in (1, 2)]})
+            {"at": f"2026-11-{day:02}", "value": value} for day in range(1, 6) for value in (1, 2)],
+            "model": "auto", "tolerance": 60})
         self.assertTrue(stable["stable"])
         type1 = self.compute("type1", {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6})
         self.assertAlmostEqual(type1["cg"], 1.2 / (6 * (0.04 / 3) ** 0.5), places=14)
@@ -193,6 +195,10 @@ class Fits(DaemonTest):
         self.assertTrue(found["fits"][0]["preferred"])
         self.assertIn("25 H7/g6", [fit["designation"] for fit in found["fits"]])
         self.assertEqual(len(self.daemon.get(path + "&limit=3").json["fits"]), 3)
+        for fit in found["fits"]:
+            names = ("hole_class", "shaft_class", "preferred")
+            self.assertEqual({name: value for name, value in fit.items() if name not in names},
+                             self.daemon.get("/v1/fits/" + fit["designation"].replace(" ", "")).json)
         fit = self.daemon.get("/v1/fits/25H7/k6").json
         self.assertAlmostEqual(fit["statistical"]["uniform"]["probability_of_interference"], 8.5 / 21)
         self.assert_problem(self.daemon.get("/v1/fits?nominal_mm=25"), 400, "query.missing")

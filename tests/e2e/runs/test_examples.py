@@ -163,6 +163,7 @@ class Examples(ControlTest):
         path = f"/v1/runs/{run['id']}/trace"
         moves = self.daemon.get(path).json["moves"]
         lines = self.daemon.get(path, Accept="text/csv").text.splitlines()
+        self.assertEqual(self.daemon.get(path + "?format=csv").text.splitlines(), lines)
         self.assertEqual(len(lines), len(moves) + 1)
         self.assertTrue(lines[0].startswith("kind,block,line,program,start_x_mm"), lines[0])
         probes = [move for move in moves if move["kind"] == "probe"]
