@@ -13,15 +13,15 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-MODULE = ("fitgauge/__init__.py", "fitgauge/py.typed")
+MODULE = (*sorted(f"fitgauge/{path.name}" for path in (ROOT / "fitgauge").glob("*.py")), "fitgauge/py.typed")
 SOURCES = (*MODULE, "README.md", "backend/fitgauge_build.py", "pyproject.toml")
 WHEEL = "Wheel-Version: 1.0\nGenerator: fitgauge_build\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
 
 
 def version() -> str:
-    found = re.search(r'^__version__ = "(.+)"$', read("fitgauge/__init__.py").decode(), re.MULTILINE)
+    found = re.search(r'^VERSION = "(.+)"$', read("fitgauge/_version.py").decode(), re.MULTILINE)
     if not found:
-        raise RuntimeError("fitgauge/__init__.py states no __version__")
+        raise RuntimeError("fitgauge/_version.py states no VERSION")
     return found[1]
 
 

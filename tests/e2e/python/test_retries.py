@@ -21,7 +21,7 @@ class Scripted(unittest.TestCase):
 
     def setUp(self):
         self.pauses = []
-        patch = mock.patch("fitgauge.time.sleep", self.pauses.append)
+        patch = mock.patch("time.sleep", self.pauses.append)
         patch.start()
         self.addCleanup(patch.stop)
 

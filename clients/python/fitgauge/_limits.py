@@ -1,0 +1,80 @@
+"""Limits, fits, gauges, verdicts and the tables they come from."""
+
+# The service's answers are taken to have the types that its API promises.
+# mypy: no-warn-return-any
+
+from __future__ import annotations
+
+from typing import Any, Mapping, Sequence
+
+from ._json import Size, dumps, loads
+from ._transport import Request, Transport, path_of, query_of
+from ._types import Fit, Limits, Parameter, RuleWord, Verdict
+
+
+
+class LimitsCalls(Transport):
+    """The standard, and verdicts that are not stored."""
+
+    def limits(self, designation: str) -> Limits:
+        """Limits of size of `25 H7`, `Ø25H7`, `132,5 a13`."""
+        return self._get(path_of("limits", designation))
+
+    def limits_of(self, nominal_mm: Size, tolerance_class: str) -> Limits:
+        """The same from a size and a class."""
+        return self._get("/v1/limits", {"nominal_mm": nominal_mm, "tolerance_class": tolerance_class})
+
+    def fit(self, designation: str) -> Fit:
+        """The fit `25 H7/g6`."""
+        return self._get(path_of("fits", designation))
+
+    def fits(self, nominal_mm: Size, *, min_clearance_um: Size | None = None, max_clearance_um: Size | None = None,
+             limit: int | None = None) -> dict[str, Any]:
+        """The fits of a size whose clearances lie within bounds (interference is negative), the preferred first."""
+        return self._get("/v1/fits", {"nominal_mm": nominal_mm, "min_clearance_um": min_clearance_um,
+                                      "max_clearance_um": max_clearance_um, "limit": limit})
+
+    def limit_gauges(self, designation: str) -> dict[str, Any]:
+        """The sizes of the GO and the NO-GO gauge of `25 H7`."""
+        return self._get(path_of("gauges", designation))
+
+    def verdict(self, designation: str, measured_mm: Size, *, rule: RuleWord | None = None,
+                uncertainty_um: Size | None = None, coverage_factor: Size | None = None,
+                probability: Size | None = None, **temperatures: Parameter) -> Verdict:
+        """Judges a value and stores nothing. `rule` is simple, or guard_band or conformance, which need
+        `uncertainty_um`. `temperatures` correct to 20 degrees: `temperature_c` with `part_material`, say."""
+        return self._get(path_of("verdicts", designation), {
+            "measured_mm": measured_mm, "rule": rule, "uncertainty_um": uncertainty_um,
+            "coverage_factor": coverage_factor, "probability": probability, **temperatures})
+
+    def tables(self) -> dict[str, Any]:
+        """The revision in use, and the classes of the hole and the shaft table."""
+        return self._get("/v1/tables")
+
+    def table(self, feature: str, classes: Sequence[str] = (), revision: str | None = None) -> list[dict[str, Any]]:
+        """The rows of the `hole` or `shaft` table: `over_mm`, `up_to_mm` and `limits` by class."""
+        return self._get(path_of("tables", feature), {
+            "classes": ",".join(classes) or None, "revision": revision})["rows"]
+
+    def table_csv(self, feature: str, classes: Sequence[str] = (), revision: str | None = None) -> str:
+        """The same as CSV."""
+        query = query_of({"classes": ",".join(classes) or None, "revision": revision})
+        return self._bytes(path_of("tables", feature) + query, "text/csv").decode()
+
+    def table_tab(self, feature: str) -> str:
+        """The same as the control's freely definable table, for program 8255."""
+        return self._bytes(path_of("tables", f"{feature}.tab")).decode()
+
+    def put_column(self, feature: str, name: str, rows: Sequence[Mapping[str, Size]],
+                   revision: str | None = None) -> str:
+        """Stores a column of the shop's own: rows of `over_mm`, `up_to_mm`, `upper_um`, `lower_um`. Gives
+        the new revision. PreconditionFailed when `revision` is given and no longer in use."""
+        answer = self._put(path_of("tables", feature, "classes", name), dumps({"rows": rows}).encode(),
+                           "application/json", revision)
+        return loads(answer.body)["revision"]
+
+    def delete_column(self, feature: str, name: str, revision: str | None = None) -> None:
+        """Back to the standard's class."""
+        headers = {"If-Match": f'"{revision}"'} if revision else {}
+        self._perform(Request("DELETE", path_of("tables", feature, "classes", name), headers=headers,
+                               repeatable=not revision))
