@@ -161,16 +161,19 @@ Chart spread_chart(Spread spread, long double sigma) {
   return chart;
 }
 
+/// The centre rounded as the points are: values without spread then never leave it, not by a bit.
+long double centre_of_points(long double centre) { return static_cast<double>(centre); }
+
 Chart ewma_chart(const std::vector<double>& points, long double centre, long double point_sigma,
                  double lambda) {
   Chart chart{.name = "ewma", .centre = centre};
   const long double width = kWidth * point_sigma * std::sqrt(lambda / (2 - lambda));
   chart.lower_limit = centre - width;
   chart.upper_limit = centre + width;
-  long double weighted = centre;
+  long double weighted = centre_of_points(centre);
   chart.points.reserve(points.size());
   for (const double point : points) {
-    weighted = lambda * static_cast<long double>(point) + (1 - lambda) * weighted;
+    weighted += lambda * (point - weighted);
     chart.points.push_back(static_cast<double>(weighted));
   }
   return chart;
@@ -182,16 +185,45 @@ Chart cusum_chart(const std::vector<double>& points, long double centre, long do
   chart.upper_limit = plan.decision_interval * point_sigma;
   chart.lower_limit = -chart.upper_limit;
   const long double slack = plan.reference_value * point_sigma;
+  const long double target = centre_of_points(centre);
   long double up = 0;
   long double down = 0;
   for (const double point : points) {
-    up = std::max(0.0L, up + point - centre - slack);
-    down = std::min(0.0L, down + point - centre + slack);
+    up = std::max(0.0L, up + point - target - slack);
+    down = std::min(0.0L, down + point - target + slack);
     chart.points.push_back(static_cast<double>(up));
     chart.lower_points.push_back(static_cast<double>(down));
   }
   return chart;
 }
+
+/// The lines of a location chart. Those of single values with a known centre and a known standard
+/// deviation are decimals, and so exact: a value that lies on one is not beyond it.
+class Location {
+ public:
+  Location(const ChartPlan& plan, std::size_t group_size, long double centre,
+           long double point_sigma) {
+    const bool exact = plan.centre && plan.standard_deviation && group_size == 1;
+    for (int i = -3; i <= 3; ++i) {
+      lines_[static_cast<std::size_t>(i + 3)] =
+          exact ? nearest(*plan.centre + Exact(i) * *plan.standard_deviation)
+                : centre + i * point_sigma;
+    }
+  }
+
+  long double at(int deviations) const { return lines_[static_cast<std::size_t>(deviations + 3)]; }
+  ZoneLines zones() const {
+    ZoneLines zones{.centre = static_cast<double>(at(0))};
+    for (int i = 1; i <= 3; ++i) {
+      zones.above[static_cast<std::size_t>(i - 1)] = static_cast<double>(at(i));
+      zones.below[static_cast<std::size_t>(i - 1)] = static_cast<double>(at(-i));
+    }
+    return zones;
+  }
+
+ private:
+  std::array<long double, 7> lines_{};
+};
 
 /// Rule 1 of a chart that has no zones.
 void find_beyond(const Chart& chart, std::vector<ChartViolation>& violations) {
@@ -242,11 +274,10 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
 
   const Source source(data, *phase);
   Spread spread = spread_of(source, plan.kind);
-  const long double sigma = plan.standard_deviation
-                                ? static_cast<long double>(*plan.standard_deviation)
-                                : spread.mean / spread.per_mean;
+  const long double sigma =
+      plan.standard_deviation ? nearest(*plan.standard_deviation) : spread.mean / spread.per_mean;
   const long double point_sigma = sigma / std::sqrt(static_cast<long double>(data.size));
-  const long double centre = plan.centre ? static_cast<long double>(*plan.centre) : source.mean();
+  const long double centre = plan.centre ? nearest(*plan.centre) : source.mean();
   std::vector<double> points = source.means();
 
   ControlCharts made{.charts = {},
@@ -266,14 +297,14 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
     return made;
   }
 
-  for (const RuleViolation& found : find_violations(points, static_cast<double>(centre),
-                                                    static_cast<double>(point_sigma), plan.rules)) {
+  const Location location(plan, data.size, centre, point_sigma);
+  for (const RuleViolation& found : find_violations(points, location.zones(), plan.rules)) {
     made.violations.push_back({needs_groups ? "xbar" : "i", found.rule, found.index});
   }
   made.charts.push_back({.name = needs_groups ? "xbar" : "i",
                          .centre = centre,
-                         .lower_limit = centre - kWidth * point_sigma,
-                         .upper_limit = centre + kWidth * point_sigma,
+                         .lower_limit = location.at(-3),
+                         .upper_limit = location.at(3),
                          .points = std::move(points)});
   made.charts.push_back(spread_chart(std::move(spread), sigma));
   if (plan.rules.has(1)) find_beyond(made.charts.back(), made.violations);

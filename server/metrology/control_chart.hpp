@@ -34,8 +34,8 @@ struct ChartPlan {
   };
   std::optional<Phase> phase1{};  ///< none: all
   /// Known instead of estimated: the mean, and the standard deviation of single values.
-  std::optional<double> centre{};
-  std::optional<double> standard_deviation{};
+  std::optional<Exact> centre{};
+  std::optional<Exact> standard_deviation{};
   double lambda = 0.2;           ///< weight of the newest point, EWMA
   double reference_value = 0.5;  ///< k, CUSUM, in standard deviations of a point
   double decision_interval = 5;  ///< h, likewise

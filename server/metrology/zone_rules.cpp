@@ -49,22 +49,19 @@ void ZoneHistory::reduce(ZoneRules rules) {
   }
 }
 
-std::vector<RuleViolation> find_violations(std::span<const double> points, double centre,
-                                           double standard_deviation, ZoneRules rules) {
+std::vector<RuleViolation> find_violations(std::span<const double> points, const ZoneLines& lines,
+                                           ZoneRules rules) {
   std::vector<RuleViolation> violations;
   if (rules.empty()) return violations;
-  std::array<double, 3> above{};
-  std::array<double, 3> below{};
-  for (std::size_t zone = 0; zone < above.size(); ++zone) {
-    above[zone] = centre + static_cast<double>(zone + 1) * standard_deviation;
-    below[zone] = centre - static_cast<double>(zone + 1) * standard_deviation;
-  }
   ZoneHistory history;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = points[i];
     int zone = 0;
-    for (std::size_t k = 0; k < above.size(); ++k) zone += int{x > above[k]} - int{x < below[k]};
-    const auto completed = history.add({zone, int{x > centre} - int{x < centre}}, rules);
+    for (std::size_t k = 0; k < lines.above.size(); ++k) {
+      zone += int{x > lines.above[k]} - int{x < lines.below[k]};
+    }
+    const auto completed =
+        history.add({zone, int{x > lines.centre} - int{x < lines.centre}}, rules);
     for (int rule = 1; rule <= ZoneRules::kCount; ++rule) {
       if (completed[static_cast<std::size_t>(rule - 1)]) violations.push_back({rule, i});
     }

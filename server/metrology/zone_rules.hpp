@@ -65,8 +65,15 @@ struct RuleViolation {
   std::size_t index = 0;  ///< of the point that completes the pattern, from 0
 };
 
+/// The lines of a location chart, rounded as its points are: a point on a line is not beyond it.
+struct ZoneLines {
+  double centre = 0;
+  std::array<double, 3> above{};  ///< 1, 2 and 3 standard deviations of a point from the centre
+  std::array<double, 3> below{};
+};
+
 /// The violations of a whole chart, by point, then rule.
-std::vector<RuleViolation> find_violations(std::span<const double> points, double centre,
-                                           double standard_deviation, ZoneRules rules);
+std::vector<RuleViolation> find_violations(std::span<const double> points, const ZoneLines& lines,
+                                           ZoneRules rules);
 
 }  // namespace fitgauge::metrology

@@ -135,20 +135,19 @@ metrology::ChartPlan read_plan(FieldReader& fields, FieldErrors& errors) {
     }
     plan.kind = kind.value_or(plan.kind);
   }
-  constexpr double kWidest = 1e15;
   plan.rules = read_rules(fields);
   plan.phase1 = read_phase(fields, errors);
-  if (fields.has("centre")) plan.centre = fields.number("centre");
-  if (fields.has("standard_deviation")) {
-    plan.standard_deviation = number_between(fields, "standard_deviation", 1, 0, kWidest);
+  plan.centre = read_exact(fields, "centre", false, errors);
+  plan.standard_deviation = read_exact(fields, "standard_deviation", false, errors);
+  if (plan.standard_deviation && *plan.standard_deviation <= 0) {
+    fields.report(ErrorCode::FieldInvalid, "standard_deviation",
+                  "a known standard deviation is above 0");
   }
   plan.lambda = number_between(fields, "lambda", plan.lambda, 0, 1);
   plan.reference_value = number_between(fields, "reference_value", plan.reference_value, 0, 10);
   plan.decision_interval =
       number_between(fields, "decision_interval", plan.decision_interval, 0, 20);
-  for (const std::string_view known : {"centre", "standard_deviation", "phase1"}) {
-    fields.optional(known);
-  }
+  fields.optional("phase1");
   return plan;
 }
 

@@ -133,10 +133,10 @@ void add_chart(Schemas& schemas) {
        order(Fields{{"kind", schema::words({"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}), ""}} +
              data_fields() +
              schema::optional({
-                 {"rules", schema::array(schema::integer(1, 4)), "Rule 1 when absent"},
+                 {"rules", schema::array(schema::integer(1, 4)), "None when absent"},
                  {"phase1", phase, "The points the limits are taken from"},
-                 {"centre", schema::number(), "Known"},
-                 {"standard_deviation", schema::number(0, 1e15), "Known, of single values"},
+                 {"centre", schema::exact(), "Known"},
+                 {"standard_deviation", schema::exact(), "Known, of single values; above 0"},
                  {"lambda", schema::number(0, 1), "Of ewma"},
                  {"reference_value", schema::number(0, 10), "k of cusum, in standard deviations"},
                  {"decision_interval", schema::number(0, 20), "h of cusum, likewise"},

@@ -50,6 +50,12 @@ class Statistics(DaemonTest):
         self.assertEqual([c["name"] for c in chart["charts"]], ["xbar", "r"])
         self.assertIn({"chart": "xbar", "rule": 1, "index": 36}, chart["violations"])
         self.assertIsNone(self.compute("chart", {"kind": "xbar_s", "subgroups": RINGS})["average_run_length"])
+        known = {"centre": "25.12373", "standard_deviation": 0.000342}
+        on_line = self.compute("chart", {"kind": "i_mr", "values": ["25.124414"] * 4, "rules": [1, 2], **known})
+        self.assertEqual([on_line["violations"], on_line["charts"][0]["upper_limit"]], [[], 25.124756])
+        for kind in ("ewma", "cusum"):
+            flat = {"kind": kind, "values": [25.013] * 4, "rules": [1]}
+            self.assertEqual(self.compute("chart", flat)["violations"], [])
 
     def test_a_capability_with_one_limit(self):
         capability = self.compute("capability", {"values": [1, 2, 3, 2, 1], "upper": 5})

@@ -16,10 +16,12 @@ ZoneRules rules(std::initializer_list<int> numbers) {
   return rules;
 }
 
+constexpr ZoneLines kUnitLines{.centre = 0, .above = {1, 2, 3}, .below = {-1, -2, -3}};
+
 /// The points at which a rule is broken, of a chart about 0 with a standard deviation of 1.
 std::vector<std::size_t> broken(int rule, const std::vector<double>& points) {
   std::vector<std::size_t> at;
-  for (const RuleViolation& violation : find_violations(points, 0, 1, rules({rule}))) {
+  for (const RuleViolation& violation : find_violations(points, kUnitLines, rules({rule}))) {
     CHECK(violation.rule == rule);
     at.push_back(violation.index);
   }
@@ -84,6 +86,30 @@ TEST_CASE("a rule is broken by the point that completes its pattern, itself beyo
   CHECK(broken(4, above) == Indices{7, 8});
   CHECK(broken(4, {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0, 0.1}).empty());
   CHECK(broken(1, {}).empty());
+}
+
+TEST_CASE("a value on a line between known decimals is not beyond it") {
+  // In doubles, 25.12373 + 2 * 0.000342 is less than 25.124414.
+  for (const auto& [centre, sigma] : {std::pair("25.12373", "0.000342"),
+                                      {"24.1", "0.7"},
+                                      {"25.068", "0.003"},
+                                      {"25.000001", "0.008999"}}) {
+    for (const int k : {-3, -2, -1, 1, 2, 3}) {
+      const Exact known = decimals(centre)[0];
+      const Exact deviation = decimals(sigma)[0];
+      const Wide on_line = static_cast<Wide>(
+          Integer(numerator((known + Exact(k) * deviation) * Exact(power_of_ten(6)))));
+      const ControlCharts charts =
+          make_charts({.values = Decimals(std::vector<Wide>(6, on_line), 6)},
+                      {.rules = rules({1, std::abs(k) == 1   ? 3
+                                          : std::abs(k) == 2 ? 2
+                                                             : 1}),
+                       .centre = known,
+                       .standard_deviation = deviation})
+              .value();
+      CHECK(charts.violations.empty());
+    }
+  }
 }
 
 TEST_CASE("the charts of the piston rings are qcc's") {
@@ -156,6 +182,12 @@ TEST_CASE("zero spread has a chart; too few points and a wrong kind have an erro
       make_charts({.values = decimals("5 5 5")}, {.rules = ZoneRules::all()}).value();
   CHECK(flat.violations.empty());
   CHECK(flat.charts[0].upper_limit == 5);
+  for (const ChartKind kind : {ChartKind::IMr, ChartKind::Ewma, ChartKind::Cusum}) {
+    for (const char* const values : {"1 1 1 1", "25.013 25.013 25.013 25.013", "0.1 0.1 0.1"}) {
+      const ChartPlan plan{.kind = kind, .rules = ZoneRules::only_first()};
+      CHECK(make_charts({.values = decimals(values)}, plan).value().violations.empty());
+    }
+  }
   const auto code = [](const Subgroups& data, const ChartPlan& plan) {
     return make_charts(data, plan).error().code;
   };
