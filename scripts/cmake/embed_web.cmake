@@ -1,12 +1,14 @@
-# cmake -DOUT=<file> -DROOT=<folder> -DFILES=<names> -P embed_web.cmake
+# cmake -DOUT=<file> -DROOT=<folder> -DBUNDLED=<folder> -DFILES=<names> -P embed_web.cmake
 # Writes the table of server/api/service/page_assets.hpp: every file of the page as it is and gzipped, with its
 # media type and an entity tag made of its content. index.html names the other files below the build's name,
-# a digest of them all: what stands there never changes and may be kept for ever.
+# a digest of them all: what stands there never changes and may be kept for ever. Names below bundled/ are taken
+# from BUNDLED, all others from ROOT.
 
 set(type_html "text/html; charset=utf-8")
 set(type_css "text/css; charset=utf-8")
 set(type_js "text/javascript; charset=utf-8")
 set(type_svg "image/svg+xml")
+set(type_txt "text/plain; charset=utf-8")
 
 # The bytes of a file as the initialiser of an array.
 function(bytes_of file variable)
@@ -16,9 +18,19 @@ function(bytes_of file variable)
   set(${variable} "${hex}" PARENT_SCOPE)
 endfunction()
 
+# Where the bytes of a file of the page are.
+function(source_of name variable)
+  set(root "${ROOT}")
+  if(name MATCHES "^bundled/")
+    set(root "${BUNDLED}")
+  endif()
+  set(${variable} "${root}/${name}" PARENT_SCOPE)
+endfunction()
+
 set(digests "")
 foreach(name IN LISTS FILES)
-  file(SHA256 "${ROOT}/${name}" digest)
+  source_of("${name}" source)
+  file(SHA256 "${source}" digest)
   string(APPEND digests "${name} ${digest}\n")
 endforeach()
 string(SHA256 build "${digests}")
@@ -32,7 +44,7 @@ foreach(name IN LISTS FILES)
   if(NOT DEFINED type_${extension})
     message(FATAL_ERROR "embed_web: no media type is known for ${name}")
   endif()
-  set(source "${ROOT}/${name}")
+  source_of("${name}" source)
   if(name STREQUAL "index.html")
     file(READ "${source}" text)
     string(REPLACE "\"/web/" "\"/web/${build}/" text "${text}")

@@ -12,12 +12,30 @@ export const isProgram = (path) => /\.[hi]$/i.test(path);
 const fileUrl = (path, options) => url(['files', ...relative(path).split('/')], options);
 
 export const listFiles = async () => (await getJson(url(['files']))).files.map((file) => ({ ...file, path: relative(file.path) }));
-export const readText = async (path) => (await get(fileUrl(path))).text();
-export const writeFile = (path, bytes) => request('PUT', fileUrl(path), { body: bytes });
+/** The text of a file as {text, tag, size, reason}: `reason` says why it is only shown, or not even that. */
+export async function readFile(path) {
+  const response = await get(fileUrl(path));
+  const bytes = await response.arrayBuffer();
+  const file = { tag: response.headers.get('ETag'), size: bytes.byteLength };
+  try {
+    const text = new TextDecoder('utf-8', { fatal: true, ignoreBOM: true }).decode(bytes);
+    return text.includes('\0') ? { ...file, text: null, reason: 'no_text' } : { ...file, text };
+  } catch {
+    const text = new TextDecoder('windows-1252').decode(bytes);
+    return text.includes('\0') ? { ...file, text: null, reason: 'no_text' } : { ...file, text, reason: 'not_utf8' };
+  }
+}
+
+/** @param conditions headers such as If-Match. @returns the tag of what is stored now */
+export async function writeFile(path, bytes, conditions = {}) {
+  return (await request('PUT', fileUrl(path), { body: bytes, headers: conditions })).headers.get('ETag');
+}
+
 export const removeFile = (path) => request('DELETE', fileUrl(path));
 
-export async function check(path) {
-  return (await (await request('POST', fileUrl(path, { action: 'check' }))).json()).diagnostics;
+/** What is wrong with a text that would stand at a path. */
+export async function check(path, text, signal) {
+  return (await (await request('POST', fileUrl(path, { action: 'check' }), { body: text, signal })).json()).diagnostics;
 }
 
 /** The newest runs of a program. */

@@ -4,8 +4,8 @@ import { field, h, refill } from '../dom.js';
 import { t } from '../i18n.js';
 
 export class FileList {
-  /** @param onPick takes a path; @param onUpload takes a folder and the files chosen */
-  constructor({ onPick, onUpload }) {
+  /** @param onPick takes a path; @param onUpload takes a folder and the files chosen; @param onBegin the path of a new program */
+  constructor({ onPick, onUpload, onBegin }) {
     this.onPick = onPick;
     this.folder = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false' });
     this.folder.value = 'nc_prog';
@@ -13,16 +13,29 @@ export class FileList {
       type: 'file', multiple: true, 'aria-label': t('programs.upload'),
       onchange: () => this.#chosen(onUpload),
     });
+    this.name = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false', pattern: '[\\w\\-]+(\\.[hHiI])?', required: true });
     this.list = h('div.files');
     this.element = h('aside.disk',
       h('form.upload', { onsubmit: (event) => event.preventDefault() },
         field(t('programs.folder'), this.folder), field(t('programs.upload'), this.chooser)),
+      h('form.line.begin', { onsubmit: (event) => { event.preventDefault(); this.#begun(onBegin); } },
+        field(t('programs.begin'), this.name), h('button', { type: 'submit' }, t('programs.write'))),
       h('nav', { 'aria-label': t('programs.files') }, this.list));
   }
 
   async #chosen(onUpload) {
-    await onUpload(this.folder.value.trim().replace(/^\/+|\/+$/g, ''), [...this.chooser.files]);
+    await onUpload(this.#folder, [...this.chooser.files]);
     this.chooser.value = '';
+  }
+
+  get #folder() {
+    return this.folder.value.trim().replace(/^\/+|\/+$/g, '');
+  }
+
+  #begun(onBegin) {
+    const name = this.name.value.replace(/(\.[hi])?$/i, (ending) => ending || '.h');
+    this.name.value = '';
+    onBegin([this.#folder, name].filter(Boolean).join('/'));
   }
 
   show(files, current) {

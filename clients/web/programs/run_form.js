@@ -12,9 +12,13 @@ import { runReport, screenOf } from './run_report.js';
 const MOST_RUNS = 10;
 
 export class RunForm {
-  /** @param onDiagnostics takes what a refused program has wrong; @param onRun the id of a run; @param onMove the move that is shown */
-  constructor({ onDiagnostics, onRun, onMove }) {
+  /**
+   * @param onDiagnostics takes what a refused program has wrong; @param onRun the id of a run; @param onMove the move that is shown
+   * @param beforeRun stores what is to be run
+   */
+  constructor({ onDiagnostics, onRun, onMove, beforeRun }) {
     this.onMove = onMove;
+    this.beforeRun = beforeRun;
     this.earlier = h('nav.earlier', { 'aria-label': t('programs.earlier') });
     this.onDiagnostics = onDiagnostics;
     this.onRun = onRun;
@@ -102,6 +106,7 @@ export class RunForm {
 
   #run() {
     return this.#try(async () => {
+      await this.beforeRun();
       const response = await request('POST', url(['runs']), {
         body: this.#order(), headers: { 'Content-Type': 'application/json', Prefer: 'respond-async' },
       });

@@ -3,24 +3,33 @@
 import { confirm } from '../confirm.js';
 import { h } from '../dom.js';
 import { explain, t } from '../i18n.js';
-import { check, fileName, isProgram, listFiles, readText, removeFile, writeFile } from '../programs/disk.js';
+import { fileName, isProgram, listFiles, removeFile, writeFile } from '../programs/disk.js';
 import { FileList } from '../programs/file_list.js';
+import { ProgramText } from '../programs/program_text.js';
 import { RunForm } from '../programs/run_form.js';
-import { sourceText } from '../programs/source.js';
 import { go } from '../route.js';
 
 export function mount(main, route) {
   let current = route.path.join('/');
-  let text = '';
-  const files = new FileList({ onPick: (path) => pick(path), onUpload: upload });
-  const form = new RunForm({ onDiagnostics: show, onRun: (run, setup) => remember({ run, setup }), onMove: showLine });
-  const title = h('h2.title');
+  const leaving = new AbortController();
+  const files = new FileList({ onPick: (path) => pick(path), onUpload: upload, onBegin: begin });
+  const source = new ProgramText({
+    leaving: leaving.signal, onLine: (line) => form.toLine(line), onState: showState, onStore: () => attempt(store),
+  });
+  const form = new RunForm({
+    onDiagnostics: (found) => source.show(found), onRun: (run, setup) => remember({ run, setup }),
+    onMove: ({ program: where, line }) => source.showLine(where, line), beforeRun: store,
+  });
+  const name = h('span');
+  const state = h('span.aside', { role: 'status' });
+  const title = h('h2.title', name, state);
   const note = h('p.note', { role: 'status' });
-  const source = h('div.listing');
-  const actions = h('p.actions',
+  const storing = h('button.primary', { type: 'button', onclick: () => attempt(store) }, t('programs.store'));
+  const dropping = h('button', { type: 'button', onclick: () => attempt(drop) }, t('programs.drop'));
+  const actions = h('p.actions', storing, dropping,
     h('button', { type: 'button', onclick: () => attempt(checkCurrent) }, t('programs.check')),
     h('button', { type: 'button', onclick: () => attempt(remove) }, t('programs.delete')));
-  const program = h('div.program', h('div.line', title, actions), source, form.element);
+  const program = h('div.program', h('div.line', title, actions), source.element, form.element);
   const nothing = h('p.empty', t('programs.pick'));
 
   main.replaceChildren(h('div.desk.programs', h('h1.unseen', { tabindex: -1 }, t('view.programs')), files.element, h('div.program', note, nothing, program)));
@@ -38,16 +47,25 @@ export function mount(main, route) {
     }
   }
 
-  function show(diagnostics) {
-    source.replaceChildren(...sourceText(current, text, diagnostics, (line) => form.toLine(line)));
+  function showState() {
+    state.textContent = source.dirty ? t('programs.not_stored') : '';
+    storing.disabled = !source.dirty;
+    dropping.hidden = !source.dirty;
   }
 
-  /** The line of a move, where it is one of the program that is open. */
-  function showLine({ program: where, line }) {
-    source.querySelector('.here')?.classList.remove('here');
-    const [row] = fileName(where).toLowerCase() === fileName(current).toLowerCase() ? source.querySelectorAll(`.source li:nth-child(${line})`) : [];
-    row?.classList.add('here');
-    row?.scrollIntoView({ block: 'nearest' });
+  async function store() {
+    if (!source.dirty) return;
+    const isNew = source.tag === null;
+    await source.store();
+    if (isNew) await list();
+  }
+
+  async function drop() {
+    if (!await confirm(t('programs.drop_sure', { name: fileName(current) }), t('programs.drop'))) return;
+    const isNew = source.tag === null;
+    ProgramText.forget(current);
+    if (isNew) current = '';
+    await open();
   }
 
   async function list() {
@@ -60,9 +78,8 @@ export function mount(main, route) {
     nothing.hidden = current !== '';
     program.hidden = current === '';
     if (!current) return;
-    title.textContent = fileName(current);
-    text = await readText(current);
-    show([]);
+    name.textContent = fileName(current);
+    await source.open(current);
     form.element.hidden = !isProgram(current);
     if (!isProgram(current)) return;
     await form.show(current, options.setup);
@@ -78,27 +95,38 @@ export function mount(main, route) {
   });
 
   const checkCurrent = async () => {
-    const diagnostics = await check(current);
-    show(diagnostics);
+    const diagnostics = await source.check();
+    if (!diagnostics) return;
     const errors = diagnostics.filter((each) => each.severity === 'error').length;
     note.textContent = diagnostics.length ? t('programs.found', { errors, warnings: diagnostics.length - errors }) : t('programs.in_order');
   };
 
   const remove = async () => {
     if (!await confirm(t('programs.delete_sure', { name: current }), t('programs.delete'))) return;
-    await removeFile(current);
+    if (source.tag !== null) await removeFile(current);
+    ProgramText.forget(current);
     current = '';
     remember();
     await list();
     await open();
   };
 
+  function begin(path) {
+    const stem = fileName(path).replace(/\.[^.]*$/, '');
+    ProgramText.begin(path, `BEGIN PGM ${stem} MM\nEND PGM ${stem} MM\n`);
+    return pick(path);
+  }
+
   function upload(folder, chosen) {
     return attempt(async () => {
       const there = new Set((await listFiles()).map(({ path }) => path.toLowerCase()));
       const replaced = chosen.map((file) => file.name).filter((name) => there.has([folder, name].filter(Boolean).join('/').toLowerCase()));
       if (replaced.length && !await confirm(t('programs.replace_sure', { names: replaced.join(', ') }), t('programs.replace'))) return;
-      for (const file of chosen) await writeFile([folder, file.name].filter(Boolean).join('/'), await file.arrayBuffer());
+      for (const file of chosen) {
+        const path = [folder, file.name].filter(Boolean).join('/');
+        await writeFile(path, await file.arrayBuffer());
+        ProgramText.forget(path);
+      }
       const first = chosen.find((file) => isProgram(file.name)) ?? chosen[0];
       await pick([folder, first.name].filter(Boolean).join('/'));
     });
@@ -108,4 +136,5 @@ export function mount(main, route) {
     await list();
     await open(route.options);
   });
+  return () => leaving.abort();
 }

@@ -121,14 +121,14 @@ void list_files(const Services& services, const http::Request& request, http::Re
   });
 }
 
-Result<http::Response> act_on(app::RunService& runs, const interpreter::ControlPath& path,
-                              bool formats) {
+Result<http::Response> act_on(app::RunService& runs, const ControlPath& path, bool formats,
+                              std::optional<std::string> draft) {
   if (formats) {
     auto text = runs.format(path);
     if (!text) return text.error();
     return http::Response(200, "text/plain; charset=utf-8", *std::move(text));
   }
-  auto found = runs.check(path);
+  auto found = runs.check(path, std::move(draft));
   if (!found) return found.error();
   return http::Response(200, "application/json", diagnostics_json(*found));
 }
@@ -140,9 +140,11 @@ void act_on_file(const Services& services, const http::Request& request,
   if (!path) return responder.fail(path.error());
   const bool formats = request.text("action") == "format";
   const auto shared = share(std::move(responder));
+  std::optional<std::string> draft;
+  if (!request.body().empty()) draft = std::string(request.body());
   services.runs.prepare(
-      [&services, path = *path, formats, shared] {
-        auto done = act_on(services.runs, path, formats);
+      [&services, path = *path, formats, draft = std::move(draft), shared]() mutable {
+        auto done = act_on(services.runs, path, formats, std::move(draft));
         if (done) return shared->answer(*std::move(done));
         Error error = std::move(done).error();
         // Here it is the request's path that names what is not there.
@@ -215,12 +217,16 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .handler = with(services, act_on_file),
       .summary = "Check a program with those it calls, a mask or a table, or format a program; "
                  "nothing runs and nothing is stored",
+      .description =
+          "`check` takes the text of the body in place of the stored file, where there is "
+          "a body: what an editor holds is checked before it is stored.",
       .parameters = {kPath,
                      {.name = "action",
                       .type = http::Words{{"check", "format"}},
                       .required = true,
                       .description = "check: the findings; format: the program as text, one blank "
                                      "between words, blocks numbered from 0"}},
+      .body = {.use = http::BodyUse::Optional, .limit = kBodyLimit},
       .access = "viewer",
       .operation = "checkFile",
       .tag = "files",

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "app/files/draft_disk.hpp"
 #include "app/files/file_check.hpp"
 #include "app/measurements/mapping.hpp"
 #include "app/measurements/measurement_storage.hpp"
@@ -155,8 +156,9 @@ void RunService::prepare(std::function<void()> work, const std::function<void(Er
   refused({ErrorCode::Overloaded, "too many runs and checks wait already; try again soon"});
 }
 
-Result<RunService::Diagnostics> RunService::check(const interpreter::ControlPath& path) {
-  return check_with(check_file, path);
+Result<RunService::Diagnostics> RunService::check(const interpreter::ControlPath& path,
+                                                  std::optional<std::string> draft) {
+  return check_with(check_file, path, std::move(draft));
 }
 
 Result<RunService::Diagnostics> RunService::check_program(const interpreter::ControlPath& path) {
@@ -164,10 +166,12 @@ Result<RunService::Diagnostics> RunService::check_program(const interpreter::Con
 }
 
 Result<RunService::Diagnostics> RunService::check_with(Check find_all,
-                                                       const interpreter::ControlPath& path) try {
+                                                       const interpreter::ControlPath& path,
+                                                       std::optional<std::string> draft) try {
   const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
   Allowance allowance(kPreparingTime, kPreparingMemory, stopping_.get_token());
-  return find_all(path, disk, programs_, allowance);
+  if (!draft) return find_all(path, disk, programs_, allowance);
+  return find_all(path, DraftDisk(disk, path, *std::move(draft)), programs_, allowance);
 } catch (const store::StorageFailure& failure) {
   return failure.error();
 }

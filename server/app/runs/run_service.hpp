@@ -78,8 +78,10 @@ class RunService {
 
   using Diagnostics = std::vector<klartext::Diagnostic>;
   /// Everything there is to say about a file, by its kind: program, mask or table.
+  /// @param draft its text as it is being written; without it the stored file.
   /// @errors ProgramUnknown, StorageUnavailable.
-  Result<Diagnostics> check(const interpreter::ControlPath& path);
+  Result<Diagnostics> check(const interpreter::ControlPath& path,
+                            std::optional<std::string> draft = std::nullopt);
   /// The same of a file that is to be run, whatever it is called.
   Result<Diagnostics> check_program(const interpreter::ControlPath& path);
 
@@ -146,7 +148,8 @@ class RunService {
   using Check = Result<Diagnostics> (*)(const interpreter::ControlPath&,
                                         const interpreter::ControlDisk&, interpreter::ProgramCache&,
                                         Allowance&);
-  Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path);
+  Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path,
+                                 std::optional<std::string> draft = std::nullopt);
   void run(const std::shared_ptr<ActiveRun>& run);
   bool withdraw(std::int64_t id);
   void end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace);

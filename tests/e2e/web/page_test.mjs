@@ -18,9 +18,12 @@ const VIEWS = {
   tables: '#/tables/hole?find=25+H',
 };
 
+/** Libraries come when a view wants them, and from the build (bundled/): the rest is what is in the tree. */
+const LIBRARIES = ['codemirror'];
 const files = fs.readdirSync(FOLDER, { recursive: true, withFileTypes: true })
   .filter((entry) => entry.isFile())
-  .map((entry) => path.relative(FOLDER, path.join(entry.parentPath ?? entry.path, entry.name)));
+  .map((entry) => path.relative(FOLDER, path.join(entry.parentPath ?? entry.path, entry.name)))
+  .filter((name) => /\.(html|css|js|svg)$/.test(name) && !name.startsWith('bundled/'));
 
 /** An answer as it is sent, not unpacked. */
 const rawGet = (daemon, target, headers = {}) => new Promise((resolve, reject) => {
@@ -93,6 +96,28 @@ describe('the page', () => {
     }
     assert.equal((await rawGet(daemon, '/web/none.js')).status, 404);
     assert.equal((await rawGet(daemon, '/', { 'Accept-Encoding': 'gzip;q=0' })).headers['content-encoding'], undefined);
+  });
+
+  it('brings its libraries bundled, each with its licence, and only to the view that wants them', async (test) => {
+    for (const name of LIBRARIES) {
+      const bundle = await rawGet(daemon, `/web/bundled/${name}.js`, { 'Accept-Encoding': 'gzip' });
+      test.diagnostic(`${name}: ${bundle.body.length} bytes gzipped`);
+      assert.equal(bundle.status, 200);
+      assert.doesNotMatch(String((await rawGet(daemon, `/web/bundled/${name}.js`)).body), /^import|\bfrom ?"[@a-z]/m, name);
+    }
+    const { body, headers } = await rawGet(daemon, '/web/bundled/licences.txt');
+    assert.match(headers['content-type'], /^text\/plain/);
+    const licences = String(body);
+    for (const name of Object.keys(JSON.parse(fs.readFileSync(path.join(FOLDER, 'package.json'), 'utf8')).dependencies)) {
+      assert.match(licences, new RegExp(`^${name} \\d+\\.\\d+\\.\\d+ \\(MIT\\)$`, 'm'));
+    }
+    assert.equal(licences.match(/Permission is hereby granted/g).length, licences.match(/ \(MIT\)$/gm).length);
+    const page = await openView('parts');
+    await page.evaluate(() => { location.hash = '#/fit'; });
+    await page.waitForSelector('.class-zones :checked');
+    const asked = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
+    assert.deepEqual(asked.filter((name) => name.includes('/bundled/')), []);
+    await close(page);
   });
 
   it('names its files below the name of the build, where they may be kept for ever', async () => {

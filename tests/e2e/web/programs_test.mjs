@@ -50,10 +50,10 @@ describe('the programs', () => {
     await page.waitForSelector('.files .aside');
     await page.fill('.upload input[type="text"]', 'nc_prog/8255');
     await page.setInputFiles('.upload input[type="file"]', ['8255.h', '82551.h', '82552.a'].map((name) => `${EXAMPLE}/${name}`));
-    await page.waitForFunction(() => document.querySelectorAll('.source li').length > 10);
+    await page.waitForSelector('.cm-line >> nth=10');
     const stored = await (await fetch(`${daemon.url}/v1/files/${PROGRAM}`)).text();
     assert.equal(stored, fs.readFileSync(`${EXAMPLE}/8255.h`, 'utf8'));
-    await page.click('.program .actions button');
+    await page.click('.program .actions button:has-text("Check")');
     await page.waitForFunction(() => document.querySelector('.program .note').textContent !== '');
     assert.equal((await page.$$('.finding')).length, 0);
     await page.selectOption('.run select', 'hole-good');
@@ -73,9 +73,9 @@ describe('the programs', () => {
     assert.equal((await page.$$('.path-view .here circle')).length, 2);
     const own = moves.findIndex((move) => /8255\.h$/i.test(move.program));
     if (own >= 0) {
-      await page.click(`.source li:nth-child(${moves[own].line})`);
+      await page.click(`.cm-line >> nth=${moves[own].line - 1}`);
       assert.match(await said(), new RegExp(`8255\\.h line ${moves[own].line} `, 'i'));
-      assert.equal(await page.$eval('.source .here', (row) => [...row.parentNode.children].indexOf(row) + 1), moves[own].line);
+      assert.equal(await page.$eval('.cm-line.cm-here', (row) => [...row.parentNode.querySelectorAll('.cm-line')].indexOf(row) + 1), moves[own].line);
     }
     const ran = hash();
     await page.click('.run button[type="submit"]');
@@ -95,7 +95,7 @@ describe('the programs', () => {
     const text = 'BEGIN PGM KEEP MM\nEND PGM KEEP MM\n';
     await daemon.send('PUT', '/v1/files/nc_prog/keep.h', text, 'text/plain');
     page = await open(browser, daemon, '#/programs/nc_prog/keep.h');
-    await page.waitForFunction(() => document.querySelectorAll('.source li').length === 2);
+    await page.waitForSelector('.cm-line >> nth=1');
     const there = async () => (await fetch(`${daemon.url}/v1/files/nc_prog/keep.h`)).text();
     await page.click('button:has-text("Delete")');
     await page.click('dialog button:has-text("Cancel")');
@@ -114,15 +114,87 @@ describe('the programs', () => {
   it('carry what a check finds in their text', async () => {
     await daemon.send('PUT', '/v1/files/nc_prog/bad.h', 'BEGIN PGM BAD MM\n1 CALL LBL 7\n2 FOO\nEND PGM BAD MM\n', 'text/plain');
     page = await open(browser, daemon, '#/programs/nc_prog/bad.h');
-    await page.waitForFunction(() => document.querySelectorAll('.source li').length === 4);
-    await page.click('.run button[type="submit"]'); // a run is refused for the same reasons
-    await page.waitForSelector('.finding');
-    const found = () => page.$$eval('.source li.error', (lines) => lines.map((line) => line.querySelector('code').textContent));
+    const found = () => page.$$eval('.cm-line.cm-error', (lines) => lines.map((line) => line.textContent));
+    await page.waitForSelector('.cm-line.cm-error'); // as soon as it is open
     assert.deepEqual(await found(), ['1 CALL LBL 7', '2 FOO']);
-    await page.click('.program .actions button');
+    assert.equal(await page.textContent('.cm-place >> nth=1'), 'FOO');
+    await page.click('.run button[type="submit"]'); // a run is refused for the same reasons
+    await page.waitForFunction(() => document.querySelector('.run .note').textContent !== '');
+    await page.click('.program .actions button:has-text("Check")');
     await page.waitForFunction(() => /2/.test(document.querySelector('.program .note').textContent));
     assert.deepEqual(await found(), ['1 CALL LBL 7', '2 FOO']);
-    assert.equal((await page.textContent('.source li:nth-child(3) .caret')).indexOf('^'), 2);
+    await page.click('.findings button >> nth=1');
+    assert.equal(await page.textContent('.cm-activeLine'), '2 FOO');
+  });
+
+  it('are edited, checked as one types, and stored only when that is wanted', async () => {
+    const text = 'BEGIN PGM ED MM\r\nTOOL CALL 30 Z\r\nEND PGM ED MM\r\n';
+    await daemon.send('PUT', '/v1/files/nc_prog/ed.h', text, 'text/plain');
+    const there = async () => (await fetch(`${daemon.url}/v1/files/nc_prog/ed.h`)).text();
+    page = await open(browser, daemon, '#/programs/nc_prog/ed.h');
+    await page.click('.cm-line >> nth=1');
+    await page.keyboard.press('End');
+    await page.keyboard.type('\nCALL LBL 9 ; nowhere');
+    await page.waitForSelector('.cm-line.cm-error');
+    assert.equal(await page.textContent('.cm-line.cm-error'), 'CALL LBL 9 ; nowhere');
+    assert.match(await page.textContent('.findings'), /line 3/);
+    assert.equal(await there(), text);
+    assert.match(await page.textContent('.title'), /not stored yet/);
+    const colours = await page.$$eval('.cm-line >> nth=2 >> span', (words) => new Set(words.map((word) => getComputedStyle(word).color)).size);
+    assert.ok(colours > 1, 'Klartext has no colours');
+    // It is kept over a visit elsewhere, and stored with the line ends it had.
+    await page.evaluate(() => { location.hash = '#/tables'; });
+    await page.waitForSelector('.grid');
+    await page.evaluate(() => { location.hash = '#/programs/nc_prog/ed.h'; });
+    await page.waitForSelector('.cm-line.cm-error');
+    await page.click('.cm-line >> nth=2');
+    await page.keyboard.press('Control+s');
+    await page.waitForFunction(() => !document.querySelector('.title .aside').textContent);
+    assert.equal(await there(), 'BEGIN PGM ED MM\r\nTOOL CALL 30 Z\r\nCALL LBL 9 ; nowhere\r\nEND PGM ED MM\r\n');
+    // What somebody else has stored meanwhile is not overwritten.
+    await daemon.send('PUT', '/v1/files/nc_prog/ed.h', text, 'text/plain');
+    await page.keyboard.type('x');
+    await page.click('.program .actions button:has-text("Store")');
+    await page.waitForFunction(() => document.querySelector('.program > .note').textContent !== '');
+    assert.equal(await there(), text);
+    await page.click('button:has-text("Discard changes")');
+    await page.click('dialog button:has-text("Discard changes")');
+    await page.waitForFunction(() => !document.querySelector('.title .aside').textContent);
+    assert.equal((await page.$$('.cm-line')).length, 4); // a line after the last line end
+    // A line of a run's move: by the keyboard too. What is run is stored first.
+    await page.click('.cm-line >> nth=1');
+    await page.keyboard.press('End');
+    await page.keyboard.type('\nL Z+100 R0 FMAX\nL X+10 Y+5 R0 F500');
+    await page.click('.run button[type="submit"]');
+    await page.waitForSelector('.moves output');
+    assert.match(await there(), /L X\+10 Y\+5 R0 F500\r\n/);
+    await page.click('.cm-line >> nth=3');
+    await page.keyboard.press('ArrowUp');
+    assert.match(await page.textContent('.moves output'), /line 3 · Rapid/i);
+  });
+
+  it('begin with an empty one, which is stored under the name it got', async () => {
+    page = await open(browser, daemon, '#/programs');
+    await page.waitForSelector('.files .aside');
+    await page.fill('.upload input[type="text"]', 'nc_prog/new');
+    await page.fill('.begin input', 'PLATE');
+    await page.click('.begin button');
+    await page.waitForSelector('.cm-line:has-text("END PGM PLATE MM")');
+    assert.equal((await fetch(`${daemon.url}/v1/files/nc_prog/new/PLATE.h`)).status, 404);
+    await page.click('.program .actions button:has-text("Store")');
+    await page.waitForSelector('.files button[aria-current]:has-text("PLATE.h")');
+    assert.match(await (await fetch(`${daemon.url}/v1/files/nc_prog/new/PLATE.h`)).text(), /^BEGIN PGM PLATE MM\nEND PGM PLATE MM\n$/);
+  });
+
+  it('that are no UTF-8 are shown and cannot be spoiled', async () => {
+    await daemon.send('PUT', '/v1/files/nc_prog/ansi.h', 'BEGIN PGM ANSI MM\n', 'text/plain');
+    await fetch(`${daemon.url}/v1/files/nc_prog/ansi.h`, { method: 'PUT', body: Buffer.from('BEGIN PGM ANSI MM\n; Pr\xfcfen\nEND PGM ANSI MM\n', 'latin1') });
+    page = await open(browser, daemon, '#/programs/nc_prog/ansi.h');
+    await page.waitForSelector('.cm-line:has-text("Prüfen")');
+    await page.click('.cm-line >> nth=1');
+    await page.keyboard.type('x');
+    assert.equal(await page.textContent('.cm-line >> nth=1'), '; Prüfen');
+    assert.match(await page.textContent('.listing'), /UTF-8/);
   });
 
   it('show the log of cycle 444 in a frame that may do nothing', async () => {

@@ -13,7 +13,7 @@ const VIEWS = {
   gauge: '#/gauge/25H7?part_id=SN-1&order=WO-17&operator=42', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', overview: '#/overview', parts: '#/parts?order=WO-17',
   programs: '#/programs/nc_prog/8255.h?setup=bore', tables: '#/tables/hole?find=25+H',
 };
-const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.point', overview: '.overview [data-settled]', parts: '.records tbody tr', programs: '.source li', tables: '.grid' };
+const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.point', overview: '.overview [data-settled]', parts: '.records tbody tr', programs: '.cm-line', tables: '.grid' };
 
 describe('the reach of the page', () => {
   let browser;

@@ -60,7 +60,7 @@ describe('the words', () => {
   /** The words on the screen, and those that are read out or shown on a touch, that no table of texts has. */
   async function unmarked(page) {
     const texts = await page.evaluate(() => {
-      const skipped = 'script, style, noscript, .source code, pre, textarea, #language, [lang]:not(html)';
+      const skipped = 'script, style, noscript, .findings code, pre, textarea, #language, [lang]:not(html)';
       const found = [];
       const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
       for (let node = walker.nextNode(); node; node = walker.nextNode()) {
@@ -95,8 +95,7 @@ describe('the words', () => {
     'the parts': ['#/parts?order=WO-17', (page) => page.waitForSelector('.records tbody tr')],
     'a part': ['#/parts?part_id=SN-7', (page) => page.waitForSelector('.records tbody tr')],
     'the programs': ['#/programs/nc_prog/82.h', async (page) => {
-      await page.waitForSelector('.source li');
-      await page.click('.program .actions button');
+      await page.waitForSelector('.cm-line');
       await page.waitForSelector('.finding');
     }],
     'the tables': ['#/tables/hole?find=25+H+PRESS9', (page) => page.waitForSelector('.grid td')],

@@ -87,6 +87,24 @@ TEST_CASE("a file is checked as what its extension says: program, mask or table"
   CHECK(findings("TNC:\\none.h").error().code == ErrorCode::ProgramUnknown);
 }
 
+TEST_CASE("a draft is checked in place of the stored file, which stays as it is") {
+  Service service;
+  service.upload("TNC:\\p.h", "BEGIN PGM p MM\nEND PGM p MM\n");
+  service.upload("TNC:\\sub.h", "BEGIN PGM sub MM\nEND PGM sub MM\n");
+  const auto findings = [&](std::string_view name, std::optional<std::string> draft) {
+    return service.prepared([&] { return service->runs().check(path(name), draft); }).value();
+  };
+  // Twice with other texts: no cache keeps one draft for the next.
+  const auto broken =
+      findings("TNC:\\P.H", "BEGIN PGM p MM\nCALL PGM sub\nGARBAGE\nEND PGM p MM\n");
+  REQUIRE(broken.size() == 1);
+  CHECK(broken.front().range.begin.line == 3);
+  CHECK(findings("TNC:\\p.h", "BEGIN PGM p MM\nCALL PGM sub\nEND PGM p MM\n").empty());
+  CHECK(findings("TNC:\\p.h", std::nullopt).empty());
+  // What was never stored can be checked too.
+  CHECK(findings("TNC:\\new.h", "BEGIN PGM new MM\nCALL PGM none\nEND PGM new MM\n").size() == 1);
+}
+
 TEST_CASE("a named setup is kept as it was written") {
   Service service;
   DocumentService& documents = service->documents();

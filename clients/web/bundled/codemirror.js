@@ -1,0 +1,8 @@
+/** What the page takes from CodeMirror; the build puts the libraries themselves into this module (scripts/cmake/bundle_web.mjs). */
+
+export { defaultKeymap, history, historyKeymap } from '@codemirror/commands';
+export { HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
+export { search, searchKeymap } from '@codemirror/search';
+export { EditorState, StateEffect, StateField } from '@codemirror/state';
+export { Decoration, drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } from '@codemirror/view';
+export { tags } from '@lezer/highlight';

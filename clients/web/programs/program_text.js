@@ -1,0 +1,121 @@
+/** The text of a file of the control: edited, checked as one types, stored when it is wanted. */
+
+import { h, refill } from '../dom.js';
+import { t } from '../i18n.js';
+import { Latest } from '../latest.js';
+import { check, fileName, isProgram, readFile, relative, writeFile } from './disk.js';
+import { Editor } from './editor.js';
+import { findingList } from './findings.js';
+
+/** A pause in typing after which the text is checked; longer texts only by the button. */
+const PAUSE_MS = 400;
+const LONGEST_CHECKED = 1_000_000;
+
+/** Texts that are not stored yet, {text, tag} by path: they outlive the view, not the window. */
+const drafts = new Map();
+addEventListener('beforeunload', (event) => { if (drafts.size) event.preventDefault(); });
+
+export class ProgramText {
+  #timer = 0;
+
+  /**
+   * @param leaving the signal of the view that is left
+   * @param onLine takes the number of a line that was touched; @param onState is called when the text is stored or not any more
+   * @param onStore called on Ctrl+S
+   */
+  constructor({ leaving, onLine, onState, onStore }) {
+    this.onState = onState;
+    this.checking = new Latest(leaving);
+    this.editor = new Editor({ onLine, onStore, onChange: () => this.#edited() });
+    this.list = h('ol.findings');
+    this.note = h('p.aside', { hidden: true });
+    this.element = h('div.listing', this.editor.element, this.note, this.list);
+    leaving.addEventListener('abort', () => {
+      clearTimeout(this.#timer);
+      this.editor.destroy();
+    });
+  }
+
+  /** Whether there is something to store. */
+  get dirty() {
+    return drafts.has(this.path);
+  }
+
+  /** Begins a file that is not on the disk. */
+  static begin(path, text) {
+    if (!drafts.has(path)) drafts.set(path, { text, tag: null });
+  }
+
+  async open(path) {
+    clearTimeout(this.#timer);
+    this.path = path;
+    const draft = drafts.get(path);
+    const file = draft?.tag === null ? { text: null, ...draft, stored: null } : await readFile(path);
+    if (this.path !== path) return;
+    this.tag = draft ? draft.tag : file.tag;
+    this.stored = draft?.tag === null ? null : file.text;
+    this.lineBreak = file.text?.includes('\r\n') ? '\r\n' : '\n';
+    const reason = file.reason ?? '';
+    this.note.hidden = !reason;
+    this.note.textContent = reason && t(`programs.${reason}`, { name: fileName(path), size: file.size });
+    this.editor.element.hidden = file.text === null;
+    this.editor.show(draft?.text ?? file.text ?? '', { label: t('editor.text', { name: fileName(path) }), isProgram: isProgram(path), readOnly: Boolean(reason) });
+    this.show([]);
+    this.onState();
+    if (!reason) this.#checkSoon(0);
+  }
+
+  /** Checks the text as it stands. @returns the findings */
+  async check() {
+    const { path } = this;
+    const found = await this.checking.run((signal) => check(path, this.editor.text || '\n', signal));
+    if (found && this.path === path) this.show(found);
+    return found;
+  }
+
+  show(diagnostics) {
+    const isOwn = (each) => relative(each.program).toLowerCase() === this.path.toLowerCase();
+    const own = diagnostics.filter(isOwn);
+    this.editor.mark(own);
+    refill(this.list, findingList(own, diagnostics.filter((each) => !isOwn(each)), (each) => this.editor.goTo(each)));
+  }
+
+  showLine(program, line) {
+    this.editor.showLine(fileName(program).toLowerCase() === fileName(this.path).toLowerCase() ? line : 0);
+  }
+
+  /** @errors precondition.failed where somebody else stored the file meanwhile */
+  async store() {
+    if (!this.dirty) return;
+    const { path } = this;
+    const text = this.editor.text.replaceAll('\n', this.lineBreak);
+    this.tag = await writeFile(path, text, this.tag === null ? { 'If-None-Match': '*' } : { 'If-Match': this.tag });
+    this.stored = text;
+    drafts.delete(path);
+    this.#remember();
+  }
+
+  /** Forgets what is not stored of a file. */
+  static forget(path) {
+    drafts.delete(path);
+  }
+
+  #edited() {
+    this.#remember();
+    this.#checkSoon(PAUSE_MS);
+  }
+
+  #remember() {
+    const text = this.editor.text.replaceAll('\n', this.lineBreak);
+    if (text === this.stored) drafts.delete(this.path);
+    else drafts.set(this.path, { text, tag: this.tag });
+    this.onState();
+  }
+
+  /** What is only convenient fails in silence; the button says why. */
+  #checkSoon(pause) {
+    clearTimeout(this.#timer);
+    if (this.editor.text.length > LONGEST_CHECKED) return;
+    this.#timer = setTimeout(() => this.check().catch(() => {}), pause);
+  }
+}

@@ -1,0 +1,52 @@
+# The page (clients/web), compiled in: its files as they are, but those of bundled/, into which esbuild puts the
+# libraries that package-lock.json pins.
+
+find_program(FITGAUGE_NODE NAMES node nodejs)
+find_program(FITGAUGE_NPM npm)
+if(NOT FITGAUGE_NODE OR NOT FITGAUGE_NPM)
+  message(FATAL_ERROR
+    "fitgauge needs node and npm to bundle the libraries of its page: install them with "
+    "`apt-get install nodejs npm`, or everything at once with scripts/install.")
+endif()
+
+set(page_root "${CMAKE_SOURCE_DIR}/clients/web")
+set(page_packages "${CMAKE_BINARY_DIR}/web")
+set(page_bundled "${page_packages}/bundled")
+file(GLOB_RECURSE page_files RELATIVE "${page_root}" CONFIGURE_DEPENDS
+     "${page_root}/*.html" "${page_root}/*.css" "${page_root}/*.js" "${page_root}/*.svg")
+
+# Packages come from npm's cache where it has them: without a network a filled cache is enough.
+add_custom_command(
+  OUTPUT "${page_packages}/installed"
+  COMMAND ${CMAKE_COMMAND} -E copy "${page_root}/package.json" "${page_root}/package-lock.json" "${page_packages}"
+  COMMAND ${FITGAUGE_NPM} ci --prefix "${page_packages}" --prefer-offline --ignore-scripts --no-audit --no-fund --loglevel=error
+  COMMAND ${CMAKE_COMMAND} -E touch "${page_packages}/installed"
+  DEPENDS "${page_root}/package.json" "${page_root}/package-lock.json"
+  COMMENT "Fetching the libraries of the page"
+  VERBATIM)
+
+set(bundle_entries ${page_files})
+list(FILTER bundle_entries INCLUDE REGEX "^bundled/")
+set(bundle_sources ${bundle_entries})
+list(TRANSFORM bundle_sources PREPEND "${page_root}/")
+set(bundle_outputs ${bundle_entries} bundled/licences.txt)
+list(TRANSFORM bundle_outputs PREPEND "${page_packages}/")
+set(bundle_web "${CMAKE_SOURCE_DIR}/scripts/cmake/bundle_web.mjs")
+add_custom_command(
+  OUTPUT ${bundle_outputs}
+  COMMAND ${FITGAUGE_NODE} "${bundle_web}" "${page_packages}" "${page_bundled}" ${bundle_sources}
+  DEPENDS "${page_packages}/installed" ${bundle_sources} "${bundle_web}"
+  COMMENT "Bundling the libraries of the page"
+  VERBATIM)
+
+set(page_sources ${page_files})
+list(FILTER page_sources EXCLUDE REGEX "^bundled/")
+list(TRANSFORM page_sources PREPEND "${page_root}/")
+set(embed_web "${CMAKE_SOURCE_DIR}/scripts/cmake/embed_web.cmake")
+add_custom_command(
+  OUTPUT page_assets.cpp
+  COMMAND ${CMAKE_COMMAND} -D "OUT=${CMAKE_CURRENT_BINARY_DIR}/page_assets.cpp"
+          -D "ROOT=${page_root}" -D "BUNDLED=${page_packages}" -D "FILES=${page_files};bundled/licences.txt" -P "${embed_web}"
+  DEPENDS ${page_sources} ${bundle_outputs} "${embed_web}"
+  COMMENT "Embedding the page"
+  VERBATIM)
