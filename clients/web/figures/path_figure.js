@@ -2,6 +2,7 @@
 
 import { h, s } from '../dom.js';
 import { t } from '../i18n.js';
+import { boundsOf } from './path_bounds.js';
 import { outlines } from './workpiece_outline.js';
 
 const SIZE = 480;
@@ -13,17 +14,18 @@ export function pathFigure(moves, features) {
   const contacts = moves.map((move) => move.contact_mm).filter(Boolean);
   const views = [['Y', 'programs.plan'], ['Z', 'programs.side']];
   const drawn = views.map(([up, name]) => [name, view(up, moves, contacts, features, t(name))]);
-  const element = h('div.paths',
-    drawn.map(([name, { figure }]) => h('figure', h('figcaption', t(name)), figure)),
-    h('ul.legend', KINDS.filter((kind) => moves.some((move) => move.kind === kind)).map((kind) =>
-      h('li', s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' }, s(`path.${kind}`, { d: 'M0 6H32' })), t(`programs.kind.${kind}`))),
-    contacts.length > 0 && h('li', s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' }, s('circle.contact', { cx: 16, cy: 6, r: 5 })), t('programs.kind.contact'))));
+  const element = h('div.paths', drawn.map(([name, { figure }]) => h('figure', h('figcaption', t(name)), figure)));
   return { element, show: (move) => drawn.forEach(([, { mark }]) => mark(move)) };
 }
 
+/** What the lines and points of a path mean. */
+export const pathLegend = (moves) => h('ul.legend', KINDS.filter((kind) => moves.some((move) => move.kind === kind)).map((kind) =>
+  h('li', s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' }, s(`path.${kind}`, { d: 'M0 6H32' })), t(`programs.kind.${kind}`))),
+moves.some((move) => move.contact_mm) && h('li', s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' }, s('circle.contact', { cx: 16, cy: 6, r: 5 })), t('programs.kind.contact')));
+
 function view(up, moves, contacts, features, name) {
   const behind = outlines(features, up);
-  const frame = frameOf(up, moves, contacts, behind);
+  const frame = frameOf(up, boundsOf(moves, features));
   const at = (point) => [SIZE * (point.X - frame.left) / frame.size, SIZE * (frame.top - point[up]) / frame.size].map((value) => value.toFixed(1)).join(' ');
   const scale = SIZE / frame.size;
   const here = s('g.here');
@@ -43,14 +45,8 @@ function view(up, moves, contacts, features, name) {
   return { figure, mark };
 }
 
-/** A square around what matters: the workpiece, the contacts and the probing moves, else every move. */
-function frameOf(up, moves, contacts, behind) {
-  const probed = moves.filter((move) => move.kind === 'probe').flatMap((move) => [move.start_mm, move.end_mm]);
-  const near = [...contacts, ...probed, ...behind.flatMap((outline) => outline.points)];
-  const points = near.length ? near : moves.flatMap((move) => [move.start_mm, move.end_mm]);
-  const bounds = (axis) => points.reduce(([low, high], point) => [Math.min(low, point[axis]), Math.max(high, point[axis])], [Infinity, -Infinity]);
-  const [left, right] = bounds('X');
-  const [bottom, top] = bounds(up);
-  const size = Math.max(right - left, top - bottom, 1) * (1 + 2 * MARGIN);
-  return { size, left: (left + right - size) / 2, top: (bottom + top + size) / 2 };
+/** A square around what matters. */
+function frameOf(up, { low, high }) {
+  const size = Math.max(high.X - low.X, high[up] - low[up], 1) * (1 + 2 * MARGIN);
+  return { size, left: (low.X + high.X - size) / 2, top: (low[up] + high[up] + size) / 2 };
 }

@@ -56,6 +56,18 @@ export class RunForm {
     this.slider?.toLine(this.program, line);
   }
 
+  /** Gives up the figure of a run. */
+  forget() {
+    this.figure?.destroy();
+    this.slider = null;
+    this.figure = null;
+  }
+
+  leave() {
+    this.left = true;
+    this.forget();
+  }
+
   async #listEarlier() {
     const runs = await listRuns(this.program, MOST_RUNS);
     refill(this.earlier, runs.length > 0 && h('h3', t('programs.earlier')), runs.length > 0 && h('ul', runs.map(({ id, status, created_at: at }) => h('li', h('button.quiet', {
@@ -75,8 +87,13 @@ export class RunForm {
   async #show(run) {
     this.state.textContent = [t(`run.${run.status}`), run.verdict && t(`verdict.${run.verdict}`)].filter(Boolean).join(', ');
     this.shown = run.id;
-    this.slider = null;
-    this.report.replaceChildren(...await runReport(run, { onMoves: (slider) => { this.slider = slider; }, onMove: this.onMove }));
+    this.forget();
+    const onMoves = (slider, figure) => {
+      if (this.shown !== run.id || this.left) return figure.destroy();
+      Object.assign(this, { slider, figure });
+      return null;
+    };
+    this.report.replaceChildren(...await runReport(run, { onMoves, onMove: this.onMove }));
     await this.#listEarlier();
   }
 

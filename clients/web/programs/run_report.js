@@ -2,7 +2,7 @@
 
 import { getJson, url } from '../api.js';
 import { h } from '../dom.js';
-import { pathFigure } from '../figures/path_figure.js';
+import { pathView } from '../figures/path_view.js';
 import { explain, number, t } from '../i18n.js';
 import { verdictMark } from '../verdict.js';
 import { fileName } from './disk.js';
@@ -11,7 +11,7 @@ import { MoveSlider } from './move_slider.js';
 
 export const screenOf = (lines) => h('pre.screen', { tabindex: 0, 'aria-label': t('programs.screen') }, lines.join('\n') || ' ');
 
-/** @param onMoves takes the slider through the moves once they are there; @param onMove the move it shows */
+/** @param onMoves takes the slider through the moves and their figure once they are there; @param onMove the move it shows */
 export async function runReport(run, { onMoves, onMove }) {
   const path = h('div');
   drawPath(run, path, { onMoves, onMove });
@@ -42,17 +42,20 @@ async function drawPath(run, place, { onMoves, onMove }) {
     const [trace, order] = await Promise.all([
       getJson(url(['runs', run.id, 'trace'])), getJson(url(['runs', run.id, 'request']))]);
     if (!trace.moves.length) return;
-    const figure = pathFigure(trace.moves, order.setup?.workpiece?.features ?? []);
+    const figure = await pathView(trace.moves, order.setup?.workpiece?.features ?? [], radiusOf(order.setup?.machine?.tools));
     const slider = new MoveSlider(trace.moves, (move) => {
       figure.show(move);
       onMove(move);
     });
     place.replaceChildren(figure.element, slider.element);
-    onMoves(slider);
+    onMoves(slider, figure);
   } catch (problem) {
     place.replaceChildren(h('p.aside', explain(problem)));
   }
 }
+
+/** The ball of the probe, where the setup has one that differs from the usual. */
+const radiusOf = (tools = []) => tools.find((tool) => tool.probe > 0 || tool.number === 30)?.radius_mm;
 
 function files(run) {
   const place = h('div');

@@ -88,6 +88,7 @@ export function mount(main, route) {
 
   const pick = (path) => attempt(async () => {
     current = path;
+    form.forget();
     form.report.replaceChildren();
     remember();
     await list();
@@ -136,5 +137,8 @@ export function mount(main, route) {
     await list();
     await open(route.options);
   });
-  return () => leaving.abort();
+  return () => {
+    leaving.abort();
+    form.leave();
+  };
 }

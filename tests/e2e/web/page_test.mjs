@@ -19,7 +19,7 @@ const VIEWS = {
 };
 
 /** Libraries come when a view wants them, and from the build (bundled/): the rest is what is in the tree. */
-const LIBRARIES = ['codemirror'];
+const LIBRARIES = ['codemirror', 'three'];
 const files = fs.readdirSync(FOLDER, { recursive: true, withFileTypes: true })
   .filter((entry) => entry.isFile())
   .map((entry) => path.relative(FOLDER, path.join(entry.parentPath ?? entry.path, entry.name)))
@@ -69,7 +69,7 @@ describe('the page', () => {
     if (view === 'programs') {
       await page.waitForFunction(() => document.querySelector('.run select')?.value === 'bore');
       await page.click('.run button[type="submit"]');
-      await page.waitForSelector('.path-view');
+      await page.waitForSelector('.path');
     }
     return page;
   }

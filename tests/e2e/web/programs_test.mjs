@@ -42,6 +42,12 @@ afterEach(() => close(page));
 
 const hash = () => decodeURIComponent(new URL(page.url()).hash);
 
+/** The drawing, where the path is shown in space. */
+async function showDrawing() {
+  await page.waitForSelector('.path');
+  if (await page.$('.path .switch')) await page.click('.path .switch button:last-child');
+}
+
 describe('the programs', () => {
   before(() => daemon.send('PUT', '/v1/setups/hole-good', fs.readFileSync(`${EXAMPLE}/setups/hole-good.json`, 'utf8')));
 
@@ -59,6 +65,7 @@ describe('the programs', () => {
     await page.selectOption('.run select', 'hole-good');
     await page.fill('.run .pair textarea', 'Q1 = 25\nQS1 = H7');
     await page.click('.run button[type="submit"]');
+    await showDrawing();
     await page.waitForSelector('.path-view .contact');
     assert.match(await page.textContent('.screen'), /STATUS OF THE FIT: GOOD/);
     assert.equal(await page.textContent('.report .mark-of'), 'Good');
@@ -84,9 +91,8 @@ describe('the programs', () => {
     await page.click('.earlier li:last-child button');
     await page.waitForSelector('.earlier li:last-child [aria-current]');
     assert.equal(hash(), ran);
-    await page.waitForSelector('.path-view .contact');
     const again = await openIn(page.context(), daemon, new URL(page.url()).hash);
-    await again.waitForSelector('.path-view .contact');
+    await again.waitForSelector('.moves output');
     await picture(again, 'programs', { fullPage: true });
     await again.close();
   });
@@ -209,5 +215,94 @@ describe('the programs', () => {
     assert.equal(await page.getAttribute('.report iframe', 'sandbox'), '');
     assert.match(await page.getAttribute('.report iframe', 'src'), /^\/v1\/runs\/r\d+-[0-9a-f]{16}\/files\/TCHPR444/i);
     await picture(page, 'programs-444', { fullPage: true });
+  });
+
+  /** A run whose path has a part, feed moves, a rapid and four contacts. */
+  async function run8255() {
+    for (const name of ['8255.h', '82551.h', '82552.a']) await daemon.send('PUT', `/v1/files/${PROGRAM.replace('8255.h', name)}`, fs.readFileSync(`${EXAMPLE}/${name}`, 'utf8'), 'text/plain');
+    const order = { program: 'TNC:\\nc_prog\\8255\\8255.h', setup: 'hole-good' };
+    return (await (await daemon.send('POST', '/v1/runs', order)).json()).id;
+  }
+
+  /** How many pixels of the scene differ from its ground, and what they look like together. */
+  const scenePixels = () => page.$eval('.scene canvas', (canvas) => {
+    const copy = document.createElement('canvas');
+    Object.assign(copy, { width: canvas.width, height: canvas.height });
+    const pen = copy.getContext('2d');
+    pen.drawImage(canvas, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    let differing = 0;
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i] !== data[0] || data[i + 1] !== data[1] || data[i + 2] !== data[2]) differing += 1;
+      sum = (sum * 31 + data[i] + 3 * data[i + 1] + 7 * data[i + 2]) % 2147483647;
+    }
+    return { differing, sum, all: data.length / 4 };
+  });
+
+  it('show part, stylus and path in space, which the slider and the finger move', async (test) => {
+    const id = await run8255();
+    page = await open(browser, daemon, `#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
+    await page.waitForSelector('.path');
+    if (!await page.$('.scene')) return test.skip('this browser has no WebGL here');
+    await page.$eval('.scene', (figure) => figure.scrollIntoView({ block: 'center' }));
+    const settled = async () => { await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); })); return scenePixels(); };
+    const first = await settled();
+    assert.ok(first.differing > first.all / 20, `${first.differing} of ${first.all} pixels are drawn`);
+    await page.$eval('.moves input', (slider) => { slider.value = 3; slider.dispatchEvent(new Event('input')); });
+    const moved = await settled();
+    assert.notEqual(moved.sum, first.sum, 'the stylus did not move');
+    const { x, y, width, height } = await (await page.$('.scene canvas')).boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 90, y + height / 2 + 20, { steps: 3 });
+    await page.mouse.up();
+    const turned = await settled();
+    assert.notEqual(turned.sum, moved.sum, 'it did not turn');
+    await picture(page, 'programs-space');
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await picture(page, 'programs-space-dark');
+    // As a drawing it is marked where the slider is.
+    await page.click('.path .switch button:last-child');
+    assert.equal((await page.$$('.path-view .here circle')).length, 2);
+    return undefined;
+  });
+
+  it('fall back to the drawing where there is no WebGL', async () => {
+    const id = await run8255();
+    page = await open(browser, daemon, '#/programs');
+    await page.addInitScript(() => {
+      const { getContext } = HTMLCanvasElement.prototype;
+      HTMLCanvasElement.prototype.getContext = function none(kind, ...rest) { return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...rest); };
+    });
+    await page.goto(`${daemon.url}/#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
+    await page.reload();
+    await page.waitForSelector('.path-view .contact');
+    assert.equal(await page.$('.scene'), null);
+    const asked = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
+    assert.deepEqual(asked.filter((name) => name.includes('three')), []);
+  });
+
+  it('show 100,000 moves', async (test) => {
+    const id = await run8255();
+    page = await open(browser, daemon, '#/programs');
+    const moves = Array.from({ length: 100_000 }, (_, i) => {
+      const at = (k) => ({ X: 50 + 40 * Math.sin(k / 900), Y: 40 + 30 * Math.cos(k / 700), Z: k / 5000 });
+      return { kind: ['rapid', 'feed', 'probe', 'arc'][i % 4], program: 'TNC:\\nc_prog\\8255\\8255.h', line: 1 + (i % 20), start_mm: at(i), end_mm: at(i + 1), feed_mm_min: 500, contact_mm: i % 4 === 2 ? at(i + 1) : null };
+    });
+    const body = JSON.stringify({ moves });
+    await page.route('**/trace', (route) => route.fulfill({ contentType: 'application/json', body }));
+    await page.evaluate((address) => { location.hash = address; }, `#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
+    await page.goto(`${daemon.url}/#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
+    await page.reload();
+    await page.waitForSelector('.moves output', { timeout: 60000 });
+    if (!await page.$('.scene')) return test.skip('this browser has no WebGL here');
+    const times = await page.evaluate(() => {
+      const { responseEnd } = performance.getEntriesByType('resource').find(({ name }) => name.endsWith('/trace'));
+      return { read: responseEnd, shown: performance.now() };
+    });
+    test.diagnostic(`100,000 moves, ${(body.length / 1e6).toFixed(0)} MB: on the screen at most ${Math.round(times.shown - times.read)} ms after they were received`);
+    assert.match(await page.getAttribute('.scene canvas', 'aria-label'), /100000 moves, 25000 contacts/);
+    return undefined;
   });
 });
