@@ -50,7 +50,12 @@ void add_gauge(CLI::App& app, Action& chosen) {
                                 options, run_gauge);
   gauge->add_option("designation", options->designation, "Size and class, or the nominal size")
       ->required();
-  gauge->add_option("measured", options->measured, "Measured value in mm")->required();
+  const auto measured = gauge->add_option("measured", options->measured, "Measured value in mm");
+  const auto serial = gauge->add_option("--serial", options->serial, "Port whose lines are values")
+                          ->excludes(measured);
+  gauge->add_option("--baud", options->baud, "Of the port, else 9600")->needs(serial);
+  gauge->add_option("--pattern", options->pattern, "Regular expression of a whole line")
+      ->needs(serial);
   gauge->add_option("--rule", options->rule, "simple, guard_band or conformance");
   gauge->add_option("--uncertainty-um", options->uncertainty_um, "Standard uncertainty in µm");
   gauge->add_option("--coverage-factor", options->coverage_factor, "k of the guard band, else 2");
@@ -82,7 +87,9 @@ void add_gauge(CLI::App& app, Action& chosen) {
   field("--operator", options->operator_name, "Who measured");
   field("--gauge", options->gauge, "Gauge");
   field("--unit", options->unit, "Production unit");
-  field("--measured-at", options->measured_at, "RFC 3339 time, else now");
+  gauge->add_option("--measured-at", options->measured_at, "RFC 3339 time, else now")
+      ->needs(record)
+      ->excludes(serial);
   field("--comment", options->comment, "Remark");
 }
 

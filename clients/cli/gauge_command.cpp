@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <regex>
 
+#include "base/clock.hpp"
 #include "base/length.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
+#include "cli/serial_port.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -169,8 +173,11 @@ Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {
   return verdict_exit_code(document->text_of("verdict"));
 }
 
-Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
-  const auto text = measured_text(options.measured);
+namespace {
+
+Outcome<ExitCode> judge(const Context& context, const GaugeOptions& options,
+                        const std::string& measured) {
+  const auto text = measured_text(measured);
   if (!text) return text.error();
   auto answer =
       options.record
@@ -179,6 +186,68 @@ Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options)
                                            verdict_query(options, *text)});
   answer = expect_ok(std::move(answer), context.client.url());
   return answer ? show_verdict(context, *answer) : answer.error();
+}
+
+/// Plain decimals in mm, and those of Digimatic adapters (01A+0025.013).
+constexpr const char* kLine = R"((?:\d\dA)?\s*([+-]?\d+(?:[.,]\d+)?)\s*(?:mm)?)";
+
+Outcome<std::regex> pattern_of(const std::string& pattern) try {
+  return std::regex(pattern.empty() ? kLine : pattern);
+} catch (const std::regex_error& wrong) {
+  return Failure{ExitCode::Usage,
+                 fmt::format("--pattern '{}' is no regular expression: {}", pattern, wrong.what())};
+}
+
+/// The value in a line that the pattern takes whole.
+std::optional<std::string> value_in(const std::string& line, const std::regex& pattern) {
+  constexpr std::string_view kBlank = " \t";
+  const auto begin = line.find_first_not_of(kBlank);
+  if (begin == std::string::npos) return std::nullopt;
+  const std::string text = line.substr(begin, line.find_last_not_of(kBlank) + 1 - begin);
+  std::smatch found;
+  if (!std::regex_match(text, found, pattern)) return std::nullopt;
+  std::string value = found.size() > 1 && found[1].matched ? found[1].str() : text;
+  // A gauge says +0025.013 where a person writes 25.013.
+  value.erase(0, value.starts_with('+') ? 1 : 0);
+  return value;
+}
+
+/// Line by line, each value once; what is none is told and nothing is stored of it.
+Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
+  const auto pattern = pattern_of(options.pattern);
+  if (!pattern) return pattern.error();
+  auto port = SerialPort::open(options.serial, options.baud);
+  if (!port) return port.error();
+  context.note(options.serial + ": waiting for values");
+  for (;;) {
+    const auto line = port->next();
+    if (!line) return line.error();
+    const auto value = line->whole ? value_in(line->text, *pattern) : std::nullopt;
+    if (!value || !measured_text(*value)) {
+      context.note(fmt::format("{}: '{}' is no value{}", options.serial, line->text,
+                               line->whole ? "" : ": it is not whole"));
+      continue;
+    }
+    options.measured_at = format_rfc3339(SystemClock().now());
+    const auto judged = judge(context, options, *value);
+    if (!judged) {
+      return Failure{judged.error().exit_code,
+                     fmt::format("{}; {} was not {}", judged.error().message, *value,
+                                 options.record ? "stored" : "judged"),
+                     judged.error().document};
+    }
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
+  if (!options.serial.empty()) return follow_port(context, options);
+  if (options.measured.empty()) {
+    return Failure{ExitCode::Usage, "a measured value is needed, or --serial PORT"};
+  }
+  return judge(context, options, options.measured);
 }
 
 }  // namespace fitgauge::cli

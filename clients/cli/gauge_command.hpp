@@ -11,7 +11,10 @@ namespace fitgauge::cli {
 /// The command line of `fitgauge gauge`, as it was typed; an empty text was not given.
 struct GaugeOptions {
   std::string designation;  ///< or the nominal size, with limits of a drawing
-  std::string measured;     ///< mm, with a point or a comma
+  std::string measured{};   ///< mm, with a point or a comma; or else:
+  std::string serial{};     ///< a port whose lines are values
+  unsigned baud = 9600;
+  std::string pattern{};  ///< of a line; its first group is the value
   std::string rule{};
   std::string uncertainty_um{};
   std::string coverage_factor{};
@@ -41,8 +44,9 @@ struct GaugeOptions {
   std::string comment{};
 };
 
-/// `fitgauge gauge 25H7 25.013`: judges a value, and stores it with --record. The exit code is the
-/// verdict.
+/// `fitgauge gauge 25H7 25.013`: judges a value, and stores it with --record; the exit code is the
+/// verdict. With --serial judges line after line, until the port is gone or a value cannot be
+/// stored.
 Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options);
 
 /// The text of a verdict or of a record: the word, the value, the distance to the nearest limit.

@@ -11,7 +11,7 @@ _fitgauge() {
   case $previous in
     --server | --retry | --chunk | --count | --after | --set | --classes | --revision | --setup) return ;;
     --part-id | --characteristic | --order | --operation | --machine | --operator | --gauge) return ;;
-    --unit | --measured-at | --temperature-c | --comment | --uncertainty-um | --coverage-factor) return ;;
+    --unit | --measured-at | --temperature-c | --comment | --pattern | --uncertainty-um | --coverage-factor) return ;;
     --probability | --part-material | --part-expansion | --scale-temperature-c) return ;;
     --scale-material | --scale-expansion) return ;;
     --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --group-by) return ;;
@@ -34,7 +34,8 @@ _fitgauge() {
     --source) _fitgauge_words 'gauge simulation all'; return ;;
     --on-stop) _fitgauge_words 'continue end'; return ;;
     --language) _fitgauge_words 'english german dutch italian'; return ;;
-    --key-file | --ca | --cert | --cert-key | --state | --setup-file | --contacts | --output | -o) _fitgauge_files; return ;;
+    --baud) _fitgauge_words '1200 2400 4800 9600 19200 38400 57600 115200'; return ;;
+    --serial | --key-file | --ca | --cert | --cert-key | --state | --setup-file | --contacts | --output | -o) _fitgauge_files; return ;;
   esac
 
   # The command and what follows it: the words that are neither options nor their values.
@@ -56,7 +57,8 @@ _fitgauge() {
     gauge)
       options='--rule --uncertainty-um --coverage-factor --probability --part-material --part-expansion
                --scale-temperature-c --scale-material --scale-expansion --record --part-id --characteristic --order
-               --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um' ;;
+               --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um
+               --serial --baud --pattern' ;;
     measure) options='--state --chunk --map --set --time-zone --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;
     export) options="$filters --format --output" ;;
