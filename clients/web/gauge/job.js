@@ -280,7 +280,7 @@ export class Job {
       h('strong', limits.designation ? `Ø ${number(limits.designation)}` : number(limits.nominal_mm)),
       h('span', t(`feature.${limits.feature}`)),
       h('span.figures', limitsText(limits)),
-      limits.tolerance_um !== undefined && h('span', t('limits.tolerance', { um: toleranceText(limits) })),
+      limits.tolerance_um !== undefined && h('span.tolerance', t('limits.tolerance', { um: toleranceText(limits) })),
       limits.basis === 'custom' && h('span.own-basis', t('limits.custom')),
     ].filter(Boolean);
   }

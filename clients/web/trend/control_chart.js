@@ -61,44 +61,61 @@ export function controlChartFigure(points, singles, chart, { width, view, picked
   return brush(figure, { indexAt, top: TOP, height: height - AXIS - TOP, onPick, onStretch });
 }
 
+/** What does not change while a chart pans: {chart, range, rules, histogram}, by the points drawn. */
+const kept = new WeakMap();
+
+function keptOf(points, singles, chart) {
+  const known = kept.get(points);
+  if (known?.chart === chart && known.singles === singles) return known;
+  const own = locationOf(chart);
+  const control = own ? [own.upper_limit, own.lower_limit].map((value) => value * NM_PER_UM) : [];
+  const made = { chart, singles, range: rangeOf(points, [...control, ...singles.map(({ deviation }) => deviation)]), rules: [...rulesAt(chart)], beside: {} };
+  kept.set(points, made);
+  return made;
+}
+
 /** The indices that are in sight. */
 const sight = ({ from, to }) => Array.from({ length: to - from + 1 }, (_, i) => from + i);
 
 /** A line through what is in sight; where it is dense, from the least to the greatest of each column of pixels. */
 function runOf({ from, to, x, dense }, y) {
   if (!dense) return sight({ from, to }).map((i, n) => `${n ? 'L' : 'M'}${x(i)} ${y(i)}`).join('');
-  const columns = new Map();
+  const columns = [];
+  let column = null;
   for (let i = from; i <= to; ++i) {
-    const column = Math.round(x(i));
+    const place = Math.round(x(i));
     const at = y(i);
-    const known = columns.get(column);
-    if (!known) columns.set(column, [at, at]);
-    else if (at < known[0]) known[0] = at;
-    else if (at > known[1]) known[1] = at;
+    if (!column || column.place !== place) columns.push(column = { place, least: at, greatest: at });
+    else if (at < column.least) column.least = at;
+    else if (at > column.greatest) column.greatest = at;
   }
-  return [...columns].map(([column, [least, greatest]], n) => `${n ? 'L' : 'M'}${column} ${least}V${greatest}`).join('');
+  return columns.map(({ place, least, greatest }, n) => `${n ? 'L' : 'M'}${place} ${least}V${greatest}`).join('');
 }
 
 /** What gets a mark of its own: every point; where they are dense, those that are not good, one a pixel. */
 function marked({ points, from, to, x, dense }) {
   if (!dense) return sight({ from, to });
   const taken = new Set();
-  return sight({ from, to }).filter((i) => {
+  const found = [];
+  for (let i = from; i <= to; ++i) {
     const { verdict } = points[i].record;
+    if (verdict === 'good') continue;
     const place = `${verdict} ${Math.round(x(i))}`;
-    return verdict !== 'good' && !taken.has(place) && taken.add(place);
-  });
+    if (!taken.has(place)) found.push(i);
+    taken.add(place);
+  }
+  return found;
 }
 
 function values(scene, singles, chart, beside) {
   const { points, x, right } = scene;
   const own = locationOf(chart);
   const ofMeans = Boolean(points[0].members);
-  const control = own ? [own.upper_limit, own.lower_limit].map((value) => value * NM_PER_UM) : [];
-  const range = rangeOf(points, [...control, ...singles.map(({ deviation }) => deviation)]);
+  const known = keptOf(points, singles, chart);
+  const { range } = known;
   const bottom = HEIGHT.values - 18;
   const y = (nm) => round(TOP + (bottom - TOP) * (range.high - Math.min(Math.max(nm, range.low), range.high)) / (range.high - range.low));
-  const broken = [...rulesAt(chart)].filter(([i]) => i >= scene.from && i <= scene.to);
+  const broken = known.rules.filter(([i]) => i >= scene.from && i <= scene.to);
   const at = (i) => [x(i), y(points[i].deviation)];
   const limits = [range.upper, range.lower].filter(Number.isFinite);
   const target = (range.upper + range.lower) / 2;
@@ -112,7 +129,13 @@ function values(scene, singles, chart, beside) {
     spaced(broken, x, scene.dense ? 2 : 0).map(([i]) => s('circle.broken', { cx: at(i)[0], cy: at(i)[1], r: 9 })),
     marked(scene).map((i) => s('path.point', { d: MARKS[points[i].record.verdict], transform: `translate(${at(i).join(' ')})`, 'data-verdict': points[i].record.verdict })),
     spaced(broken, x, 18).map(([i, rules]) => s('text.rule', { x: at(i)[0], y: at(i)[1] - 13, 'text-anchor': 'middle' }, [...rules].join(','))),
-    beside && histogram(singles, range, y, beside, { top: TOP, bottom }));
+    beside && histogramOf(known, y, beside, { top: TOP, bottom }));
+}
+
+/** Drawn once for a width: it is of all values, whatever is in sight. */
+function histogramOf(known, y, beside, frame) {
+  if (known.beside.from !== beside.from || known.beside.to !== beside.to) known.beside = { ...beside, figure: histogram(known.singles, known.range, y, beside, frame) };
+  return known.beside.figure;
 }
 
 function ranges(own, scene) {
@@ -125,13 +148,14 @@ function ranges(own, scene) {
   const first = points.length - own.points.length;
   const from = Math.max(scene.from, first);
   const at = (i) => y(own.points[i - first]);
+  const isOutside = (i) => own.points[i - first] > own.upper_limit;
+  const shown = sight({ from, to }).filter((i) => !dense || isOutside(i));
   return s('g.ranges',
     s('text.unit', { x: LEFT - 10, y: top - 4, 'text-anchor': 'end' }, SPREADS[own.name]),
     s('path.axis', { d: `M${LEFT} ${bottom}H${right}` }),
     controlLines({ ...own, lower_limit: null }, y, right, []),
     s('path.run', { d: runOf({ from, to, x, dense }, at) }),
-    sight({ from, to }).map((i) => [i, own.points[i - first] > own.upper_limit ? 'outside' : 'inside']).filter(([, name]) => !dense || name === 'outside')
-      .map(([i, name]) => s('circle', { cx: x(i), cy: at(i), r: 2.5, class: name })));
+    shown.map((i) => s('circle', { cx: x(i), cy: at(i), r: 2.5, class: isOutside(i) ? 'outside' : 'inside' })));
 }
 
 /** Centre and control limits with their values at the right; none over another. */

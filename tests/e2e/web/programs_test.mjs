@@ -275,7 +275,7 @@ describe('the programs', () => {
       const { getContext } = HTMLCanvasElement.prototype;
       HTMLCanvasElement.prototype.getContext = function none(kind, ...rest) { return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...rest); };
     });
-    await page.goto(`${daemon.url}/#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
+    await page.evaluate((address) => { location.hash = address; }, `#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
     await page.reload();
     await page.waitForSelector('.path-view .contact');
     assert.equal(await page.$('.scene'), null);
@@ -293,7 +293,6 @@ describe('the programs', () => {
     const body = JSON.stringify({ moves });
     await page.route('**/trace', (route) => route.fulfill({ contentType: 'application/json', body }));
     await page.evaluate((address) => { location.hash = address; }, `#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
-    await page.goto(`${daemon.url}/#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
     await page.reload();
     await page.waitForSelector('.moves output', { timeout: 60000 });
     if (!await page.$('.scene')) return test.skip('this browser has no WebGL here');

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, before, describe, it } from 'node:test';
 
-import { close, launch, open } from './support/browser.mjs';
+import { close, launch, open, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 
 const SMALLEST_LETTERING = 12;
@@ -82,6 +82,31 @@ describe('the reach of the page', () => {
     const { bottom } = await page.$eval('.verdict', (panel) => panel.getBoundingClientRect().toJSON());
     assert.ok(bottom <= PHONE.height, `${bottom}`);
     await close(page);
+  });
+
+  it('shows a whole verdict below a plan on a low screen, and above the number pad on a phone', async () => {
+    await daemon.send('PUT', '/v1/plans/LOW', { name: 'Flange', characteristics: [{ name: 'bore-1', designation: '25 H7' }, { name: 'bore-2', designation: '30 H7' }, { name: 'journal', designation: '40 k6' }] });
+    for (const [viewport, pad] of [[{ width: 1024, height: 700 }, false], [{ width: 1024, height: 700 }, true], [PHONE, true]]) {
+      const page = await open(browser, daemon, '#/gauge/25H7?plan=LOW&part_id=SN-1&characteristic=bore-1', { viewport });
+      await page.waitForSelector('.echo .figures');
+      if (pad) {
+        await page.click('.more summary');
+        await page.check('.choices label:has-text("Number pad") input');
+        await page.click('.more summary');
+        await page.evaluate(() => scrollTo(0, 0));
+      }
+      await page.focus('#value');
+      await page.keyboard.type('25.0305\n');
+      await page.waitForSelector('.verdict[data-verdict="reject"] .distance');
+      const bottom = (selector) => page.$eval(selector, (element) => element.getBoundingClientRect().bottom);
+      const free = viewport === PHONE ? await page.$eval('.pad', (element) => element.getBoundingClientRect().top) : viewport.height;
+      assert.ok(await page.evaluate(() => scrollY) === 0);
+      assert.ok(await bottom('.verdict .distance') <= free, `${viewport.width}: ${await bottom('.verdict .distance')} of ${free}`);
+      if (viewport !== PHONE) assert.ok(await bottom('.verdict') <= free, `${viewport.width}: ${await bottom('.verdict')}`);
+      if (viewport === PHONE) assert.ok(await bottom('.pad') <= viewport.height);
+      await picture(page, `station-${viewport.width}-${pad ? 'pad' : 'plan'}`);
+      await close(page);
+    }
   });
 
   it('keeps the focus where it was, and moves it to a new view', async () => {
