@@ -96,8 +96,10 @@ void add_gauge(CLI::App& app, Action& chosen) {
 void add_measure(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<MeasureOptions>();
   CLI::App* measure =
-      add_command(app, "measure", "Store the rows of a CSV file", chosen, options, run_measure);
-  measure->add_option("file", options->input, "CSV file, or - for standard input")->required();
+      add_command(app, "measure", "Store the rows of a CSV file, or the values of a DFQ", chosen,
+                  options, run_measure);
+  measure->add_option("file", options->input, "CSV file or DFQ, or - for standard input")
+      ->required();
   measure->add_option("--state", options->state_file, "File that says how far a stopped run was");
   measure->add_option("--chunk", options->chunk_rows, "Rows of one request, else 100000")
       ->check(CLI::Range(1, 100'000));
@@ -108,6 +110,7 @@ void add_measure(CLI::App& app, Action& chosen) {
   measure->add_option("--set", options->constants, "Field and value of all rows: machine=M3")
       ->allow_extra_args(false);
   measure->add_option("--time-zone", options->time_zone, "Of times without an offset");
+  measure->add_option("--length-unit", options->length_unit, "Of a DFQ that names none: mm, inch");
   measure->add_option("--encoding", options->encoding, "auto, utf-8, utf-16 or windows-1252");
   measure->add_flag("--leave-out-others", options->leave_out_others,
                     "Columns that are no field are left out");

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/input_file.hpp"
+#include "cli/measure_dfq.hpp"
 #include "cli/measure_table.hpp"
 #include "cli/progress.hpp"
 #include "cli/retry.hpp"
@@ -75,6 +76,7 @@ class Upload {
 
  private:
   Outcome<CsvChunks> open_input() {
+    if (is_dfq(options_.input)) return open_dfq();
     if (is_converted(options_)) return open_converted();
     auto opened = InputFile::open(options_.input);
     if (!opened) return opened.error();
@@ -99,6 +101,14 @@ class Upload {
       *taken += count;
       return count;
     });
+  }
+
+  /// The values as rows, however large the file is.
+  Outcome<CsvChunks> open_dfq() {
+    auto opened = DfqInput::open(context_, options_);
+    if (!opened) return opened.error();
+    const auto input = std::make_shared<DfqInput>(*std::move(opened));
+    return begin_chunks([input](std::span<char> into) { return input->read(into); });
   }
 
   Outcome<CsvChunks> begin_chunks(CsvChunks::Read read) {
@@ -215,16 +225,26 @@ class Upload {
     state_.pending.reset();
     if (const auto kept = journal_.append(state_); !kept) return kept.error();
     line_.clear();
-    fmt::print(stderr, "{}", explain_rows(*problem, name_, [&](std::uint64_t line) {
-                 return chunks.input_line(chunk, line);
+    fmt::print(stderr, "{}", explain_rows(*problem, name_, [&](std::uint64_t body_line) {
+                 const std::uint64_t line = chunks.input_line(chunk, body_line);
+                 return is_dfq(options_.input) ? DfqInput::line_of(context_, options_, line) : line;
                }));
     const bool explained = problem->fields.empty() && !problem->where.empty();
     return Failure{
         failure.exit_code,
         fmt::format("{}{}; lines {} to {} are not stored, {} rows before them are: correct the "
                     "lines and run it again",
-                    problem->title, explained ? "" : ": " + problem->detail, chunk.begin.lines + 1,
-                    chunk.end.lines, grouped(state_.counts.sum()))};
+                    problem->title, explained ? "" : ": " + problem->detail, first_line(chunk),
+                    last_line(chunk), grouped(state_.counts.sum()))};
+  }
+
+  std::uint64_t first_line(const CsvChunk& chunk) const {
+    const std::uint64_t line = chunk.begin.lines + 1;
+    return is_dfq(options_.input) ? DfqInput::line_of(context_, options_, line) : line;
+  }
+  std::uint64_t last_line(const CsvChunk& chunk) const {
+    return is_dfq(options_.input) ? DfqInput::line_of(context_, options_, chunk.end.lines)
+                                  : chunk.end.lines;
   }
 
   Outcome<ExitCode> finish() {

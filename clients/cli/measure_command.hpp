@@ -13,7 +13,7 @@
 namespace fitgauge::cli {
 
 struct MeasureOptions {
-  std::string input;  ///< a CSV file, or `-`
+  std::string input;  ///< a CSV file or a DFQ, or `-`
   std::string state_file{};
   std::size_t chunk_rows = 100'000;
   // How a table of the shop is turned into measurements; none of them: it is sent as it is.
@@ -21,6 +21,7 @@ struct MeasureOptions {
   std::vector<std::string> columns{};    ///< `Istwert=measured_mm`
   std::vector<std::string> constants{};  ///< `machine=M3`
   std::string time_zone{};
+  std::string length_unit{};  ///< of a DFQ that says none
   bool leave_out_others = false;
   bool again = false;
   bool exit_verdict = false;  ///< the exit code is the worst verdict

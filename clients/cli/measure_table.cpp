@@ -28,7 +28,7 @@ bool is_converted(const MeasureOptions& options) {
          !options.time_zone.empty() || options.leave_out_others;
 }
 
-Outcome<std::string> converted_table(std::string_view bytes, const MeasureOptions& options) {
+Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options) {
   sheet::ShopCsvOptions table{.leaves_out_others = options.leave_out_others};
   auto columns = read_words("--map", options.columns);
   if (!columns) return columns.error();
@@ -48,7 +48,13 @@ Outcome<std::string> converted_table(std::string_view bytes, const MeasureOption
     if (!zone) return Failure{ExitCode::Usage, zone.error().message};
     table.zone = *std::move(zone);
   }
-  auto text = sheet::shop_csv(bytes, table, sheet::kMeasurementFields);
+  return table;
+}
+
+Outcome<std::string> converted_table(std::string_view bytes, const MeasureOptions& options) {
+  const auto table = table_options(options);
+  if (!table) return table.error();
+  auto text = sheet::shop_csv(bytes, *table, sheet::kMeasurementFields);
   if (!text) return Failure{ExitCode::LocalFile, text.error().message};
   return *std::move(text);
 }

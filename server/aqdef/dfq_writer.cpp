@@ -71,6 +71,18 @@ std::string_view carried(const Comment& comment, int number) {
   return {};
 }
 
+/// Whether a text of a file in Windows-1252 would be read as UTF-8.
+bool is_ambiguous(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::string_view text = bytes.substr(0, bytes.find_first_of("\r\n\x14\x0F"));
+    bytes.remove_prefix(std::min(bytes.size(), text.size() + 1));
+    const bool is_ascii = std::all_of(text.begin(), text.end(),
+                                      [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    if (!is_ascii && is_utf8(text)) return true;
+  }
+  return false;
+}
+
 /// Where it has no other characters.
 std::optional<std::string> as_windows1252(std::string_view text) {
   static const auto upper = [] {
@@ -95,6 +107,7 @@ std::optional<std::string> as_windows1252(std::string_view text) {
     out += found->second;
     at = end;
   }
+  if (is_ambiguous(out)) return std::nullopt;
   return out;
 }
 

@@ -59,7 +59,7 @@ _fitgauge() {
                --scale-temperature-c --scale-material --scale-expansion --record --part-id --characteristic --order
                --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um
                --serial --baud --pattern' ;;
-    measure) options='--state --chunk --map --set --time-zone --encoding --leave-out-others --again --exit-verdict' ;;
+    measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;
     export) options="$filters --format --output" ;;
     summary) options="$filters --group-by" ;;

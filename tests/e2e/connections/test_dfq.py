@@ -3,10 +3,12 @@ when what was written comes in again. The reader here knows the format on its ow
 
 import decimal
 import re
+import subprocess
 import time
 import unittest
 
 from connections.test_folders import Folders
+from support.cli import FITGAUGE
 
 CELLS = ("K0001", "K0002", "K0004", "K0005", "K0006", "K0007", "K0008", "K0010", "K0011", "K0012")
 HEAD = """K0100 2
@@ -155,6 +157,28 @@ class Dfq(Folders):
         self.assertEqual([row["characteristic"] for row in daemon.stored()], ["Bore", "Bore"])
         problem = daemon.request("PUT", "/v1/connections/x", {"kind": "folder_in", "folder": str(self.folder), "length_unit": "mile"}).json
         self.assertEqual([error["pointer"] for error in problem["errors"]], ["/length_unit"])
+
+
+class CommandLine(Folders):
+    def measure(self, daemon, path, *more):
+        return subprocess.run([FITGAUGE, "measure", path, "--server", f"http://127.0.0.1:{daemon.port}", "--state", self.root / "state",
+                               "--time-zone", "Europe/Berlin", "--set", "feature=shaft", *more], capture_output=True, text=True, check=False)
+
+    def test_the_command_line_reads_the_same(self):
+        daemon = self.daemon().start()
+        path = self.root / "a.dfq"
+        path.write_bytes(dfq(HEAD, VALUES))
+        done = self.measure(daemon, path)
+        self.assertEqual((done.returncode, done.stdout), (0, "3 rows: 2 good, 0 rework, 1 reject\n"), done.stderr)
+        self.assertEqual(self.parts(daemon), ["SN-1", "SN-1", "SN-2"])
+        path.write_bytes(dfq(HEAD, VALUES.replace("25.03", "-25.03")))
+        done = self.measure(daemon, path, "--again")
+        self.assertEqual(done.returncode, 7, done.stderr)
+        self.assertIn("a.dfq:31: measured_mm: ", done.stderr)
+        path.write_bytes(dfq(HEAD.replace("25.021", "25.02"), VALUES))
+        done = self.measure(daemon, path, "--again")
+        self.assertIn("line 13 says 25.02 mm in K2111, and H7 of 25 mm is 25.021 mm", done.stderr)
+        self.assertEqual(len(daemon.stored()), 3)
 
 
 class Out(Folders):

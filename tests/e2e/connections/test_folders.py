@@ -17,6 +17,7 @@ from support.daemon import TRACEABLE, Daemon
 
 DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
 ROWS = "designation;measured_mm;part_id\n" + "".join(f"25 H7;25,01;P{number}\n" for number in range(5))
+DFQ = "K0100 1\r\nK1001/1 4711\r\nK2002/1 Bore\r\nK2101/1 25\r\nK2103/1 H\r\nK2104/1 7\r\nK2142/1 mm\r\n"
 WRITES = "openat,rename,renameat,renameat2,unlink,write,pwrite64,fdatasync,fsync,ftruncate,mkdir"
 
 
@@ -305,12 +306,13 @@ class Killed(Folders):
         self.assertIn("attached", tracer.stderr.readline())
         threading.Thread(target=tracer.stderr.read, daemon=True).start()
         time.sleep(0.3)  # the other threads are attached too
-        for number, rows in enumerate((ROWS, ROWS.replace(";P", ";Q"), "designation;measured_mm\n25 H7;oops\n")):
-            self.drop(f"{number}.csv", rows)
+        values = "".join(f"25.01\r\nK0014/1 Q{number}\r\n" for number in range(5))
+        for name, content in (("0.csv", ROWS), ("1.dfq", DFQ + values), ("2.csv", "designation;measured_mm\n25 H7;oops\n")):
+            self.drop(name, content)
         return daemon, tracer
 
     def all_dealt_with(self):
-        return self.files("done") == ["0.csv", "1.csv"] and self.files("failed") == ["2.csv", "2.csv.error.txt"]
+        return self.files("done") == ["0.csv", "1.dfq"] and self.files("failed") == ["2.csv", "2.csv.error.txt"]
 
     def longest_thread(self):
         trace = self.root / "trace"

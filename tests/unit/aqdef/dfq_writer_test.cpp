@@ -195,6 +195,8 @@ TEST_CASE("Windows-1252 where it can, else UTF-8 with its mark") {
   OutgoingValue value = bore(1, 0);
   value.part_id = "W\xC3\xA4lle \xE2\x82\xAC";
   CHECK(written({value}).find("K0014/1 W\xE4lle \x80\r\n") != std::string::npos);
+  value.part_id = "\xC3\x83\xC2\xA4";  // as Windows-1252 these are the bytes of an UTF-8 a umlaut
+  CHECK(written({value}).starts_with("\xEF\xBB\xBFK0100"));
   value.part_id = "\xE8\xBD\xB4";
   CHECK(written({value}).starts_with("\xEF\xBB\xBFK0100"));
   CHECK(written({value}).find("K0014/1 \xE8\xBD\xB4\r\n") != std::string::npos);

@@ -1,0 +1,77 @@
+// Bytes as a DFQ: read as fields and as measurements. What is read comes out of the writer, and
+// what the writer made is read with the same values and written with the same bytes.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aqdef/dfq_writer.hpp"
+#include "aqdef/measurement_csv.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::aqdef;
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+/// Every value that is a length, with the fields of its own, as a measurement of 25 H7.
+std::string rewritten(std::string_view text) {
+  DfqWriter writer({});
+  Reader reader(read_text(text));
+  ValueSet set;
+  for (;;) {
+    const auto more = reader.next(set);
+    if (!more || !*more) break;
+    for (const Value& value : set.values) {
+      const auto measured = parse_length(set.cell(value, 0), LengthUnit::Millimetre);
+      if (!measured || set.cell(value, 1) == "256") continue;
+      const Characteristic& characteristic =
+          *reader.description().characteristic(value.characteristic);
+      const auto part = reader.description().decoded(set.field(value, k::kPartIdent));
+      const auto guid = reader.description().decoded(set.field(value, k::kGuid));
+      if (!part || !guid) continue;
+      const Comment comment{.text = {},
+                            .fields = guid->empty() ? std::vector<CarriedField>()
+                                                    : std::vector<CarriedField>{{k::kGuid, *guid}}};
+      const std::string carried = format_comment(comment);
+      OutgoingValue out{.origin = "5f0c9a3e77d21b40", .number = 1};
+      out.measured = *measured;
+      out.nominal = Length::millimetres(25);
+      out.limits = {.upper = Length::nanometres(25'021'000), .lower = out.nominal};
+      out.class_name = "H7";
+      out.part_id = *part;
+      out.characteristic = reader.description().text(characteristic, k::kDescription);
+      out.comment = carried;
+      writer.add(out).has_value();
+    }
+  }
+  return writer.is_empty() ? std::string() : writer.text();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  static const auto zone = sheet::TimeZone::load("Europe/Berlin");
+  MeasurementCsv csv(read_text(text), {.constants = {{"feature", "hole"}},
+                                       .zone = zone ? std::optional(*zone) : std::nullopt,
+                                       .length_unit = LengthUnit::Millimetre,
+                                       .leaves_out_others = true});
+  std::string rows;
+  std::vector<std::uint32_t> lines;
+  for (;;) {
+    const auto more = csv.append(rows, lines);
+    if (!more || !*more) break;
+  }
+  require(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')) == lines.size());
+  const std::string once = rewritten(text);
+  require(rewritten(once) == once);
+  return 0;
+}
