@@ -328,7 +328,14 @@ NcResult<void> write_tool(Channel& channel, const Address& address, double value
   const machine::Tool* found = number == 0 ? nullptr : find_tool(state, number);
   if (found == nullptr) return no_tool(number);
   machine::Tool tool = *found;
-  if (!set_tool_value(tool, address.nr, value)) return unknown(address);
+  switch (set_tool_value(tool, address.nr, value)) {
+    case ToolWrite::Done: break;
+    case ToolWrite::Unknown: return unknown(address);
+    case ToolWrite::OutOfRange:
+      return nc_error(
+          fmt::format("ID50 NR{} of tool {}: the column takes a whole number, and not {}",
+                      address.nr, number, value));
+  }
   return checked(channel.machine().write_tool(tool));
 }
 

@@ -1,6 +1,7 @@
 #include "run/tool_values.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fitgauge::interpreter {
 namespace {
@@ -36,34 +37,55 @@ constexpr Column kColumns[] = {
     {33, &Tool::pitch},
 };
 
-const Column* column(std::int64_t nr) {
-  const auto* it = std::find_if(std::begin(kColumns), std::end(kColumns),
-                                [&](const Column& entry) { return entry.nr == nr; });
-  return it == std::end(kColumns) ? nullptr : it;
+/// A column that is a whole number from 0.
+struct WholeColumn {
+  std::int64_t nr;
+  int Tool::*value;
+  int most;
+};
+
+constexpr WholeColumn kWholeColumns[] = {
+    {8, &Tool::replacement, 32'767},
+    {15, &Tool::teeth, 1000},
+    {36, &Tool::type, 999},
+};
+
+template <class Columns>
+auto column(const Columns& columns, std::int64_t nr) {
+  const auto* it = std::find_if(std::begin(columns), std::end(columns),
+                                [nr](const auto& entry) { return entry.nr == nr; });
+  return it == std::end(columns) ? nullptr : it;
 }
 
 }  // namespace
 
 std::optional<double> tool_value(const Tool& tool, std::int64_t nr) {
-  if (const Column* plain = column(nr)) return tool.*plain->value;
+  if (const Column* plain = column(kColumns, nr)) return tool.*plain->value;
+  if (const WholeColumn* whole = column(kWholeColumns, nr)) return tool.*whole->value;
   switch (nr) {
     case 7: return tool.locked ? 1 : 0;
-    case 8: return tool.replacement;
-    case 15: return tool.teeth;
     case 18: return tool.clockwise ? 0 : 1;
-    case 36: return tool.type;
     default: return std::nullopt;
   }
 }
 
-bool set_tool_value(Tool& tool, std::int64_t nr, double value) {
-  if (const Column* plain = column(nr)) {
+ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
+  if (const Column* plain = column(kColumns, nr)) {
     tool.*plain->value = value;
-    return true;
+    return ToolWrite::Done;
   }
-  if (nr != 7) return false;
-  tool.locked = value != 0;
-  return true;
+  if (const WholeColumn* whole = column(kWholeColumns, nr)) {
+    if (!(value >= 0 && value <= whole->most) || value != std::floor(value)) {
+      return ToolWrite::OutOfRange;
+    }
+    tool.*whole->value = static_cast<int>(value);
+    return ToolWrite::Done;
+  }
+  switch (nr) {
+    case 7: tool.locked = value != 0; return ToolWrite::Done;
+    case 18: tool.clockwise = value == 0; return ToolWrite::Done;
+    default: return ToolWrite::Unknown;
+  }
 }
 
 }  // namespace fitgauge::interpreter

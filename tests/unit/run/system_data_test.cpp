@@ -46,6 +46,23 @@ TEST_CASE("FN 18 reads the state of the machine") {
   CHECK(system_data("ID505 NR1") == "0");
 }
 
+TEST_CASE("FN 17 writes every column of a tool that FN 18 reads") {
+  for (const int nr : {1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 13, 14,
+                       15, 16, 17, 18, 19, 20, 21, 22, 28, 32, 33, 36}) {
+    CAPTURE(nr);
+    const std::string column = "ID50 NR" + std::to_string(nr) + " IDX30";
+    const std::string was = system_data(column);
+    const std::string written = was == "1" ? "0" : "1";
+    CHECK(system_data(column, "FN 17: SYSWRITE " + column + " = " + written) == written);
+  }
+  CHECK(system_data("ID50 NR15 IDX30", "FN 17: SYSWRITE ID50 NR15 IDX30 = 2.5") ==
+        "failed line 2: ID50 NR15 of tool 30: the column takes a whole number, and not 2.5");
+  CHECK(system_data("ID50 NR8 IDX30", "FN 17: SYSWRITE ID50 NR8 IDX30 = -1") ==
+        "failed line 2: ID50 NR8 of tool 30: the column takes a whole number, and not -1");
+  CHECK(system_data("ID50 NR1 IDX30", "FN 17: SYSWRITE ID50 NR37 IDX30 = 1") ==
+        "failed line 2: ID50 NR37 IDX30 is not available");
+}
+
 TEST_CASE("FN 18 reads the prepared tool, three M functions and the calibration of a probe") {
   CHECK(system_data("ID20 NR2") == "0");
   CHECK(system_data("ID20 NR2", "TOOL CALL 30 Z\nTOOL DEF 5") == "5");
