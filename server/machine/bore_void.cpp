@@ -88,6 +88,19 @@ double BoreVoid::way_inside(const Vec3& centre, const Vec3& direction, double ra
   return with_floor && d.z < 0 ? std::min(way, height / -d.z) : way;
 }
 
+Box BoreVoid::box() const {
+  constexpr double kBeside = 1e-6;
+  Box box = Box::everything();
+  const bool is_upright = from_local_ * Vec3{0, 0, 1} == Vec3{0, 0, 1};
+  if (!is_upright || slope_ != 0) return box;
+  const double reach = radius_ + amplitude_ + kBeside;
+  box.min.x = opening_.x - reach;
+  box.max.x = opening_.x + reach;
+  box.min.y = opening_.y - reach;
+  box.max.y = opening_.y + reach;
+  return box;
+}
+
 double BoreVoid::floor_top() const {
   const Vec3 axis = from_local_ * Vec3{0, 0, 1};
   const double reach = radius_ + amplitude_ + slope_ * depth_;

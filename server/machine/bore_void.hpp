@@ -28,6 +28,9 @@ class BoreVoid {
   double way_inside(const Vec3& centre, const Vec3& direction, double radius,
                     bool with_floor) const;
 
+  /// Holds the void, however far up and down it is thought to go; everything where it is tilted
+  /// or tapered.
+  Box box() const;
   /// The highest z of the bottom.
   double floor_top() const;
 

@@ -1,7 +1,6 @@
 #include "machine/mesh_solid.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace fitgauge::machine {
 
@@ -10,9 +9,9 @@ MeshSolid::MeshSolid(const Mesh& mesh)
       place_(Transform::translation(mesh.origin) *
              Transform::orthogonal(Matrix3::spatial(mesh.spatial_angles_deg))),
       to_body_(place_.inverse()),
-      bottom_(std::numeric_limits<double>::infinity()) {
+      box_(Box::nothing()) {
   for (const Triangle& triangle : body_->triangles()) {
-    for (const Vec3& corner : triangle) bottom_ = std::min(bottom_, place_.point(corner).z);
+    for (const Vec3& corner : triangle) box_.join({place_.point(corner), place_.point(corner)});
   }
 }
 
@@ -29,10 +28,26 @@ Field MeshSolid::field(const Vec3& at) const {
   return {sign * distance, place_.direction(away)};
 }
 
+bool MeshSolid::is_inside(const Vec3& in_body, const Vec3& nearest) const {
+  return dot(in_body - nearest, body_->normal_at(nearest)) < 0;
+}
+
+/// Whether the start lies inside is told where the ball is about to touch: nothing lies between,
+/// and there the nearest point of the mesh is found at once.
 std::optional<double> MeshSolid::contact(const BallPath& ball) const {
-  if (field(ball.start).distance - ball.radius <= kNoClearance) return 0;
-  return body_->contact(
-      {to_body_.point(ball.start), to_body_.direction(ball.direction), ball.radius, ball.longest});
+  const BallPath path{to_body_.point(ball.start), to_body_.direction(ball.direction), ball.radius,
+                      ball.longest};
+  if (body_->nearest(path.start, ball.radius + kNoClearance)) return 0;
+  const auto way = body_->contact(path);
+  if (!way) {
+    const Vec3 nearest = body_->nearest(path.start).point;
+    return is_inside(path.start, nearest) ? std::optional(0.0) : std::nullopt;
+  }
+  constexpr double kBefore = 0.01;
+  const double back = std::min(*way, kBefore);
+  const Vec3 at = path.at(*way - back);
+  const auto nearest = body_->nearest(at, ball.radius + 2 * back + kBefore);
+  return nearest && is_inside(at, nearest->point) ? std::optional(0.0) : way;
 }
 
 }  // namespace fitgauge::machine

@@ -14,13 +14,15 @@ class MeshSolid final : public Solid {
   explicit MeshSolid(const Mesh& mesh);
   Field field(const Vec3& at) const override;
   std::optional<double> contact(const BallPath& ball) const override;
-  double bottom() const override { return bottom_; }
+  Box box() const override { return box_; }
 
  private:
+  bool is_inside(const Vec3& in_body, const Vec3& nearest) const;
+
   std::shared_ptr<const TriangleTree> body_;
   Transform place_;
   Transform to_body_;
-  double bottom_;
+  Box box_;
 };
 
 }  // namespace fitgauge::machine

@@ -74,8 +74,6 @@ Field BossSolid::field(const Vec3& at) const {
   return beyond_side > beyond_end ? Field{beyond_side, radial} : Field{beyond_end, axial};
 }
 
-double PlaneSolid::bottom() const { return -std::numeric_limits<double>::infinity(); }
-
 Field SphereSolid::field(const Vec3& at) const {
   const Vec3 from = at - centre_;
   const double distance = norm(from);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "machine/ball_path.hpp"
+#include "machine/box_tree.hpp"
 #include "machine/machine_setup.hpp"
 
 namespace fitgauge::machine {
@@ -34,15 +35,17 @@ class Solid {
   /// bodies, whose distance is convex along a line: Newton's steps never pass the contact, one to a
   /// face, a few to a rounding.
   virtual std::optional<double> contact(const BallPath& ball) const;
+  /// Holds the material; endless where that is.
+  virtual Box box() const = 0;
   /// The lowest z of the material, -infinity where it has no lower end.
-  virtual double bottom() const = 0;
+  double bottom() const { return box().min.z; }
 };
 
 class BlockSolid final : public Solid {
  public:
   explicit BlockSolid(const Block& block);
   Field field(const Vec3& at) const override;
-  double bottom() const override { return centre_.z - half_.z; }
+  Box box() const override { return {centre_ - half_, centre_ + half_}; }
 
  private:
   Vec3 centre_;
@@ -53,7 +56,10 @@ class BossSolid final : public Solid {
  public:
   explicit BossSolid(const Boss& boss);
   Field field(const Vec3& at) const override;
-  double bottom() const override { return centre_.z - half_height_; }
+  Box box() const override {
+    const Vec3 half{radius_, radius_, half_height_};
+    return {centre_ - half, centre_ + half};
+  }
 
  private:
   Vec3 centre_;
@@ -65,7 +71,7 @@ class PlaneSolid final : public Solid {
  public:
   explicit PlaneSolid(const Plane& plane) : point_(plane.point), normal_(unit(plane.normal)) {}
   Field field(const Vec3& at) const override { return {dot(at - point_, normal_), normal_}; }
-  double bottom() const override;
+  Box box() const override { return Box::everything(); }
 
  private:
   Vec3 point_;
@@ -77,7 +83,10 @@ class SphereSolid final : public Solid {
   explicit SphereSolid(const Sphere& sphere)
       : centre_(sphere.centre), radius_(sphere.diameter / 2) {}
   Field field(const Vec3& at) const override;
-  double bottom() const override { return centre_.z - radius_; }
+  Box box() const override {
+    const Vec3 half{radius_, radius_, radius_};
+    return {centre_ - half, centre_ + half};
+  }
 
  private:
   Vec3 centre_;

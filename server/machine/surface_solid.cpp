@@ -28,7 +28,11 @@ SurfaceSolid::SurfaceSolid(const Surface& surface, const Triangulation& mesh)
   hull_.push_back(hull_.front());
 }
 
-double SurfaceSolid::bottom() const { return -std::numeric_limits<double>::infinity(); }
+Box SurfaceSolid::box() const {
+  Box box = top_.box();
+  box.min.z = -std::numeric_limits<double>::infinity();
+  return box;
+}
 
 Field SurfaceSolid::field(const Vec3& at) const {
   const auto [point, triangle] = top_.nearest(at);

@@ -15,7 +15,7 @@ class SurfaceSolid final : public Solid {
   explicit SurfaceSolid(const Surface& surface);
   Field field(const Vec3& at) const override;
   bool is_traced() const override { return true; }
-  double bottom() const override;
+  Box box() const override;
 
  private:
   SurfaceSolid(const Surface& surface, const struct Triangulation& mesh);

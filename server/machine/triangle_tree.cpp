@@ -99,155 +99,70 @@ std::optional<double> contact(const Triangle& triangle, const BallPath& ball) {
   return first;
 }
 
-TriangleTree::TriangleTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
-  nodes_.reserve(triangles_.size());
-  build(0, static_cast<std::uint32_t>(triangles_.size()));
+namespace {
+
+Box box_of(const Triangle& triangle) {
+  Box box = Box::nothing();
+  for (const Vec3& corner : triangle) box.join({corner, corner});
+  return box;
 }
 
-void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (std::uint32_t t = begin; t < end; ++t) {
-    for (const Vec3& p : triangles_[t]) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.min[axis] = std::min(box.min[axis], p[axis]);
-        box.max[axis] = std::max(box.max[axis], p[axis]);
+}  // namespace
+
+TriangleTree::TriangleTree(const std::vector<Triangle>& triangles) {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const Triangle& triangle : triangles) boxes.push_back(box_of(triangle));
+  std::vector<std::uint32_t> order;
+  tree_ = BoxTree(boxes, order);
+  triangles_.reserve(triangles.size());
+  for (const std::uint32_t place : order) triangles_.push_back(triangles[place]);
+}
+
+std::optional<TriangleTree::Nearest> TriangleTree::nearest(const Vec3& at, double within) const {
+  std::optional<Nearest> best;
+  double least = within * within;
+  tree_.near(at, least, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t t = begin; t < end; ++t) {
+      const Vec3 point = nearest_point(triangles_[t], at);
+      const double distance = squared(point - at);
+      if (distance < least) {
+        least = distance;
+        best = {point, &triangles_[t]};
       }
     }
-  }
-  const std::size_t self = nodes_.size();
-  nodes_.push_back({box, begin, end, 0});
-  constexpr std::uint32_t kLeaf = 4;
-  if (end - begin <= kLeaf) return;
-
-  const Vec3 size = box.max - box.min;
-  const std::size_t longest = size.x >= size.y   ? (size.x >= size.z ? 0 : 2)
-                              : size.y >= size.z ? 1
-                                                 : 2;
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  const auto first = triangles_.begin();
-  const auto centre = [longest](const Triangle& t) {
-    return t[0][longest] + t[1][longest] + t[2][longest];
-  };
-  std::nth_element(first + begin, first + middle, first + end,
-                   [&](const Triangle& a, const Triangle& b) { return centre(a) < centre(b); });
-  build(begin, middle);
-  nodes_[self].second = static_cast<std::uint32_t>(nodes_.size());
-  build(middle, end);
-}
-
-double TriangleTree::squared_distance(const Box& box, const Vec3& at) {
-  double sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double beyond = std::max({box.min[axis] - at[axis], at[axis] - box.max[axis], 0.0});
-    sum += beyond * beyond;
-  }
-  return sum;
-}
-
-TriangleTree::Nearest TriangleTree::nearest(const Vec3& at) const {
-  Nearest best{triangles_.front()[0], &triangles_.front()};
-  double least = std::numeric_limits<double>::infinity();
-  std::array<std::uint32_t, 64> open{};  // a balanced tree of 32-bit counts is less deep
-  std::size_t size = 1;
-  while (size > 0) {
-    const std::uint32_t index = open[--size];
-    const Node& node = nodes_[index];
-    if (squared_distance(node.box, at) >= least) continue;
-    if (node.second == 0) {
-      for (std::uint32_t t = node.begin; t < node.end; ++t) {
-        const Vec3 point = nearest_point(triangles_[t], at);
-        const double distance = squared(point - at);
-        if (distance < least) {
-          least = distance;
-          best = {point, &triangles_[t]};
-        }
-      }
-      continue;
-    }
-    std::uint32_t near = index + 1;
-    std::uint32_t far = node.second;
-    if (squared_distance(nodes_[far].box, at) < squared_distance(nodes_[near].box, at)) {
-      std::swap(near, far);
-    }
-    open[size++] = far;
-    open[size++] = near;
-  }
+  });
   return best;
 }
 
-/// The way after which the ball may touch something in the box: its centre enters the box grown by
-/// its radius.
-std::optional<double> TriangleTree::way_to(const Box& box, const BallPath& ball) {
-  double enters = 0;
-  double leaves = ball.longest;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double low = box.min[axis] - ball.radius - ball.start[axis];
-    const double high = box.max[axis] + ball.radius - ball.start[axis];
-    const double speed = ball.direction[axis];
-    if (speed == 0) {
-      if (low > 0 || high < 0) return std::nullopt;
-      continue;
-    }
-    enters = std::max(enters, (speed > 0 ? low : high) / speed);
-    leaves = std::min(leaves, (speed > 0 ? high : low) / speed);
-  }
-  return enters <= leaves ? std::optional(enters) : std::nullopt;
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& at) const {
+  return *nearest(at, std::numeric_limits<double>::infinity());
 }
 
 std::optional<double> TriangleTree::contact(const BallPath& ball) const {
   std::optional<double> first;
-  struct Open {
-    std::uint32_t index;
-    double way;
-  };
-  std::array<Open, 64> open{};
-  std::size_t size = 0;
-  const auto push = [&](std::uint32_t index, std::optional<double> way) {
-    if (way && (!first || *way < *first)) open[size++] = {index, *way};
-  };
-  push(0, way_to(nodes_.front().box, ball));
-  while (size > 0) {
-    const Open next = open[--size];
-    if (first && next.way >= *first) continue;
-    const Node& node = nodes_[next.index];
-    if (node.second != 0) {
-      const auto near = way_to(nodes_[next.index + 1].box, ball);
-      const auto far = way_to(nodes_[node.second].box, ball);
-      const bool in_order = !far || (near && *near <= *far);
-      push(in_order ? node.second : next.index + 1, in_order ? far : near);
-      push(in_order ? next.index + 1 : node.second, in_order ? near : far);
-      continue;
-    }
+  double longest = ball.longest;
+  tree_.along(ball, longest, [&](std::uint32_t begin, std::uint32_t end, double way) {
     // From shortly before the box, where the figures are small and so is their rounding.
     constexpr double kBefore = 1;
-    const double begin = std::max(next.way - kBefore, 0.0);
-    const BallPath rest = ball.from(begin);
-    for (std::uint32_t t = node.begin; t < node.end; ++t) {
+    const double before = std::max(way - kBefore, 0.0);
+    const BallPath rest = ball.from(before);
+    for (std::uint32_t t = begin; t < end; ++t) {
       const auto touched = machine::contact(triangles_[t], rest);
-      if (!touched || *touched > rest.longest) continue;
-      const double way = begin + *touched;
-      if (!first || way < *first) first = way;
+      if (!touched || before + *touched > longest) continue;
+      longest = before + *touched;
+      first = longest;
     }
-  }
+  });
   return first;
 }
 
 Vec3 TriangleTree::normal_at(const Vec3& point) const {
   constexpr double kThere = 1e-9;  // mm: far below what STL's floats tell apart
+  constexpr double kSquared = 1.01 * kThere * kThere;
   Vec3 sum;
-  std::array<std::uint32_t, 64> open{};
-  std::size_t size = 1;
-  while (size > 0) {
-    const std::uint32_t index = open[--size];
-    const Node& node = nodes_[index];
-    if (squared_distance(node.box, point) > kThere * kThere) continue;
-    if (node.second != 0) {
-      open[size++] = node.second;
-      open[size++] = index + 1;
-      continue;
-    }
-    for (std::uint32_t t = node.begin; t < node.end; ++t) {
+  tree_.near(point, kSquared, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t t = begin; t < end; ++t) {
       if (norm(nearest_point(triangles_[t], point) - point) > kThere) continue;
       const auto& [a, b, c] = triangles_[t];
       // The angles under which the edges are seen; one whose end is the point is not seen at all.
@@ -260,33 +175,27 @@ Vec3 TriangleTree::normal_at(const Vec3& point) const {
       }
       sum = sum + unit(cross(b - a, c - a)) * angle;
     }
-  }
+  });
   return sum;
 }
 
 std::optional<double> TriangleTree::height(double x, double y) const {
-  std::array<std::uint32_t, 64> open{};
-  std::size_t size = 1;
-  while (size > 0) {
-    const std::uint32_t index = open[--size];
-    const Node& node = nodes_[index];
-    const Box& box = node.box;
-    if (x < box.min.x || x > box.max.x || y < box.min.y || y > box.max.y) continue;
-    if (node.second != 0) {
-      open[size++] = node.second;
-      open[size++] = index + 1;
-      continue;
-    }
-    for (std::uint32_t t = node.begin; t < node.end; ++t) {
+  std::optional<double> found;
+  const auto holds = [&](const Box& box) {
+    return x >= box.min.x && x <= box.max.x && y >= box.min.y && y <= box.max.y;
+  };
+  tree_.any(holds, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t t = begin; t < end && !found; ++t) {
       const auto& [a, b, c] = triangles_[t];
       const double weight_a = area_from_above(b, c, x, y);
       const double weight_b = area_from_above(c, a, x, y);
       const double weight_c = area_from_above(a, b, x, y);
       if (weight_a < 0 || weight_b < 0 || weight_c < 0) continue;
-      return (weight_a * a.z + weight_b * b.z + weight_c * c.z) / (weight_a + weight_b + weight_c);
+      found = (weight_a * a.z + weight_b * b.z + weight_c * c.z) / (weight_a + weight_b + weight_c);
     }
-  }
-  return std::nullopt;
+    return found.has_value();
+  });
+  return found;
 }
 
 }  // namespace fitgauge::machine

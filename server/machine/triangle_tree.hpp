@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "machine/ball_path.hpp"
+#include "machine/box_tree.hpp"
 #include "machine/geometry.hpp"
 
 namespace fitgauge::machine {
@@ -23,7 +24,7 @@ std::optional<double> contact(const Triangle& triangle, const BallPath& ball);
 class TriangleTree {
  public:
   /// @pre at least one triangle.
-  explicit TriangleTree(std::vector<Triangle> triangles);
+  explicit TriangleTree(const std::vector<Triangle>& triangles);
 
   struct Nearest {
     Vec3 point;
@@ -31,6 +32,8 @@ class TriangleTree {
   };
   /// The point of all triangles that is nearest to `at`, and the triangle it is of.
   Nearest nearest(const Vec3& at) const;
+  /// The same, or nothing when it is not nearer than `within`: quick where that is little.
+  std::optional<Nearest> nearest(const Vec3& at, double within) const;
   /// The least way after which the ball touches a triangle, of those it does not overlap at the
   /// start.
   std::optional<double> contact(const BallPath& ball) const;
@@ -41,28 +44,13 @@ class TriangleTree {
   /// The z of a triangle above or below (x, y), or nothing outside of all.
   std::optional<double> height(double x, double y) const;
 
-  double highest() const { return nodes_.front().box.max.z; }
-  double lowest() const { return nodes_.front().box.min.z; }
+  const Box& box() const { return tree_.all(); }
+  double highest() const { return tree_.all().max.z; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
-  struct Box {
-    Vec3 min;
-    Vec3 max;
-  };
-  struct Node {
-    Box box;
-    std::uint32_t begin;  ///< of its triangles
-    std::uint32_t end;
-    std::uint32_t second;  ///< the second child; the first follows its parent; 0 in a leaf
-  };
-
-  void build(std::uint32_t begin, std::uint32_t end);
-  static double squared_distance(const Box& box, const Vec3& at);
-  static std::optional<double> way_to(const Box& box, const BallPath& ball);
-
-  std::vector<Triangle> triangles_;
-  std::vector<Node> nodes_;
+  BoxTree tree_;
+  std::vector<Triangle> triangles_;  ///< in the tree's order
 };
 
 }  // namespace fitgauge::machine

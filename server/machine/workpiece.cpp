@@ -68,14 +68,32 @@ struct Workpiece::Part {
 
   std::unique_ptr<const Solid> solid;
   std::vector<Cut> cuts;
+  BoxTree tree;          ///< of the cuts, which stand in its order
+  double roughness = 0;  ///< the largest of the cuts
+
+  /// All cuts are there.
+  void complete();
+
+  /// Calls visit(cut) for the cuts that can have `at` inside their void, or on its wall, until one
+  /// returns true. @returns whether one did.
+  template <class Visit>
+  bool any_cut(const Vec3& at, const Visit& visit) const {
+    return tree.any([&at](const Box& box) { return box.contains(at); },
+                    [&](std::uint32_t begin, std::uint32_t end) {
+                      return std::any_of(cuts.begin() + begin, cuts.begin() + end, visit);
+                    });
+  }
 
   /// The cut, other than `except`, that has `point` inside its void.
   const Cut* cut_at(const Vec3& point, const Cut* except) const {
-    for (const Cut& cut : cuts) {
-      if (&cut == except || cut.bound(point) <= kOnBoundary - cut.bore->roughness()) continue;
-      if (cut.field(point).distance > kOnBoundary) return &cut;
-    }
-    return nullptr;
+    const Cut* found = nullptr;
+    any_cut(point, [&](const Cut& cut) {
+      if (&cut == except || cut.bound(point) <= kOnBoundary - cut.bore->roughness()) return false;
+      if (cut.field(point).distance <= kOnBoundary) return false;
+      found = &cut;
+      return true;
+    });
+    return found;
   }
 
   double distance(const Vec3& at, double radius, const Field& to_solid) const;
@@ -83,16 +101,28 @@ struct Workpiece::Part {
   std::optional<double> contact(const BallPath& ball, Allowance& allowance) const;
 };
 
+void Workpiece::Part::complete() {
+  std::vector<Box> boxes;
+  for (const Cut& cut : cuts) {
+    boxes.push_back(cut.bore->box());
+    roughness = std::max(roughness, cut.bore->roughness());
+  }
+  std::vector<std::uint32_t> order;
+  tree = BoxTree(boxes, order);
+  std::vector<Cut> ordered;
+  for (const std::uint32_t place : order) ordered.push_back(cuts[place]);
+  cuts = std::move(ordered);
+}
+
 /// The distance to solid less voids is at least that to the solid and that to the boundary of every
 /// void the point is in. It is the largest of them when the nearest point of that boundary is
 /// material; otherwise an edge is nearest.
 double Workpiece::Part::distance(const Vec3& at, double radius, const Field& to_solid) const {
   double bound = to_solid.distance;
-  double roughness = 0;
-  for (const Cut& cut : cuts) {
+  any_cut(at, [&](const Cut& cut) {
     bound = std::max(bound, cut.bound(at));
-    roughness = std::max(roughness, cut.bore->roughness());
-  }
+    return false;
+  });
   constexpr double kNear = 0.01;  // mm: from here on the exact value is worth its price
   return bound > radius + roughness + kNear ? bound : exact_distance(at, to_solid);
 }
@@ -100,14 +130,15 @@ double Workpiece::Part::distance(const Vec3& at, double radius, const Field& to_
 double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) const {
   Field largest = to_solid;
   const Cut* of = nullptr;
-  for (const Cut& cut : cuts) {
-    if (cut.bound(at) + cut.bore->roughness() < std::max(largest.distance, 0.0)) continue;
+  any_cut(at, [&](const Cut& cut) {
+    if (cut.bound(at) + cut.bore->roughness() < std::max(largest.distance, 0.0)) return false;
     const Field field = cut.field(at);
     if (field.distance > 0 && field.distance >= largest.distance) {
       largest = field;
       of = &cut;
     }
-  }
+    return false;
+  });
   if (largest.distance <= 0) return largest.distance;  // inside the material
 
   const Vec3 foot = largest.foot(at);
@@ -130,12 +161,10 @@ double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) co
     }
   }
   if (!edge) return largest.distance;
-  for (const Cut& cut : cuts) {
-    if (&cut != of && &cut != other && cut.field(*edge).distance > kOnBoundary) {
-      return largest.distance;
-    }
-  }
-  return std::max(largest.distance, norm(at - *edge));
+  const bool is_in_third = any_cut(*edge, [&](const Cut& cut) {
+    return &cut != of && &cut != other && cut.field(*edge).distance > kOnBoundary;
+  });
+  return is_in_third ? largest.distance : std::max(largest.distance, norm(at - *edge));
 }
 
 /// Goes from one place to the next before which there is certainly no contact: to the solid as if
@@ -154,9 +183,10 @@ std::optional<double> Workpiece::Part::contact(const BallPath& ball, Allowance& 
     const Vec3 at = ball.at(way);
     if (distance(at, ball.radius, solid->field(at)) - ball.radius <= kNoClearance) return way;
     double free = 0;
-    for (const Cut& cut : cuts) {
+    any_cut(at, [&](const Cut& cut) {
       free = std::max(free, cut.bore->way_inside(at, ball.direction, ball.radius, !cut.is_through));
-    }
+      return false;
+    });
     if (free <= kNoClearance) break;
     way += free;
     if (way > ball.longest) return std::nullopt;
@@ -200,6 +230,18 @@ Workpiece::Workpiece(const std::vector<Feature>& features) {
   for (const Feature& feature : features) {
     std::visit([this](const auto& known) { join(known); }, feature);
   }
+  std::vector<Box> boxes;
+  for (Part& part : parts_) {
+    part.complete();
+    boxes.push_back(part.solid->box());
+    // A ball that touches may stand a rounding beside it.
+    boxes.back().grow(kOnBoundary);
+  }
+  std::vector<std::uint32_t> order;
+  tree_ = BoxTree(boxes, order);
+  std::vector<Part> ordered;
+  for (const std::uint32_t place : order) ordered.push_back(std::move(parts_[place]));
+  parts_ = std::move(ordered);
 }
 
 Workpiece::Workpiece(Workpiece&&) noexcept = default;
@@ -208,11 +250,18 @@ Workpiece::~Workpiece() = default;
 
 double Workpiece::clearance(const Vec3& centre, double radius) const {
   double least = kInfinity;
-  for (const Part& part : parts_) {
-    const Field to_solid = part.solid->field(centre);
-    if (to_solid.distance >= least) continue;
-    least = std::min(least, part.distance(centre, radius, to_solid));
-  }
+  double squared = kInfinity;
+  tree_.near(centre, squared, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const Part& part = parts_[k];
+      const Field to_solid = part.solid->field(centre);
+      if (to_solid.distance >= least) continue;
+      least = std::min(least, part.distance(centre, radius, to_solid));
+    }
+    // Inside of one part another may be deeper: its box holds the centre, too.
+    const double beyond = std::max(least, 0.0) + kOnBoundary;
+    squared = beyond * beyond;
+  });
   return least - radius;
 }
 
@@ -221,15 +270,18 @@ std::optional<double> Workpiece::contact(const Vec3& start, const Vec3& directio
   BallPath ball{start, direction, radius, longest};
   std::optional<double> first;
   unsigned visited = 0;
-  for (const Part& part : parts_) {
-    constexpr unsigned kBetweenLooks = 64;
-    if (++visited % kBetweenLooks == 0 && allowance.is_spent()) return std::nullopt;
-    if (const auto way = part.contact(ball, allowance)) {
-      first = way;
-      ball.longest = *way;
+  bool is_spent = false;
+  tree_.along(ball, ball.longest, [&](std::uint32_t begin, std::uint32_t end, double) {
+    for (std::uint32_t k = begin; k < end && !is_spent; ++k) {
+      constexpr unsigned kBetweenLooks = 64;
+      is_spent = ++visited % kBetweenLooks == 0 && allowance.is_spent();
+      if (const auto way = parts_[k].contact(ball, allowance)) {
+        first = way;
+        ball.longest = *way;
+      }
     }
-  }
-  return first;
+  });
+  return is_spent ? std::nullopt : first;
 }
 
 std::optional<Vec3> Workpiece::normal(const Vec3& at) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/allowance.hpp"
+#include "machine/box_tree.hpp"
 #include "machine/geometry.hpp"
 #include "machine/machine_setup.hpp"
 
@@ -57,6 +58,7 @@ class Workpiece {
   void join(const Added& feature);
 
   std::vector<Part> parts_;
+  BoxTree tree_;  ///< of the parts, which stand in its order
 };
 
 }  // namespace fitgauge::machine

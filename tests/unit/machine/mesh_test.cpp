@@ -225,6 +225,19 @@ TEST_CASE("a tessellated bore is touched in closed form, within its chord of the
              10 - std::sqrt(kBall * kBall - across * across), 1e-9));
 }
 
+TEST_CASE("a ball that starts in a mesh touches at once, one in its hole does not") {
+  const Workpiece part({mesh_of(ring(12.5, 20, 30, 90))});
+  for (const double radius : {0.0, 0.5, 3.0}) {
+    for (const Vec3& direction : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}}) {
+      CHECK(part.contact({16, 0, -15}, direction, radius, 0.1) == 0.0);
+      CHECK(part.contact({16, 0, -15}, direction, radius, 100) == 0.0);
+      CHECK_FALSE(part.contact({0, 0, -15}, direction, radius, 0.1));
+    }
+    CHECK_FALSE(part.contact({0, 0, -15}, {0, 0, 1}, radius, 100));
+    CHECK(near(part.contact({30, 0, -15}, {-1, 0, 0}, radius, 100).value(), 10 - radius, 1e-9));
+  }
+}
+
 TEST_CASE("a bore is taken from a mesh as from a block") {
   const Vec3 min{0, 0, -40};
   const Vec3 max{100, 80, 0};

@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include "machine/random.hpp"
@@ -312,4 +315,53 @@ TEST_CASE("a move close along a face is decided at once, not traced") {
     CHECK_FALSE(workpiece.contact({0, 0, 2 + gap}, {1, 0, 0}, 2, 1e6, stopped));
     CHECK(stopped.found() == fitgauge::Allowance::Spent::Nothing);  // nothing has looked at it
   }
+}
+
+TEST_CASE("of many features those are found that one by one come first") {
+  const std::uint64_t seed = 427;
+  INFO("seed ", seed);
+  Generator generator(seed);
+  std::vector<Feature> features{Block{{0, 0, -40}, {100, 100, 0}}, Plane{{0, 0, -45}, {0, 0, 1}}};
+  for (int k = 0; k < 30; ++k) {
+    const Vec3 at = generator.place();
+    features.emplace_back(Sphere{at, generator.between(1, 8)});
+    features.emplace_back(Boss{{at.y, at.x}, at.z, 5, generator.between(1, 8)});
+    features.emplace_back(Block{at - Vec3{1, 2, 3}, at + Vec3{2, 1, 1}});
+    Bore bore = generator.bore();
+    bore.centre = {generator.between(0, 100), generator.between(0, 100)};
+    bore.diameter = generator.between(3, 8);
+    bore.lobes = 0;
+    bore.taper_um_per_mm = std::max(bore.taper_um_per_mm, 0.0);
+    features.emplace_back(bore);
+  }
+  // Each solid alone, with the bores that come after it.
+  std::vector<Workpiece> alone;
+  for (auto solid = features.begin(); solid != features.end(); ++solid) {
+    if (std::holds_alternative<Bore>(*solid)) continue;
+    std::vector<Feature> part{*solid};
+    std::copy_if(solid, features.end(), std::back_inserter(part),
+                 [](const Feature& feature) { return std::holds_alternative<Bore>(feature); });
+    alone.emplace_back(part);
+  }
+  const Workpiece workpiece(features);
+  int contacts = 0;
+  for (int k = 0; k < 150; ++k) {
+    const Vec3 start = generator.place();
+    const Vec3 direction = k % 3 == 0 ? Vec3{0, 0, -1} : generator.direction();
+    const double radius = generator.between(0.2, 2);
+    double clearance = HUGE_VAL;
+    std::optional<double> way;
+    for (const Workpiece& part : alone) {
+      clearance = std::min(clearance, part.clearance(start, radius));
+      const auto found = part.contact(start, direction, radius, 100);
+      if (found && (!way || *found < *way)) way = found;
+    }
+    CHECK(workpiece.clearance(start, radius) == clearance);
+    const auto found = workpiece.contact(start, direction, radius, 100);
+    REQUIRE(found.has_value() == way.has_value());
+    if (!way) continue;
+    CHECK(std::abs(*found - *way) < 1e-9);
+    contacts += *way > 0;
+  }
+  CHECK(contacts > 50);
 }
