@@ -285,9 +285,10 @@ class Tampered(StorageTest):
 
 
 class Tamperings(StorageTest):
-    """Tamperings by chance, each of which a checkpoint kept elsewhere shows. $SEED repeats them."""
+    """Tamperings of each kind in turn, at a row by chance: a checkpoint kept elsewhere shows all. $SEED repeats them."""
 
     ROWS = 300
+    KINDS = ("alter", "swap", "delete", "cut", "older", "rewrite")
     CHANGES = ("measured_nm = measured_nm + 1", "received_at = received_at - 1", "part_id = 'SN-2'", "comment = ' '",
                "operator = '7'", "upper_deviation_nm = upper_deviation_nm + 1", "caller = 'x'", "cycle = 421")
 
@@ -298,14 +299,13 @@ class Tamperings(StorageTest):
         note = wait_for_size(daemon, rows)
         return daemon, note
 
-    def tamper(self, chance, data, older, twin):
+    def tamper(self, chance, what, data, older, twin):
         """Does one thing to a copy of the folder. @returns what."""
         row, other = chance.sample(range(1, self.ROWS), 2)
         hide = ("UPDATE log SET size = (SELECT max(id) FROM measurements), seal = NULL", "DELETE FROM measurement_nodes",
                 "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates")
         swap = [f"UPDATE measurements SET id = {to} WHERE id = {at}" for at, to in ((row, 900), (other, row), (900, other))]
         change = f"UPDATE measurements SET {chance.choice(self.CHANGES)} WHERE id = {row}"
-        what = chance.choice(("alter", "swap", "delete", "cut", "older", "rewrite"))
         if what in ("older", "rewrite"):
             shutil.rmtree(data)
             shutil.copytree(older if what == "older" else twin, data)
@@ -331,11 +331,14 @@ class Tamperings(StorageTest):
         self.assertEqual(daemon.stop(), 0)
         twin, _ = self.stored(self.ROWS)
         self.assertEqual(twin.stop(), 0)
+        # The controls: an untouched folder is clean, and so are by themselves those that the checkpoint alone tells.
         self.assertEqual(daemon.command("verify", "--checkpoint", kept).returncode, 0)
+        for whole in (older, twin.data):
+            self.assertEqual(command("verify", "--data", whole).returncode, 0)
         for number in range(count):
             data = daemon.folder / f"copy-{number}"
             shutil.copytree(daemon.data, data)
-            what = self.tamper(chance, data, older, twin.data)
+            what = self.tamper(chance, self.KINDS[number % len(self.KINDS)], data, older, twin.data)
             verified = command("verify", "--data", data, "--checkpoint", kept)
             self.assertEqual(verified.returncode, 1, f"{what}\n{verified.stdout}{verified.stderr}")
             shutil.rmtree(data)
