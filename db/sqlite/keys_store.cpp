@@ -55,6 +55,7 @@ struct KeysStore::Statements {
   explicit Statements(sqlite::Connection& c)
       : all(c, select_keys("ORDER BY id")),
         valid(c, select_keys("WHERE revoked_at IS NULL ORDER BY id")),
+        newest(c, select_keys("WHERE name = ? ORDER BY revoked_at IS NOT NULL, id DESC LIMIT 1")),
         clash(c,
               "SELECT name = ?1 AND revoked_at IS NULL FROM api_keys "
               "WHERE (name = ?1 AND revoked_at IS NULL) OR token_hash = ?2 ORDER BY 1 DESC"),
@@ -66,6 +67,7 @@ struct KeysStore::Statements {
 
   sqlite::Statement all;
   sqlite::Statement valid;
+  sqlite::Statement newest;
   sqlite::Statement clash;
   sqlite::Statement insert;
   sqlite::Statement revoke;
@@ -101,6 +103,19 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
   key.id = statements_->insert.returning<std::int64_t>(name, role, key.token_hash, now_ns,
                                                        key.revoked_at_ns);
   return key;
+}
+
+std::optional<ApiKey> KeysStore::newest(std::string_view name) const {
+  auto found = read_keys(statements_->newest.query(name));
+  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
+bool KeysStore::receive(std::string_view name, Role role, const Digest& token_hash,
+                        std::int64_t now_ns) {
+  if (statements_->clash.query(name, token_hash).next()) return false;
+  statements_->insert.returning<std::int64_t>(name, role, token_hash, now_ns,
+                                              std::optional<std::int64_t>());
+  return true;
 }
 
 Result<void> KeysStore::revoke(std::string_view name, std::int64_t now_ns) {

@@ -28,9 +28,8 @@ std::string block_sql() {
   for (const TextColumn& column : kTextColumns) columns += fmt::format(", m.{}", column.column);
   return fmt::format(
       "SELECT m.measured_at, m.received_at, m.measured_nm, m.verdict, m.source, m.nominal_nm, "
-      "m.run_id, NOT EXISTS (SELECT 1 FROM measurements c WHERE c.correction_of = m.id){} "
-      "FROM measurements m WHERE m.id BETWEEN ? AND ? ORDER BY m.id",
-      columns);
+      "m.run_id, {}{} FROM measurements m WHERE m.id BETWEEN ? AND ? ORDER BY m.id",
+      CurrentCondition(std::to_string(kLastId)).both(), columns);
 }
 
 int kind_of(int source, int verdict) { return 8 * source + verdict; }
@@ -61,6 +60,12 @@ MeasurementIndexer::MeasurementIndexer(sqlite::Connection& c)
                         "SELECT node, field, value, kind, statistics, value = 0 FROM "
                         "measurement_aggregates WHERE level = ? AND node BETWEEN ? AND ?"),
       make_stale_(c, "UPDATE measurement_nodes SET stale = 1 WHERE level = ? AND node = ?"),
+      rivals_(
+          c,
+          "WITH RECURSIVE back(id) AS (SELECT id FROM measurements WHERE correction_of = ?1 AND "
+          "(SELECT count(*) FROM measurements WHERE correction_of = ?1) > 1 UNION ALL "
+          "SELECT c.id FROM back JOIN measurements c ON c.correction_of = back.id) "
+          "SELECT id FROM back"),
       stale_(c,
              "SELECT level, node FROM measurement_nodes WHERE stale = 1 ORDER BY level, node "
              "LIMIT 1"),
@@ -98,6 +103,12 @@ bool MeasurementIndexer::step() {
 }
 
 void MeasurementIndexer::corrected(std::int64_t id) {
+  make_stale(id);
+  // One of the rivals took the place of another, and of what corrects that.
+  for (Rows rows = rivals_.query(id); rows.next();) make_stale(rows.get<std::int64_t>(0));
+}
+
+void MeasurementIndexer::make_stale(std::int64_t id) {
   for (int level = 0; level < kLevels; ++level) {
     make_stale_.run(level, IndexNode::of(id, level).node);
   }

@@ -47,6 +47,7 @@ class MeasurementIndexer {
   void verify(const std::function<void(std::string)>& note);
 
  private:
+  void make_stale(std::int64_t id);
   NodeIndex derive(const IndexNode& node);
   NodeIndex derive_block(const IndexNode& node);
   NodeIndex derive_parent(const IndexNode& node);
@@ -65,6 +66,7 @@ class MeasurementIndexer {
   sqlite::Statement child_times_;
   sqlite::Statement child_aggregates_;
   sqlite::Statement make_stale_;
+  sqlite::Statement rivals_;
   sqlite::Statement stale_;
   sqlite::Statement delete_aggregates_;
   sqlite::Statement make_fresh_;

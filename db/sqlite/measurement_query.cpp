@@ -38,8 +38,9 @@ void for_each_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.received_from_ns) add("m.received_at >= ?", *filter.received_from_ns);
   if (filter.received_to_ns) add("m.received_at < ?", *filter.received_to_ns);
   if (!filter.history) {
-    add("NOT EXISTS (SELECT 1 FROM measurements c WHERE c.correction_of = m.id AND c.id <= ?)",
-        filter.as_of_id.value_or(kLastId));
+    static const CurrentCondition current("?");
+    add(current.is_not_corrected, filter.as_of_id.value_or(kLastId));
+    add(current.has_no_later_rival, filter.as_of_id.value_or(kLastId));
   }
 }
 
@@ -57,6 +58,22 @@ std::string_view direction(ListOrder order) {
 }
 
 }  // namespace
+
+// The later one of two corrections that were made apart stands, at each end alike: whatever order
+// they came in. Where they were received at the same time, their leaves decide.
+CurrentCondition::CurrentCondition(std::string_view last)
+    : is_not_corrected(
+          fmt::format("NOT EXISTS (SELECT 1 FROM measurements c WHERE c.correction_of = m.id AND "
+                      "c.id <= {})",
+                      last)),
+      has_no_later_rival(fmt::format(
+          "(m.correction_of IS NULL OR NOT EXISTS (WITH RECURSIVE back(target, at, leaf) AS ("
+          "SELECT m.correction_of, m.received_at, m.hash UNION ALL "
+          "SELECT b.correction_of, b.received_at, b.hash FROM back JOIN measurements b "
+          "ON b.id = back.target WHERE b.correction_of IS NOT NULL) "
+          "SELECT 1 FROM back JOIN measurements r ON r.correction_of = back.target "
+          "WHERE (r.received_at, r.hash) > (back.at, back.leaf) AND r.id <= {}))",
+          last)) {}
 
 Statement last_block_statement(sqlite::Connection& connection) {
   return {connection, "SELECT max(node) FROM measurement_nodes WHERE level = 0"};

@@ -17,6 +17,17 @@ namespace fitgauge::store {
 std::int64_t indexed_to(sqlite::Statement& last_block);
 sqlite::Statement last_block_statement(sqlite::Connection& connection);
 
+/// That no correction takes the place of a row `m`: none names it, and of rivals, which name the
+/// same record, none later than it or a correction that it goes back to. @param last the last id
+/// that counts, or a parameter, which stands once in each.
+struct CurrentCondition {
+  std::string is_not_corrected;
+  std::string has_no_later_rival;
+
+  explicit CurrentCondition(std::string_view last);
+  std::string both() const { return is_not_corrected + " AND " + has_no_later_rival; }
+};
+
 /// Finds the measurements that match a filter, in either order: of the indexed blocks those that
 /// hold the values asked for, and in the newer rows all.
 class MeasurementQuery {

@@ -38,9 +38,11 @@ MeasurementSummary::MeasurementSummary(sqlite::Connection& c, TextField group_by
       aggregates_of_value_(c,
                            "SELECT value, kind, statistics, 0 FROM measurement_aggregates "
                            "WHERE level = ? AND node = ? AND field = ? AND value = ?"),
-      corrected_(c,
-                 "SELECT DISTINCT correction_of FROM measurements WHERE correction_of IS NOT NULL "
-                 "ORDER BY correction_of") {}
+      corrected_(
+          c, fmt::format("SELECT correction_of FROM measurements WHERE correction_of IS NOT NULL "
+                         "UNION SELECT m.id FROM measurements m WHERE m.correction_of IS NOT "
+                         "NULL AND NOT {} ORDER BY 1",
+                         CurrentCondition(std::to_string(kLastId)).has_no_later_rival)) {}
 
 Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilter& filter,
                                                           std::size_t max_groups) {

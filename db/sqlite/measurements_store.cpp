@@ -71,11 +71,25 @@ struct MeasurementsStore::Statements {
         insert(c),
         newest(c, "SELECT id FROM measurements ORDER BY id DESC LIMIT 1"),
         by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
-        correction(c, "SELECT id FROM measurements WHERE correction_of = ?"),
+        correction(c,
+                   "SELECT id FROM measurements WHERE correction_of = ? "
+                   "ORDER BY received_at DESC, hash DESC LIMIT 1"),
+        lost_target(c,
+                    fmt::format("SELECT correction_of FROM measurements m WHERE id = ? AND NOT {}",
+                                CurrentCondition(std::to_string(kLastId)).has_no_later_rival)),
+        corrections(c, "SELECT count(*) FROM measurements WHERE correction_of = ?"),
+        hand_on(
+            c,
+            "WITH RECURSIVE back(target, origin) AS (SELECT correction_of, origin FROM "
+            "measurements WHERE id = ?1 UNION ALL SELECT m.correction_of, m.origin FROM back "
+            "JOIN measurements m ON m.id = back.target) INSERT INTO revisions (tag, kind, name, "
+            "station) SELECT randomblob(8), 5, ?1, origin FROM back WHERE target IS NULL AND "
+            "origin > 0"),
         revision(c,
                  "SELECT 1 FROM table_revisions WHERE number = ?1 UNION ALL "
                  "SELECT 1 FROM origin_revisions WHERE number = -?1"),
         first_forwarded(c, "SELECT min(first_row) FROM origins"),
+        forwarded(c, "SELECT size FROM forwarding"),
         newest_of_own(c, "SELECT max(seq) FROM measurements WHERE origin = 0"),
         by_number(c, "SELECT id FROM measurements WHERE origin = ? AND number = ?"),
         by_place(c, "SELECT id FROM measurements WHERE origin = ? AND seq = ? AND number IS NULL"),
@@ -92,11 +106,32 @@ struct MeasurementsStore::Statements {
       return Error{ErrorCode::MeasurementUnknown,
                    fmt::format("there is no measurement {} to correct", id)};
     }
-    if (corrected_by(id)) {
+    if (replaced_by(id)) {
       return Error{ErrorCode::MeasurementCorrected,
                    fmt::format("measurement {} was corrected before; correct the current one", id)};
     }
     return {};
+  }
+
+  /// Of an older copy of a folder the centre has more: those would get the same places again.
+  Result<void> require_newest_copy() {
+    std::int64_t there = 0;
+    if (Rows rows = forwarded.query(); rows.next()) there = rows.get<std::int64_t>(0);
+    if (there == 0) return {};
+    const std::int64_t here = log_size();
+    if (there <= here) return {};
+    return Error{ErrorCode::StorageUnavailable,
+                 fmt::format("an older copy of this data folder was put back: its centre has {} "
+                             "measurements of it, and {} are here. Put the newest copy back, or "
+                             "start with an empty folder",
+                             there, here)};
+  }
+
+  std::int64_t log_size() {
+    const std::int64_t others = alone();
+    if (others != kLastId) return own_rows(others);
+    Rows rows = newest.query();
+    return rows.next() ? rows.get<std::int64_t>(0) : 0;
   }
 
   /// A row with limits of a revision that is not there is a bug of the caller's. Revisions are
@@ -135,6 +170,14 @@ struct MeasurementsStore::Statements {
     return rows.next() ? std::optional(rows.get<std::int64_t>(0)) : std::nullopt;
   }
 
+  /// The correction that stands in the place of a row: its own, or its rival.
+  std::optional<std::int64_t> replaced_by(std::int64_t id) {
+    if (const auto newer = corrected_by(id)) return newer;
+    std::optional<std::int64_t> target;
+    if (Rows rows = lost_target.query(id); rows.next()) target = rows.get<std::int64_t>(0);
+    return target ? corrected_by(*target) : std::nullopt;
+  }
+
   /// Made at the first summary by this field.
   MeasurementSummary& summary_by(TextField field) {
     return summaries.try_emplace(field, connection, field).first->second;
@@ -145,8 +188,12 @@ struct MeasurementsStore::Statements {
   Statement newest;
   Statement by_id;
   Statement correction;
+  Statement lost_target;
+  Statement corrections;
+  Statement hand_on;
   Statement revision;
   Statement first_forwarded;
+  Statement forwarded;
   Statement newest_of_own;
   Statement by_number;
   Statement by_place;
@@ -166,6 +213,7 @@ MeasurementsStore::MeasurementsStore(sqlite::Connection& connection)
 MeasurementsStore::~MeasurementsStore() = default;
 
 Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
+  if (const Result<void> newest = statements_->require_newest_copy(); !newest) return newest;
   for (const MeasurementRow& row : rows) {
     if (row.correction_of) {
       if (Result<void> open = statements_->require_current(*row.correction_of); !open) {
@@ -181,7 +229,9 @@ Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
     statements_->insert.append(rows);
   }
   for (const MeasurementRow& row : rows) {
-    if (row.correction_of) statements_->indexer.corrected(*row.correction_of);
+    if (!row.correction_of) continue;
+    statements_->indexer.corrected(*row.correction_of);
+    if (statements_->may_hold_others) statements_->hand_on.run(row.id);
   }
   return {};
 }
@@ -223,6 +273,14 @@ bool MeasurementsStore::find(std::int64_t id, const Visitor& visit) const {
 
 std::optional<std::int64_t> MeasurementsStore::corrected_by(std::int64_t id) const {
   return statements_->corrected_by(id);
+}
+
+std::optional<std::int64_t> MeasurementsStore::replaced_by(std::int64_t id) const {
+  return statements_->replaced_by(id);
+}
+
+bool MeasurementsStore::has_rivals(std::int64_t correction_of) const {
+  return statements_->corrections.returning<std::int64_t>(correction_of) > 1;
 }
 
 std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& filter,
@@ -272,10 +330,7 @@ void MeasurementsStore::verify_index(const std::function<void(std::string)>& not
   statements_->indexer.verify(note);
 }
 
-std::int64_t MeasurementsStore::log_size() const {
-  const std::int64_t alone = statements_->alone();
-  return alone == kLastId ? last_id() : statements_->own_rows(alone);
-}
+std::int64_t MeasurementsStore::log_size() const { return statements_->log_size(); }
 
 std::int64_t MeasurementsStore::last_id() const {
   Rows rows = statements_->newest.query();

@@ -14,11 +14,25 @@
 namespace fitgauge::store {
 namespace {
 
-constexpr std::array kTables = {kTableSets,     kTableRevisions, kApiKeys,     kIdempotentAnswers,
-                                kFileRevisions, kDocuments,      kRuns,        kRunTraces,
-                                kRunFiles,      kEvents,         kLog,         kLogKeys,
-                                kOrigins,       kOriginKeys,     kOriginForks, kOriginRevisions,
-                                kForwarding};
+constexpr std::array kTables = {kTableSets,
+                                kTableRevisions,
+                                kApiKeys,
+                                kIdempotentAnswers,
+                                kFileRevisions,
+                                kDocuments,
+                                kRuns,
+                                kRunTraces,
+                                kRunFiles,
+                                kEvents,
+                                kLog,
+                                kLogKeys,
+                                kOrigins,
+                                kOriginKeys,
+                                kOriginForks,
+                                kOriginRevisions,
+                                kForwarding,
+                                kReceived,
+                                kTableRevisionIds};
 
 void add_value(CanonicalDigest& digest, sqlite3_value* value) {
   const auto size = [&] { return static_cast<std::size_t>(sqlite3_value_bytes(value)); };

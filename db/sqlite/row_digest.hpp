@@ -51,6 +51,8 @@ inline constexpr SealedTable kOriginForks{"origin_forks", "number",
                                           "origin, checkpoint, created_at"};
 inline constexpr SealedTable kOriginRevisions{"origin_revisions", "number", "id"};
 inline constexpr SealedTable kForwarding{"forwarding", "id", "id, centre, size"};
+inline constexpr SealedTable kReceived{"received", "name", "kind, name, number, digest"};
+inline constexpr SealedTable kTableRevisionIds{"table_revision_ids", "revision", "revision, id"};
 inline constexpr SealedTable kEvents{"events", "id", "type, payload, created_at"};
 
 std::span<const SealedTable> sealed_tables();

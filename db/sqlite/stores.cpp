@@ -13,6 +13,7 @@ Stores::Stores(sqlite::Connection& connection, const Clock& clock,
       runs(connection),
       events(connection),
       log(connection),
-      origins(connection) {}
+      origins(connection),
+      revisions(connection) {}
 
 }  // namespace fitgauge::store

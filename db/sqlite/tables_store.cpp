@@ -55,14 +55,17 @@ TableRevision read_revision(const Rows& rows) {
                          .created_at_ns = rows.get<std::int64_t>(3),
                          .parent = rows.get<std::optional<std::int64_t>>(4),
                          .caller = rows.get<std::optional<std::string>>(5)};
+  const auto given = rows.get<std::optional<std::string>>(6);
   revision.id =
-      fmt::format("{}-{}", revision.number, to_hex(revision.digest).substr(0, kShownDigits));
+      given.value_or(fmt::format("{}-{}", revision.number, shown_digits(revision.digest)));
   return revision;
 }
 
 std::string select_revision(std::string_view rest) {
   return fmt::format(
-      "SELECT number, digest, source, created_at, parent, caller FROM table_revisions {}", rest);
+      "SELECT number, digest, source, created_at, parent, caller, (SELECT id FROM "
+      "table_revision_ids WHERE revision = number) FROM table_revisions {}",
+      rest);
 }
 
 }  // namespace
@@ -71,6 +74,8 @@ struct TablesStore::Statements {
   explicit Statements(sqlite::Connection& c)
       : newest(c, select_revision("ORDER BY number DESC LIMIT 1")),
         by_number(c, select_revision("WHERE number = ?")),
+        by_given_id(c, select_revision("WHERE number = (SELECT max(revision) FROM "
+                                       "table_revision_ids WHERE id = ?)")),
         all(c, select_revision("ORDER BY number")),
         cells(c,
               "SELECT table_name, column_name, over_nm, up_to_nm, value_nm FROM table_cells WHERE "
@@ -83,7 +88,8 @@ struct TablesStore::Statements {
         insert_set(c, kTableSets.insert() + " RETURNING id"),
         insert_cell(c, "INSERT INTO table_cells VALUES (?, ?, ?, ?, ?, ?)"),
         insert_revision(c, kTableRevisions.insert() + " RETURNING number"),
-        insert_custom(c, "INSERT INTO custom_cells VALUES (?, ?, ?, ?, ?, ?, ?)") {}
+        insert_custom(c, "INSERT INTO custom_cells VALUES (?, ?, ?, ?, ?, ?, ?)"),
+        insert_id(c, kTableRevisionIds.insert()) {}
 
   std::optional<TableRevision> one(sqlite::Statement& statement, auto... key) {
     Rows rows = statement.query(key...);
@@ -126,6 +132,7 @@ struct TablesStore::Statements {
 
   sqlite::Statement newest;
   sqlite::Statement by_number;
+  sqlite::Statement by_given_id;
   sqlite::Statement all;
   sqlite::Statement cells;
   sqlite::Statement custom;
@@ -134,7 +141,10 @@ struct TablesStore::Statements {
   sqlite::Statement insert_cell;
   sqlite::Statement insert_revision;
   sqlite::Statement insert_custom;
+  sqlite::Statement insert_id;
 };
+
+std::string shown_digits(const Digest& digest) { return to_hex(digest).substr(0, kShownDigits); }
 
 Digest digest_of(TableContent content) {
   sort(content);
@@ -177,6 +187,7 @@ Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_
     statements_->insert_custom.run(number, cell.table, cell.column, cell.over_nm, cell.up_to_nm,
                                    cell.upper_nm, cell.lower_nm);
   }
+  if (tables.id) statements_->insert_id.run(number, *tables.id);
   return *statements_->one(statements_->by_number, number);
 }
 
@@ -189,6 +200,7 @@ std::optional<LoadedTables> TablesStore::load(std::int64_t number) const {
 }
 
 std::optional<LoadedTables> TablesStore::load(std::string_view id) const {
+  if (auto given = statements_->load(statements_->one(statements_->by_given_id, id))) return given;
   std::int64_t number = 0;
   std::from_chars(id.data(), id.data() + id.size(), number);
   std::optional<LoadedTables> loaded = load(number);

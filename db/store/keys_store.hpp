@@ -57,6 +57,11 @@ class KeysStore {
   Result<ApiKey> create(std::string_view name, Role role, std::string_view token,
                         std::int64_t now_ns);
 
+  /// The valid key of that name; else the one that was revoked last.
+  std::optional<ApiKey> newest(std::string_view name) const;
+  /// Stores a key of a centre by its hash. @returns false: another key has the name or the hash.
+  bool receive(std::string_view name, Role role, const Digest& token_hash, std::int64_t now_ns);
+
   /// @errors NotFound when no valid key has the name.
   Result<void> revoke(std::string_view name, std::int64_t now_ns);
 

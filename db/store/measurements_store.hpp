@@ -39,7 +39,8 @@ class MeasurementsStore {
   ~MeasurementsStore();
 
   /// Appends rows, which have their hash and the ids from last_id() + 1 on. A row with
-  /// `correction_of` must name one that was not corrected yet.
+  /// `correction_of` must name one that was not corrected yet; where that goes back to a record of
+  /// a station, it is numbered for that station (RevisionsStore).
   /// @errors MeasurementUnknown when it names no row; MeasurementCorrected when that one was
   ///   corrected before.
   Result<void> append(std::span<const MeasurementRow> rows);
@@ -56,8 +57,15 @@ class MeasurementsStore {
   /// @returns whether there is such a row; `visit` was called with it if so.
   bool find(std::int64_t id, const Visitor& visit) const;
 
-  /// The id of the row that corrects `id`, if one does.
+  /// The id of the row that corrects `id`, if one does. Of several, which were made apart, the one
+  /// that was received last.
   std::optional<std::int64_t> corrected_by(std::int64_t id) const;
+
+  /// As corrected_by(); where `id` is a correction that has a later rival, that one.
+  std::optional<std::int64_t> replaced_by(std::int64_t id) const;
+
+  /// Whether several corrections of that row were made apart from each other.
+  bool has_rivals(std::int64_t correction_of) const;
 
   /// Visits up to `limit` rows of an origin (0: this folder) that come after the place `after` in
   /// its log, in the log's order.

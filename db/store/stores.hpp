@@ -11,6 +11,7 @@
 #include "store/log_store.hpp"
 #include "store/measurements_store.hpp"
 #include "store/origins_store.hpp"
+#include "store/revisions_store.hpp"
 #include "store/runs_store.hpp"
 #include "store/tables_store.hpp"
 
@@ -37,6 +38,7 @@ struct Stores {
   EventsStore events;
   LogStore log;
   OriginsStore origins;
+  RevisionsStore revisions;
 };
 
 }  // namespace fitgauge::store

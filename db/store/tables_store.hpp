@@ -54,8 +54,10 @@ Digest digest_of(TableContent content);
 
 struct TableRevision {
   std::int64_t number = 0;  ///< 1, 2, …: what a measurement refers to
-  std::string id{};         ///< number and the first eight digits of the digest, `1-3f9a0c21`
-  Digest digest{};          ///< as stored at import
+  /// Number and the first eight digits of the digest, `1-3f9a0c21`; of a revision that came from a
+  /// centre, the centre's.
+  std::string id{};
+  Digest digest{};  ///< as stored at import
   std::string source{};
   std::int64_t created_at_ns = 0;
   std::optional<std::int64_t> parent{};  ///< number of the revision this one was made from
@@ -75,7 +77,11 @@ struct TableImport {
   std::string source{};
   std::optional<std::int64_t> parent{};
   std::optional<std::string> caller{};
+  std::optional<std::string> id{};  ///< what the centre that it came from calls it
 };
+
+/// What an id ends with: the first eight digits of the digest.
+std::string shown_digits(const Digest& digest);
 
 /// The immutable revisions of the tolerance tables. The newest one is in force. Cells of the
 /// standard that a revision shares with an older one are stored once.

@@ -8,6 +8,7 @@
 #include "api/limits/verdicts_resource.hpp"
 #include "api/log/intake_resource.hpp"
 #include "api/log/log_resource.hpp"
+#include "api/log/revisions_resource.hpp"
 #include "api/measurements/measurements_resource.hpp"
 #include "api/mtconnect/mtconnect_resource.hpp"
 #include "api/plans/plans_resource.hpp"
@@ -39,6 +40,7 @@ http::RouteTable make_routes(const Services& services) {
   add_measurements_routes(routes, services);
   add_log_routes(routes, services);
   add_intake_routes(routes, services);
+  add_revisions_routes(routes, services);
   add_certificates_routes(routes, services);
   add_statistics_routes(routes, services);
   add_stored_statistics_routes(routes, services);

@@ -11,6 +11,7 @@ namespace fitgauge::app {
 class TableCatalog;
 class LogService;
 class LogIntake;
+class RevisionFeed;
 class MeasurementService;
 class FileService;
 class DocumentService;
@@ -28,6 +29,7 @@ struct Services {
   app::TableCatalog& tables;
   app::LogService& log;
   app::LogIntake& intake;
+  app::RevisionFeed& revisions;
   app::MeasurementService& measurements;
   app::FileService& files;
   app::DocumentService& documents;

@@ -148,7 +148,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   auto database = store::Database::open(open_options, clock);
   if (!database) return database.error();
   app->database_ = *std::move(database);
-  auto tables = TableCatalog::open(*app->database_, clock);
+  auto tables = TableCatalog::open(*app->database_, clock, options.has_centre);
   if (!tables) return tables.error();
   app->tables_ = *std::move(tables);
   auto log = LogService::open(*app->database_, *app->tables_, clock,
@@ -164,6 +164,8 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
       [tell = options.log_told](std::string_view event, const std::string& detail) {
         if (tell) tell(event, detail);
       });
+  app->clock_ = &clock;
+  app->revisions_ = std::make_unique<RevisionFeed>(*app->database_, *app->tables_, origins);
   auto keys = KeyService::open(*app->database_, clock);
   if (!keys) return keys.error();
   app->keys_ = *std::move(keys);
@@ -172,7 +174,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
       MeasurementServiceOptions{.most_waiting = options.write_queue,
                                 .commit_each = options.commit_each});
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
-  app->documents_ = std::make_unique<DocumentService>(*app->database_, clock);
+  app->documents_ = std::make_unique<DocumentService>(*app->database_, clock, options.has_centre);
   if (!options.attach) {
     app->runs_ =
         std::make_unique<RunService>(*app->database_, *app->tables_, clock, origins.own(),
@@ -215,7 +217,7 @@ WriterFigures Application::writer() const {
           .log_pages = counters.log_pages};
 }
 
-Readiness Application::readiness() const { return app::readiness(*database_, *tables_); }
+Readiness Application::readiness() const { return app::readiness(*database_, *tables_, *log_); }
 
 Result<std::optional<Timestamp>> Application::newest_measurement() const {
   return database_->readers().wait(
@@ -235,6 +237,10 @@ Result<void> Application::backup(const std::filesystem::path& file) const {
   if (!checkpoint || !*checkpoint) return {};
   auto beside = file;
   return replace_file(beside += ".checkpoint", **checkpoint, true);
+}
+
+RevisionIntake Application::revision_intake(RevisionIntake::Tell tell) {
+  return {*database_, *tables_, log_->origins(), *clock_, std::move(tell)};
 }
 
 std::optional<std::string> Application::check_leaf(const store::MeasurementRow& row) const {

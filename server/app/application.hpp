@@ -17,6 +17,8 @@
 #include "app/log/log_outbox.hpp"
 #include "app/log/log_service.hpp"
 #include "app/measurements/measurement_service.hpp"
+#include "app/revisions/revision_feed.hpp"
+#include "app/revisions/revision_intake.hpp"
 #include "app/runs/run_service.hpp"
 #include "app/service/commit_signal.hpp"
 #include "app/service/document_service.hpp"
@@ -46,6 +48,7 @@ struct ApplicationOptions {
   std::int64_t idempotency_days = 30;
   std::int64_t run_retention_days = 90;  ///< 0: for ever
   std::int64_t event_retention = 100'000;
+  bool has_centre = false;              ///< what came from a centre is changed there alone
   std::string origin_name = "station";  ///< of the log of a new data folder
   /// Calls what it is given, on the writer thread: the `done` of everything a commit has stored.
   std::function<void(const std::function<void()>&)> around_outcomes{};
@@ -71,6 +74,9 @@ class Application {
   TableCatalog& tables() { return *tables_; }
   LogService& log() { return *log_; }
   LogIntake& intake() { return *intake_; }
+  RevisionFeed& revisions() { return *revisions_; }
+  /// Takes what the centre hands on. @param tell as that of the log.
+  RevisionIntake revision_intake(RevisionIntake::Tell tell);
   LogOutbox outbox() { return {*database_, *tables_, *log_}; }
   MeasurementService& measurements() { return *measurements_; }
   EventService& events() { return *events_; }
@@ -118,6 +124,8 @@ class Application {
   std::unique_ptr<TableCatalog> tables_;
   std::unique_ptr<LogService> log_;
   std::unique_ptr<LogIntake> intake_;
+  std::unique_ptr<RevisionFeed> revisions_;
+  const Clock* clock_ = nullptr;
   std::unique_ptr<MeasurementService> measurements_;
   std::unique_ptr<EventService> events_;
   std::unique_ptr<KeyService> keys_;

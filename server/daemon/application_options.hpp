@@ -19,6 +19,7 @@ inline app::ApplicationOptions application_options(const Config& config) {
   options.event_retention = config.event_retention;
   options.keeps_newest_run = !config.control_listen.empty();
   options.origin_name = config.origin_name;
+  options.has_centre = !config.forward_to.empty();
   return options;
 }
 

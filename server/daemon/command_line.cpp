@@ -10,6 +10,7 @@
 #include "api/service/version.hpp"
 #include "daemon/commands.hpp"
 #include "daemon/config.hpp"
+#include "daemon/forward_all.hpp"
 #include "daemon/healthcheck.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
@@ -97,6 +98,8 @@ struct Commands {
                        "A checkpoint that was kept elsewhere: the log must begin with it");
     log_key = app.add_subcommand("log-key",
                                  "Make a new key for the log, which signs from the next start on");
+    forward = app.add_subcommand("forward", "Forward the log of a stopped service to a centre");
+    forward->add_flag("--all", all, "All of it, then end")->required();
     key = app.add_subcommand("key", "Create, list and revoke API keys");
     key->require_subcommand(1);
     create = key->add_subcommand("create", "Create a key and show it once");
@@ -111,6 +114,7 @@ struct Commands {
     if (*backup) return run_backup(config, file);
     if (*verify) return run_verify(config, checkpoints);
     if (*log_key) return run_log_key(config);
+    if (*forward) return run_forward_all(config);
     if (*create) return run_key_create(config, name, role);
     if (*revoke) return run_key_revoke(config, name);
     return run_key_list(config);
@@ -119,10 +123,12 @@ struct Commands {
   CLI::App* backup = nullptr;
   CLI::App* verify = nullptr;
   CLI::App* log_key = nullptr;
+  CLI::App* forward = nullptr;
   CLI::App* key = nullptr;
   CLI::App* create = nullptr;
   CLI::App* revoke = nullptr;
   CLI::App* list = nullptr;
+  bool all = false;
   std::string file;
   std::vector<std::string> checkpoints;
   std::string name;

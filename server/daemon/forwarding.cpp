@@ -64,18 +64,21 @@ Result<void> check_forwarding(const Config& config) {
   return {};
 }
 
-std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app) {
+void tell_log(std::string_view event, const std::string& detail) {
+  event == "forward_goes_on" || event == "revisions_taken" ? log_info(event, detail)
+                                                           : log_warning(event, detail);
+}
+
+std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,
+                                                      Tell tell) {
   if (config.forward_to.empty()) return nullptr;
   return std::make_unique<forwarder::Forwarder>(
-      app.outbox(),
+      app.outbox(), app.revision_intake(tell),
       forwarder::ForwarderOptions{.centre = {.url = without_last_slash(config.forward_to),
                                              .key_file = config.forward_key_file,
                                              .authorities = config.forward_ca},
                                   .origin = std::string(app.log().origin()),
-                                  .tell = [](std::string_view event, const std::string& detail) {
-                                    event == "forward_goes_on" ? log_info(event, detail)
-                                                               : log_warning(event, detail);
-                                  }});
+                                  .tell = tell});
 }
 
 void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& clock,

@@ -187,7 +187,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   auto connecting = start_connections(config, app, clock);
   if (!connecting) return connecting.error();
   connections::Connections& outside = **connecting;
-  auto forwarding = start_forwarder(config, app);
+  auto forwarding = start_forwarder(config, app, tell_log);
 
   api::Metrics metrics;
   const auto verdicts = std::make_shared<api::VerdictCounts>(app.measurements());
@@ -205,6 +205,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   const api::Services services{.tables = app.tables(),
                                .log = app.log(),
                                .intake = app.intake(),
+                               .revisions = app.revisions(),
                                .measurements = app.measurements(),
                                .files = app.files(),
                                .documents = app.documents(),

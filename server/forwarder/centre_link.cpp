@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::chrono::seconds kTimeout{60};
 constexpr std::size_t kLongestAnswer = std::size_t{64} << 10;
+constexpr std::size_t kLongestPage = std::size_t{64} << 20;
 
 /// RFC 1952. The fastest level: records are much alike, and their station has other work.
 std::string gzip(std::string_view text) {
@@ -67,6 +68,10 @@ CentreLink::HttpAnswer CentreLink::put(const std::string& path, std::string_view
                .body = body,
                .longest_answer = kLongestAnswer},
               path, goes_on);
+}
+
+CentreLink::HttpAnswer CentreLink::get(const std::string& path, const GoesOn& goes_on) {
+  return call({.method = "GET", .longest_answer = kLongestPage}, path, goes_on);
 }
 
 }  // namespace fitgauge::forwarder

@@ -18,6 +18,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr milliseconds kBetweenLooks{200};
+constexpr seconds kPatienceAtStart{3};
 constexpr milliseconds kFirstPause{250};
 constexpr milliseconds kLongestPause{seconds(30)};
 
@@ -41,10 +42,17 @@ std::optional<std::int64_t> size_of(const api::JsonValue& head) {
 
 }  // namespace
 
-Forwarder::Forwarder(app::LogOutbox outbox, ForwarderOptions options)
-    : outbox_(outbox), options_(std::move(options)), link_(options_.centre) {
+Forwarder::Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, ForwarderOptions options)
+    : outbox_(outbox),
+      options_(std::move(options)),
+      link_(options_.centre),
+      follower_(std::move(intake), options_.origin, options_.tell) {
   if (const auto confirmed = outbox_.confirmed(options_.centre.url)) confirmed_ = *confirmed;
   look();
+  // Before the first measurement is taken: whether this folder is an older copy, and the newest
+  // tables. A centre that is away holds nothing up for long.
+  const auto until = Steady::now() + kPatienceAtStart;
+  guarded("the follower", [&] { follow([until] { return Steady::now() < until; }); });
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -80,11 +88,31 @@ bool Forwarder::wait(const std::stop_token& stop, milliseconds time) {
   return !stop.stop_requested();
 }
 
+/// Takes what the centre hands on, and what it says of this folder's log.
+void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
+  const bool is_first = !has_asked_;
+  const auto there = follower_.look(link_, goes_on);
+  if (!there) return;
+  has_asked_ = true;
+  // It was set back to an older copy: it gets what it has lost.
+  if (*there < confirmed_) confirmed_ = *there;
+  if (is_first) static_cast<void>(outbox_.compare(options_.centre.url, *there));
+}
+
+/// Counts what is waiting while a call does.
+CentreLink::GoesOn Forwarder::goes_on(const std::stop_token& stop) {
+  return [this, &stop] {
+    look();
+    return !stop.stop_requested();
+  };
+}
+
 void Forwarder::run(const std::stop_token& stop) {
   Sent sent = Sent::Nothing;
   do {
     sent = Sent::Failed;
     guarded("the forwarder", [&] { sent = send(stop); });
+    guarded("the follower", [&] { follow(goes_on(stop)); });
     if (sent == Sent::Taken) {
       pause_ = {};
     } else if (sent == Sent::Failed || sent == Sent::Refused) {
@@ -103,10 +131,7 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
   if (!batch) return failed(Sent::Failed, batch.error().message);
   if (batch->records.empty()) return Sent::Nothing;
   const std::string path = fmt::format("/v1/log/{}/{}", options_.origin, batch->from);
-  const http_client::HttpAnswer answer = link_.put(path, batch_text(*batch), [this, &stop] {
-    look();
-    return !stop.stop_requested();
-  });
+  const http_client::HttpAnswer answer = link_.put(path, batch_text(*batch), goes_on(stop));
   if (stop.stop_requested() && answer.status == 0) return Sent::Nothing;
   return answered(answer, confirmed_ + static_cast<std::int64_t>(batch->records.size()));
 }
@@ -165,6 +190,7 @@ Forwarder::Sent Forwarder::failed(Sent how, const std::string& why) {
   std::unique_lock lock(mutex_);
   const bool is_new = state_.failure != why;
   state_.failure = why;
+  state_.is_refused = how == Sent::Refused;
   lock.unlock();
   if (is_new && options_.tell) {
     options_.tell(how == Sent::Refused ? "forward_refused" : "forward_failed",
@@ -179,6 +205,7 @@ void Forwarder::took(std::int64_t size) {
   std::unique_lock lock(mutex_);
   const bool failed_before = !state_.failure.empty();
   state_.failure.clear();
+  state_.is_refused = false;
   lock.unlock();
   if (failed_before && options_.tell) {
     options_.tell("forward_goes_on", fmt::format("{} has {} records", options_.centre.url, size));

@@ -13,6 +13,7 @@
 
 #include "app/log/log_outbox.hpp"
 #include "forwarder/centre_link.hpp"
+#include "forwarder/follower.hpp"
 
 namespace fitgauge::forwarder {
 
@@ -23,12 +24,13 @@ struct ForwarderOptions {
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };
 
-/// Sends this folder's log to its centre, batch by batch, on a thread of its own that no writer
-/// waits for. After a failure it waits, twice as long each time, up to half a minute.
+/// Sends this folder's log to its centre, batch by batch, and takes what the centre hands on, on a
+/// thread of its own that no writer waits for. After a failure it waits, twice as long each time,
+/// up to half a minute.
 class Forwarder {
  public:
-  /// Starts at once.
-  Forwarder(app::LogOutbox outbox, ForwarderOptions options);
+  /// Asks the centre first, for some seconds at most, whether this folder is an older copy.
+  Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, ForwarderOptions options);
   ~Forwarder();
   Forwarder(const Forwarder&) = delete;
   Forwarder& operator=(const Forwarder&) = delete;
@@ -37,6 +39,7 @@ class Forwarder {
     std::int64_t rows = 0;            ///< that the centre does not have
     std::optional<Timestamp> oldest;  ///< when the first of them was received
     std::string failure;              ///< why the last batch did not get there; empty: it did
+    bool is_refused = false;          ///< by the centre, as things are
   };
   State state() const;
 
@@ -46,6 +49,8 @@ class Forwarder {
   enum class Sent { Nothing, Taken, Failed, Refused };
 
   void run(const std::stop_token& stop);
+  void follow(const CentreLink::GoesOn& goes_on);
+  CentreLink::GoesOn goes_on(const std::stop_token& stop);
   Sent send(const std::stop_token& stop);
   Sent answered(const http_client::HttpAnswer& answer, std::int64_t end);
   Sent elsewhere(std::int64_t size, const std::string& root);
@@ -57,6 +62,8 @@ class Forwarder {
   const app::LogOutbox outbox_;
   const ForwarderOptions options_;
   CentreLink link_;
+  Follower follower_;
+  bool has_asked_ = false;  ///< what the centre has, since the start
   std::atomic<std::int64_t> confirmed_{0};
   std::atomic<std::int64_t> seen_{0};  ///< records there were at the last look
   std::int64_t most_rows_ = app::LogOutbox::kMostRows;

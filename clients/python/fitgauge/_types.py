@@ -125,6 +125,7 @@ class Measurement(Verdict, _Origin, _Circumstances, total=False):
     correction_of: str
     reason: str
     corrected_by: str
+    conflict: bool
 
 
 class Accepted(TypedDict):

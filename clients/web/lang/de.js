@@ -225,6 +225,7 @@ export default {
   'parts.search': 'Suchen',
   'parts.none': 'Dazu wurde nichts gemessen.',
   'parts.correction': 'Berichtigung',
+  'parts.conflict': 'es gibt eine zweite',
   'parts.correct': 'Korrigieren',
   'parts.correct_this': '{mm} mm von {part} korrigieren',
   'correct.title': '{mm} mm von {part} korrigieren',

@@ -225,6 +225,7 @@ export default {
   'parts.search': 'Search',
   'parts.none': 'Nothing was measured that fits.',
   'parts.correction': 'correction',
+  'parts.conflict': 'there is another one',
   'parts.correct': 'Correct',
   'parts.correct_this': 'Correct {mm} mm of {part}',
   'correct.title': 'Correct {mm} mm of {part}',

@@ -225,6 +225,7 @@ export default {
   'parts.search': 'Cerca',
   'parts.none': 'Non è stato misurato nulla di simile.',
   'parts.correction': 'correzione',
+  'parts.conflict': 'ce n’è un’altra',
   'parts.correct': 'Correggi',
   'parts.correct_this': 'Correggi {mm} mm di {part}',
   'correct.title': 'Correggere {mm} mm di {part}',

@@ -225,6 +225,7 @@ export default {
   'parts.search': 'Zoeken',
   'parts.none': 'Daarvoor is niets gemeten.',
   'parts.correction': 'correctie',
+  'parts.conflict': 'er is nog een andere',
   'parts.correct': 'Corrigeren',
   'parts.correct_this': '{mm} mm van {part} corrigeren',
   'correct.title': '{mm} mm van {part} corrigeren',

@@ -97,7 +97,7 @@ function row(record, isReplaced, onCorrect) {
     h('td', part ? h('a', { href: fragment({ view: 'parts', options: { part_id: part, history: 'all' } }) }, part) : '–'),
     h('td', record.characteristic ?? '', h('span.aside', record.designation ? `Ø ${number(record.designation)}` : '')),
     h('td', verdictMark(record.verdict), (isReplaced || record.correction_of)
-      && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.reason].filter(Boolean).join(' · '))),
+      && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · '))),
     h('td.number', measuredText(record)), h('td.number', `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
     h('td', [record.operator, record.machine, record.gauge].filter(Boolean).join(' · ')),
     h('td', dateTime(new Date(record.measured_at))),

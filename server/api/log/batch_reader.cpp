@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "api/log/json_members.hpp"
 #include "api/log/record_reader.hpp"
 #include "api/wire/json_value.hpp"
 
@@ -15,11 +16,6 @@ namespace {
 
 /// More often than a key is renewed.
 constexpr std::size_t kMostHandOvers = 100;
-
-std::string text_of(const JsonValue& json, std::string_view name) {
-  const JsonValue* value = json.find(name);
-  return value != nullptr && value->is(JsonValue::Kind::String) ? value->text : std::string();
-}
 
 Error missing(std::string_view what) {
   return {ErrorCode::RequestInvalid, fmt::format("the batch has no {}", what)};
@@ -40,16 +36,6 @@ Result<void> read_heading(const JsonValue& json, app::ForwardedBatch& batch) {
   return {};
 }
 
-std::optional<Digest> digest_of(std::string_view hex) {
-  Digest digest{};
-  if (hex.size() != 2 * digest.size()) return std::nullopt;
-  for (std::size_t i = 0; i < digest.size(); ++i) {
-    const char* const at = hex.data() + 2 * i;
-    if (std::from_chars(at, at + 2, digest.at(i), 16).ptr != at + 2) return std::nullopt;
-  }
-  return digest;
-}
-
 /// An answer that the store keeps: what it refuses is refused here.
 Result<app::ForwardedBatch::Answer> read_answer(const JsonValue& json) {
   app::ForwardedBatch::Answer answer{.caller = text_of(json, "caller"),
@@ -60,7 +46,7 @@ Result<app::ForwardedBatch::Answer> read_answer(const JsonValue& json) {
                                      .location = text_of(json, "location"),
                                      .answer = text_of(json, "body"),
                                      .expires_at = {}};
-  const auto digest = digest_of(text_of(json, "request_sha256"));
+  const auto digest = digest_from_hex(text_of(json, "request_sha256"));
   const JsonValue* status = json.find("status");
   if (digest) answer.body = *digest;
   if (status != nullptr) {

@@ -74,6 +74,8 @@ schema::Fields record_fields() {
       {"reason", schema::text(), "Why it was corrected"},
       {"corrected_by", schema::text(),
        "The id of its correction; shown where one record is asked for"},
+      {"conflict", schema::boolean(),
+       "Another correction of the same record was made apart from this one; the later one stands"},
   });
   schema::Fields limits = limits_fields();
   for (schema::Field& field : limits) {
@@ -140,6 +142,27 @@ void add_measurement_schemas(Schemas& schemas) {
   schemas.push_back(
       {"LogHead", schema::object({{"size", schema::count(), "Records of the origin that are here"},
                                   {"root", schema::text(), "Of their tree, in base64"}})});
+  schemas.push_back(
+      {"Revisions",
+       schema::object(
+           {{"origin", schema::text(), "Of the centre: what its ids end with"},
+            {"size", schema::count(), "Records of the station's log that are here"},
+            {"position", schema::text(), "The next request names it in `after`"},
+            {"more", schema::boolean(), "There is a next page"},
+            {"revisions",
+             schema::array(schema::object(
+                 {{"number", schema::count(), "Of the change at the centre"},
+                  {"kind", schema::words({"tables", "key", "setup", "plan", "correction"}), ""},
+                  {"name", schema::text(), "Of the key, setup or plan", false},
+                  {"removed", schema::boolean(), "It was deleted or revoked", false},
+                  {"text", schema::text(), "Of the setup or plan, as it was stored", false},
+                  {"table_revision", schema::text(), "Of tables: as records name it", false},
+                  {"columns", schema::array(schema::object({})), "The shop's own", false},
+                  {"role", schema::words({"viewer", "operator"}), "Of a key", false},
+                  {"token_sha256", schema::text(), "Of a key, in hexadecimal", false},
+                  {"place", schema::count(), "Of a correction in the centre's log", false},
+                  {"record", schema::text(), "Of a correction, as it was answered", false}})),
+             "In the order of their numbers, of each thing the last"}})});
   schemas.push_back({"VerdictCounts", verdict_counts()});
   const std::string gauge =
       schema::object({{"name", schema::text(), ""},

@@ -52,6 +52,7 @@ class LogCheck {
   const RowNames names_;
   const KeptNodes kept_;
   LeafMaker leaf_;
+  std::int64_t partial_rows_ = 0;
   tlog::Frontier frontier_;
   std::multimap<std::uint64_t, Expected> expected_;  ///< by size
   std::vector<std::string> findings_;

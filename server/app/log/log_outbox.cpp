@@ -89,6 +89,17 @@ Result<void> LogOutbox::confirm(std::string_view centre, std::int64_t size) cons
   return {};
 }
 
+Result<void> LogOutbox::compare(std::string_view centre, std::int64_t size) const {
+  const auto behind = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    if (size <= stores.measurements.log_size()) return false;
+    stores.origins.set_forwarded({.centre = std::string(centre), .size = size});
+    return true;
+  });
+  if (!behind) return behind.error();
+  if (*behind) log_.set_behind(size);
+  return {};
+}
+
 std::int64_t LogOutbox::committed() const { return database_.writer_counters().own_rows; }
 
 Result<LogOutbox::Waiting> LogOutbox::waiting(std::int64_t confirmed) const {

@@ -61,6 +61,10 @@ class LogOutbox {
   Result<std::int64_t> confirmed(std::string_view centre) const;
   Result<void> confirm(std::string_view centre, std::int64_t size) const;
 
+  /// What the centre says at the start that it has. Where that is more than there is here, this
+  /// folder is an older copy and takes no measurement any more.
+  Result<void> compare(std::string_view centre, std::int64_t size) const;
+
   struct Waiting {
     std::int64_t rows = 0;
     std::optional<Timestamp> oldest{};  ///< when the first of them was received

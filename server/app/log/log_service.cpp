@@ -16,31 +16,20 @@
 #include "store/database.hpp"
 #include "tlog/base64.hpp"
 #include "tlog/note.hpp"
-#include "tlog/proof.hpp"
 
 namespace fitgauge::app {
 namespace {
 
 using std::chrono::hours;
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr seconds kBetweenSignings{1};
-constexpr milliseconds kPatience{1'100};
 constexpr hours kBetweenTellings{24};
 constexpr std::int64_t kLeavesAtATime = 4096;
 constexpr std::uint64_t kLeavesACommit = 1'000'000;
 /// Hexadecimal digits of the origin in ids and in the log's name.
 constexpr std::size_t kDigitsInIds = 16;
 constexpr std::size_t kDigitsInName = 8;
-
-Error unknown_tile(std::string_view path) {
-  return {ErrorCode::NotFound,
-          fmt::format("the log has no tile '{}'; its size is in /v1/log/checkpoint",
-                      path.substr(0, 60))};
-}
-
-Error stopping() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
 
 }  // namespace
 
@@ -67,10 +56,15 @@ Result<void> LogService::load() {
     store::LogStore::State state;
     std::vector<std::string> keys;
     tlog::Frontier frontier;
+    std::int64_t size_at_centre = 0;
   };
   const auto loaded =
       database_.readers().wait([this](const store::Stores& stores) -> Result<Loaded> {
         Loaded found{.state = stores.log.state(), .keys = stores.log.keys(), .frontier = {}};
+        const auto forwarded = stores.origins.forwarded();
+        if (forwarded && forwarded->size > stores.measurements.log_size()) {
+          found.size_at_centre = forwarded->size;
+        }
         origins_.remember(0, to_hex(found.state.origin).substr(0, kDigitsInIds));
         for (const auto& origin : stores.origins.list()) {
           origins_.remember(origin.number, origin.digits);
@@ -91,6 +85,7 @@ Result<void> LogService::load() {
       fmt::format("fitgauge/{}/{}", options_.name, origin().substr(0, kDigitsInName)));
   if (const auto keys = load_keys(loaded->keys); !keys) return keys;
   look_at_older_checkpoint();
+  if (loaded->size_at_centre > 0) set_behind(loaded->size_at_centre);
   sign();
   return {};
 }
@@ -162,6 +157,24 @@ void LogService::look_at_older_checkpoint() {
   }
 }
 
+void LogService::set_behind(std::int64_t size_at_centre) {
+  size_at_centre_ = size_at_centre;
+  tell("log_behind", behind()->message);
+}
+
+std::optional<Error> LogService::behind() const {
+  const std::int64_t size = size_at_centre_;
+  if (size == 0) return std::nullopt;
+  return Error{ErrorCode::StorageUnavailable,
+               fmt::format("the centre has {} measurements of this folder's log, which are more "
+                           "than there are here: an older copy was put back, or the folder was "
+                           "copied and started twice. It takes no measurement, so that none gets "
+                           "the id of another: put the newest copy back, or start with an empty "
+                           "folder",
+                           size),
+               "database"};
+}
+
 void LogService::start() {
   next_telling_ = Steady::now() + kBetweenTellings;
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -212,7 +225,7 @@ void LogService::run(const std::stop_token& stop) {
   stopped_ = true;
   const std::vector<Waiter> left = std::exchange(waiters_, {});
   lock.unlock();
-  for (const Waiter& waiter : left) waiter.done(stopping());
+  for (const Waiter& waiter : left) waiter.done(shutting_down());
 }
 
 /// What one commit adds to the tree.
@@ -297,66 +310,6 @@ std::string LogService::head_text() const {
                      tlog::to_base64(head->checkpoint.root));
 }
 
-/// Asks again for those whose measurement is covered now, and refuses those whose time is over.
-void LogService::end_waiters(std::unique_lock<std::mutex>& lock) {
-  const auto now = Steady::now();
-  const std::uint64_t size = head_.get()->checkpoint.size;
-  const auto first = std::stable_partition(
-      waiters_.begin(), waiters_.end(),
-      [&](const Waiter& waiter) { return waiter.index >= size && waiter.deadline > now; });
-  std::vector<Waiter> over(std::make_move_iterator(first), std::make_move_iterator(waiters_.end()));
-  waiters_.erase(first, waiters_.end());
-  lock.unlock();
-  for (Waiter& waiter : over) {
-    guarded("a proof that was waited for", [&] {
-      if (waiter.index < size) return prove(waiter.name, std::move(waiter.done));
-      waiter.done(Error{ErrorCode::StorageBusy,
-                        "no checkpoint covers the measurement yet; ask again in a second"});
-    });
-  }
-  lock.lock();
-}
-
-Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
-                                                 const RecordName& name) {
-  // The state of the job's first statement is not older than a head that was taken before it.
-  Proof proof{.index = 0, .leaf = {}, .path = {}, .head = head_.get()};
-  const auto row = row_of(stores, name);
-  std::int64_t place = 0;
-  if (row) {
-    stores.measurements.find(
-        *row, [&](const store::MeasurementRow& found) { place = found.place_in_log(); });
-  }
-  if (place == 0) {
-    return Error{ErrorCode::MeasurementUnknown,
-                 fmt::format("there is no measurement '{}'",
-                             measurement_id_text(name.number, origins_.digits(name.origin)))};
-  }
-  proof.index = static_cast<std::uint64_t>(place - 1);
-  if (name.origin != 0) proof.head = countersigned(stores, name.origin);
-  const std::uint64_t size = proof.head->checkpoint.size;
-  if (proof.index >= size) return proof;
-  const RowNames names = row_names(tables_, origins_);
-  LogReader reader(stores, names, name.origin);
-  proof.leaf = reader.node({.level = 0, .index = proof.index});
-  proof.path = tlog::inclusion_proof(proof.index, size,
-                                     [&](const tlog::Node& node) { return reader.node(node); });
-  return proof;
-}
-
-/// The head of a forwarded log, with a signature of this folder beside the station's.
-std::shared_ptr<const LogService::Head> LogService::countersigned(const store::Stores& stores,
-                                                                  std::int64_t origin) const {
-  auto head = std::make_shared<Head>();
-  head->note = stores.origins.find(origin)->checkpoint;
-  head->checkpoint = tlog::parse_checkpoint(head->note).value();
-  const std::string_view text = std::string_view(head->note).substr(0, head->note.find("\n\n") + 1);
-  const tlog::SigningKey* const key = &*signer_;
-  const std::string own = tlog::sign_note(text, {&key, 1});
-  head->note += own.substr(text.size() + 1);
-  return head;
-}
-
 std::string LogService::sign_at(const store::Stores& stores, std::uint64_t size) const {
   const RowNames names = row_names(tables_, origins_);
   LogReader reader(stores, names);
@@ -386,40 +339,6 @@ std::vector<std::string> LogService::hand_overs() const {
   return notes;
 }
 
-void LogService::prove(const RecordName& name, Done<Proof> done) {
-  const auto asked = Steady::now();
-  database_.readers().submit(
-      [this, name](const store::Stores& stores) { return read_proof(stores, name); },
-      [this, name, asked, done = std::move(done)](Result<Proof> proof) mutable {
-        if (!proof || proof->index < proof->head->checkpoint.size) return done(std::move(proof));
-        std::unique_lock lock(mutex_);
-        if (!stopped_) {
-          waiters_.push_back({.name = name,
-                              .index = proof->index,
-                              .deadline = asked + kPatience,
-                              .done = std::move(done)});
-          dirty_ = true;
-          return wake_.notify_one();
-        }
-        lock.unlock();
-        done(stopping());
-      });
-}
-
-void LogService::tile(std::string_view path, Done<TileBytes> done) {
-  const auto tile = tlog::parse_tile(path);
-  if (!tile || !tlog::has_tile(head_.get()->checkpoint.size, *tile)) {
-    return done(unknown_tile(path));
-  }
-  database_.readers().submit(
-      [this, tile = *tile](const store::Stores& stores) -> Result<TileBytes> {
-        const RowNames names = row_names(tables_, origins_);
-        return TileBytes{.bytes = LogReader(stores, names).tile(tile),
-                         .is_full = tile.width == tlog::kTileWidth};
-      },
-      std::move(done));
-}
-
 Result<LogService::Logs> LogService::logs(store::Database& database) {
   // A key that was altered does not fit its seal, which verify tells.
   const auto parsed = [](const std::vector<std::string>& texts) {
@@ -443,7 +362,8 @@ Result<LogService::Logs> LogService::logs(store::Database& database) {
                              .chained = 0,
                              .size = origin.size,
                              .keys = keys,
-                             .checkpoint = origin.checkpoint};
+                             .checkpoint = origin.checkpoint,
+                             .is_partial = keys.empty() && origin.size == 0};
     }
     return logs;
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -73,6 +74,11 @@ class LogService {
   std::shared_ptr<const Head> head() const { return head_.get(); }
   std::string head_text() const;  ///< for people
 
+  /// The centre has more of this log than this folder: an older copy was put back. Told, and a
+  /// finding from then on.
+  void set_behind(std::int64_t size_at_centre);
+  std::optional<Error> behind() const;
+
   /// The public keys, one a line, the newest first.
   std::string verifier_keys() const;
 
@@ -104,6 +110,8 @@ class LogService {
     std::int64_t size = 0;
     std::vector<tlog::VerifierKey> keys;
     std::string checkpoint;  ///< the newest that is kept in the database; of forwarded logs
+    /// Of a centre: only its corrections of this folder's records are here.
+    bool is_partial = false;
   };
   /// By origin, of which 0 is this folder.
   using Logs = std::map<std::int64_t, Facts>;
@@ -140,6 +148,7 @@ class LogService {
   void sign();
   void tell(std::string_view event, const std::string& detail) const;
   void end_waiters(std::unique_lock<std::mutex>& lock);
+  static Error shutting_down() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
   Result<Proof> read_proof(const store::Stores& stores, const RecordName& name);
   std::shared_ptr<const Head> countersigned(const store::Stores& stores, std::int64_t origin) const;
 
@@ -150,8 +159,9 @@ class LogService {
   Origins origins_;
   std::string name_;
   std::int64_t chained_ = 0;
-  std::vector<tlog::SigningKey> signers_;   ///< the key in use, and once the one before
-  std::optional<tlog::SigningKey> signer_;  ///< the key in use
+  std::atomic<std::int64_t> size_at_centre_{0};  ///< where that is more than there is here
+  std::vector<tlog::SigningKey> signers_;        ///< the key in use, and once the one before
+  std::optional<tlog::SigningKey> signer_;       ///< the key in use
   Snapshot<std::string> verifier_keys_;
   Snapshot<Head> head_;
   tlog::Frontier frontier_;  ///< of the thread

@@ -119,6 +119,9 @@ struct Measurement {
   std::optional<std::string_view> correction_reason;
   std::optional<std::int64_t> corrected_by;  ///< known where one measurement was asked for
   std::string_view corrected_by_origin{};    ///< empty: that of this one
+  /// Another correction of the same record was made apart from this one. Known as corrected_by, and
+  /// in lists.
+  bool conflict = false;
 
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }

@@ -9,8 +9,8 @@
 namespace fitgauge::app {
 namespace {
 
-void store_all(store::Stores& stores, std::string_view origin, LeafMaker& leaves,
-               std::vector<MeasurementQueue::Request>& requests) {
+Result<bool> store_all(store::Stores& stores, std::string_view origin, LeafMaker& leaves,
+                       std::vector<MeasurementQueue::Request>& requests) {
   std::vector<store::MeasurementRow> rows;
   rows.reserve(requests.size());
   std::int64_t id = stores.measurements.last_id() + 1;
@@ -21,7 +21,9 @@ void store_all(store::Stores& stores, std::string_view origin, LeafMaker& leaves
     rendering->add(request.measurements, leaves.records());
     request.answer = rendering->finish();
   }
-  stores.measurements.append(rows).value();
+  const auto appended = stores.measurements.append(rows);
+  if (!appended) return appended.error();
+  return true;
 }
 
 }  // namespace
@@ -44,8 +46,7 @@ void MeasurementQueue::submit(const std::shared_ptr<Load>& load) {
   database_.writer().submit(
       [self = shared_from_this(), load](store::Stores& stores) -> Result<bool> {
         self->close(load);
-        store_all(stores, self->origin_, self->leaves_, *load);
-        return true;
+        return store_all(stores, self->origin_, self->leaves_, *load);
       },
       [self = shared_from_this(), load](const Result<bool>& stored) {
         self->close(load);  // when the job was refused, it has not begun

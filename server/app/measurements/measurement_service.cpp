@@ -69,6 +69,10 @@ MeasuredValue measured_value(const store::MeasuredValue& value) {
           .subgroup = value.subgroup};
 }
 
+bool is_in_conflict(const store::Stores& stores, const store::MeasurementRow& row) {
+  return row.correction_of && stores.measurements.has_rivals(*row.correction_of);
+}
+
 }  // namespace
 
 void MeasurementService::find(const RecordName& name, Visitor visit, Done<std::int64_t> done) {
@@ -90,6 +94,7 @@ void MeasurementService::find(const RecordName& name, Visitor visit, Done<std::i
                 measurement.corrected_by = correction->id;
                 measurement.corrected_by_origin = correction->origin;
               }
+              measurement.conflict = is_in_conflict(stores, original);
               visit(measurement);
             });
         if (found) return *row;
@@ -122,7 +127,12 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
         const RowNames names = row_names(tables_, origins_);
         const auto next = stores.measurements.list(
             filter, after, limit,
-            [&](const store::MeasurementRow& row) { visit(from_store(row, names)); }, order);
+            [&](const store::MeasurementRow& row) {
+              Measurement measurement = from_store(row, names);
+              measurement.conflict = is_in_conflict(stores, row);
+              visit(measurement);
+            },
+            order);
         return ListPage{.next = last ? std::nullopt : next, .as_of = *filter.as_of_id};
       },
       std::move(done));

@@ -17,7 +17,7 @@ bool is_by_tables(const Measurement& m) { return m.basis != LimitsBasis::Explici
 Error corrected_before(const store::Stores& stores, const Measurement& correction,
                        std::int64_t row) {
   std::string newer = "one of another folder";
-  stores.measurements.find(stores.measurements.corrected_by(row).value_or(0),
+  stores.measurements.find(stores.measurements.replaced_by(row).value_or(0),
                            [&](const store::MeasurementRow& found) {
                              if (found.is_forwarded()) return;
                              newer = measurement_id_text(found.id, correction.origin);

@@ -63,6 +63,7 @@ void RecordWriter::append(const Measurement& m) {
   given("caller", m.caller);
   given("characteristic", texts.characteristic);
   given("comment", texts.comment);
+  if (m.conflict) text.raw(R"(,"conflict":true)");
   if (m.conformance) {
     text.raw(R"(,"conformance_probability":)").billionths(m.conformance->probability);
   }

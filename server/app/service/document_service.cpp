@@ -4,6 +4,7 @@
 
 #include <future>
 
+#include "app/revisions/centre_decides.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -55,6 +56,15 @@ Result<void> check_change(const DocumentService::Precondition& precondition, Doc
                    " is not in the state that the request's precondition names: read it again"};
 }
 
+/// What a centre has given is changed there. @errors Forbidden
+Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const std::string& name) {
+  if (kind != DocumentKind::Setup && kind != DocumentKind::Plan) return {};
+  const auto as =
+      kind == DocumentKind::Setup ? store::RevisionKind::Setup : store::RevisionKind::Plan;
+  if (!stores.revisions.received(as, name)) return {};
+  return centre_decides(called(kind, name));
+}
+
 NamedDocument named_document(store::Document document) {
   return {.name = std::move(document.name),
           .text = std::move(document.text),
@@ -89,9 +99,14 @@ Result<T> waited(const Begin& begin) {
 
 void DocumentService::write(Change change, Done<bool> done) {
   database_.writer().submit(
-      [change = std::move(change),
-       at = clock_.now().nanoseconds](store::Stores& stores) -> Result<bool> {
+      [change = std::move(change), at = clock_.now().nanoseconds,
+       has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
         const store::DocumentKind kind = stored_kind(change.kind);
+        if (has_centre) {
+          if (const auto own = check_owner(stores, change.kind, change.name); !own) {
+            return own.error();
+          }
+        }
         const auto allowed = check_change(change.precondition, change.kind, change.name,
                                           stores.documents.find(kind, change.name));
         if (!allowed) return allowed.error();
@@ -117,8 +132,11 @@ void DocumentService::read(DocumentKind kind, std::string name, Done<NamedDocume
 void DocumentService::remove(DocumentKind kind, std::string name, Precondition precondition,
                              Done<bool> done) {
   database_.writer().submit(
-      [kind, name = std::move(name),
-       precondition = std::move(precondition)](store::Stores& stores) -> Result<bool> {
+      [kind, name = std::move(name), precondition = std::move(precondition),
+       has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
+        if (has_centre) {
+          if (const auto own = check_owner(stores, kind, name); !own) return own.error();
+        }
         const auto current = stores.documents.find(stored_kind(kind), name);
         if (!current) return unknown_document(kind, name);
         if (const auto allowed = check_change(precondition, kind, name, current); !allowed) {

@@ -56,15 +56,16 @@ class DocumentService {
     Precondition precondition{};
   };
 
-  DocumentService(store::Database& database, const Clock& clock)
-      : database_(database), clock_(clock) {}
+  /// @param has_centre whether setups and plans that came from a centre are changed there alone.
+  DocumentService(store::Database& database, const Clock& clock, bool has_centre = false)
+      : database_(database), clock_(clock), has_centre_(has_centre) {}
 
   /// Gives whether the name is new. @errors UncertaintyUnknown: of `uncertainty`;
-  ///   PreconditionFailed, StorageUnavailable, StorageBusy.
+  ///   PreconditionFailed, Forbidden (the centre's), StorageUnavailable, StorageBusy.
   void write(Change change, Done<bool> done);
   /// @errors what is said of a name that is not there, StorageUnavailable.
   void read(DocumentKind kind, std::string name, Done<NamedDocument> done);
-  /// @errors as read; PreconditionFailed, StorageBusy.
+  /// @errors as read; PreconditionFailed, Forbidden (the centre's), StorageBusy.
   void remove(DocumentKind kind, std::string name, Precondition precondition, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
 
@@ -78,6 +79,7 @@ class DocumentService {
  private:
   store::Database& database_;
   const Clock& clock_;
+  const bool has_centre_;
 };
 
 }  // namespace fitgauge::app

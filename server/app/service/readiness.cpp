@@ -1,11 +1,13 @@
 #include "app/service/readiness.hpp"
 
+#include "app/log/log_service.hpp"
 #include "app/tables/table_catalog.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
 
-Readiness readiness(const store::Database& database, const TableCatalog& tables) {
+Readiness readiness(const store::Database& database, const TableCatalog& tables,
+                    const LogService& log) {
   Readiness readiness{.findings = tables.state()->findings, .database = "ok"};
   const store::Health health = database.health();
   switch (health.state) {
@@ -18,6 +20,7 @@ Readiness readiness(const store::Database& database, const TableCatalog& tables)
       readiness.findings.push_back({ErrorCode::StorageCorrupt, health.reason, "database"});
       break;
   }
+  if (auto behind = log.behind()) readiness.findings.push_back(*std::move(behind));
   return readiness;
 }
 

@@ -11,6 +11,7 @@ class Database;
 
 namespace fitgauge::app {
 
+class LogService;
 class TableCatalog;
 
 /// Whether the service may be used, and what the database is doing.
@@ -19,6 +20,7 @@ struct Readiness {
   std::string database;         ///< `ok`, or `checking` while a large file is still being read
 };
 
-Readiness readiness(const store::Database& database, const TableCatalog& tables);
+Readiness readiness(const store::Database& database, const TableCatalog& tables,
+                    const LogService& log);
 
 }  // namespace fitgauge::app

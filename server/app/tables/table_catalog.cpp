@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/measurements/mapping.hpp"
+#include "app/revisions/centre_decides.hpp"
 #include "iso286/table_rules.hpp"
 #include "store/database.hpp"
 
@@ -78,8 +79,8 @@ auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature fea
 }  // namespace
 
 Result<std::unique_ptr<TableCatalog>> TableCatalog::open(store::Database& database,
-                                                         const Clock& clock) {
-  std::unique_ptr<TableCatalog> catalog(new TableCatalog(database, clock));
+                                                         const Clock& clock, bool has_centre) {
+  std::unique_ptr<TableCatalog> catalog(new TableCatalog(database, clock, has_centre));
   const auto loaded = database.writer().wait(
       [&clock](store::Stores& stores) { return load_or_import(stores, clock.now()); });
   if (!loaded) return loaded.error();
@@ -172,6 +173,9 @@ void TableCatalog::change(ColumnName column, Edit edit,
   database_.writer().submit(
       [this, column = std::move(column), edit = std::move(edit),
        condition = std::move(condition)](store::Stores& stores) -> Result<Changed> {
+        if (has_centre_ && stores.revisions.received(store::RevisionKind::Tables, "")) {
+          return centre_decides("the tables with their own columns");
+        }
         const auto latest = stores.tables.load_latest().value();
         if (condition && std::find(condition->begin(), condition->end(), latest.revision.id) ==
                              condition->end()) {
@@ -203,6 +207,49 @@ void TableCatalog::change(ColumnName column, Edit edit,
         state_.set(std::move(changed->state));
         done(ColumnStored{changed->created, revision.id});
       });
+}
+
+Result<TableCatalog::Received> TableCatalog::receive(
+    store::Stores& stores, const std::string& id, const std::vector<iso286::CustomColumn>& columns,
+    std::int64_t now_ns) {
+  const auto latest = stores.tables.load_latest().value();
+  const store::TableRevision& before = latest.revision;
+  if (before.id == id) return Received{.number = before.number, .id = id, .digest = before.digest};
+  auto data = from_store({.cells = latest.content.cells, .custom = {}});
+  if (!data) return data.error();
+  for (const iso286::CustomColumn& column : columns) {
+    if (const auto checked = iso286::check_custom_column(column); !checked) return checked.error();
+  }
+  data->custom_columns = columns;
+  if (const auto made = iso286::ToleranceTables::make(*data, {id}); !made) return made.error();
+  store::TableContent content = to_store(*data);
+  const Digest digest = digest_of(content);
+  if (!id.ends_with("-" + store::shown_digits(digest))) {
+    return Error{ErrorCode::TablesInconsistent,
+                 "with its columns the tables here are not those that the centre calls so: its "
+                 "version has other tables of the standard"};
+  }
+  const auto imported = stores.tables.import({.content = std::move(content),
+                                              .source = "centre",
+                                              .parent = before.number,
+                                              .caller = {},
+                                              .id = id},
+                                             now_ns);
+  if (!imported) return imported.error();
+  stores.events.append(kChangedEvent, fmt::format(R"({{"table_revision":"{}"}})", id), now_ns);
+  return Received{
+      .number = imported->number,
+      .id = id,
+      .digest = digest,
+      .state = std::make_shared<const TableState>(audit(stores.tables.load_latest().value())),
+      .replaced_own = !latest.content.custom.empty(),
+      .replaced_id = before.id,
+      .replaced_digest = before.digest};
+}
+
+void TableCatalog::put_in_force(const Received& received) {
+  remember(received.number, received.id);
+  state_.set(received.state);
 }
 
 void TableCatalog::remember(std::int64_t number, std::string_view id) {

@@ -11,13 +11,15 @@
 #include <vector>
 
 #include "base/clock.hpp"
+#include "base/digest.hpp"
 #include "base/result.hpp"
 #include "base/snapshot.hpp"
 #include "iso286/tolerance_tables.hpp"
 
 namespace fitgauge::store {
 class Database;
-}
+struct Stores;
+}  // namespace fitgauge::store
 
 namespace fitgauge::app {
 
@@ -39,8 +41,10 @@ class TableCatalog {
 
   /// Loads the latest revision, importing the compiled-in tables into a new database. Tables that
   /// fail their audit are no error here: state() says so.
+  /// @param has_centre whether tables that came from a centre are changed there alone.
   /// @errors StorageUnavailable, StorageCorrupt.
-  static Result<std::unique_ptr<TableCatalog>> open(store::Database& database, const Clock& clock);
+  static Result<std::unique_ptr<TableCatalog>> open(store::Database& database, const Clock& clock,
+                                                    bool has_centre = false);
 
   std::shared_ptr<const TableState> state() const { return state_.get(); }
   /// Whether `kept`, a state the caller keeps, is still in use.
@@ -64,9 +68,29 @@ class TableCatalog {
   /// Stores the column in a new revision; from then on every reader sees it, and the event
   /// `table.changed` says so.
   /// @param condition the revisions a change may follow (If-Match), or none for any.
-  /// @errors TableRowsInvalid, PreconditionFailed, StorageUnavailable, StorageBusy.
+  /// @errors TableRowsInvalid, PreconditionFailed, Forbidden (the centre's), StorageUnavailable,
+  /// StorageBusy.
   void put_column(iso286::CustomColumn column, std::optional<std::vector<std::string>> condition,
                   Callback<ColumnStored> done);
+
+  /// Tables of a centre, stored and not yet in force.
+  struct Received {
+    std::int64_t number = 0;
+    std::string id{};
+    Digest digest{};
+    std::shared_ptr<const TableState> state{};  ///< null: they are in force already
+    bool replaced_own = false;                  ///< the tables before had own columns
+    std::string replaced_id{};
+    Digest replaced_digest{};
+  };
+  /// Stores the tables of a centre under its id. Used inside a write job, whose transaction goes
+  /// on.
+  /// @errors TablesInconsistent: the standard's tables are others there, or the columns break a
+  ///   rule.
+  Result<Received> receive(store::Stores& stores, const std::string& id,
+                           const std::vector<iso286::CustomColumn>& columns, std::int64_t now_ns);
+  /// After the commit: every reader sees them.
+  void put_in_force(const Received& received);
 
   /// The id of a revision by its number, for reading stored rows; valid as long as the catalog.
   /// Empty for a number that was never given.
@@ -83,8 +107,8 @@ class TableCatalog {
                      Callback<ColumnStored> done);
 
  private:
-  TableCatalog(store::Database& database, const Clock& clock)
-      : database_(database), clock_(clock) {}
+  TableCatalog(store::Database& database, const Clock& clock, bool has_centre)
+      : database_(database), clock_(clock), has_centre_(has_centre) {}
 
   using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
   void change(ColumnName column, Edit edit, std::optional<std::vector<std::string>> condition,
@@ -92,6 +116,7 @@ class TableCatalog {
 
   store::Database& database_;
   const Clock& clock_;
+  const bool has_centre_;
   Snapshot<TableState> state_;
   mutable std::mutex ids_mutex_;
   std::map<std::int64_t, std::string> ids_;  // never erased: views of the texts are given out

@@ -1,18 +1,20 @@
 """A station that forwards its log: its centre away, itself killed, the link between them cut at random bytes."""
 
+import json
 import os
 import random
 import re
 import shutil
+import subprocess
 import threading
 import time
 import unittest
 
-from log.test_intake import origin_of, records_of
+from log.test_intake import check_proof, origin_of, records_of
 from measurements.test_log import wait_for_size
 from measurements.test_storage import PART
 from support.cutting_proxy import CuttingProxy
-from support.daemon import SANITIZED, Daemon, command
+from support.daemon import FITGAUGED, SANITIZED, Daemon, command
 
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
 DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
@@ -146,9 +148,9 @@ class Forwarding(unittest.TestCase):
         twin = self.station(self.centre.port)
         shutil.copytree(station.data, twin.data)
         station.start()
+        twin.start()
         station.measure({**PART, "part_id": "first"})
         self.wait_for_rows(4)
-        twin.start()
         twin.measure({**PART, "part_id": "twin"})
         wait_until(lambda: '"event":"forward_refused"' in twin.log, "a refusal that is named")
         self.assertIn("copied and started twice", twin.log)
@@ -159,6 +161,94 @@ class Forwarding(unittest.TestCase):
         self.wait_until_drained(station)
         self.assert_same(station)
         self.assertEqual(len(records_of(twin)), 4)
+
+    def test_a_whole_folder_moves_into_a_centre_and_its_proofs_stay(self):
+        folder = self.made("--origin-name", "old-service").start()
+        kept = folder.folder / "kept"
+        first = folder.measure([PART] * 1200, {"Prefer": "return=representation"}).json["measurements"][0]
+        folder.post(f"/v1/measurements/{first['id']}/corrections", {"measured_mm": 25.5, "reason": "misread"})
+        records = records_of(folder)
+        kept.write_text(wait_for_size(folder, 1201))
+        keys = folder.get("/v1/log/key").text.split()
+
+        def forward(port, *flags):
+            return command("forward", *flags, "--data", folder.data, "--forward-to", f"http://127.0.0.1:{port}")
+
+        self.assertNotEqual(forward(self.centre.port, "--all").returncode, 0, "the service has the folder")
+        folder.stop()
+        self.assertEqual(forward(self.centre.port).returncode, 2, "--all is said")
+        self.assertEqual(command("forward", "--all", "--data", folder.data).returncode, 2, "where to?")
+        # The first try ends half way; the second goes on from there.
+        proxy = CuttingProxy(self.centre.port, SEED, longest=30_000)
+        self.addCleanup(proxy.close)
+        half = subprocess.Popen([FITGAUGED, "forward", "--all", "--data", folder.data, "--forward-to",
+                                 f"http://127.0.0.1:{proxy.port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(1)
+        half.kill()
+        half.wait()
+        for _ in range(2):  # once more changes nothing
+            done = forward(self.centre.port, "--all")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("1201 measurements, root", done.stdout)
+            self.assertEqual(records_of(self.centre), records)
+        for line in (records[0], records[700], records[-1]):
+            proof = self.centre.get(f"/v1/measurements/{json.loads(line)['id']}/proof").json
+            self.assertIsNone(check_proof.check(line, proof, keys))
+        self.assertEqual(proof["checkpoint"].split("\n")[1:3], kept.read_text().split("\n")[1:3])
+        verified = command("verify", "--data", self.centre.data, "--checkpoint", kept)
+        self.assertEqual(verified.returncode, 0, verified.stdout)
+        # A twin that went on elsewhere is refused, with its rows counted.
+        twin = self.made("--origin-name", "old-service")
+        shutil.copytree(folder.data, twin.data)
+        for daemon in (folder, twin):
+            daemon.start()
+            daemon.measure({**PART, "part_id": str(daemon.port)})
+            daemon.stop()
+        self.assertEqual(forward(self.centre.port, "--all").returncode, 0)
+        refused = command("forward", "--all", "--data", twin.data, "--forward-to", f"http://127.0.0.1:{self.centre.port}")
+        self.assertEqual(refused.returncode, 1, refused.stdout)
+        self.assertIn("1 measurements are not at", refused.stdout)
+        self.assertEqual(forward(1, "--all").returncode if DEEP else 1, 1, "nobody there")
+
+    def test_an_older_copy_takes_no_measurement_as_long_as_the_centre_has_more(self):
+        station = self.station(self.centre.port).start()
+        station.measure([PART] * 3)
+        self.wait_until_drained(station)
+        station.stop()
+        older, newest = (station.folder / name for name in ("older", "newest"))
+        shutil.copytree(station.data, older)
+        station.start()
+        station.measure([PART] * 2)
+        self.wait_until_drained(station)
+        station.stop()
+        station.data.rename(newest)
+        shutil.copytree(older, station.data)
+        station.start()
+        for centre_is_there in (True, False):  # what it has learned it knows without the centre
+            for body in (PART, [PART] * 300):
+                answer = station.measure(body)
+                self.assertEqual((answer.status, answer.json["code"]), (503, "storage.unavailable"))
+                self.assertIn("older copy", answer.json["detail"])
+            self.assertEqual(station.get("/readyz").status, 503)
+            self.assertIn("older copy", station.get("/readyz").text)
+            self.assertEqual(station.log.count('"event":"log_behind"'), 1 if centre_is_there else 2)
+            self.assertEqual(len(records_of(station)), 3, "what is there is read")
+            station.stop()
+            if centre_is_there:
+                self.centre.kill()
+            else:
+                self.centre.listen = f"127.0.0.1:{self.centre.port}"
+                self.centre.start()
+            station.start()
+        station.stop()
+        shutil.rmtree(station.data)
+        newest.rename(station.data)
+        station.start()
+        self.assertEqual(station.get("/readyz").status, 200)
+        self.assertEqual(station.measure(PART).status, 201)
+        self.wait_until_drained(station)
+        self.assertEqual(len(self.assert_same(station)), 6)
+        self.assertNotIn('"event":"log_forked"', self.centre.log)
 
     def test_a_station_goes_on_with_a_new_key_of_its_log(self):
         station = self.station(self.centre.port).start()

@@ -48,6 +48,8 @@ struct Everything : Fixture {
               CHECK(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 1));
               CHECK_FALSE(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 2));
               CHECK(stores.origins.add_revision("2026-a") == stores.origins.add_revision("2026-a"));
+              stores.revisions.set_received(RevisionKind::Plan, "4711",
+                                            {.number = 3, .digest = {}});
               stores.origins.set_forwarded({.centre = "https://centre", .size = 7});
               return true;
             }).has_value());
@@ -58,7 +60,8 @@ struct Everything : Fixture {
   static void fill(Stores& stores, std::int64_t now) {
     const TableContent content{.cells = {{"it", "IT7", 18, 30, 21}},
                                .custom = {{"shaft", "x7", 18, 30, 21, 3}}};
-    REQUIRE(stores.tables.import({.content = content, .source = "test"}, 1).has_value());
+    REQUIRE(stores.tables.import({.content = content, .source = "test", .id = "7-00000000"}, 1)
+                .has_value());
     REQUIRE(stores.keys.create("press-3", Role::Operator, new_token(), 5).has_value());
     REQUIRE(stores.keys.create("press-4", Role::Viewer, new_token(), 5).has_value());
     REQUIRE(stores.keys.revoke("press-4", 9).has_value());
@@ -112,6 +115,11 @@ const std::map<std::string, std::string> kFree = {
     {"origin_nodes.level", "as above"},
     {"origin_nodes.node", "as above"},
     {"origin_nodes.hash", "as above"},
+    {"revisions.number", "stations fetch by it, and what they fetch is read elsewhere"},
+    {"revisions.tag", "as above"},
+    {"revisions.kind", "as above"},
+    {"revisions.name", "as above"},
+    {"revisions.station", "as above"},
     {"measurement_nodes.stale", "makes the aggregates anew"},
 };
 

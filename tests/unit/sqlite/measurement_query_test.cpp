@@ -53,21 +53,65 @@ struct Sample {
     while (count > 0) {
       const std::size_t later = random() % rows.size();
       const std::size_t earlier = random() % rows.size();
-      if (earlier >= later || rows[later].correction_of || corrected_by.contains(earlier)) continue;
-      rows[later].correction_of = static_cast<std::int64_t>(earlier) + 1;
-      rows[later].correction_reason = "wrong";
-      corrected_by[earlier] = static_cast<std::int64_t>(later) + 1;
+      if (earlier >= later || rows[later].correction_of || corrections.contains(earlier)) continue;
+      correct(earlier, later);
       --count;
     }
+  }
+
+  /// The same, some of them twice and more often: made apart from each other.
+  void add_rivals(std::mt19937& random, std::size_t count) {
+    for (; count > 0; --count) {
+      const std::size_t later = 1 + random() % (rows.size() - 1);
+      if (rows[later].correction_of) continue;
+      const auto known = std::next(
+          corrections.begin(), static_cast<std::ptrdiff_t>(random() % (corrections.size() + 1)));
+      // One that was corrected, or that corrects one, or any.
+      const std::size_t choices[] = {random() % rows.size(),
+                                     known == corrections.end() ? 0 : known->first,
+                                     known == corrections.end() ? 0 : known->second};
+      const std::size_t earlier = choices[random() % 3];
+      if (earlier < later) correct(earlier, later);
+    }
+  }
+
+  void correct(std::size_t earlier, std::size_t later) {
+    rows[later].correction_of = static_cast<std::int64_t>(earlier) + 1;
+    rows[later].correction_reason = "wrong";
+    corrections.emplace(earlier, later);
+  }
+
+  /// When a row was received; its hash where that is the same.
+  std::pair<std::int64_t, Digest> moment(std::size_t i) const {
+    MeasurementRow row = rows[i];
+    row.id = static_cast<std::int64_t>(i) + 1;
+    return {row.received_at_ns, hash_of(row)};
+  }
+
+  /// @param end rows from here on are not there yet
+  bool is_current(std::size_t i, std::size_t end) const {
+    const auto is_there = [end](const auto& correction) { return correction.second < end; };
+    const auto [first, last] = corrections.equal_range(i);
+    if (std::any_of(first, last, is_there)) return false;
+    for (std::size_t at = i; rows[at].correction_of;) {
+      const auto target = static_cast<std::size_t>(*rows[at].correction_of - 1);
+      const auto [rival, behind] = corrections.equal_range(target);
+      const bool lost = std::any_of(rival, behind, [&](const auto& correction) {
+        return is_there(correction) && moment(correction.second) > moment(at);
+      });
+      if (lost) return false;
+      at = target;
+    }
+    return true;
   }
 
   bool matches(std::size_t i, const MeasurementFilter& filter) const {
     const MeasurementRow& row = rows[i];
     const auto id = static_cast<std::int64_t>(i) + 1;
     const auto as_of = filter.as_of_id.value_or(std::numeric_limits<std::int64_t>::max());
-    const auto corrected = corrected_by.find(i);
-    const bool current = corrected == corrected_by.end() || corrected->second > as_of;
-    return id <= as_of && (filter.history || current) &&
+    return id <= as_of &&
+           (filter.history ||
+            is_current(i, static_cast<std::size_t>(std::min<std::int64_t>(as_of, 1'000'000)))) &&
            std::all_of(kTextColumns.begin(), kTextColumns.end(),
                        [&](const TextColumn& column) {
                          const auto& wanted = filter.text(column.field);
@@ -92,7 +136,7 @@ struct Sample {
 
   std::vector<std::optional<std::string>> texts;
   std::vector<MeasurementRow> rows;
-  std::map<std::size_t, std::int64_t> corrected_by;
+  std::multimap<std::size_t, std::size_t> corrections;
 };
 
 TextField any_field(std::mt19937& random) {
@@ -218,6 +262,60 @@ TEST_CASE("a filter finds the same rows however many of them are indexed") {
   CHECK(fixture.database->verify()->findings.empty());
 }
 
+TEST_CASE("of corrections that were made apart the one received last stands, indexed or not") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  Fixture fixture;
+  Sample sample(seed, 4000);
+  sample.add_rivals(random, 300);
+  for (MeasurementRow& row : sample.rows) {  // runs are of their folder: the filters name none
+    row.source = Source::Gauge;
+    row.run_id.reset();
+  }
+  std::int64_t number = 0;
+  const auto append = [&](std::size_t begin, std::size_t end) {
+    REQUIRE(fixture
+                .write([&](Stores& stores) -> Result<bool> {
+                  if (number == 0) number = stores.origins.add("5f0c9a3e77d21b40");
+                  std::vector<MeasurementRow> rows;
+                  for (std::size_t i = begin; i < end; ++i) {
+                    MeasurementRow& row = rows.emplace_back(sample.rows[i]);
+                    row.id = static_cast<std::int64_t>(i) + 1;
+                    row.hash = hash_of(row);
+                    row.origin = number;
+                    row.seq = row.id;
+                  }
+                  stores.measurements.append_forwarded(rows);
+                  return true;
+                })
+                .has_value());
+  };
+  append(0, 2500);
+  while (index_step(fixture)) {
+  }
+  append(2500, sample.rows.size());  // makes what is indexed stale
+  check_filters(fixture, sample, random, 40);
+  while (index_step(fixture)) {
+  }
+  check_filters(fixture, sample, random, 40);
+  for (std::size_t i = 0; i < sample.rows.size(); ++i) {
+    const auto id = static_cast<std::int64_t>(i) + 1;
+    const auto [first, last] = sample.corrections.equal_range(i);
+    if (first == last) continue;
+    const auto stands = std::max_element(first, last, [&](const auto& a, const auto& b) {
+      return sample.moment(a.second) < sample.moment(b.second);
+    });
+    const auto found =
+        *fixture.read([&](const Stores& stores) -> Result<std::pair<std::int64_t, bool>> {
+          return std::pair(stores.measurements.corrected_by(id).value_or(0),
+                           stores.measurements.has_rivals(id));
+        });
+    CHECK(found.first == static_cast<std::int64_t>(stands->second) + 1);
+    CHECK(found.second == (std::distance(first, last) > 1));
+  }
+}
+
 TEST_CASE("summaries add nodes of every level, and mend those with a corrected row") {
   const unsigned seed = std::random_device{}();
   CAPTURE(seed);
@@ -248,7 +346,7 @@ TEST_CASE("summaries add nodes of every level, and mend those with a corrected r
     row.measured_nm += 1;
     REQUIRE(fixture.append(row).has_value());
     sample.rows.push_back(row);
-    sample.corrected_by[corrected] = static_cast<std::int64_t>(sample.rows.size());
+    sample.correct(corrected, sample.rows.size() - 1);
   }
   check_filters(fixture, sample, random, 5);
   while (index_step(fixture)) {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/measurements/measurement.hpp"
+#include "app/service/key_service.hpp"
+#include "base/clock.hpp"
+#include "base/digest.hpp"
+#include "iso286/table_data.hpp"
+
+namespace fitgauge::app {
+
+/// As the store has them.
+enum class RevisionKind : std::uint8_t { Tables = 1, Key = 2, Setup = 3, Plan = 4, Correction = 5 };
+
+/// `tables`, `key`, `setup`, `plan`, `correction`.
+std::string_view word(RevisionKind kind);
+std::optional<RevisionKind> revision_kind_from_word(std::string_view text);
+
+/// A thing as a centre has it since its change of that number. What is not of its kind is empty.
+struct Revision {
+  std::int64_t number = 0;
+  RevisionKind kind = RevisionKind::Tables;
+  std::string name{};       ///< of the key, setup or plan
+  bool is_removed = false;  ///< or revoked
+  std::string text{};       ///< of the setup, the plan, or the correction's record
+
+  std::string id{};  ///< of the tables, as records name them
+  std::vector<iso286::CustomColumn> columns{};
+
+  Role role = Role::Viewer;
+  Digest token_hash{};
+
+  std::int64_t place = 0;                    ///< of the correction in the centre's log
+  std::optional<Measurement> measurement{};  ///< what `text` says, where it was read
+};
+
+/// Revisions in the order of their numbers.
+struct RevisionPage {
+  std::string position{};  ///< the next page is asked for with it
+  bool more = false;
+  std::string origin{};   ///< of the centre: 16 hexadecimal digits
+  std::int64_t size = 0;  ///< records of the station's log that are at the centre
+  std::vector<Revision> revisions{};
+};
+
+}  // namespace fitgauge::app
