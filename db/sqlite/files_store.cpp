@@ -77,6 +77,9 @@ FilesStore::FilesStore(sqlite::Connection& connection)
 FilesStore::~FilesStore() = default;
 
 FilesStore::PutOutcome FilesStore::put(const FileWrite& file) {
+  // Else the pages of the large files before it would stay, as many as the cache takes.
+  constexpr std::size_t kLarge = std::size_t{256} << 10;
+  if (file.content.size() > kLarge) statements_->insert.release_pages();
   const std::string key = ascii_upper(file.path);
   const bool created = !stat(file.path);
   const auto revision = statements_->insert.returning<std::int64_t>(

@@ -28,6 +28,8 @@ bool Statement::step() {
   return false;
 }
 
+void Statement::release_pages() noexcept { sqlite3_db_release_memory(connection_->handle()); }
+
 void Statement::reset() noexcept { sqlite3_reset(statement_.get()); }
 
 void Statement::run_bound() {

@@ -46,6 +46,9 @@ class Statement {
   template <class... Values>
   Rows query(const Values&... values);
 
+  /// Lets the connection forget pages of the file that nothing has changed.
+  void release_pages() noexcept;
+
   /// For long lists of values: bind from 1 on, then run() or query().
   template <class T>
   void bind(int index, const T& value) {

@@ -63,20 +63,26 @@ class CanonicalDigest {
   void add_text(std::string_view text) {
     add_byte('\1');
     add_integer(static_cast<std::int64_t>(text.size()));
+    if (text.size() > kCopied) return add_long(text);
     std::copy(text.begin(), text.end(), room_for(text.size()));
     size_ += text.size();
   }
 
+  /// A file is hashed where it lies: the buffer would keep as much as the longest.
+  void add_long(std::string_view text);
+
   static std::uint64_t big_endian(std::uint64_t bits) {
     return std::endian::native == std::endian::little ? __builtin_bswap64(bits) : bits;
   }
+
+  static constexpr std::size_t kCopied = 4096;
 
   char* room_for(std::size_t count) {
     if (buffer_.size() - size_ < count) buffer_.resize(2 * (size_ + count));
     return buffer_.data() + size_;
   }
 
-  std::vector<char> buffer_;  ///< the encoded values, its first size_ bytes
+  std::vector<char> buffer_;  ///< encoded values that are not hashed yet, its first size_ bytes
   std::size_t size_ = 0;
   Sha256 hash_;
 };

@@ -25,6 +25,7 @@
 #include "daemon/forwarding.hpp"
 #include "daemon/healthcheck.hpp"
 #include "daemon/log.hpp"
+#include "daemon/memory.hpp"
 #include "daemon/preflight.hpp"
 #include "daemon/service_metrics.hpp"
 #include "http/answer_batch.hpp"
@@ -153,6 +154,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   const auto addresses = listen_addresses(config);
   if (!addresses) return addresses.error();
   prepare_signals();
+  give_large_blocks_back();
   report_bugs_to([](std::string_view place, std::string_view what) {
     log_error("bug", fmt::format("{}: {}", place, what));
   });

@@ -112,8 +112,9 @@ struct MaskFile {
   std::vector<MaskLine> lines{};
 };
 
-/// A larger file is refused with ProgramTooLarge.
-inline constexpr std::size_t kLargestMask = 8 * 1024 * 1024;
+/// A larger file is refused with ProgramTooLarge: its lines take thirty times what they are as
+/// text.
+inline constexpr std::size_t kLargestMask = std::size_t{1} << 20;
 
 struct ParsedMask {
   MaskFile mask;

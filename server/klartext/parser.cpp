@@ -225,11 +225,11 @@ void Parser::end_program() {
 
 ParsedProgram Parser::parse() && {
   const std::size_t size = parts_.source.size();
-  // Most blocks and words are longer; memory that is reserved and not used is never touched.
-  constexpr std::size_t kShortBlock = 24;
+  // Most words are longer; memory that is reserved and not used is never touched.
   constexpr std::size_t kShortWord = 10;
-  parts_.blocks.reserve(std::min(size / kShortBlock + 1, kMostBlocks));
-  parts_.line_starts.reserve(size / kShortBlock + 1);
+  const std::size_t lines = count_lines(parts_.source);
+  parts_.blocks.reserve(std::min(lines, kMostBlocks));
+  parts_.line_starts.reserve(lines);
   parts_.words.reserve(size / kShortWord);
   for (std::size_t at = 0; at < size && !ended_ && parts_.blocks.size() < kMostBlocks;) {
     at = parse_block(at) + 1;
@@ -250,7 +250,14 @@ ParsedProgram parse_program(std::string bytes, std::string name) {
               .message = fmt::format("the program has more than {} bytes", kLargestSource),
               .program = std::move(name)}}};
   }
-  return Parser(decode_source(std::move(bytes)), std::move(name)).parse();
+  std::string source = decode_source(std::move(bytes));
+  if (count_lines(source) > kMostLines) {
+    return {{},
+            {{.code = DiagnosticCode::ProgramTooLarge,
+              .message = fmt::format("the program has more than {} lines", kMostLines),
+              .program = std::move(name)}}};
+  }
+  return Parser(std::move(source), std::move(name)).parse();
 }
 
 }  // namespace fitgauge::klartext

@@ -12,6 +12,8 @@ namespace fitgauge::klartext {
 /// Beyond these the text is refused with ProgramTooLarge; they bound the memory of a parse.
 inline constexpr std::size_t kLargestSource = std::size_t{64} << 20;
 inline constexpr std::size_t kMostBlocks = 500'000;
+/// Empty ones, those of comments and those that a `~` continues among them.
+inline constexpr std::size_t kMostLines = 1'000'000;
 
 struct ParsedProgram {
   Program program;

@@ -55,6 +55,10 @@ std::size_t count_characters(std::string_view utf8) {
   }));
 }
 
+std::size_t count_lines(std::string_view source) {
+  return static_cast<std::size_t>(std::count(source.begin(), source.end(), '\n')) + 1;
+}
+
 SourcePosition position_of(std::string_view source, const std::vector<std::uint32_t>& line_starts,
                            std::size_t offset) {
   if (line_starts.empty()) return {};

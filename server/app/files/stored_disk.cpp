@@ -1,5 +1,7 @@
 #include "app/files/stored_disk.hpp"
 
+#include <utility>
+
 #include "store/database.hpp"
 #include "store/storage_failure.hpp"
 
@@ -7,17 +9,18 @@ namespace fitgauge::app {
 
 std::optional<interpreter::ControlFile> StoredDisk::find(
     const interpreter::ControlPath& path) const {
-  const auto found = database_.readers().wait(
+  auto found = database_.readers().wait(
       [&path](const store::Stores& stores) -> Result<std::optional<store::FileContent>> {
         return stores.files.find(path.text());
       });
   if (!found) throw store::StorageFailure(found.error());
   if (!*found) return std::nullopt;
-  const store::FileContent& file = **found;
-  return interpreter::ControlFile{.path = interpreter::ControlPath::parse(file.entry.path).value(),
-                                  .bytes = std::make_shared<const std::string>(file.content),
-                                  .revision = std::to_string(file.entry.revision),
-                                  .source = interpreter::FileSource::Stored};
+  store::FileContent& file = **found;
+  return interpreter::ControlFile{
+      .path = interpreter::ControlPath::parse(file.entry.path).value(),
+      .bytes = std::make_shared<const std::string>(std::move(file.content)),
+      .revision = std::to_string(file.entry.revision),
+      .source = interpreter::FileSource::Stored};
 }
 
 std::optional<std::string> StoredDisk::revision(const interpreter::ControlPath& path) const {

@@ -13,7 +13,11 @@ namespace fitgauge::interpreter {
 /// code. Knows nothing of labels; jump targets are filled in by the linker.
 class CodeWriter {
  public:
-  explicit CodeWriter(const klartext::Program& program) : program_(program) {}
+  explicit CodeWriter(const klartext::Program& program) : program_(program) {
+    // A block becomes one instruction, mostly; what is reserved and not used is never touched.
+    code_.reserve(program.blocks().size());
+    block_of_.reserve(program.blocks().size());
+  }
 
   /// What follows belongs to that block.
   void begin_block(std::uint32_t index);

@@ -139,9 +139,14 @@ TEST_CASE("A program beyond the limits is refused") {
   std::string many;
   for (std::size_t i = 0; i <= kMostBlocks; ++i) many += "L\n";
   CHECK(parse_lines(many).diagnostics.back().code == DiagnosticCode::ProgramTooLarge);
-  const ParsedProgram parsed = parse_program(std::string(kLargestSource + 1, ' '), "t.h");
-  REQUIRE(parsed.diagnostics.size() == 1);
-  CHECK(parsed.diagnostics[0].code == DiagnosticCode::ProgramTooLarge);
+  for (const std::string& text :
+       {std::string(kLargestSource + 1, ' '), std::string(kMostLines, '\n')}) {
+    const ParsedProgram parsed = parse_program(text, "t.h");
+    REQUIRE(parsed.diagnostics.size() == 1);
+    CHECK(parsed.diagnostics[0].code == DiagnosticCode::ProgramTooLarge);
+  }
+  const std::string lines = std::string(kMostLines - 2, '\n');
+  CHECK_FALSE(parse_program("BEGIN PGM T MM\n" + lines + "END PGM T MM", "t.h").has_errors());
 }
 
 }  // namespace

@@ -160,6 +160,15 @@ TEST_CASE("A value without a placeholder is a warning, and the line stays") {
   CHECK(mask.mask.lines.size() == 1);
 }
 
+TEST_CASE("A mask beyond the limit is refused") {
+  std::string text;
+  while (text.size() <= kLargestMask) text += "\"\";\n";
+  const ParsedMask refused = parse_mask(text, "m.a");
+  REQUIRE(refused.diagnostics.size() == 1);
+  CHECK(refused.diagnostics[0].code == DiagnosticCode::ProgramTooLarge);
+  CHECK_FALSE(parse_mask(text.substr(0, kLargestMask - kLargestMask % 4), "m.a").has_errors());
+}
+
 TEST_CASE("Masks come in UTF-8 with a byte order mark and in Windows-1252") {
   CHECK(std::get<std::string>(pieces("\xEF\xBB\xBF\"\xC3\x84\"\r\n").at(0)) == "\xC3\x84");
   CHECK(std::get<std::string>(pieces("\"\xC4 \x80\"\r").at(0)) == "\xC3\x84 \xE2\x82\xAC");

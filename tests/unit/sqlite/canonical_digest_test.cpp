@@ -18,6 +18,7 @@ Digest of(const auto&... values) {
 }  // namespace
 
 TEST_CASE("the encoding is the documented one") {
+  using namespace std::string_literals;
   using namespace std::string_view_literals;
   CHECK(of(std::optional<int>()) == sha256("\x00"sv));
   CHECK(of(0) == sha256("\x10"));
@@ -32,6 +33,9 @@ TEST_CASE("the encoding is the documented one") {
         sha256("\x18\x80\x00\x00\x00\x00\x00\x00\x00"sv));
   CHECK(of(std::string_view("H7")) == sha256("\x01\x11\x02H7"));
   CHECK(of(std::string_view()) == sha256("\x01\x10"));
+  const std::string file(70'000, 'x');
+  CHECK(of(1, std::string_view(file), 0) ==
+        sha256("\x11\x01" + "\x01\x13\x01\x11\x70"s + file + "\x10"));
 }
 
 TEST_CASE("lists that differ have digests that differ") {
