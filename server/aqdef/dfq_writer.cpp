@@ -206,7 +206,7 @@ std::string DfqWriter::time_text(Timestamp time) const {
 }
 
 std::string DfqWriter::entry(Catalogue& catalogue, std::string_view text) {
-  if (text.empty()) return {};
+  if (text.empty()) return "0";  // as others write it, whose readers want a number
   const auto found = std::find(catalogue.entries.begin(), catalogue.entries.end(), text);
   const auto place = found - catalogue.entries.begin();
   if (found == catalogue.entries.end()) catalogue.entries.emplace_back(text);
@@ -250,12 +250,13 @@ Result<void> DfqWriter::add(const OutgoingValue& value) {
        std::array<const Fields*, 4>{&part, &characteristic, &written.fields, &entries}) {
     if (const auto checked = check_all(*fields); !checked) return checked;
   }
+  const std::string_view cavity = carried(comment, k::kCavity);
   written.cells = {format_mm(value.measured),
                    "0",
                    time_text(value.measured_at),
                    std::string(carried(comment, k::kEvents)),
                    value.subgroup.empty() ? std::string() : fmt::format("#{}", value.subgroup),
-                   std::string(carried(comment, k::kCavity)),
+                   cavity.empty() ? std::string("0") : std::string(cavity),
                    entry(operators_, value.operator_name),
                    entry(machines_, value.machine),
                    std::string(carried(comment, k::kProcess)),

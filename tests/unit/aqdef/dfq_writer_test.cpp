@@ -63,13 +63,15 @@ TEST_CASE("a file as others read it") {
         "25.0131\x14"
         "0\x14"
         "22.11.2026/08:00:00\x14"
-        "100\x14#B7\x14\x14"
+        "100\x14#B7\x14"
+        "0\x14"
         "1\x14"
         "1\x14\x14"
         "1\x0F"
         "7.9955\x14"
         "0\x14"
-        "22.11.2026/08:00:00\x14\x14#B7\x14\x14"
+        "22.11.2026/08:00:00\x14\x14#B7\x14"
+        "0\x14"
         "1\x14"
         "2\x14\x14"
         "1\r\n"
@@ -78,7 +80,8 @@ TEST_CASE("a file as others read it") {
         "25.000005\x14"
         "0\x14"
         "22.11.2026/08:00:00\x14"
-        "100\x14#B7\x14\x14"
+        "100\x14#B7\x14"
+        "0\x14"
         "1\x14"
         "1\x14\x14"
         "1\x0F\x14"
@@ -200,6 +203,18 @@ TEST_CASE("Windows-1252 where it can, else UTF-8 with its mark") {
   value.part_id = "\xE8\xBD\xB4";
   CHECK(written({value}).starts_with("\xEF\xBB\xBFK0100"));
   CHECK(written({value}).find("K0014/1 \xE8\xBD\xB4\r\n") != std::string::npos);
+}
+
+TEST_CASE("numbers of nothing are 0") {
+  OutgoingValue value = bore(1, 0);
+  value.machine = value.operator_name = value.gauge = value.comment = value.subgroup = {};
+  CHECK(written({value}).find("25\x14"
+                              "0\x14"
+                              "22.11.2026/08:00:00\x14\x14\x14"
+                              "0\x14"
+                              "0\x14"
+                              "0\x14\x14"
+                              "0\r\n") != std::string::npos);
 }
 
 TEST_CASE("times are of the zone") {
