@@ -2,9 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "metrology/distributions.hpp"
 
 namespace fitgauge::metrology {
+namespace {
+
+/// n times the sum of squared deviations from the mean of n values: a whole number.
+Integer scatter_of(std::span<const Wide> counts) {
+  ExactSum sum;
+  ExactSum squares;
+  for (const Wide count : counts) {
+    const Wide deviation = count - counts.front();
+    sum.add(deviation);
+    squares.add_product(deviation, deviation);
+  }
+  const Integer total = sum.value();
+  return Integer(counts.size()) * squares.value() - total * total;
+}
+
+/// The sum of squared deviations from the means of the groups. Those of one size are added as whole
+/// numbers: a fraction for each of many groups would take most of the time.
+Exact sum_within(const Groups& groups) {
+  std::map<std::size_t, Integer> scatter_by_size;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    scatter_by_size[groups[i].size()] += scatter_of(groups[i]);
+  }
+  const Integer unit = power_of_ten(groups.values.scale());
+  Exact within = 0;
+  for (const auto& [size, scatter] : scatter_by_size) {
+    within += Exact(scatter, Integer(size) * unit * unit);
+  }
+  return within;
+}
+
+}  // namespace
 
 FTest f_test(const Variation& effect, const Variation& error) {
   if (error.sum_of_squares == 0) return {};
@@ -20,17 +53,16 @@ Result<Anova> analyse_variance(const Groups& groups) {
                  "an analysis of variance compares two groups or more"};
   }
   const Moments all = moments(groups.values);
-  Exact within = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (groups[i].empty()) {
       return Error{ErrorCode::StatisticsTooFew, fmt::format("group {} is empty", i)};
     }
-    within += moments(groups[i], groups.values.scale()).squares;
   }
   if (all.count == groups.size()) {
     return Error{ErrorCode::StatisticsTooFew,
                  "every group has one value: nothing says how they vary within a group"};
   }
+  const Exact within = sum_within(groups);
   Anova anova;
   anova.between = {groups.size() - 1, all.squares - within};
   anova.within = {all.count - groups.size(), within};

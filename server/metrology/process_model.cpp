@@ -33,6 +33,7 @@ Groups in_groups(const Subgroups& data) {
   const std::size_t size = data.size > 1 ? data.size : kSizeOfValues;
   Groups groups;
   const std::size_t count = data.values.size() / size;
+  groups.ends.reserve(count);
   const auto used = data.values.counts().first(count * size);
   groups.values = Decimals({used.begin(), used.end()}, data.values.scale());
   for (std::size_t i = 1; i <= count; ++i) groups.ends.push_back(i * size);
@@ -42,6 +43,7 @@ Groups in_groups(const Subgroups& data) {
 /// Distances from the median of their group, doubled so that they stay whole numbers.
 Groups distances_from_medians(const Groups& groups) {
   std::vector<Wide> distances;
+  distances.reserve(groups.values.size());
   std::vector<Wide> sorted;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     sorted.assign(groups[i].begin(), groups[i].end());
@@ -62,9 +64,13 @@ struct Course {
 };
 Course course_of(const Groups& groups) {
   const std::size_t n = groups.size();
+  const long double unit = nearest(Exact(power_of_ten(groups.values.scale())));
   std::vector<double> means;
+  means.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
-    means.push_back(static_cast<double>(nearest(moments(groups[i], groups.values.scale()).mean)));
+    long double sum = 0;
+    for (const Wide value : groups[i]) sum += static_cast<long double>(value);
+    means.push_back(static_cast<double>(sum / static_cast<long double>(groups[i].size()) / unit));
   }
   const auto count = static_cast<double>(n);
   double mean = 0;
