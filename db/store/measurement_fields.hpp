@@ -64,6 +64,8 @@ void for_each_later_field(Row&& row, Field&& field) {
   field("number", row.number);
   field("corrected_origin", row.corrected_origin);
   field("corrected_number", row.corrected_number);
+  field("uncertainty_budget", row.uncertainty_budget);
+  field("calibration_due", row.calibration_due);
 }
 
 template <class Row, class Field>

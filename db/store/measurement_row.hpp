@@ -73,6 +73,10 @@ struct MeasurementRow {
   std::optional<std::string_view> part_material{};
   std::optional<std::string_view> scale_material{};
 
+  // Of its gauge, where they are in use:
+  std::optional<std::string_view> uncertainty_budget{};  ///< the name of what uncertainty_nm is of
+  std::optional<std::string_view> calibration_due{};     ///< as it was given, where it had passed
+
   // Of rows that another folder has forwarded, and of those stored beside them:
   std::optional<std::int64_t> origin{};  ///< OriginsStore::Origin::number; 0 is this folder
   std::optional<std::int64_t> seq{};     ///< in the log of its origin; none: it is the id

@@ -21,6 +21,7 @@ class EventService;
 
 namespace fitgauge::api {
 
+class GaugesInUse;
 class Metrics;
 class VerdictCounts;
 
@@ -33,6 +34,7 @@ struct Services {
   app::MeasurementService& measurements;
   app::FileService& files;
   app::DocumentService& documents;
+  GaugesInUse& gauges;
   app::RunService& runs;
   app::EventService& events;
   const Metrics& metrics;

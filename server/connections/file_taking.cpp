@@ -85,10 +85,15 @@ Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& 
     text = *std::move(read);
   }
   text.reserve(text.size() + http::Request::kBodyPadding);
+  const auto gauges = around.gauges.book();
   api::MeasurementBatch batch;
-  const auto decoded = api::decode_measurements(
-      text, is_ndjson(file_name) ? "application/x-ndjson" : "text/csv",
-      {.tables = **tables, .received_at = around.clock.now(), .caller = options.name}, batch);
+  const auto decoded =
+      api::decode_measurements(text, is_ndjson(file_name) ? "application/x-ndjson" : "text/csv",
+                               {.tables = **tables,
+                                .received_at = around.clock.now(),
+                                .caller = options.name,
+                                .gauges = gauges.get()},
+                               batch);
   if (!decoded) return at_lines_of(dfq, decoded.error());
   const std::size_t rows = batch.rows.size();
   const app::IdempotencyScope scope{.caller = options.name,

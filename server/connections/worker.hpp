@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/statistics/gauges_in_use.hpp"
 #include "app/application.hpp"
 #include "app/service/connection_state.hpp"
 #include "base/clock.hpp"
@@ -19,6 +20,7 @@ namespace fitgauge::connections {
 struct Surroundings {
   app::Application& app;
   const Clock& clock;
+  const api::GaugesInUse& gauges;
   std::vector<std::filesystem::path> folders{};  ///< that connections made over HTTP may name
   bool may_reach_private = false;                ///< addresses of this machine and its networks
   /// The event's name and a sentence, for the log of the service; called on any thread.

@@ -167,15 +167,16 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
   return definitions;
 }
 
-Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
-                                                                    app::Application& app,
-                                                                    const Clock& clock) {
+Result<std::unique_ptr<connections::Connections>> start_connections(
+    const Config& config, app::Application& app, const Clock& clock,
+    const api::GaugesInUse& gauges) {
   auto configured = read_connections(config.connections);
   if (!configured) return configured.error();
   return connections::Connections::start(
       *std::move(configured),
       {.app = app,
        .clock = clock,
+       .gauges = gauges,
        .folders = {config.connection_folders.begin(), config.connection_folders.end()},
        .may_reach_private = config.allow_private_addresses,
        .tell = [](std::string_view event, const std::string& detail) {

@@ -17,6 +17,7 @@ Result<std::vector<connections::Definition>> read_connections(const std::string&
 /// Starts the connections; goes before `app`. @errors as read_connections; those of the storage.
 Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
                                                                     app::Application& app,
-                                                                    const Clock& clock);
+                                                                    const Clock& clock,
+                                                                    const api::GaugesInUse& gauges);
 
 }  // namespace fitgauge::daemon

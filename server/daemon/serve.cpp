@@ -14,6 +14,7 @@
 #include "api/service/guard.hpp"
 #include "api/service/metrics.hpp"
 #include "api/service/verdict_counts.hpp"
+#include "api/statistics/gauges_in_use.hpp"
 #include "api/wire/problem.hpp"
 #include "base/forward_clock.hpp"
 #include "base/guarded.hpp"
@@ -186,7 +187,9 @@ Result<void> serve(const Config& config, const std::string& port_file) {
     return opened_runs.error();
   }
 
-  auto connecting = start_connections(config, app, clock);
+  api::GaugesInUse gauges(app.documents());
+  if (const auto loaded = gauges.load(); !loaded) return loaded.error();
+  auto connecting = start_connections(config, app, clock, gauges);
   if (!connecting) return connecting.error();
   connections::Connections& outside = **connecting;
   auto forwarding = start_forwarder(config, app, tell_log);
@@ -211,6 +214,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .measurements = app.measurements(),
                                .files = app.files(),
                                .documents = app.documents(),
+                               .gauges = gauges,
                                .runs = app.runs(),
                                .events = app.events(),
                                .metrics = metrics,

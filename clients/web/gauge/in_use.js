@@ -24,12 +24,12 @@ export async function gaugeInUse(name, signal) {
   }
 }
 
-/** Standard uncertainty in µm of a named budget, to a hundredth, rounded up; null without one. */
+/** Standard uncertainty in µm of a named budget, rounded up to the nanometre as the service has it; null without one. */
 async function uncertaintyOf(budget, signal) {
   if (!budget) return null;
   const body = await getJson(url(['uncertainties', budget]), { signal });
   const { combined_standard_uncertainty: um } = await (await request('POST', url(['uncertainty']), { body, signal })).json();
-  return um === null ? null : (Math.ceil(Number((um * 100).toFixed(6))) / 100).toString();
+  return um === null ? null : (Math.ceil(Number((um * 1000).toFixed(6))) / 1000).toString();
 }
 
 /** "calibrated until 31 Mar 2027 · u = 0.8 µm", or that it is overdue. */

@@ -139,6 +139,7 @@ void read_limits(Record& record, const JsonValue& json, Measurement& m) {
 
 void read_rule(Record& record, Measurement& m) {
   m.standard_uncertainty = record.um("uncertainty_um");
+  m.uncertainty_budget = record.text("uncertainty");
   if (const auto k = record.decimal("coverage_factor", 6)) {
     m.coverage_factor =
         record.taken("coverage_factor", gauging::CoverageFactor::from_millionths(*k));
@@ -192,6 +193,7 @@ Result<Measurement> read_record(const JsonValue& json, TextArena& texts) {
   read_rule(record, m);
   read_expansions(record, m);
   for (const auto& [name, field] : app::kMeasurementTexts) m.texts.*field = record.text(name);
+  m.calibration_due = record.text("calibration_due");
   m.caller = record.text("caller");
   m.cycle = record.decimal("cycle", 0);
   const auto verdict = gauging::verdict_from_word(record.text("verdict").value_or(""));

@@ -45,7 +45,7 @@ Result<void> finish(FieldErrors& errors) {
 Result<void> decode_json(std::string_view body, const BatchContext& context,
                          MeasurementBatch& batch) {
   FieldErrors errors;
-  MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
+  MeasurementRowReader reader(context, errors);
   batch.rows.clear();
   std::size_t row = 0;
   const auto parsed = parse_json(body, [&](const JsonValue& item) {
@@ -70,7 +70,7 @@ Result<void> decode_json(std::string_view body, const BatchContext& context,
 Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
                            MeasurementBatch& batch) {
   FieldErrors errors;
-  MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
+  MeasurementRowReader reader(context, errors);
   std::size_t row = 0;
   std::size_t line = 0;
   for (std::string_view rest = body; !rest.empty();) {
@@ -120,7 +120,7 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
   const auto csv = std::make_shared<CsvReader>(*std::move(opened));
   if (const auto checked = check_header(csv->header()); !checked) return checked.error();
   FieldErrors errors;
-  MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
+  MeasurementRowReader reader(context, errors);
   batch.texts = csv;
   const bool semicolon = csv->separator() == ';';
   for (const std::string& name : csv->header()) {

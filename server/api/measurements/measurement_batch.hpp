@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/statistics/gauges_in_use.hpp"
 #include "api/wire/text_arena.hpp"
 #include "app/measurements/measurement.hpp"
 
@@ -35,11 +36,12 @@ struct MeasurementBatch {
   std::shared_ptr<TextArena> decoded_texts{};  ///< of keep()
 };
 
-/// What a batch is decoded with.
+/// What a batch is decoded with. All of it outlives the batch.
 struct BatchContext {
   const iso286::ToleranceTables& tables;
   Timestamp received_at;
-  std::optional<std::string_view> caller{};  ///< of every row; outlives the batch
+  std::optional<std::string_view> caller{};  ///< of every row
+  const GaugeBook* gauges = nullptr;         ///< those in use; null: none
   /// Takes rows away as soon as there are kRowsAtATime, while none was wrong.
   std::function<void(std::vector<app::Measurement>)> take{};
 };

@@ -19,7 +19,8 @@ std::string measurement_csv_header() {
   return out +=
          ",caller,run_id,cycle,correction_of,reason,probability,conformance_probability,"
          "guard_band_um,corrected_mm,scale_temperature_c,part_expansion_um_per_m_k,"
-         "scale_expansion_um_per_m_k,part_material,scale_material\r\n";
+         "scale_expansion_um_per_m_k,part_material,scale_material,uncertainty,calibration_due,"
+         "calibration_overdue\r\n";
 }
 
 void append_measurement_csv(std::string& out, const Measurement& m) {
@@ -78,8 +79,10 @@ void append_measurement_csv(std::string& out, const Measurement& m) {
   decimal(m.expansions.part, app::kTemperatureDecimals);
   decimal(m.expansions.scale, app::kTemperatureDecimals);
   chosen_text(m.expansions.part_material.value_or(""));
-  append_csv_text(out, m.expansions.scale_material.value_or(""));
-  out += "\r\n";
+  chosen_text(m.expansions.scale_material.value_or(""));
+  chosen_text(m.uncertainty_budget.value_or(""));
+  text(m.calibration_due.value_or(""));
+  out += m.calibration_due ? "true\r\n" : "\r\n";
 }
 
 void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,

@@ -20,11 +20,14 @@ constexpr std::size_t kLongestReason = 2000;
 constexpr std::array<std::string_view, 6> kLimitsFields = {
     "designation", "nominal_mm", "tolerance_class", "feature", "upper_um", "lower_um"};
 
+constexpr std::array<std::string_view, 2> kGaugeFields = {"gauge", "measured_at"};
+
 /// What the texts of the correction are views of.
 struct Sources {
   JsonValue body;
   app::KeptMeasurement original;
   std::shared_ptr<const iso286::ToleranceTables> tables;
+  std::shared_ptr<const GaugeBook> gauges;
 };
 
 /// Gives the row a field of the original; one that it has stays.
@@ -63,7 +66,9 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
   }
   offer(reader, "measured_at", format_rfc3339(original.measured_at));
   offer(reader, "rule", word(original.rule.kind()));
-  if (original.standard_uncertainty) {
+  // The gauge said then what it says now, unless another or another time is meant.
+  if (!names_any(body, kGaugeFields)) reader.take_gauge(original);
+  if (original.standard_uncertainty && !original.uncertainty_budget) {
     offer(reader, "uncertainty_um", format_um(*original.standard_uncertainty));
   }
   if (original.coverage_factor) {
@@ -124,7 +129,11 @@ Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
     return *errors.take();
   }
   const auto reason = read_reason(body, errors);
-  MeasurementRowReader reader(*sources->tables, received_at, caller, errors);
+  const BatchContext context{.tables = *sources->tables,
+                             .received_at = received_at,
+                             .caller = caller,
+                             .gauges = sources->gauges.get()};
+  MeasurementRowReader reader(context, errors);
   reader.begin(std::nullopt);
   for (const auto& [name, value] : body.members) {
     if (name != "reason" && !reader.field(name, raw_value(value))) reader.report_unknown(name);
@@ -153,9 +162,10 @@ void correct(const SharedPosting& posting, const app::Measurement& original) {
   if (!tables) return posting->responder.fail(tables.error());
   auto body = parse_json(posting->request.body());
   if (!body) return posting->responder.fail(body.error());
-  auto batch = decode(std::shared_ptr<const Sources>(
-                          new Sources{*std::move(body), app::KeptMeasurement(original), *tables}),
-                      posting->services.clock.now(), caller_name(posting->request));
+  auto batch = decode(
+      std::shared_ptr<const Sources>(new Sources{*std::move(body), app::KeptMeasurement(original),
+                                                 *tables, posting->services.gauges.book()}),
+      posting->services.clock.now(), caller_name(posting->request));
   if (!batch) return posting->responder.fail(batch.error());
   record(posting, *std::move(batch));
 }

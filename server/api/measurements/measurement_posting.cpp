@@ -22,37 +22,50 @@ http::Response response_of(app::Answer answer, Preference applied) {
   return response;
 }
 
-BatchContext context_of(const Posting& posting, const app::TableCatalog::Tables& tables) {
-  return {.tables = *tables,
+/// What rows are judged by: the tables and the gauges in use, as they are now.
+struct Basis {
+  app::TableCatalog::Tables tables;
+  std::shared_ptr<const GaugeBook> gauges;
+};
+
+Result<Basis> basis_of(const Services& services) {
+  const auto tables = services.tables.tables();
+  if (!tables) return tables.error();
+  return Basis{.tables = *tables, .gauges = services.gauges.book()};
+}
+
+BatchContext context_of(const Posting& posting, const Basis& basis) {
+  return {.tables = *basis.tables,
           .received_at = posting.services.clock.now(),
-          .caller = caller_name(posting.request)};
+          .caller = caller_name(posting.request),
+          .gauges = basis.gauges.get()};
 }
 
 void judge_and_record(const SharedPosting& posting) {
-  const auto tables = posting->services.tables.tables();
-  if (!tables) return posting->responder.fail(tables.error());
+  const auto basis = basis_of(posting->services);
+  if (!basis) return posting->responder.fail(basis.error());
   const http::Request& request = posting->request;
   MeasurementBatch batch;
   const auto decoded = decode_measurements(request.body(), request.media_type(),
-                                           context_of(*posting, *tables), batch);
+                                           context_of(*posting, *basis), batch);
   if (!decoded) return posting->responder.fail(decoded.error());
-  // The class names of the rows are views of the tables.
-  batch.texts = std::make_shared<std::pair<std::shared_ptr<const void>, app::TableCatalog::Tables>>(
-      std::move(batch.texts), *tables);
+  // The class names of the rows are views of the tables, those of budgets views of the gauges.
+  batch.texts = std::make_shared<std::pair<std::shared_ptr<const void>, Basis>>(
+      std::move(batch.texts), *basis);
   record(posting, std::move(batch));
 }
 
 /// The same on a thread that may block: the first rows are stored while the last are being read.
 void judge_while_recording(const SharedPosting& posting) {
-  const auto tables = posting->services.tables.tables();
-  if (!tables) return posting->responder.fail(tables.error());
+  const auto basis = basis_of(posting->services);
+  if (!basis) return posting->responder.fail(basis.error());
   const http::Request& request = posting->request;
   const Preference wanted = preference_of(request);
   MeasurementAnswer rendering(wanted);
   rendering.expect(request.body().size());
   MeasurementBatch batch;
   const auto read = [&](const app::MeasurementService::Take& take) -> Result<void> {
-    BatchContext context = context_of(*posting, *tables);
+    BatchContext context = context_of(*posting, *basis);
     context.take = take;
     auto decoded = decode_measurements(request.body(), request.media_type(), context, batch);
     rendering.set_single(batch.single);

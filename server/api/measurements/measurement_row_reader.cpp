@@ -222,6 +222,41 @@ std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
   return value.text;
 }
 
+void MeasurementRowReader::take_gauge(const app::Measurement& other) { draft_.gauge_of = &other; }
+
+const GaugeInUse* MeasurementRowReader::find_gauge(std::string_view name) {
+  if (name == last_gauge_) return last_gauge_in_use_;
+  const auto found = context_.gauges->find(name);
+  last_gauge_ = name;
+  last_gauge_in_use_ = found == context_.gauges->end() ? nullptr : &found->second;
+  return last_gauge_in_use_;
+}
+
+/// What a gauge in use says: its uncertainty where the rule needs one that was not given, and that
+/// its calibration was overdue. @pre measured_at stands
+void MeasurementRowReader::apply_gauge() {
+  app::Measurement& m = draft_.measurement;
+  const bool needs = draft_.rule.kind != gauging::DecisionRule::Kind::Simple;
+  if (const app::Measurement* other = draft_.gauge_of) {
+    m.calibration_due = other->calibration_due;
+    if (needs && !m.standard_uncertainty) {
+      m.standard_uncertainty = other->standard_uncertainty;
+      m.uncertainty_budget = other->uncertainty_budget;
+    }
+  }
+  if (context_.gauges == nullptr || !m.texts.gauge) return;
+  const GaugeInUse* gauge = find_gauge(*m.texts.gauge);
+  if (gauge == nullptr) return;
+  if (draft_.gauge_of == nullptr && gauge->is_overdue(m.measured_at)) {
+    m.calibration_due = gauge->calibration_due;
+  }
+  if (needs && !m.standard_uncertainty && !given(RowField::Uncertainty) &&
+      gauge->standard_uncertainty) {
+    m.standard_uncertainty = gauge->standard_uncertainty;
+    m.uncertainty_budget = gauge->budget;
+  }
+}
+
 /// @pre every field is valid by itself, and a rule that needs the uncertainty has it
 void MeasurementRowReader::apply_rule() {
   app::Measurement& m = draft_.measurement;
@@ -265,17 +300,20 @@ const app::Measurement* MeasurementRowReader::end() {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Measured].name, "measured_mm is required");
   }
   if (!draft_.has_limits) resolve_limits();
-  if (draft_.rule.kind != gauging::DecisionRule::Kind::Simple && !given(RowField::Uncertainty)) {
+  if (!given(RowField::MeasuredAt)) m.measured_at = context_.received_at;
+  apply_gauge();
+  if (draft_.rule.kind != gauging::DecisionRule::Kind::Simple && !m.standard_uncertainty &&
+      !given(RowField::Uncertainty)) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
-           fmt::format("rule {} needs uncertainty_um, the standard uncertainty",
+           fmt::format("rule {} needs uncertainty_um, the standard uncertainty, or a gauge in use "
+                       "that has an uncertainty budget",
                        word(draft_.rule.kind)));
   }
   if (!draft_.failed) apply_rule();
   if (!draft_.failed) apply_correction();
   if (draft_.failed) return nullptr;
-  m.received_at = received_at_;
-  if (!given(RowField::MeasuredAt)) m.measured_at = received_at_;
-  m.caller = caller_;
+  m.received_at = context_.received_at;
+  m.caller = context_.caller;
   app::judge(m);
   return &m;
 }

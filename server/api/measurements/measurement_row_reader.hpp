@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "api/limits/verdict_codec.hpp"
+#include "api/measurements/measurement_batch.hpp"
 #include "api/wire/field_reader.hpp"
 #include "app/measurements/measurement.hpp"
 
@@ -30,9 +31,8 @@ RawValue raw_value(const JsonValue& value);
 /// last class, so that a batch of one class looks it up once. Refers to all it is given.
 class MeasurementRowReader {
  public:
-  MeasurementRowReader(const iso286::ToleranceTables& tables, Timestamp received_at,
-                       std::optional<std::string_view> caller, FieldErrors& errors)
-      : tables_(tables), received_at_(received_at), caller_(caller), errors_(errors) {}
+  MeasurementRowReader(const BatchContext& context, FieldErrors& errors)
+      : tables_(context.tables), context_(context), errors_(errors) {}
 
   /// @param row the index of the row, from 0; none for a single object.
   /// @param line the line it stands on, from 1; none where lines mean nothing.
@@ -45,6 +45,9 @@ class MeasurementRowReader {
   /// Gives the row the limits of another measurement as they were applied there; then it has no
   /// field of its own that says limits.
   void take_limits(const app::Measurement& other);
+
+  /// Gives the row what the gauge of another measurement said there; then it is not asked again.
+  void take_gauge(const app::Measurement& other);
 
   /// The judged measurement, until the next row begins; null when the row has errors.
   const app::Measurement* end();
@@ -67,7 +70,8 @@ class MeasurementRowReader {
     std::optional<Length> upper{};
     std::optional<Length> lower{};
     RuleWords rule{};
-    bool has_limits = false;  ///< taken from another measurement
+    bool has_limits = false;                     ///< taken from another measurement
+    const app::Measurement* gauge_of = nullptr;  ///< of take_gauge
     bool failed = false;
   };
 
@@ -83,6 +87,8 @@ class MeasurementRowReader {
   std::optional<std::string_view> text(std::size_t field, const RawValue& value);
   bool given(std::size_t field) const { return (draft_.given >> field & 1U) != 0; }
 
+  void apply_gauge();
+  const GaugeInUse* find_gauge(std::string_view name);
   void apply_rule();
   void apply_correction();
   void resolve_limits();
@@ -94,13 +100,14 @@ class MeasurementRowReader {
   void report(ErrorCode code, std::string_view field, std::string message);
 
   const iso286::ToleranceTables& tables_;
-  Timestamp received_at_;
-  std::optional<std::string_view> caller_;
+  const BatchContext& context_;
   FieldErrors& errors_;
   std::optional<std::size_t> row_;
   std::optional<std::size_t> line_;
   Draft draft_;
   std::size_t position_ = 0;  ///< fields of the row so far
+  std::string last_gauge_;
+  const GaugeInUse* last_gauge_in_use_ = nullptr;
   std::string last_class_;
   std::optional<iso286::ClassId> last_class_id_;  ///< none before the first: "" is no class
 };

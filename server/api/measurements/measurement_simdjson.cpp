@@ -142,7 +142,7 @@ bool read_body_fast(std::string_view body, const BatchContext& context, Measurem
       document.type().get(type) != simdjson::SUCCESS) {
     return false;
   }
-  MeasurementRowReader reader(context.tables, context.received_at, context.caller, errors);
+  MeasurementRowReader reader(context, errors);
   if (type == ondemand::json_type::array) {
     return read_array(body, document, reader, context, batch, errors) && at_end(document);
   }

@@ -49,10 +49,10 @@ void read_own_fields(FieldReader& reader, std::set<std::string>& names) {
 }
 
 /// Judges some value as a measurement of the characteristic would be.
-void check_limits(const JsonValue& characteristic, std::size_t index,
-                  const iso286::ToleranceTables& tables, FieldErrors& errors) {
+void check_limits(const JsonValue& characteristic, std::size_t index, const BatchContext& context,
+                  FieldErrors& errors) {
   FieldErrors found;
-  MeasurementRowReader row(tables, Timestamp{}, std::nullopt, found);
+  MeasurementRowReader row(context, found);
   row.begin(index);
   row.field("measured_mm", {.kind = RawValue::Kind::Number, .text = "1"});
   for (const std::string_view name : kMeasurementFields) {
@@ -66,19 +66,18 @@ void check_limits(const JsonValue& characteristic, std::size_t index,
   }
 }
 
-void read_characteristic(const JsonValue& value, std::size_t index,
-                         const iso286::ToleranceTables& tables, std::set<std::string>& names,
-                         FieldErrors& errors) {
+void read_characteristic(const JsonValue& value, std::size_t index, const BatchContext& context,
+                         std::set<std::string>& names, FieldErrors& errors) {
   FieldReader reader(value, pointer_to("/characteristics", index), errors);
   if (!value.is(JsonValue::Kind::Object)) return;
   for (const std::string_view name : kMeasurementFields) reader.optional(name);
   read_own_fields(reader, names);
   reader.refuse_unknown();
-  check_limits(value, index, tables, errors);
+  check_limits(value, index, context, errors);
 }
 
-void read_characteristics(const JsonValue& list, const iso286::ToleranceTables& tables,
-                          FieldReader& plan, FieldErrors& errors) {
+void read_characteristics(const JsonValue& list, const BatchContext& context, FieldReader& plan,
+                          FieldErrors& errors) {
   if (list.items.empty() || list.items.size() > kMostCharacteristics) {
     plan.report(ErrorCode::FieldInvalid, "characteristics",
                 fmt::format("a plan has 1 to {} characteristics", kMostCharacteristics));
@@ -86,7 +85,7 @@ void read_characteristics(const JsonValue& list, const iso286::ToleranceTables& 
   }
   std::set<std::string> names;
   for (std::size_t i = 0; i < list.items.size(); ++i) {
-    read_characteristic(list.items[i], i, tables, names, errors);
+    read_characteristic(list.items[i], i, context, names, errors);
   }
 }
 
@@ -104,7 +103,7 @@ std::string stored_text(const JsonValue& body, std::string_view part) {
 }  // namespace
 
 Result<std::string> read_plan(const JsonValue& body, std::string_view part,
-                              const iso286::ToleranceTables& tables) {
+                              const BatchContext& context) {
   FieldErrors errors;
   FieldReader plan(body, "", errors);
   if (body.is(JsonValue::Kind::Object)) {
@@ -114,7 +113,7 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
     }
     read_text(plan, "name", kLongestText);
     if (const JsonValue* list = plan.array("characteristics")) {
-      read_characteristics(*list, tables, plan, errors);
+      read_characteristics(*list, context, plan, errors);
     }
     plan.refuse_unknown();
   }

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "api/measurements/measurement_batch.hpp"
 #include "api/wire/json_value.hpp"
-#include "iso286/tolerance_tables.hpp"
 
 // A plan: what is measured at a part, in order.
 
@@ -15,7 +15,7 @@ namespace fitgauge::api {
 /// what it needs, its name is its own.
 /// @errors RequestInvalid with every bad field.
 Result<std::string> read_plan(const JsonValue& body, std::string_view part,
-                              const iso286::ToleranceTables& tables);
+                              const BatchContext& context);
 
 /// What a list says of a stored plan.
 struct PlanHead {

@@ -2,6 +2,7 @@
 
 #include "api/plans/plan_codec.hpp"
 #include "api/service/document_routes.hpp"
+#include "api/statistics/gauges_in_use.hpp"
 #include "app/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
@@ -13,7 +14,10 @@ Result<CheckedDocument> check_plan(const Services& services, const std::string& 
   if (!body) return body.error();
   const auto tables = services.tables.tables();
   if (!tables) return tables.error();
-  auto plan = read_plan(*body, part, **tables);
+  const auto gauges = services.gauges.book();
+  auto plan =
+      read_plan(*body, part,
+                {.tables = **tables, .received_at = services.clock.now(), .gauges = gauges.get()});
   if (!plan) return plan.error();
   return CheckedDocument{.text = *std::move(plan)};
 }

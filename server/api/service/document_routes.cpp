@@ -55,6 +55,17 @@ http::Response written(bool created, std::string answer, std::string_view tag) {
   return std::move(response).with("ETag", std::string(tag));
 }
 
+/// Answers a change that was stored, once it is heard.
+void answer_change(const Services& services, const KindOfDocument& kind,
+                   const SharedResponder& shared, http::Response response) {
+  if (kind.changed == nullptr) return shared->answer(std::move(response));
+  const auto kept = std::make_shared<http::Response>(std::move(response));
+  kind.changed(services, [shared, kept](const Result<void>& heard) {
+    if (!heard) return shared->fail(heard.error());
+    shared->answer(std::move(*kept));
+  });
+}
+
 void write(const Services& services, const KindOfDocument& kind, std::string name,
            CheckedDocument checked, const http::Request& request, const SharedResponder& shared) {
   const auto caller = caller_name(request);
@@ -66,10 +77,14 @@ void write(const Services& services, const KindOfDocument& kind, std::string nam
        .caller = caller ? std::optional<std::string>(*caller) : std::nullopt,
        .uncertainty = std::move(checked.uncertainty),
        .precondition = text_precondition_of(request)},
-      [shared, tag = std::move(tag), answer = std::move(checked.answer)](Result<bool> created) {
-        if (created) return shared->answer(written(*created, answer, tag));
-        const bool of_budget = created.error().code == ErrorCode::UncertaintyUnknown;
-        shared->fail(of_budget ? at_member("uncertainty", created.error()) : created.error());
+      [&services, &kind, shared, tag = std::move(tag),
+       answer = std::move(checked.answer)](Result<bool> created) {
+        if (!created) {
+          const bool of_budget = created.error().code == ErrorCode::UncertaintyUnknown;
+          return shared->fail(of_budget ? at_member("uncertainty", created.error())
+                                        : created.error());
+        }
+        answer_change(services, kind, shared, written(*created, answer, tag));
       });
 }
 
@@ -105,11 +120,12 @@ void get(const Services& services, const KindOfDocument& kind, const http::Reque
 
 void remove(const Services& services, const KindOfDocument& kind, const http::Request& request,
             http::Responder responder) {
-  services.documents.remove(kind.kind, name_in_path(kind, request), text_precondition_of(request),
-                            [shared = share(std::move(responder))](const Result<bool>& removed) {
-                              if (!removed) return shared->fail(removed.error());
-                              shared->answer(http::Response(204));
-                            });
+  services.documents.remove(
+      kind.kind, name_in_path(kind, request), text_precondition_of(request),
+      [&services, &kind, shared = share(std::move(responder))](const Result<bool>& removed) {
+        if (!removed) return shared->fail(removed.error());
+        answer_change(services, kind, shared, http::Response(204));
+      });
 }
 
 Result<std::string> list_of(const KindOfDocument& kind,

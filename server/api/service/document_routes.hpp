@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,6 +50,8 @@ struct KindOfDocument {
   /// Runs on a thread that may wait. @errors whatever is wrong with the body.
   Result<CheckedDocument> (*check)(const Services& services, const std::string& name,
                                    std::string_view body){};
+  /// Runs after a change was stored and before it is answered; null: nothing.
+  void (*changed)(const Services& services, std::function<void(Result<void>)> done) = nullptr;
 };
 
 /// @param kind is static.

@@ -4,8 +4,8 @@
 
 #include "api/service/document_routes.hpp"
 #include "api/statistics/exact_reader.hpp"
+#include "api/statistics/gauges_in_use.hpp"
 #include "api/statistics/uncertainty_resource.hpp"
-#include "base/clock.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -20,10 +20,9 @@ Result<CheckedDocument> check_budget(const Services&, const std::string&, std::s
   return CheckedDocument{.text = std::string(text), .answer = *std::move(computed)};
 }
 
-/// A date, to its end in UTC, or a time.
-bool is_due_date(std::string_view text) {
-  return parse_rfc3339(text).has_value() ||
-         parse_rfc3339(std::string(text) + "T23:59:59Z").has_value();
+/// Measurements are judged by what is stored from its answer on.
+void reload_gauges(const Services& services, std::function<void(Result<void>)> done) {
+  services.gauges.reload(std::move(done));
 }
 
 Result<CheckedDocument> check_gauge(const Services&, const std::string&, std::string_view text) {
@@ -33,7 +32,7 @@ Result<CheckedDocument> check_gauge(const Services&, const std::string&, std::st
   FieldReader fields(*body, "", errors);
   CheckedDocument checked{.text = std::string(text),
                           .uncertainty = fields.optional_text("uncertainty")};
-  if (const auto due = fields.text("calibration_due"); due && !is_due_date(*due)) {
+  if (const auto due = fields.text("calibration_due"); due && !parse_due(*due)) {
     fields.report(ErrorCode::TimeMalformed, "calibration_due",
                   "calibration_due is a date, 2027-03-31, or an RFC 3339 time");
   }
@@ -61,7 +60,8 @@ constexpr KindOfDocument kUncertainties{.kind = app::DocumentKind::Uncertainty,
                                         .body_schema = "UncertaintyBudget",
                                         .list_schema = "UncertaintyBudgetNames",
                                         .answered = "Uncertainty",
-                                        .check = check_budget};
+                                        .check = check_budget,
+                                        .changed = reload_gauges};
 constexpr KindOfDocument kGauges{.kind = app::DocumentKind::GaugeInUse,
                                  .path = "/v1/gauges-in-use",
                                  .parameter = "name",
@@ -75,7 +75,8 @@ constexpr KindOfDocument kGauges{.kind = app::DocumentKind::GaugeInUse,
                                  .schema = "GaugeInUse",
                                  .body_schema = "GaugeInUse",
                                  .list_schema = "GaugeInUseNames",
-                                 .check = check_gauge};
+                                 .check = check_gauge,
+                                 .changed = reload_gauges};
 
 }  // namespace
 

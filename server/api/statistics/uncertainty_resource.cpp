@@ -156,39 +156,61 @@ std::optional<Simulation> read_simulation(FieldReader& fields, std::size_t contr
   return simulation;
 }
 
-}  // namespace
+/// What a body says, and what it comes to.
+struct Combination {
+  metrology::Budget budget{};
+  std::optional<Simulation> simulation{};
+  metrology::CombinedUncertainty combined{};
+};
 
-Result<std::string> compute_uncertainty(const JsonValue& body) {
+Result<Combination> combine(const JsonValue& body) {
   FieldErrors errors;
   FieldReader fields(body, "", errors);
-  metrology::Budget budget;
-  const Names names = read_contributions(fields, budget, errors);
-  read_correlations(fields, names, budget, errors);
-  budget.probability = fields.number_or("probability", budget.probability);
-  if (!(budget.probability > 0 && budget.probability < 1)) {
+  Combination made;
+  const Names names = read_contributions(fields, made.budget, errors);
+  read_correlations(fields, names, made.budget, errors);
+  made.budget.probability = fields.number_or("probability", made.budget.probability);
+  if (!(made.budget.probability > 0 && made.budget.probability < 1)) {
     fields.report(ErrorCode::FieldInvalid, "probability", "probability lies between 0 and 1");
   }
-  const auto simulation = read_simulation(fields, budget.contributions.size(), errors);
+  made.simulation = read_simulation(fields, made.budget.contributions.size(), errors);
   fields.refuse_unknown();
   if (auto error = errors.take()) return *std::move(error);
 
-  const auto combined = metrology::combine(budget);
+  const auto combined = metrology::combine(made.budget);
   if (!combined) {
     errors.add(combined.error().code, "/correlations", combined.error().message);
     return *errors.take();
   }
+  made.combined = *combined;
+  return made;
+}
+
+}  // namespace
+
+Result<double> combined_standard_uncertainty(const JsonValue& body) {
+  const auto made = combine(body);
+  if (!made) return made.error();
+  return made->combined.combined;
+}
+
+Result<std::string> compute_uncertainty(const JsonValue& body) {
+  const auto read = combine(body);
+  if (!read) return read.error();
+  const auto& [budget, simulation, combined] = *read;
   std::string out;
   JsonWriter json(out);
   json.begin_object()
-      .member("combined_standard_uncertainty", combined->combined)
-      .member("effective_degrees_of_freedom", combined->degrees_of_freedom)
-      .member("welch_satterthwaite", combined->welch_satterthwaite)
+      .member("combined_standard_uncertainty", combined.combined)
+      .member("effective_degrees_of_freedom", combined.degrees_of_freedom)
+      .member("welch_satterthwaite", combined.welch_satterthwaite)
       .member("probability", budget.probability)
-      .member("coverage_factor", combined->coverage_factor)
-      .member("expanded_uncertainty", combined->expanded);
+      .member("coverage_factor", combined.coverage_factor)
+      .member("expanded_uncertainty", combined.expanded);
   if (simulation) {
     const auto made = metrology::simulate(budget, simulation->trials, simulation->seed);
     if (!made) {
+      FieldErrors errors;
       errors.add(made.error().code, "/correlations", made.error().message);
       return *errors.take();
     }

@@ -200,6 +200,8 @@ store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t>
   row.rule = code_of(m.rule.kind());
   row.uncertainty_nm = count_of(m.standard_uncertainty);
   if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
+  row.uncertainty_budget = m.uncertainty_budget;
+  row.calibration_due = m.calibration_due;
   for (const auto& [text, column] : kTextColumns) row.*column = m.texts.*text;
   if (m.conformance) {
     row.probability = m.rule.probability().millionths();
@@ -261,6 +263,8 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   if (row.conformance && row.guard_band) {
     m.conformance = {.probability = *row.conformance, .guard_band = *row.guard_band};
   }
+  m.uncertainty_budget = row.uncertainty_budget;
+  m.calibration_due = row.calibration_due;
   for (const auto& [text, column] : kTextColumns) m.texts.*text = row.*column;
   m.temperature = row.temperature;
   m.expansions = {.scale_temperature = row.scale_temperature,

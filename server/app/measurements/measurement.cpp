@@ -67,6 +67,8 @@ KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(
   for (const auto& [name, text] : kMeasurementTexts) keep(measurement_.texts.*text);
   keep(measurement_.expansions.part_material);
   keep(measurement_.expansions.scale_material);
+  keep(measurement_.uncertainty_budget);
+  keep(measurement_.calibration_due);
   keep(measurement_.class_name);
   keep(measurement_.caller);
   keep(measurement_.correction_reason);

@@ -103,6 +103,8 @@ struct Measurement {
   gauging::DecisionRule rule;
   std::optional<Length> standard_uncertainty;  ///< as given, also under the simple rule
   std::optional<gauging::CoverageFactor> coverage_factor;
+  std::optional<std::string_view> uncertainty_budget;  ///< of the gauge, where it gave the above
+  std::optional<std::string_view> calibration_due;     ///< of the gauge, as given, where overdue
 
   std::optional<gauging::ConformanceFigures> conformance;  ///< of that rule
 

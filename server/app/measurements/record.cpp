@@ -12,11 +12,12 @@ namespace {
 constexpr std::size_t kFixedRoom = 2304;
 
 std::size_t room_for(const Measurement& m) {
-  std::size_t texts = m.table_revision.size() + m.caller.value_or("").size() +
-                      m.correction_reason.value_or("").size() +
-                      2 * m.class_name.value_or("").size() +
-                      m.expansions.part_material.value_or("").size() +
-                      m.expansions.scale_material.value_or("").size();
+  std::size_t texts =
+      m.table_revision.size() + m.caller.value_or("").size() +
+      m.correction_reason.value_or("").size() + 2 * m.class_name.value_or("").size() +
+      m.expansions.part_material.value_or("").size() +
+      m.expansions.scale_material.value_or("").size() + m.uncertainty_budget.value_or("").size() +
+      m.calibration_due.value_or("").size();
   for (const auto& [name, field] : kMeasurementTexts) texts += (m.texts.*field).value_or("").size();
   return kFixedRoom + RecordText::kEscaped * texts;
 }
@@ -60,6 +61,10 @@ void RecordWriter::append(const Measurement& m) {
   const MeasurementTexts& texts = m.texts;
   // Sorted by the names of the members; a test compares it with an RFC 8785 form made elsewhere.
   text.raw(R"({"basis":")").raw(word(m.basis)).raw("\"");
+  if (m.calibration_due) {
+    given("calibration_due", m.calibration_due);
+    text.raw(R"(,"calibration_overdue":true)");
+  }
   given("caller", m.caller);
   given("characteristic", texts.characteristic);
   given("comment", texts.comment);
@@ -124,6 +129,7 @@ void RecordWriter::append(const Measurement& m) {
   if (m.has_upper_limit() && m.has_lower_limit()) {
     text.raw(R"(,"tolerance_um":)").um(m.deviations.upper - m.deviations.lower);
   }
+  given("uncertainty", m.uncertainty_budget);
   if (m.standard_uncertainty) text.raw(R"(,"uncertainty_um":)").um(*m.standard_uncertainty);
   given("unit", texts.unit);
   write_or_copy(text, UpperLimit, limits, [&] {

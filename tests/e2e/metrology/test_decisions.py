@@ -184,3 +184,63 @@ class Kept(DaemonTest):
                 self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]], [(pointer, code)])
         self.assertEqual(self.daemon.request("DELETE", path).status, 204)
         self.assert_problem(self.daemon.get(path), 404, "gauge.unknown")
+
+    def test_a_measurement_is_judged_as_its_gauge_says(self):
+        """The budget of the gauge has u = 0.5 um, so the guard band of k = 2 is 1 um."""
+        self.put("/v1/uncertainties/plug", self.BUDGET)
+        self.put("/v1/gauges-in-use/G-11", {"uncertainty": "plug", "calibration_due": "2026-03-31"})
+
+        def measure(**fields):
+            answer = self.daemon.measure({"designation": "25 H7", "measured_mm": "25.0009", "gauge": "G-11", **fields})
+            self.assertEqual(answer.status, 201, answer)
+            self.assertEqual(self.daemon.get(f"/v1/measurements/{answer.json['id']}").json, answer.json)
+            return answer.json
+
+        in_time = {"measured_at": "2026-03-31T23:59:59Z"}
+        record = measure(rule="guard_band", **in_time)
+        self.assertEqual((record["verdict"], record["uncertainty_um"], record["uncertainty"]),
+                         ("indeterminate", 0.5, "plug"))
+        self.assertNotIn("calibration_overdue", record)
+        self.assertEqual(measure(rule="guard_band", measured_mm="25.001", **in_time)["verdict"], "good")
+        self.assertNotIn("uncertainty_um", measure())
+        late = measure(rule="conformance")
+        self.assertEqual((late["calibration_overdue"], late["calibration_due"], late["uncertainty"]),
+                         (True, "2026-03-31", "plug"))
+        rows = self.daemon.get("/v1/measurements?last=1", Accept="text/csv").text.splitlines()
+        row = dict(zip(rows[0].split(","), rows[1].split(",")))
+        self.assertEqual((row["uncertainty"], row["calibration_due"], row["calibration_overdue"]),
+                         ("plug", "2026-03-31", "true"))
+
+        # A correction keeps what the gauge said then; another gauge says its own.
+        self.put("/v1/uncertainties/plug", {"contributions": [{"name": "all", "standard_uncertainty": 2}]})
+        self.put("/v1/gauges-in-use/G-12", {"uncertainty": "plug", "calibration_due": "2199-12-31"})
+
+        def correct(body):
+            path = f"/v1/measurements/{late['id']}/corrections"
+            return self.daemon.post(path, {"measured_mm": "25.0011", "reason": "misread", **body})
+
+        self.assert_problem(correct({"gauge": "G-13"}), 422, "request.invalid")
+        kept = correct({}).json
+        self.assertEqual((kept["uncertainty_um"], kept["uncertainty"], kept["calibration_overdue"]), (0.5, "plug", True))
+        late = measure(rule="conformance")
+        self.assertEqual(late["uncertainty_um"], 2)
+        other = correct({"gauge": "G-12", "measured_mm": "25.01"}).json
+        self.assertEqual((other["uncertainty_um"], other["gauge"]), (2, "G-12"))
+        self.assertNotIn("calibration_overdue", other)
+        self.daemon.request("DELETE", "/v1/gauges-in-use/G-12")
+        answer = self.daemon.measure({"designation": "25 H7", "measured_mm": 25.01, "gauge": "G-12",
+                                      "rule": "guard_band"})
+        self.assertEqual(self.assert_problem(answer, 422, "request.invalid")["errors"][0]["pointer"], "/uncertainty_um")
+        # It stands after a restart, and the log is whole.
+        self.daemon.stop()
+        self.daemon.start()
+        self.assertEqual(measure(rule="guard_band")["uncertainty_um"], 2)
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+    def test_a_plan_may_leave_the_uncertainty_to_the_gauge(self):
+        self.put("/v1/uncertainties/plan", self.BUDGET)
+        plan = {"characteristics": [{"name": "bore", "designation": "25 H7", "gauge": "G-20", "rule": "guard_band"}]}
+        problem = self.assert_problem(self.put("/v1/plans/P-1", plan), 422, "request.invalid")
+        self.assertEqual(problem["errors"][0]["pointer"], "/characteristics/0/uncertainty_um")
+        self.put("/v1/gauges-in-use/G-20", {"uncertainty": "plan", "calibration_due": "2027-03-31"})
+        self.assertEqual(self.put("/v1/plans/P-1", plan).status, 201)

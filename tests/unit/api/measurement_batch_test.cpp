@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "api/wire/csv_reader.hpp"
+#include "app/measurements/record.hpp"
 #include "iso286/table_data.hpp"
 
 using namespace fitgauge;
@@ -322,4 +325,72 @@ TEST_CASE("a wrong row is named when rows before it were taken already, and so a
   REQUIRE(pieces.decoded.error().details.size() == 2);
   CHECK(pieces.decoded.error().details[0].where == "/1000/measured_mm");
   CHECK(pieces.decoded.error().details[1].where == "/1001/x");
+}
+
+TEST_CASE("a gauge in use says its uncertainty where the rule needs one, and that it is overdue") {
+  const Timestamp due = parse_rfc3339("2026-03-31T23:59:59.999999999Z").value();
+  const GaugeBook book = {{"G-07",
+                           {.budget = "ring",
+                            .standard_uncertainty = Length::nanometres(501),
+                            .calibration_due = "2026-03-31",
+                            .due = due}},
+                          {"G-08", {.calibration_due = "2026-03-31", .due = due}}};
+  const auto judged = [&](const std::string& fields, std::string_view type = "application/json") {
+    const std::string body = R"({"designation":"25 H7","measured_mm":25.0005)" + fields + "}";
+    const std::string padded = body + std::string(64, '\0');
+    MeasurementBatch batch;
+    const BatchContext context{
+        .tables = tables(), .received_at = {due.nanoseconds + 1}, .gauges = &book};
+    const auto decoded =
+        decode_measurements(std::string_view(padded).substr(0, body.size()), type, context, batch);
+    REQUIRE_MESSAGE(decoded.has_value(), (decoded ? "" : decoded.error().details[0].message));
+    std::string out;
+    app::append_record(out, batch.rows.front());
+    return out;
+  };
+  const auto has = [](const std::string& record, std::string_view text) {
+    return record.find(text) != std::string::npos;
+  };
+  for (const std::string_view type : {"application/json", "application/x-ndjson"}) {
+    CAPTURE(type);
+    const std::string needed = judged(R"(,"gauge":"G-07","rule":"guard_band")", type);
+    CHECK(has(needed, R"("uncertainty":"ring","uncertainty_um":0.501,)"));
+    CHECK(has(needed, R"("verdict":"indeterminate")"));
+    CHECK(has(needed, R"("calibration_due":"2026-03-31","calibration_overdue":true,)"));
+    const std::string given =
+        judged(R"(,"gauge":"G-07","rule":"guard_band","uncertainty_um":0.1)", type);
+    CHECK_FALSE(has(given, "\"uncertainty\":"));
+    CHECK(has(given, R"("verdict":"good")"));
+    const std::string in_time = judged(
+        R"(,"gauge":"G-07","rule":"conformance","measured_at":"2026-03-31T23:59:59.999999999Z")",
+        type);
+    CHECK(has(in_time, R"("uncertainty":"ring")"));
+    CHECK_FALSE(has(in_time, "calibration"));
+    const std::string simple = judged(R"(,"gauge":"G-07")", type);
+    CHECK_FALSE(has(simple, "\"uncertainty"));
+    CHECK(has(simple, "calibration_overdue"));
+    CHECK_FALSE(has(judged(R"(,"gauge":"G-09")", type), "calibration"));
+  }
+  for (const char* gauge : {"G-08", "G-09"}) {
+    const std::string body = std::string(R"({"designation":"25 H7","measured_mm":25,"gauge":")") +
+                             gauge + R"(","rule":"guard_band"})";
+    const std::string padded = body + std::string(64, '\0');
+    MeasurementBatch batch;
+    const auto decoded =
+        decode_measurements(std::string_view(padded).substr(0, body.size()), "application/json",
+                            {.tables = tables(), .received_at = due, .gauges = &book}, batch);
+    REQUIRE(decoded.has_error());
+    CHECK(decoded.error().details.at(0).code == ErrorCode::FieldMissing);
+    CHECK(decoded.error().details.at(0).where == "/uncertainty_um");
+  }
+}
+
+TEST_CASE("what a budget comes to is rounded up to the nanometre, without the noise of binaries") {
+  CHECK(rounded_up(0.5) == Length::nanometres(500));
+  CHECK(rounded_up(0.1 + 0.2) == Length::nanometres(300));
+  CHECK(rounded_up(0.3000001) == Length::nanometres(301));
+  CHECK(rounded_up(0) == Length());
+  CHECK_FALSE(rounded_up(-1).has_value());
+  CHECK_FALSE(rounded_up(1e300).has_value());
+  CHECK_FALSE(rounded_up(std::numeric_limits<double>::quiet_NaN()).has_value());
 }

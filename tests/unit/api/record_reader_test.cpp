@@ -36,7 +36,7 @@ std::string text_of(const app::Measurement& m) {
 
 /// One record of each kind.
 std::vector<app::Measurement> samples() {
-  std::vector<app::Measurement> rows(9, hole());
+  std::vector<app::Measurement> rows(10, hole());
   rows[1].texts.comment = "\"\\\b\f\n\r\t\x01\x7f \xC3\x98 25 \xF0\x9F\x98\x80";
   rows[1].caller = "press-3";
   rows[1].temperature = -1;
@@ -73,6 +73,10 @@ std::vector<app::Measurement> samples() {
                      gauging::ConformanceProbability::from_millionths(500'000).value())
                      .value();
   rows[8].measured = Length::millimetres(27);
+  rows[9] = rows[2];
+  rows[9].texts.gauge = "G-07";
+  rows[9].uncertainty_budget = "bore gauge";
+  rows[9].calibration_due = "2026-03-31";
   for (app::Measurement& m : rows) app::judge(m);
   return rows;
 }
