@@ -20,7 +20,7 @@ using api::JsonValue;
 struct Kind {
   std::string_view name;
   void (*read)(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
-               Definition& into);  ///< null: not built
+               Definition& into);
 };
 
 void read_lsv2_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions&,
@@ -48,18 +48,20 @@ void read_mqtt_kind(FieldReader& fields, FieldErrors& errors, const FolderPermis
   into.options = read_mqtt(into.name, allowed, fields, errors);
 }
 
+void read_sparkplug_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
+                         Definition& into) {
+  into.options = read_sparkplug(into.name, allowed, fields, errors);
+}
+
 constexpr Kind kKinds[] = {
     {"lsv2", read_lsv2_kind},           {"webhook", read_webhook_kind},
     {"folder_in", read_folder_in_kind}, {"folder_out", read_folder_out_kind},
-    {"mqtt", read_mqtt_kind},           {"sparkplug", nullptr},
+    {"mqtt", read_mqtt_kind},           {"sparkplug", read_sparkplug_kind},
 };
 
-std::string kinds_built() {
+std::string names_of_kinds() {
   std::string names;
-  for (const Kind& kind : kKinds) {
-    if (kind.read == nullptr) continue;
-    names += (names.empty() ? "" : ", ") + std::string(kind.name);
-  }
+  for (const Kind& kind : kKinds) names += (names.empty() ? "" : ", ") + std::string(kind.name);
   return names;
 }
 
@@ -69,16 +71,10 @@ const Kind* read_kind(FieldReader& fields) {
   if (!word) return nullptr;
   const auto found = std::find_if(std::begin(kKinds), std::end(kKinds),
                                   [&](const Kind& kind) { return kind.name == *word; });
-  if (found != std::end(kKinds) && found->read != nullptr) return &*found;
-  if (found == std::end(kKinds)) {
-    fields.report(ErrorCode::FieldInvalid, "kind",
-                  fmt::format("there is no kind of connection '{}': take {}",
-                              first_characters(*word, 40), kinds_built()));
-  } else {
-    fields.report(
-        ErrorCode::ConnectionKindNotBuilt, "kind",
-        fmt::format("connections of the kind {} are not built yet: take {}", *word, kinds_built()));
-  }
+  if (found != std::end(kKinds)) return &*found;
+  fields.report(ErrorCode::FieldInvalid, "kind",
+                fmt::format("there is no kind of connection '{}': take {}",
+                            first_characters(*word, 40), names_of_kinds()));
   return nullptr;
 }
 

@@ -9,6 +9,7 @@
 #include "connections/folder_in.hpp"
 #include "connections/folder_out.hpp"
 #include "connections/mqtt/mqtt.hpp"
+#include "connections/sparkplug/sparkplug.hpp"
 #include "connections/webhook.hpp"
 
 namespace fitgauge::connections {
@@ -20,7 +21,7 @@ struct Definition {
   std::string text{};      ///< JSON, as it is stored
   std::string settings{};  ///< the same without what only this service may know
   std::variant<collector::MachineOptions, WebhookOptions, FolderInOptions, FolderOutOptions,
-               MqttOptions>
+               MqttOptions, SparkplugOptions>
       options{};
 };
 

@@ -60,6 +60,9 @@ std::string write(const Progress& progress) {
   return text;
 }
 
+/// A name that no connection can have.
+std::string session_name(const std::string& name) { return name + ".session"; }
+
 }  // namespace
 
 void Progress::refuse(app::DeadLetter letter) {
@@ -88,10 +91,29 @@ Result<void> save_progress(app::DocumentService& documents, const std::string& n
   return {};
 }
 
+Result<std::uint8_t> next_session(app::DocumentService& documents, const std::string& name) {
+  const auto document = documents.wait_for(kKind, session_name(name));
+  if (!document && document.error().code != ErrorCode::ConnectionUnknown) return document.error();
+  std::uint8_t session = 0;
+  if (document) {
+    const auto stored = api::parse_stored_json(document->text, "the session of a connection");
+    if (!stored) return stored.error();
+    session = static_cast<std::uint8_t>(whole_number(*stored, "session") + 1);
+  }
+  std::string text;
+  api::JsonWriter(text).begin_object().member("session", std::int64_t{session}).end_object();
+  const auto written =
+      documents.write_and_wait({.kind = kKind, .name = session_name(name), .text = text});
+  if (!written) return written.error();
+  return session;
+}
+
 Result<void> forget_progress(app::DocumentService& documents, const std::string& name) {
-  const auto removed = documents.remove_and_wait(kKind, name);
-  if (removed || removed.error().code == ErrorCode::ConnectionUnknown) return {};
-  return removed.error();
+  for (const std::string& each : {name, session_name(name)}) {
+    const auto removed = documents.remove_and_wait(kKind, each);
+    if (!removed && removed.error().code != ErrorCode::ConnectionUnknown) return removed.error();
+  }
+  return {};
 }
 
 }  // namespace fitgauge::connections

@@ -26,7 +26,10 @@ Result<std::optional<Progress>> load_progress(app::DocumentService& documents,
                                               const std::string& name);
 Result<void> save_progress(app::DocumentService& documents, const std::string& name,
                            const Progress& progress);
-/// Also where there is none.
+/// The number of a new session with the other side: 0 at first, one more each time, 0 after 255;
+/// kept before it is given. Waits. @errors those of storage.
+Result<std::uint8_t> next_session(app::DocumentService& documents, const std::string& name);
+/// Forgets both, also where there is none.
 Result<void> forget_progress(app::DocumentService& documents, const std::string& name);
 
 }  // namespace fitgauge::connections

@@ -45,6 +45,9 @@ struct MakeWorker {
   std::unique_ptr<Worker> operator()(const MqttOptions& mqtt) const {
     return std::make_unique<LogFollower>(mqtt.follower, make_mqtt(mqtt, around), around);
   }
+  std::unique_ptr<Worker> operator()(const SparkplugOptions& node) const {
+    return std::make_unique<LogFollower>(node.follower, make_sparkplug(node, around), around);
+  }
   std::unique_ptr<Worker> operator()(const FolderInOptions& folder) const {
     return make_folder_in(folder, around);
   }
@@ -65,6 +68,9 @@ struct TestConnection {
   }
   app::ConnectionTest operator()(const MqttOptions& mqtt) const {
     return test_broker(mqtt.broker, mqtt.follower.name, around, stop);
+  }
+  app::ConnectionTest operator()(const SparkplugOptions& node) const {
+    return test_broker(node.broker, node.follower.name, around, stop);
   }
   app::ConnectionTest operator()(const FolderInOptions& folder) const {
     return test_folder_in(folder);

@@ -94,22 +94,31 @@ Fields secret_fields() {
 
 Fields broker_fields() {
   return Fields{{"broker", schema::text(200), "mqtts://host or mqtt://host, with :port"}} +
-         schema::optional(
-             {{"user", schema::text(200), "As the broker knows the service"},
-              {"ca_file", schema::text(),
-               "Of this machine, who vouches for the broker; the "
-               "system's authorities when absent"},
-              {"client_id", schema::text(100),
-               "fitgauge-, digits of the data folder and the name "
-               "when absent"},
-              {"version", schema::words({"3.1.1", "5"}), "Of MQTT; 3.1.1 when absent"}});
+         schema::optional({{"user", schema::text(200), "As the broker knows the service"},
+                           {"ca_file", schema::text(),
+                            "Of this machine, who vouches for the broker; the "
+                            "system's authorities when absent"},
+                           {"client_id", schema::text(100),
+                            "fitgauge-, digits of the data folder and the name "
+                            "when absent"}});
 }
 
 Fields mqtt_own_fields() {
-  return schema::optional(
-      {{"topic", schema::text(500), "plant/{machine}/{characteristic}"},
-       {"status_topic", schema::text(500), "Of online and offline; client_id/status when absent"},
-       {"retain", schema::boolean(), "The broker keeps the last of each topic; true when absent"}});
+  return Fields{{"topic", schema::text(500), "plant/{machine}/{characteristic}"}} +
+         schema::optional({{"version", schema::words({"3.1.1", "5"}), "Of MQTT; 3.1.1 when absent"},
+                           {"status_topic", schema::text(500),
+                            "Of online and offline; client_id/status when absent"},
+                           {"retain", schema::boolean(),
+                            "The broker keeps the last of each topic; true when absent"}});
+}
+
+Fields sparkplug_own_fields() {
+  return Fields{{"group", schema::text(200), "Its id of a group"},
+                {"node", schema::text(200), "Its id of an edge node"}} +
+         schema::optional(
+             {{"device", schema::text(500), "{machine}:{characteristic} when absent"},
+              {"primary_host", schema::text(200), "Nothing goes out while it is offline"},
+              {"most_devices", schema::integer(1, 1000), "Alive together; 1000 when absent"}});
 }
 
 Fields password_field() {
@@ -149,24 +158,29 @@ Fields state_fields() {
 }  // namespace
 
 void add_connection_schemas(Schemas& schemas) {
-  schemas.push_back({"ConnectionOrder",
-                     schema::any_of({order_of("lsv2", lsv2_fields()),
-                                     order_of("webhook", webhook_fields() + secret_fields()),
-                                     order_of("mqtt", broker_fields() + password_field() +
-                                                          mqtt_own_fields() + follower_fields()),
-                                     order_of("folder_in", folder_in_fields()),
-                                     order_of("folder_out", folder_out_fields())})});
+  schemas.push_back(
+      {"ConnectionOrder",
+       schema::any_of({order_of("lsv2", lsv2_fields()),
+                       order_of("webhook", webhook_fields() + secret_fields()),
+                       order_of("mqtt", broker_fields() + password_field() + mqtt_own_fields() +
+                                            follower_fields()),
+                       order_of("sparkplug", broker_fields() + password_field() +
+                                                 sparkplug_own_fields() + follower_fields()),
+                       order_of("folder_in", folder_in_fields()),
+                       order_of("folder_out", folder_out_fields())})});
   schemas.push_back(
       {"Connection",
        schema::object(
            Fields{
                {"name", schema::text(), ""},
-               {"kind", schema::words({"lsv2", "webhook", "folder_in", "folder_out", "mqtt"}), ""},
+               {"kind",
+                schema::words({"lsv2", "webhook", "folder_in", "folder_out", "mqtt", "sparkplug"}),
+                ""},
                {"direction", schema::words({"in", "out"}), ""},
                {"read_only", schema::boolean(), "Stands in the configuration file"}} +
            schema::optional(lsv2_fields() + webhook_fields() +
                             without_interval(folder_in_fields()) + folder_out_own_fields() +
-                            broker_fields() + mqtt_own_fields()) +
+                            broker_fields() + mqtt_own_fields() + sparkplug_own_fields()) +
            Fields{{"secret_count", schema::count(), "How many secrets there are", false},
                   {"password_set", schema::boolean(), "There is a password", false}} +
            state_fields())});

@@ -198,8 +198,7 @@ void add_connections_routes(std::vector<http::Route>& routes, const Services& se
       .pattern = "/v1/connections/{name}",
       .handler = with(services, put),
       .summary = "Store a connection and start it",
-      .description = "One of the configuration file is 409 `connection.read_only`; a kind that is "
-                     "not built yet is 422 `connection.kind_not_built`.",
+      .description = "One of the configuration file is 409 `connection.read_only`.",
       .parameters = {name},
       .body = {.use = http::BodyUse::Required,
                .media_types = {"application/json"},

@@ -77,11 +77,6 @@ Broker read_broker(const FolderPermissions& allowed, FieldReader& fields) {
     }
   }
   read_client_id(fields, broker);
-  const auto version = fields.optional_text("version");
-  broker.version_5 = version == "5";
-  if (version && *version != "5" && *version != "3.1.1") {
-    fields.report(ErrorCode::FieldInvalid, "version", "version is 3.1.1 or 5");
-  }
   return broker;
 }
 

@@ -9,8 +9,8 @@
 namespace fitgauge::connections {
 
 /// Reads what every connection to a broker takes: `broker` (mqtt://host:1883 or
-/// mqtts://host:8883), `user`, `password`, `ca_file`, `client_id`, `version`. What is wrong goes to
-/// `errors`. Without `client_id` it is empty.
+/// mqtts://host:8883), `user`, `password`, `ca_file`, `client_id`. What is wrong goes to the
+/// reader's errors. Without `client_id` it is empty.
 /// @param allowed where a file of authorities may stand.
 Broker read_broker(const FolderPermissions& allowed, api::FieldReader& fields);
 

@@ -111,6 +111,11 @@ MqttOptions read_mqtt(std::string_view name, const FolderPermissions& allowed,
   MqttOptions options;
   options.follower.name = name;
   options.broker = read_broker(allowed, fields);
+  const auto version = fields.optional_text("version");
+  options.broker.version_5 = version == "5";
+  if (version && *version != "5" && *version != "3.1.1") {
+    fields.report(ErrorCode::FieldInvalid, "version", "version is 3.1.1 or 5");
+  }
   if (const auto text = fields.text("topic")) {
     auto topic = TopicTemplate::parse(*text);
     if (topic) {

@@ -20,8 +20,8 @@ struct MqttOptions {
   bool retain = true;
 };
 
-/// Reads what the kind mqtt takes: that of a broker, `topic`, `status_topic`, `retain`, `filter`,
-/// `start`, `longest_wait_s`. What is wrong goes to `errors`.
+/// Reads what the kind mqtt takes: that of a broker, `version`, `topic`, `status_topic`, `retain`,
+/// `filter`, `start`, `longest_wait_s`. What is wrong goes to `errors`.
 MqttOptions read_mqtt(std::string_view name, const FolderPermissions& allowed,
                       api::FieldReader& fields, api::FieldErrors& errors);
 

@@ -8,7 +8,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <memory>
+#include <new>
 #include <utility>
 
 namespace fitgauge::connections {

@@ -65,6 +65,8 @@ std::pair<char32_t, std::size_t> front_character(std::string_view text) {
   return {c, std::min(size, text.size())};
 }
 
+Error invalid(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
+
 /// What may stand in a template as it is.
 bool is_literal(std::string_view text) {
   while (!text.empty()) {
@@ -97,15 +99,21 @@ std::string topic_level(std::string_view text) {
 }
 
 Result<TopicTemplate> TopicTemplate::parse(std::string_view text) {
-  const auto invalid = [](std::string message) {
-    return Error{ErrorCode::FieldInvalid, std::move(message)};
-  };
-  if (text.empty() || text.size() > kLongest) {
-    return invalid(fmt::format("a topic has 1 to {} bytes", kLongest));
-  }
   // The broker keeps $ for itself; a text that begins with one must not get there.
   if (text.starts_with('$') || text.starts_with('{')) {
     return invalid("a topic begins with a word of your own, such as plant/");
+  }
+  return parse_parts(text);
+}
+
+Result<TopicTemplate> TopicTemplate::parse_level(std::string_view text) {
+  if (text.find('/') != std::string_view::npos) return invalid("one level of a topic has no /");
+  return parse_parts(text);
+}
+
+Result<TopicTemplate> TopicTemplate::parse_parts(std::string_view text) {
+  if (text.empty() || text.size() > kLongest) {
+    return invalid(fmt::format("a topic has 1 to {} bytes", kLongest));
   }
   TopicTemplate made;
   while (!text.empty()) {

@@ -19,6 +19,8 @@ class TopicTemplate {
  public:
   /// @errors FieldInvalid: no topic, an unknown name, a `{` without its end.
   static Result<TopicTemplate> parse(std::string_view text);
+  /// The same for one level that stands behind others: without `/`, and it may begin with a name.
+  static Result<TopicTemplate> parse_level(std::string_view text);
 
   /// A text that the measurement lacks is `-`. @returns at most 65,535 bytes: the fields are short.
   std::string topic_of(const app::Measurement& measurement) const;
@@ -28,6 +30,8 @@ class TopicTemplate {
     bool is_name = false;
     std::string text{};
   };
+  static Result<TopicTemplate> parse_parts(std::string_view text);
+
   std::vector<Part> parts_;
 };
 

@@ -33,11 +33,11 @@ class Stored(DaemonTest):
         self.daemon.start()
         self.assertEqual(self.daemon.get("/v1/connections").json["connections"], [])
 
-    def test_what_is_not_built_is_refused(self):
-        for kind in ("sparkplug",):
-            problem = self.put("x", {"kind": kind, "url": "mqtt://127.0.0.1"}, 422)
-            self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]],
-                             [("/kind", "connection.kind_not_built")])
+    def test_a_kind_that_is_not_there_is_refused(self):
+        problem = self.put("x", {"kind": "opcua", "url": "opc.tcp://127.0.0.1"}, 422)
+        kinds = next(e["detail"] for e in problem["errors"] if (e["pointer"], e["code"]) == ("/kind", "field.invalid"))
+        for kind in ("lsv2", "webhook", "folder_in", "folder_out", "mqtt", "sparkplug"):
+            self.assertIn(kind, kinds)
         self.assertEqual(self.daemon.get("/v1/connections").json["connections"], [])
 
     def test_every_bad_field_is_named(self):

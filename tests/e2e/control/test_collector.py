@@ -275,7 +275,6 @@ class Settings(unittest.TestCase):
         self.assertEqual(self.refusal(self.GOOD)[0], 0)
         for change, said in (
                 (("m3", "m 3"), "FILE:2: the name of a connection has"),
-                (("lsv2", "sparkplug"), "FILE:3: connections of the kind sparkplug are not built yet"),
                 (("lsv2", "post"), "FILE:3: there is no kind of connection 'post'"),
                 (("10.0.0.7", "10.0.0.7:x"), "FILE:4: '10.0.0.7:x' is no HOST or HOST:PORT"),
                 (("TNC:", "PLC:"), "is no path to watch"),
