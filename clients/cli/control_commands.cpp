@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/input_file.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "control_link/link_client.hpp"
 #include "control_link/virtual_names.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -16,7 +16,7 @@ std::string rounded(const JsonValue& of, std::string_view name, int decimals) {
 }
 
 void print_selection(const Context& context, const JsonValue& document) {
-  const JsonValue& selection = document.object("selection");
+  const JsonValue& selection = document.member("selection");
   const std::string_view subgroups = selection.text_of("subgroups");
   context.print("{} values{}, {} to {}, limits {} to {} mm\n", selection.text_of("count"),
                 subgroups == "0" ? "" : fmt::format(" in {} subgroups", subgroups),
@@ -25,7 +25,7 @@ void print_selection(const Context& context, const JsonValue& document) {
 }
 
 void print_violations(const Context& context, const JsonValue& document) {
-  for (const JsonValue& violation : document.items_of("violations")) {
+  for (const JsonValue& violation : document.member("violations").items) {
     const std::string_view subgroup = violation.text_of("subgroup");
     context.print("    rule {} at {} {} ({})\n", violation.text_of("rule"),
                   subgroup.empty() ? "measurement" : "subgroup",
@@ -48,7 +48,7 @@ Outcome<ExitCode> run_capability(const Context& context, const CapabilityQuery& 
                 rounded(*found, "standard_deviation_within", 6),
                 rounded(*found, "standard_deviation_overall", 6));
   for (const std::string_view name : {"cp", "cpk", "pp", "ppk", "cpm"}) {
-    const JsonValue& index = found->object(name);
+    const JsonValue& index = found->member(name);
     context.print("{:<3} {} ({} to {})\n", name, rounded(index, "value", 3),
                   rounded(index, "lower", 3), rounded(index, "upper", 3));
   }
@@ -67,13 +67,13 @@ Outcome<ExitCode> run_chart(const Context& context, const ChartQuery& query) {
   if (!found) return found.error();
   if (context.json) return ExitCode::Good;
   print_selection(context, *found);
-  for (const JsonValue& chart : found->items_of("charts")) {
+  for (const JsonValue& chart : found->member("charts").items) {
     context.print("{:<5} centre {} mm, limits {} to {} mm\n", chart.text_of("name"),
                   rounded(chart, "centre", 6), rounded(chart, "lower_limit", 6),
                   rounded(chart, "upper_limit", 6));
   }
   print_violations(context, *found);
-  if (found->items_of("violations").empty()) context.print("no rule is broken\n");
+  if (found->member("violations").items.empty()) context.print("no rule is broken\n");
   if (const std::string length = rounded(*found, "average_run_length", 1); length != "-") {
     context.print("a false alarm every {} points on average\n", length);
   }

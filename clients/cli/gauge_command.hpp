@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "cli/context.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 
 namespace fitgauge::cli {
 

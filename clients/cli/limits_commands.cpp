@@ -92,7 +92,7 @@ std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
                          fmt::format("{} {}", limits.text_of("tolerance_um"), unit)};
   std::size_t width = 0;
   for (const std::string& size : sizes) width = std::max(width, size.size());
-  const JsonValue& range = limits.object("size_range_mm");
+  const JsonValue& range = limits.member("size_range_mm");
   std::string text =
       fmt::format("{}  {}{}\n", limits.text_of("designation"), limits.text_of("feature"),
                   limits.text_of("basis") == "custom" ? ", a column of the shop's own" : "");
@@ -106,8 +106,8 @@ std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
 }
 
 std::string format_fit(const JsonValue& fit, const Terminal& terminal) {
-  const JsonValue& hole = fit.object("hole");
-  const JsonValue& shaft = fit.object("shaft");
+  const JsonValue& hole = fit.member("hole");
+  const JsonValue& shaft = fit.member("shaft");
   const std::array zones{zone_of(hole), zone_of(shaft)};
   std::string text = fmt::format("{}  {} fit, {}\n\n", fit.text_of("designation"),
                                  fit.text_of("type"), clearances(fit, terminal.micrometre()));
@@ -145,7 +145,7 @@ Outcome<ExitCode> run_version(const Context& context) {
   if (!answer) return answer.error();
   const auto document = read_document(*answer, context.client.url());
   if (!document) return document.error();
-  const std::string_view service = document->object("info").text_of("version");
+  const std::string_view service = document->member("info").text_of("version");
   if (context.json) {
     context.print_document(JsonObject()
                                .add("fitgauge", FITGAUGE_VERSION)

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/context.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 
 namespace fitgauge::cli {
 

@@ -23,7 +23,7 @@ std::uint64_t number_of(std::string_view digits) {
 }
 
 VerdictCounts counts_of(const JsonValue& accepted) {
-  const JsonValue& verdicts = accepted.object("verdicts");
+  const JsonValue& verdicts = accepted.member("verdicts");
   return {.good = number_of(verdicts.text_of("good")),
           .rework = number_of(verdicts.text_of("rework")),
           .reject = number_of(verdicts.text_of("reject")),

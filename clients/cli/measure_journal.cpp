@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "cli/input_file.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "cli/sha256.hpp"
 #include "cli/terminal.hpp"
 
@@ -80,16 +80,16 @@ VerdictCounts& VerdictCounts::operator+=(const VerdictCounts& other) {
 }
 
 std::optional<MeasureState> parse_state(std::string_view line) {
-  const auto document = parse_json(line);
+  const auto document = parse_document(line);
   if (!document) return std::nullopt;
   MeasureState state{.server = std::string(document->text_of("server")),
                      .session = std::string(document->text_of("session")),
                      .complete = document->text_of("complete") == "true"};
-  const auto stored = read_position(document->object("stored"));
+  const auto stored = read_position(document->member("stored"));
   if (!stored || state.session.empty()) return std::nullopt;
   state.stored = *stored;
-  state.pending = read_position(document->object("pending"));
-  const JsonValue& counts = document->object("verdicts");
+  state.pending = read_position(document->member("pending"));
+  const JsonValue& counts = document->member("verdicts");
   const bool counted = read_count(counts, "good", state.counts.good) &&
                        read_count(counts, "rework", state.counts.rework) &&
                        read_count(counts, "reject", state.counts.reject) &&

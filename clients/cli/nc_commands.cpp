@@ -6,7 +6,7 @@
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/input_file.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
 
@@ -25,7 +25,7 @@ Outcome<Answer> send_persistently(const Context& context, const Request& request
 
 /// Prints each finding with its block.
 void print_diagnostics(const JsonValue& document, std::FILE* stream) {
-  for (const JsonValue& found : document.items_of("diagnostics")) {
+  for (const JsonValue& found : document.member("diagnostics").items) {
     fmt::print(stream, "{}:{}:{}: {}: {}\n    {}\n", found.text_of("program"),
                found.text_of("line"), found.text_of("column"), found.text_of("severity"),
                found.text_of("message"), found.text_of("source"));
@@ -33,7 +33,7 @@ void print_diagnostics(const JsonValue& document, std::FILE* stream) {
 }
 
 bool has_errors(const JsonValue& document) {
-  const auto& found = document.items_of("diagnostics");
+  const auto& found = document.member("diagnostics").items;
   return std::any_of(found.begin(), found.end(), [](const JsonValue& diagnostic) {
     return diagnostic.text_of("severity") == "error";
   });
@@ -44,7 +44,7 @@ bool names_folder(std::string_view path) { return path.ends_with('/') || path.en
 /// A parameter's value as JSON: a QS holds a text, every other one a number.
 Outcome<std::string> parameter_json(std::string_view name, std::string_view value) {
   if (ascii_iequals(name.substr(0, 2), "QS")) return json_quoted(value);
-  const auto number = parse_json(value);
+  const auto number = parse_document(value);
   if (number && number->kind == JsonValue::Kind::Number) return std::string(value);
   return Failure{ExitCode::Usage,
                  fmt::format("{} takes a number such as 25.5, not '{}'", name, value)};
@@ -53,12 +53,12 @@ Outcome<std::string> parameter_json(std::string_view name, std::string_view valu
 Outcome<std::string> setup_json(const RunOptions& options) {
   if (options.setup_file.empty()) return json_quoted(options.setup);
   auto text = read_file(options.setup_file);
-  if (!text || parse_json(*text)) return text;
+  if (!text || parse_document(*text)) return text;
   return Failure{ExitCode::LocalFile, options.setup_file + ": is not JSON"};
 }
 
 Failure refused_run(const Context& context, const Answer& answer) {
-  const auto document = parse_json(answer.body);
+  const auto document = parse_document(answer.body);
   if (document && !context.json) print_diagnostics(*document, stderr);
   Failure failure = failure_of(answer, context.client.url());
   if (document && document->find("diagnostics") != nullptr) {
@@ -70,7 +70,7 @@ Failure refused_run(const Context& context, const Answer& answer) {
 }  // namespace
 
 void print_messages(const JsonValue& run) {
-  for (const JsonValue& message : run.items_of("messages")) {
+  for (const JsonValue& message : run.member("messages").items) {
     fmt::print(stderr, "{}:{}: {} {}: {}\n", message.text_of("program"), message.text_of("line"),
                message.text_of("kind"), message.text_of("number"), message.text_of("text"));
   }
@@ -87,7 +87,7 @@ Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix) {
   }
   const auto document = read_document(*answer, context.client.url());
   if (!document) return document.error();
-  for (const JsonValue& file : document->items_of("files")) {
+  for (const JsonValue& file : document->member("files").items) {
     context.print("{:>9}  {}  {}\n", file.text_of("size"), file.text_of("modified_at"),
                   file.text_of("path"));
   }
@@ -183,7 +183,7 @@ Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) 
   if (context.json) {
     context.print_document(answer->body);
   } else {
-    for (const JsonValue& line : run->items_of("screen")) context.print("{}\n", line.text);
+    for (const JsonValue& line : run->member("screen").items) context.print("{}\n", line.text);
     print_messages(*run);
   }
   const std::string_view status = run->text_of("status");

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/context.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 
 namespace fitgauge::cli {
 

@@ -37,13 +37,13 @@ std::string sentence(const Problem& problem) {
 
 std::optional<Problem> problem_of(const Answer& answer) {
   if (!answer.content_type.starts_with("application/problem+json")) return std::nullopt;
-  const auto document = parse_json(answer.body);
+  const auto document = parse_document(answer.body);
   if (!document) return std::nullopt;
   Problem problem{.code = std::string(document->text_of("code")),
                   .title = std::string(document->text_of("title")),
                   .detail = std::string(document->text_of("detail")),
                   .where = std::string(document->text_of("where"))};
-  for (const JsonValue& entry : document->items_of("errors")) {
+  for (const JsonValue& entry : document->member("errors").items) {
     problem.fields.push_back({.pointer = std::string(entry.text_of("pointer")),
                               .line = line_of(entry),
                               .detail = std::string(entry.text_of("detail"))});
@@ -88,7 +88,7 @@ Outcome<Answer> expect_ok(Outcome<Answer> answer, const std::string& url) {
 }
 
 Outcome<JsonValue> read_document(const Answer& answer, const std::string& url) {
-  auto document = parse_json(answer.body);
+  auto document = parse_document(answer.body);
   if (document) return *std::move(document);
   return Failure{ExitCode::NoAnswer,
                  fmt::format("{} answers with something that is not JSON: is it fitgauged?", url)};

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/http_client.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 
 namespace fitgauge::cli {
 

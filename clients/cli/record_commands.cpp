@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
 #include "cli/watch_command.hpp"
@@ -78,7 +78,7 @@ Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
                              {{"limit", std::to_string(query.limit)}, {"after", query.after}}));
   if (!page) return page.error();
   if (context.json) return ExitCode::Good;
-  for (const JsonValue& record : page->items_of("measurements")) {
+  for (const JsonValue& record : page->member("measurements").items) {
     context.print("{}", record_line(record, context.out));
   }
   if (const std::string_view next = page->text_of("next"); !next.empty()) {
@@ -104,8 +104,8 @@ Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) 
       context, record_target("/v1/measurements/summary", query, {{"group_by", group_by}}));
   if (!summary) return summary.error();
   if (context.json) return ExitCode::Good;
-  for (const JsonValue& group : summary->items_of("groups")) {
-    const JsonValue& verdicts = group.object("verdicts");
+  for (const JsonValue& group : summary->member("groups").items) {
+    const JsonValue& verdicts = group.member("verdicts");
     const std::string_view value = group.text_of(group_by);
     const std::string_view scatter = group.text_of("standard_deviation_mm");
     context.print("{}: {} values, {} good, {} rework, {} reject, {} indeterminate\n",

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "cli/context.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 
 namespace fitgauge::cli {
 

@@ -8,7 +8,7 @@
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/input_file.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
 #include "log_reader/measuring_log.hpp"
@@ -45,7 +45,7 @@ Outcome<ByCycle> read_log(const std::string& file) {
 /// What the run has written. A file that is no log of a cycle does not matter here.
 Outcome<ByCycle> written_logs(const Context& context, const JsonValue& run) {
   ByCycle logs;
-  for (const JsonValue& file : run.items_of("files")) {
+  for (const JsonValue& file : run.member("files").items) {
     const std::string target =
         fmt::format("/v1/runs/{}/files/{}", percent_encoded(run.text_of("id")),
                     percent_encoded(base_name(file.text_of("path"))));
@@ -151,7 +151,7 @@ Outcome<JsonValue> run_on_contacts(const Context& context, const ReplayOptions& 
   if (!order) return order.error();
   const auto contacts = read_file(options.contacts);
   if (!contacts) return contacts.error();
-  if (!parse_json(*contacts)) {
+  if (!parse_document(*contacts)) {
     return Failure{ExitCode::LocalFile, options.contacts + ": is not JSON: [[X, Y, Z], null, …]"};
   }
   const std::string body =

@@ -2,7 +2,7 @@
 
 #include "cli/address.hpp"
 #include "cli/input_file.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "cli/nc_commands.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
@@ -33,7 +33,7 @@ Outcome<ExitCode> list(const Context& context, const std::string& target, std::s
   }
   const auto document = read_document(*answer, context.client.url());
   if (!document) return document.error();
-  for (const JsonValue& item : document->items_of(items)) context.print("{}\n", line(item));
+  for (const JsonValue& item : document->member(items).items) context.print("{}\n", line(item));
   if (const std::string_view next = document->text_of("next"); !next.empty()) {
     context.note(fmt::format("there are more: --after {}", next));
   }
@@ -102,9 +102,9 @@ Outcome<ExitCode> run_runs_show(const Context& context, const std::string& id) {
   if (!run) return run.error();
   context.print("{}  {}  {}  {}\n", run->text_of("created_at"), run->text_of("program"),
                 run->text_of("status"), run->text_of("verdict"));
-  for (const JsonValue& line : run->items_of("screen")) context.print("{}\n", line.text);
+  for (const JsonValue& line : run->member("screen").items) context.print("{}\n", line.text);
   print_messages(*run);
-  for (const JsonValue& file : run->items_of("files")) {
+  for (const JsonValue& file : run->member("files").items) {
     context.print("{:>9}  {}\n", file.text_of("size"), file.text_of("path"));
   }
   return ExitCode::Good;

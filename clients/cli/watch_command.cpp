@@ -5,7 +5,7 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "cli/problem.hpp"
 
 namespace fitgauge::cli {
@@ -101,7 +101,7 @@ std::string event_json(const Event& event) {
 }
 
 std::string format_event(const Event& event, const Terminal& terminal) {
-  const auto document = parse_json(event.data);
+  const auto document = parse_document(event.data);
   if (!document || event.type == "verdict.reject") return {};
   if (event.type == "measurement.recorded") return record_line(*document, terminal);
   if (event.type == "run.finished") {

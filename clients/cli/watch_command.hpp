@@ -5,7 +5,7 @@
 
 #include "cli/context.hpp"
 #include "cli/event_reader.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 
 namespace fitgauge::cli {
 

@@ -40,7 +40,7 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
       not_started("the configuration file has a connection of that name");
       continue;
     }
-    const auto body = api::parse_stored_json(document.text, "a connection");
+    const auto body = parse_stored_json(document.text, "a connection");
     auto definition = body ? read_definition(document.name, *body, {.roots = all->around_.folders})
                            : body.error();
     if (definition) {
@@ -146,7 +146,7 @@ Result<bool> Connections::put(const app::ConnectionCalls::Put& order) {
         ErrorCode::RequestInvalid,
         fmt::format("there are {} connections, and no more can be: delete one", kMostConnections)};
   }
-  auto body = api::parse_json(order.body);
+  auto body = parse_json(order.body);
   if (!body) return body.error();
   if (before) keep_secrets(*body, before->definition);
   auto definition = read_definition(order.name, *body, {.roots = around_.folders});

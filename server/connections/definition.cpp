@@ -15,7 +15,6 @@ namespace {
 
 using api::FieldErrors;
 using api::FieldReader;
-using api::JsonValue;
 
 struct Kind {
   std::string_view name;
@@ -123,7 +122,7 @@ Result<void> check_name(std::string_view name) {
 }
 
 void keep_secrets(JsonValue& body, const Definition& before) {
-  const auto known = api::parse_json(before.text);
+  const auto known = parse_json(before.text);
   if (!body.is(JsonValue::Kind::Object) || !known || !is_same(body, *known, "kind")) return;
   const auto keep = [&](std::string_view name) {
     const JsonValue* const secret = known->find(name);

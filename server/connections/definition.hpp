@@ -4,7 +4,7 @@
 #include <string_view>
 #include <variant>
 
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "collector/collector_options.hpp"
 #include "connections/folder_in.hpp"
 #include "connections/folder_out.hpp"
@@ -30,12 +30,12 @@ Result<void> check_name(std::string_view name);
 
 /// Adds what `before` knows and `body` leaves out: its secrets, a password for the same broker and
 /// user alone.
-void keep_secrets(api::JsonValue& body, const Definition& before);
+void keep_secrets(JsonValue& body, const Definition& before);
 
 /// @param body an object with `kind` and what its kind takes.
 /// @param allowed which folders it may name.
 /// @errors PathMalformed; RequestInvalid with every bad field.
-Result<Definition> read_definition(std::string name, const api::JsonValue& body,
+Result<Definition> read_definition(std::string name, const JsonValue& body,
                                    const FolderPermissions& allowed);
 
 }  // namespace fitgauge::connections

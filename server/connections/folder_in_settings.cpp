@@ -12,7 +12,6 @@ namespace {
 
 using api::FieldErrors;
 using api::FieldReader;
-using api::JsonValue;
 
 constexpr std::size_t kMostNames = 20;
 constexpr std::size_t kMostWords = 200;
@@ -36,7 +35,7 @@ void read_files(FieldReader& fields, FieldErrors& errors, FolderInOptions& optio
     if (is_glob) {
       options.names.push_back(item.text);
     } else {
-      errors.add(ErrorCode::FieldInvalid, api::pointer_to(fields.at("names"), i),
+      errors.add(ErrorCode::FieldInvalid, pointer_to(fields.at("names"), i),
                  "a name of files without a folder, which may have * and ?: *.csv");
     }
   }
@@ -59,7 +58,7 @@ sheet::Words read_words(std::string_view name, FieldReader& fields, FieldErrors&
     if (value.is(JsonValue::Kind::String) || value.is(JsonValue::Kind::Number)) {
       words.emplace_back(key, value.text);
     } else {
-      errors.add(ErrorCode::FieldType, api::pointer_to(fields.at(name), key), "a text is wanted");
+      errors.add(ErrorCode::FieldType, pointer_to(fields.at(name), key), "a text is wanted");
     }
   }
   return words;
@@ -68,7 +67,7 @@ sheet::Words read_words(std::string_view name, FieldReader& fields, FieldErrors&
 void check_columns(const sheet::Words& columns, FieldReader& fields, FieldErrors& errors) {
   for (const auto& [from, to] : columns) {
     if (to.empty() || to == "date" || to == "time" || is_field(to)) continue;
-    errors.add(ErrorCode::FieldInvalid, api::pointer_to(fields.at("map"), from),
+    errors.add(ErrorCode::FieldInvalid, pointer_to(fields.at("map"), from),
                fmt::format("there is no field {}; an empty text leaves the column out",
                            first_characters(to, 100)));
   }
@@ -78,7 +77,7 @@ void check_constants(const sheet::Words& constants, FieldReader& fields, FieldEr
   for (const auto& [field, value] : constants) {
     if (is_field(field) && field != "measured_mm") continue;
     errors.add(
-        ErrorCode::FieldInvalid, api::pointer_to(fields.at("set"), field),
+        ErrorCode::FieldInvalid, pointer_to(fields.at("set"), field),
         fmt::format("{} is no field that all rows can have alike", first_characters(field, 100)));
   }
 }

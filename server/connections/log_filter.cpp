@@ -12,7 +12,6 @@ namespace {
 
 using api::FieldErrors;
 using api::FieldReader;
-using api::JsonValue;
 using gauging::Verdict;
 
 constexpr std::array kVerdicts = {Verdict::Good, Verdict::Rework, Verdict::Reject,

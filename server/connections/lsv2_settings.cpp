@@ -9,7 +9,6 @@ namespace {
 
 using api::FieldErrors;
 using api::FieldReader;
-using api::JsonValue;
 using collector::MachineOptions;
 
 constexpr std::size_t kMostPaths = 100;
@@ -39,7 +38,7 @@ void read_paths(FieldReader& fields, FieldErrors& errors, MachineOptions& machin
   }
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     const JsonValue& item = list->items[i];
-    const std::string pointer = api::pointer_to(fields.at("paths"), i);
+    const std::string pointer = pointer_to(fields.at("paths"), i);
     if (!item.is(JsonValue::Kind::String)) {
       errors.add(ErrorCode::FieldType, pointer, "a path is a text");
       continue;
@@ -77,7 +76,7 @@ void read_patterns(FieldReader& fields, FieldErrors& errors, MachineOptions& mac
     return;
   }
   for (std::size_t i = 0; i < list->items.size(); ++i) {
-    read_pattern(list->items[i], api::pointer_to(fields.at("patterns"), i), errors, machine);
+    read_pattern(list->items[i], pointer_to(fields.at("patterns"), i), errors, machine);
   }
 }
 

@@ -2,13 +2,11 @@
 
 #include <charconv>
 
-#include "api/wire/json_value.hpp"
 #include "api/wire/json_writer.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::connections {
 namespace {
-
-using api::JsonValue;
 
 constexpr std::size_t kMostLetters = 100;
 constexpr auto kKind = app::DocumentKind::ConnectionProgress;
@@ -78,7 +76,7 @@ Result<std::optional<Progress>> load_progress(app::DocumentService& documents,
     if (document.error().code == ErrorCode::ConnectionUnknown) return std::optional<Progress>();
     return document.error();
   }
-  const auto stored = api::parse_stored_json(document->text, "the progress of a connection");
+  const auto stored = parse_stored_json(document->text, "the progress of a connection");
   if (!stored) return stored.error();
   return std::optional(read(*stored));
 }
@@ -96,7 +94,7 @@ Result<std::uint8_t> next_session(app::DocumentService& documents, const std::st
   if (!document && document.error().code != ErrorCode::ConnectionUnknown) return document.error();
   std::uint8_t session = 0;
   if (document) {
-    const auto stored = api::parse_stored_json(document->text, "the session of a connection");
+    const auto stored = parse_stored_json(document->text, "the session of a connection");
     if (!stored) return stored.error();
     session = static_cast<std::uint8_t>(whole_number(*stored, "session") + 1);
   }

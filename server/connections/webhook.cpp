@@ -18,7 +18,6 @@ namespace {
 
 using api::FieldErrors;
 using api::FieldReader;
-using api::JsonValue;
 using http_client::HttpAnswer;
 
 constexpr std::string_view kSecretPrefix = "whsec_";
@@ -44,7 +43,7 @@ void read_keys(FieldReader& fields, FieldErrors& errors, WebhookOptions& options
     if (key) {
       options.keys.push_back(*key);
     } else {
-      errors.add(ErrorCode::FieldInvalid, api::pointer_to(fields.at("secrets"), i),
+      errors.add(ErrorCode::FieldInvalid, pointer_to(fields.at("secrets"), i),
                  fmt::format("a secret is {} and {} to {} bytes in base64, as `printf "
                              "whsec_; openssl rand -base64 32` makes one",
                              kSecretPrefix, kShortestKey, kLongestKey));

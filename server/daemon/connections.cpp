@@ -15,7 +15,6 @@
 namespace fitgauge::daemon {
 namespace {
 
-using api::JsonValue;
 using connections::Definition;
 
 JsonValue text_value(std::string text) {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "api/service/caller.hpp"
-#include "api/wire/json_writer.hpp"
+#include "base/json_escape.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -87,7 +87,7 @@ void append_forwarded(std::string& out, const http::Request& request) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < 0x20 || c > 0x7e; }, '?');
   out += ",\"forwarded_for\":";
-  api::append_json_string(out, text);
+  append_json_string(out, text);
 }
 
 }  // namespace
@@ -102,9 +102,9 @@ void append_event_line(std::string& out, LogLevel level, std::string_view event,
   Line line;
   begin(line, level);
   out += line.text();
-  api::append_json_string(out, event);
+  append_json_string(out, event);
   out += ",\"detail\":";
-  api::append_json_string(out, detail);
+  append_json_string(out, detail);
   out += "}\n";
 }
 
@@ -131,7 +131,7 @@ void append_request_line(std::string& out, LogLevel level, const http::FinishedR
   out += line.text();
   if (const auto* caller = finished.request.caller<api::Caller>()) {
     out += ",\"caller\":";
-    api::append_json_string(out, caller->name);
+    append_json_string(out, caller->name);
   }
   append_forwarded(out, finished.request);
   out += "}\n";

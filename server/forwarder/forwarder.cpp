@@ -6,8 +6,8 @@
 #include <charconv>
 #include <condition_variable>
 
-#include "api/wire/json_value.hpp"
 #include "base/guarded.hpp"
+#include "base/json_value.hpp"
 #include "forwarder/batch_text.hpp"
 #include "tlog/base64.hpp"
 
@@ -27,12 +27,12 @@ constexpr long kConflict = 409;
 constexpr long kTooLarge = 413;
 constexpr long kFirstOfServer = 500;
 
-std::string text_of(const api::JsonValue& json, std::string_view name) {
-  const api::JsonValue* value = json.find(name);
+std::string text_of(const JsonValue& json, std::string_view name) {
+  const JsonValue* value = json.find(name);
   return value == nullptr ? std::string() : value->text;
 }
 
-std::optional<std::int64_t> size_of(const api::JsonValue& head) {
+std::optional<std::int64_t> size_of(const JsonValue& head) {
   const std::string text = text_of(head, "size");
   std::int64_t size = 0;
   const char* const end = text.data() + text.size();
@@ -138,7 +138,7 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
 
 Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::int64_t end) {
   if (answer.status == 0) return failed(Sent::Failed, answer.failure);
-  const auto json = api::parse_json(answer.body);
+  const auto json = parse_json(answer.body);
   if (answer.status == kOk) {
     if (!json || size_of(*json) != end) {
       return failed(Sent::Failed, "the centre's answer is none of a centre");
@@ -153,7 +153,7 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
   }
   const std::string detail = json ? text_of(*json, "detail") : std::string();
   if (answer.status == kConflict && json && text_of(*json, "code") == "log.position") {
-    const api::JsonValue* head = json->find("head");
+    const JsonValue* head = json->find("head");
     const auto size = head == nullptr ? std::nullopt : size_of(*head);
     if (size) return elsewhere(*size, text_of(*head, "root"));
   }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <string_view>
 
 namespace fitgauge {
 
@@ -15,5 +17,8 @@ inline constexpr std::size_t kEscapeRoom = 6;
 /// Writes it to where there is room, in the one spelling that RFC 8785 (3.2.2.2) allows.
 /// @returns its end.
 char* write_escape(char* to, char c);
+
+/// `text` as a JSON string with its quotes.
+void append_json_string(std::string& out, std::string_view text);
 
 }  // namespace fitgauge

@@ -7,10 +7,9 @@
 #include <set>
 #include <string>
 
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 
 using namespace fitgauge;
-using namespace fitgauge::api;
 
 namespace {
 

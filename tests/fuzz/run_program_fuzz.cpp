@@ -12,8 +12,8 @@
 #include "api/runs/setup_codec.hpp"
 #include "api/runs/trace_codec.hpp"
 #include "api/wire/field_reader.hpp"
-#include "api/wire/json_value.hpp"
 #include "app/runs/run_executor.hpp"
+#include "base/json_value.hpp"
 
 using namespace fitgauge;
 
@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds kTime{200};
 constexpr std::size_t kMemory = std::size_t{16} << 20;
 
 machine::Setup setup_of(std::string_view json) {
-  const auto body = api::parse_json(json);
+  const auto body = parse_json(json);
   if (!body) return {};
   api::FieldErrors errors;
   machine::Setup setup = api::decode_setup(*body, "", {}, errors);
@@ -70,12 +70,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   const app::RunFormat format = api::run_format();
   const std::string trace = format.trace(executed.trace);
-  expect(api::parse_json(trace).has_value(), "the trace is no JSON", trace);
+  expect(parse_json(trace).has_value(), "the trace is no JSON", trace);
   expect(api::trace_csv(trace).has_value(), "the trace gives no CSV", trace);
   const app::RunReport report{
       .id = 1, .program = path.text(), .result = std::move(executed.result), .seed = 1};
   const std::string answer = format.report(report);
-  expect(api::parse_json(answer).has_value(), "the report is no JSON", answer);
-  expect(api::parse_json(format.event(report)).has_value(), "the event is no JSON", answer);
+  expect(parse_json(answer).has_value(), "the report is no JSON", answer);
+  expect(parse_json(format.event(report)).has_value(), "the event is no JSON", answer);
   return 0;
 }

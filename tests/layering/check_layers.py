@@ -44,7 +44,8 @@ def allowed_edges(architecture: str) -> dict[str, set[str]]:
 BORDERS = {
     r"(sqlite3\.h|SQLiteCpp/)": {"sqlite"},
     r"boost/(beast|asio)": {"http", "clients"},
-    r"(nlohmann/|simdjson)": {"api", "daemon", "clients"},
+    r"nlohmann/": {"base"},
+    r"simdjson": {"api"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 

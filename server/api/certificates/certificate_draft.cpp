@@ -6,10 +6,10 @@
 
 #include "api/measurements/measurement_codec.hpp"
 #include "api/service/version.hpp"
-#include "api/wire/json_value.hpp"
 #include "api/wire/json_writer.hpp"
 #include "app/measurements/record.hpp"
 #include "base/decimal.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::api {
 namespace {

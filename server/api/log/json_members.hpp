@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "base/digest.hpp"
 
 namespace fitgauge::api {

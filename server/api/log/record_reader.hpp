@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-#include "api/wire/json_value.hpp"
 #include "api/wire/text_arena.hpp"
 #include "app/measurements/measurement.hpp"
+#include "base/json_value.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::api {

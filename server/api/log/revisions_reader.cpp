@@ -10,7 +10,7 @@
 #include "api/log/json_members.hpp"
 #include "api/log/record_reader.hpp"
 #include "api/tables/table_codec.hpp"
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::api {
 namespace {

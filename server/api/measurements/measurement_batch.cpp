@@ -7,7 +7,7 @@
 #include "api/measurements/measurement_row_reader.hpp"
 #include "api/measurements/measurement_simdjson.hpp"
 #include "api/wire/csv_reader.hpp"
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -24,7 +24,7 @@ std::size_t search_field(std::string_view name) {
 std::string_view name_of(RawValue::Kind kind) {
   static_assert(static_cast<int>(RawValue::Kind::Object) ==
                 static_cast<int>(JsonValue::Kind::Object));
-  return api::name_of(static_cast<JsonValue::Kind>(kind));
+  return fitgauge::name_of(static_cast<JsonValue::Kind>(kind));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "api/measurements/measurement_batch.hpp"
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 
 // A plan: what is measured at a part, in order.
 

@@ -3,7 +3,7 @@
 #include <future>
 
 #include "api/runs/run_order_codec.hpp"
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "program/check.hpp"
 
 namespace fitgauge::api {

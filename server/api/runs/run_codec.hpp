@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "api/wire/json_value.hpp"
 #include "api/wire/json_writer.hpp"
 #include "app/runs/run_service.hpp"
+#include "base/json_value.hpp"
 #include "klartext/diagnostic.hpp"
 
 namespace fitgauge::api {

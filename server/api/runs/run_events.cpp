@@ -4,9 +4,9 @@
 #include <mutex>
 
 #include "api/wire/event_text.hpp"
-#include "api/wire/json_value.hpp"
 #include "api/wire/json_writer.hpp"
 #include "api/wire/stored_member.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::api {
 namespace {

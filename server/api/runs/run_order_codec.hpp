@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "api/wire/json_value.hpp"
 #include "app/runs/control_tables.hpp"
 #include "app/runs/run_report.hpp"
 #include "app/service/document_service.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::api {
 

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <utility>
 
-#include "api/wire/json_value.hpp"
 #include "api/wire/json_writer.hpp"
+#include "base/json_value.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::api {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::api {

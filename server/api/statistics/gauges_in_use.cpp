@@ -4,7 +4,7 @@
 #include <future>
 
 #include "api/statistics/uncertainty_resource.hpp"
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "app/service/document_service.hpp"
 
 namespace fitgauge::api {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "api/services.hpp"
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "http/route.hpp"
 
 namespace fitgauge::api {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "iso286/tolerance_tables.hpp"
 
 namespace fitgauge::api {

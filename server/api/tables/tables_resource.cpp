@@ -2,8 +2,8 @@
 
 #include "api/limits/limits_codec.hpp"
 #include "api/tables/table_codec.hpp"
-#include "api/wire/json_value.hpp"
 #include "api/wire/request_facts.hpp"
+#include "base/json_value.hpp"
 #include "tabfile/iso286_projection.hpp"
 #include "tabfile/tab_writer.hpp"
 

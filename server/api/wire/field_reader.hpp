@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "base/length.hpp"
 
 namespace fitgauge::api {

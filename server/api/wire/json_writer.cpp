@@ -128,20 +128,6 @@ JsonWriter& JsonWriter::raw(std::string_view json) {
   return *this;
 }
 
-void append_json_string(std::string& out, std::string_view text) {
-  out += '"';
-  std::size_t copied = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (!needs_escape(text[i])) continue;
-    out += text.substr(copied, i - copied);
-    copied = i + 1;
-    char escape[kEscapeRoom];
-    out.append(escape, write_escape(escape, text[i]));
-  }
-  out += text.substr(copied);
-  out += '"';
-}
-
 void write_json(JsonWriter& json, const JsonValue& value) {
   switch (value.kind) {
     case JsonValue::Kind::Null: json.null(); break;

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 #include "base/length.hpp"
 
 namespace fitgauge::api {
@@ -61,9 +61,6 @@ class JsonWriter {
   bool first_ = true;  // no comma before the next element
   bool after_key_ = false;
 };
-
-/// `text` as a JSON string with its quotes.
-void append_json_string(std::string& out, std::string_view text);
 
 /// A value as it was read: numbers keep their digits.
 void write_json(JsonWriter& json, const JsonValue& value);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "api/wire/json_writer.hpp"
+#include "base/json_escape.hpp"
 
 namespace fitgauge::api::schema {
 namespace {

@@ -2,16 +2,16 @@
 
 #include <charconv>
 
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::connections {
 
 void HostState::take(std::string_view payload) {
-  using Kind = api::JsonValue::Kind;
-  const auto state = api::parse_json(payload);
+  using Kind = JsonValue::Kind;
+  const auto state = parse_json(payload);
   if (!state || !state->is(Kind::Object)) return;
-  const api::JsonValue* const online = state->find("online");
-  const api::JsonValue* const time = state->find("timestamp");
+  const JsonValue* const online = state->find("online");
+  const JsonValue* const time = state->find("timestamp");
   const bool is_whole =
       online != nullptr && online->is(Kind::Boolean) && time != nullptr && time->is(Kind::Number);
   if (!is_whole) return;

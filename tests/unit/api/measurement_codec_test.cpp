@@ -9,6 +9,7 @@
 
 #include "app/log/leaf.hpp"
 #include "app/measurements/record.hpp"
+#include "base/json_escape.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

@@ -8,7 +8,7 @@
 
 #include "api/runs/run_events.hpp"
 #include "api/runs/trace_codec.hpp"
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

@@ -1,11 +1,12 @@
 #include <doctest/doctest.h>
 
 #include "cli/gauge_command.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "cli/limits_commands.hpp"
 #include "cli/measure_command.hpp"
 #include "cli/problem.hpp"
 
+using namespace fitgauge;
 using namespace fitgauge::cli;
 
 namespace {
@@ -20,30 +21,31 @@ std::string verdict_text(const char* measured, const char* verdict) {
   JsonObject document;
   document.add("designation", "25 H7").add_raw("measured_mm", measured).add("verdict", verdict);
   document.add_raw("upper_limit_mm", "25.021").add_raw("lower_limit_mm", "25");
-  return format_verdict(*parse_json(document.text()), kPlain);
+  return format_verdict(*parse_document(document.text()), kPlain);
 }
 
 }  // namespace
 
 TEST_CASE("a number keeps its digits") {
-  const auto document = parse_json(R"({"a":25.0210000000000001,"b":-7,"c":1e3,"d":[0.75,null]})");
-  REQUIRE(document);
+  const auto document =
+      parse_document(R"({"a":25.0210000000000001,"b":-7,"c":1e3,"d":[0.75,null]})");
+  REQUIRE(document.has_value());
   CHECK(document->text_of("a") == "25.0210000000000001");
   CHECK(document->text_of("b") == "-7");
   CHECK(document->text_of("c") == "1e3");
-  REQUIRE(document->items_of("d").size() == 2);
-  CHECK(document->items_of("d")[0].text == "0.75");
-  CHECK(document->items_of("d")[1].kind == JsonValue::Kind::Null);
+  REQUIRE(document->member("d").items.size() == 2);
+  CHECK(document->member("d").items[0].text == "0.75");
+  CHECK(document->member("d").items[1].kind == JsonValue::Kind::Null);
   CHECK(document->text_of("missing").empty());
 }
 
 TEST_CASE("what is not one JSON document is refused") {
-  for (const char* text : {"", "{", "{} {}", "[1,]", "\xFF"}) CHECK_FALSE(parse_json(text));
+  for (const char* text : {"", "{", "{} {}", "[1,]", "\xFF"}) CHECK_FALSE(parse_document(text).has_value());
 }
 
 TEST_CASE("a text is written so that it is read back") {
   const std::string text = "a\"b\\c\n\x01µ";
-  CHECK(parse_json(json_quoted(text))->text == text);
+  CHECK(parse_document(json_quoted(text))->text == text);
   CHECK(JsonObject().add("a", "1").add_given("b", "").add_raw("c", "[]").text() ==
         R"({"a":"1","c":[]})");
 }
@@ -66,7 +68,7 @@ TEST_CASE("every verdict has its exit code") {
 }
 
 TEST_CASE("limits are shown with the names of the standard") {
-  const auto limits = parse_json(
+  const auto limits = parse_document(
       R"({"designation":"5 js1","tolerance_class":"js1","feature":"shaft","upper_deviation_um":0.5,
           "lower_deviation_um":-0.5,"upper_limit_mm":5.0005,"lower_limit_mm":4.9995,"tolerance_um":1,
           "size_range_mm":{"over":3,"up_to":6},"basis":"iso286"})");

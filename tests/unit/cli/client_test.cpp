@@ -4,7 +4,7 @@
 
 #include "cli/address.hpp"
 #include "cli/event_reader.hpp"
-#include "cli/json_value.hpp"
+#include "cli/json_object.hpp"
 #include "cli/nc_commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/retry.hpp"

@@ -1,4 +1,4 @@
-#include "api/wire/json_value.hpp"
+#include "base/json_value.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,10 @@
 
 #include "base/text.hpp"
 
-namespace fitgauge::api {
+namespace fitgauge {
 namespace {
 
 constexpr std::size_t kDeepest = 32;
-/// As a tree they take less than 50 MB.
-constexpr std::size_t kMostValues = 500'000;
 
 std::string place(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
@@ -42,8 +40,8 @@ using WideJson = nlohmann::basic_json<std::map, std::vector, std::string, bool, 
 /// Builds a JsonValue from the library's events, which carry the digits of a number.
 class Builder final : public nlohmann::json_sax<WideJson> {
  public:
-  Builder(std::string_view text, const JsonItemHandler& handle_item)
-      : text_(text), handle_item_(handle_item) {}
+  Builder(std::string_view text, const JsonItemHandler& handle_item, std::size_t most)
+      : text_(text), handle_item_(handle_item), most_(most) {}
 
   bool null() override { return add({}); }
   bool boolean(bool value) override {
@@ -109,8 +107,8 @@ class Builder final : public nlohmann::json_sax<WideJson> {
     return add(std::move(value));
   }
   bool add(JsonValue value) {
-    if (++count_ > kMostValues) {
-      error_ = Error{ErrorCode::BodyTooLarge, fmt::format("more than {} values", kMostValues)};
+    if (++count_ > most_) {
+      error_ = Error{ErrorCode::BodyTooLarge, fmt::format("more than {} values", most_)};
       return false;
     }
     if (open_.empty()) {
@@ -128,11 +126,31 @@ class Builder final : public nlohmann::json_sax<WideJson> {
 
   std::string_view text_;
   const JsonItemHandler& handle_item_;
+  const std::size_t most_;
   std::vector<JsonValue> open_;
   JsonValue root_;
   std::size_t count_ = 0;
   Error error_{ErrorCode::JsonMalformed, "the JSON cannot be read"};
 };
+
+/// @param most values of the tree that is built; items handed over are counted each by itself.
+Result<JsonValue> read(std::string_view text, const JsonItemHandler& handle_item,
+                       std::size_t most) {
+  if (text.starts_with("\xEF\xBB\xBF")) {
+    return Error{ErrorCode::TextEncoding, "JSON begins with a byte-order mark: leave it out"};
+  }
+  if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos) {
+    return Error{ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-8", at), place(text, at)};
+  }
+  // The library takes a NUL for the end of the text.
+  if (const std::size_t at = text.find('\0'); at != std::string_view::npos) {
+    const std::string where = place(text, at);
+    return Error{ErrorCode::JsonMalformed, fmt::format("at {}: a NUL character", where), where};
+  }
+  Builder builder(text, handle_item, most);
+  if (!WideJson::sax_parse(text, &builder)) return builder.error();
+  return builder.take();
+}
 
 }  // namespace
 
@@ -140,6 +158,18 @@ const JsonValue* JsonValue::find(std::string_view name) const {
   const auto found = std::find_if(members.begin(), members.end(),
                                   [&](const auto& member) { return member.first == name; });
   return found == members.end() ? nullptr : &found->second;
+}
+
+const JsonValue& JsonValue::member(std::string_view name) const {
+  static const JsonValue kNone;
+  const JsonValue* value = find(name);
+  return value == nullptr ? kNone : *value;
+}
+
+std::string_view JsonValue::text_of(std::string_view name) const {
+  const JsonValue& value = member(name);
+  if (value.is(Kind::Boolean)) return value.boolean ? "true" : "false";
+  return value.text;
 }
 
 std::string_view name_of(JsonValue::Kind kind) {
@@ -154,23 +184,12 @@ std::string_view name_of(JsonValue::Kind kind) {
   return "";
 }
 
-Result<JsonValue> parse_json(std::string_view text) { return parse_json(text, {}); }
+Result<JsonValue> parse_json(std::string_view text, std::size_t most) {
+  return read(text, {}, most);
+}
 
 Result<JsonValue> parse_json(std::string_view text, const JsonItemHandler& handle_item) {
-  if (text.starts_with("\xEF\xBB\xBF")) {
-    return Error{ErrorCode::TextEncoding, "JSON begins with a byte-order mark: leave it out"};
-  }
-  if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos) {
-    return Error{ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-8", at), place(text, at)};
-  }
-  // The library takes a NUL for the end of the text.
-  if (const std::size_t at = text.find('\0'); at != std::string_view::npos) {
-    const std::string where = place(text, at);
-    return Error{ErrorCode::JsonMalformed, fmt::format("at {}: a NUL character", where), where};
-  }
-  Builder builder(text, handle_item);
-  if (!WideJson::sax_parse(text, &builder)) return builder.error();
-  return builder.take();
+  return read(text, handle_item, kMostRequestValues);
 }
 
 Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what,
@@ -201,4 +220,4 @@ std::string pointer_to(std::string_view pointer, std::size_t index) {
   return fmt::format("{}/{}", pointer, index);
 }
 
-}  // namespace fitgauge::api
+}  // namespace fitgauge

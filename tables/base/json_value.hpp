@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -8,7 +9,7 @@
 
 #include "base/result.hpp"
 
-namespace fitgauge::api {
+namespace fitgauge {
 
 /// One JSON value as it was written: numbers keep their digits, because a length must not pass
 /// through a double. Members stand in the order of the text.
@@ -24,15 +25,22 @@ struct JsonValue {
   bool is(Kind other) const { return kind == other; }
   /// The member of that name, or nullptr.
   const JsonValue* find(std::string_view name) const;
+  /// The member of that name; a null where there is none.
+  const JsonValue& member(std::string_view name) const;
+  /// The text of a member, `true` or `false` of a boolean; empty where there is none.
+  std::string_view text_of(std::string_view name) const;
 };
 
 /// "a number", "a string", …: for messages that say what was found.
 std::string_view name_of(JsonValue::Kind kind);
 
+/// What a text may ask for: as a tree, that of a request takes less than 50 MB.
+inline constexpr std::size_t kMostRequestValues = 500'000;
+
 /// Reads the whole text as one JSON value (RFC 8259).
 /// @errors TextEncoding (invalid UTF-8, a byte-order mark), JsonMalformed (with line and column),
-///   JsonDuplicateKey, JsonTooDeep (more than 32 levels), BodyTooLarge (more than 500,000 values).
-Result<JsonValue> parse_json(std::string_view text);
+///   JsonDuplicateKey, JsonTooDeep (more than 32 levels), BodyTooLarge (more than `most` values).
+Result<JsonValue> parse_json(std::string_view text, std::size_t most = kMostRequestValues);
 
 /// Takes an item of a list; false: no more.
 using JsonItemHandler = std::function<bool(const JsonValue& item)>;
@@ -51,4 +59,4 @@ Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what
 std::string pointer_to(std::string_view pointer, std::string_view token);
 std::string pointer_to(std::string_view pointer, std::size_t index);
 
-}  // namespace fitgauge::api
+}  // namespace fitgauge
