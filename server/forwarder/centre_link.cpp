@@ -1,11 +1,11 @@
 #include "forwarder/centre_link.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <fstream>
 #include <stdexcept>
 
+#include "base/gzip.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::forwarder {
@@ -14,27 +14,6 @@ namespace {
 constexpr std::chrono::seconds kTimeout{60};
 constexpr std::size_t kLongestAnswer = std::size_t{64} << 10;
 constexpr std::size_t kLongestPage = std::size_t{64} << 20;
-
-/// RFC 1952. The fastest level: records are much alike, and their station has other work.
-std::string gzip(std::string_view text) {
-  constexpr int kWindowOfGzip = 15 + 16;
-  constexpr int kMemory = 8;
-  z_stream stream{};
-  if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, kWindowOfGzip, kMemory, Z_DEFAULT_STRATEGY) !=
-      Z_OK) {
-    throw std::runtime_error("zlib has no memory");
-  }
-  std::string packed(deflateBound(&stream, static_cast<uLong>(text.size())), '\0');
-  // zlib does not write to what it reads.
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
 
 /// The first line of the file. @returns false when it cannot be read.
 bool read_key(const std::string& file, std::string& key) {

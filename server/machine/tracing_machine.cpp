@@ -86,14 +86,13 @@ void TracingMachine::write(const MachineResult<T>& result, const Text& text) {
   lines_.push_back(result ? text() : fmt::format("{} ! {}", text(), result.error().text));
 }
 
-/// The block is asked for only when its move is kept.
-void TracingMachine::add(TracedMove move) {
+void TracingMachine::add(const TracedMove& move) {
   if (is_full()) {
     ++dropped_;
     return;
   }
-  if (options_.block) move.block = options_.block();
-  moves_.push_back(move);
+  ++kept_;
+  if (options_.keep) options_.keep(move);
 }
 
 void TracingMachine::keep(MoveKind kind, const Begun& begun, const Feed& feed,

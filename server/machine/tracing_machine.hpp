@@ -37,7 +37,6 @@ struct TracedContact {
 /// One move of the trace: of the tool tip, in input coordinates and in those of the machine.
 struct TracedMove {
   MoveKind kind = MoveKind::Rapid;
-  std::int64_t block = 0;
   Position start;
   Position end;
   double feed_mm_min = 0;  ///< of a rapid the rate it is limited to
@@ -49,20 +48,19 @@ struct TracedMove {
 };
 
 struct TraceOptions {
-  std::function<std::int64_t()> block;  ///< number of the block being executed; without it 0
-  std::size_t longest = 1'000'000;      ///< moves, and lines, that are kept
-  bool lines = false;                   ///< whether each command also writes a line of text
+  std::function<void(const TracedMove&)> keep;  ///< takes each move as it ends
+  std::size_t longest = 1'000'000;              ///< moves, and lines, that are kept
+  bool lines = false;                           ///< whether each command also writes a line of text
 };
 
-/// A decorator that keeps what passes through it: the moves of a run and, for golden tests, one
+/// A decorator that tells what passes through it: the moves of a run and, for golden tests, one
 /// line of text for each command. A probing move is followed by the rapid of its way back; a move
-/// that ends at a fault is kept as far as it went. Owns the trace, not the machine. Not
+/// that ends at a fault is kept as far as it went. Owns the lines, not the machine. Not
 /// thread-safe.
 class TracingMachine final : public Machine {
  public:
   TracingMachine(Machine& inner, TraceOptions options);
 
-  const std::vector<TracedMove>& moves() const { return moves_; }
   const std::vector<std::string>& lines() const { return lines_; }
   /// Moves that came after the longest trace was full.
   std::size_t dropped() const { return dropped_; }
@@ -100,16 +98,16 @@ class TracingMachine final : public Machine {
             const std::optional<TracedArc>& arc = std::nullopt);
   void keep_probing(const Begun& begun, const ProbeMove& move,
                     const MachineResult<ContactPoint>& result);
-  void add(TracedMove move);
-  bool is_full() const { return moves_.size() >= options_.longest; }
+  void add(const TracedMove& move);
+  bool is_full() const { return kept_ >= options_.longest; }
   /// Writes the line that `text()` makes, with the fault when there is one.
   template <class T, class Text>
   void write(const MachineResult<T>& result, const Text& text);
 
   Machine& inner_;
   TraceOptions options_;
-  std::vector<TracedMove> moves_;
   std::vector<std::string> lines_;
+  std::size_t kept_ = 0;  ///< moves
   std::size_t dropped_ = 0;
 };
 

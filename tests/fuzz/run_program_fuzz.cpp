@@ -13,6 +13,7 @@
 #include "api/runs/trace_codec.hpp"
 #include "api/wire/field_reader.hpp"
 #include "app/runs/run_executor.hpp"
+#include "app/runs/run_trace.hpp"
 #include "base/json_value.hpp"
 
 using namespace fitgauge;
@@ -62,16 +63,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   order.options.limits.output_bytes = std::size_t{1} << 20;
   app::ActiveRun active(1, "0123456789abcdef",
                         std::make_shared<const app::RunOrder>(std::move(order)), clock.now());
+  const app::RunFormat format = api::run_format();
   const auto begun = std::chrono::steady_clock::now();
-  app::ExecutedRun executed = app::execute({disk, programs, clock}, active);
+  app::ExecutedRun executed = app::execute({disk, programs, clock, format.trace}, active);
   // Sanitizers make everything some twenty times as slow; an unbounded loop takes longer still.
   expect(std::chrono::steady_clock::now() - begun < std::chrono::seconds(20), "took too long",
          text);
 
-  const app::RunFormat format = api::run_format();
-  const std::string trace = format.trace(executed.trace);
+  app::TraceReader packed(std::move(executed.trace));
+  std::string trace;
+  for (std::string piece; !(piece = packed.next().value()).empty();) trace += piece;
   expect(parse_json(trace).has_value(), "the trace is no JSON", trace);
-  expect(api::trace_csv(trace).has_value(), "the trace gives no CSV", trace);
+  expect(api::TraceCsv().rows(trace).has_value(), "the trace gives no CSV", trace);
   const app::RunReport report{
       .id = 1, .program = path.text(), .result = std::move(executed.result), .seed = 1};
   const std::string answer = format.report(report);

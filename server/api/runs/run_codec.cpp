@@ -212,7 +212,7 @@ std::string unfinished_json(std::string_view id, app::RunState state, std::strin
 }  // namespace
 
 app::RunFormat run_format() {
-  return {.report = report_json, .trace = trace_json, .seed = seed_of, .event = event_json};
+  return {.report = report_json, .trace = trace_json(), .seed = seed_of, .event = event_json};
 }
 
 std::string unfinished_run_json(const app::ActiveRun& run) {

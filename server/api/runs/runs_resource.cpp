@@ -12,6 +12,7 @@
 #include "app/measurements/measurement.hpp"
 #include "app/runs/run_service.hpp"
 #include "base/text.hpp"
+#include "http/body_stream.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -92,16 +93,36 @@ void get_file(const Services& services, const http::Request& request, http::Resp
       });
 }
 
+/// A trace, unpacked while it is sent: the text of a long one is 15 MB.
+class TraceStream final : public http::BodyStream {
+ public:
+  TraceStream(app::TraceReader trace, bool csv) : trace_(std::move(trace)) {
+    if (csv) csv_.emplace();
+  }
+
+  void next(http::ChunkSink sink) override {
+    auto piece = trace_.next();
+    if (piece && piece->empty()) return sink.finish();
+    if (piece && csv_) piece = csv_->rows(*piece);
+    if (!piece) return sink.fail();
+    sink.put(*std::move(piece));
+  }
+
+ private:
+  app::TraceReader trace_;
+  std::optional<TraceCsv> csv_;
+};
+
 void get_trace(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const bool csv = wants_csv(request);
-  services.runs.trace(*id, [csv, shared = share(std::move(responder))](Result<std::string> trace) {
+  services.runs.trace(*id, [csv,
+                            shared = share(std::move(responder))](Result<app::TraceReader> trace) {
     if (!trace) return shared->fail(trace.error());
-    Result<std::string> body = csv ? trace_csv(*trace) : std::move(trace);
-    if (!body) return shared->fail(body.error());
     const char* const type = csv ? "text/csv; charset=utf-8; header=present" : "application/json";
-    shared->answer(http::Response(200, type, *std::move(body)).with("Vary", "Accept"));
+    const http::StreamedBody body{std::make_shared<TraceStream>(*std::move(trace), csv)};
+    shared->answer(http::Response(200, type, body).with("Vary", "Accept"));
   });
 }
 

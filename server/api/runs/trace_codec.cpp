@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "api/wire/json_writer.hpp"
@@ -17,13 +18,11 @@ namespace {
 using machine::Axis;
 
 constexpr std::size_t kLinearAxes = 3;
-constexpr std::string_view kHead = "{\"moves\":[\n";
-
 /// What the arithmetic of a path adds beyond is noise.
 constexpr int kDecimals = 10;
 
 void write_position(JsonWriter& json, std::string_view which, const machine::Position& position,
-                    const std::vector<Axis>& axes) {
+                    std::span<const Axis> axes) {
   json.key(std::string(which) + "_mm").begin_object();
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (i == kLinearAxes) json.end_object().key(std::string(which) + "_deg").begin_object();
@@ -56,8 +55,9 @@ void write_machine_contact(JsonWriter& json, const machine::TracedContact& conta
   }
 }
 
-void write_move(JsonWriter& json, const machine::TracedMove& move, const app::RunTrace& trace) {
-  const app::RunTrace::Place& place = trace.places[static_cast<std::size_t>(move.block)];
+void write_move(std::string& out, const machine::TracedMove& move, const app::TracePlace& place,
+                std::span<const Axis> axes) {
+  JsonWriter json(out);
   json.begin_object().member("kind", name(move.kind)).key("block");
   if (place.block) {
     json.value(*place.block);
@@ -65,8 +65,8 @@ void write_move(JsonWriter& json, const machine::TracedMove& move, const app::Ru
     json.null();
   }
   json.member("line", place.line).member("program", place.program);
-  write_position(json, "start", move.start, trace.axes);
-  write_position(json, "end", move.end, trace.axes);
+  write_position(json, "start", move.start, axes);
+  write_position(json, "end", move.end, axes);
   json.key("feed_mm_min")
       .fixed(move.feed_mm_min, kDecimals)
       .key("seconds")
@@ -97,19 +97,37 @@ constexpr std::pair<std::string_view, bool> kOptional[] = {
     {"machine_center_mm", true},  {"machine_axis", true},
     {"machine_contact_mm", true}, {"machine_contact_normal", true}};
 
-/// A column of the CSV: a member of a move, or one axis of a position.
-struct Column {
-  std::string member;
-  std::string axis{};
-
-  std::string title() const {
-    if (axis.empty()) return member;
-    const std::size_t unit = member.rfind('_');
-    return member.substr(0, unit + 1) + ascii_lower(axis) + member.substr(unit);
+void append_cell(std::string& out, const JsonValue* value) {
+  if (value == nullptr) return;
+  const std::string& text = value->text;
+  if (text.find_first_of(",\"") == std::string::npos) {
+    out += text;
+    return;
   }
-};
+  out += '"';
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  out += '"';
+}
 
-std::vector<Column> columns_of(const JsonValue& move) {
+}  // namespace
+
+app::TraceFormat trace_json() {
+  return {.head = "{\"moves\":[\n",
+          .separator = ",\n",
+          .move = write_move,
+          .tail = [](std::size_t dropped) { return fmt::format("\n],\"dropped\":{}}}", dropped); }};
+}
+
+std::string TraceCsv::Column::title() const {
+  if (axis.empty()) return member;
+  const std::size_t unit = member.rfind('_');
+  return member.substr(0, unit + 1) + ascii_lower(axis) + member.substr(unit);
+}
+
+std::vector<TraceCsv::Column> TraceCsv::columns_of(const JsonValue& move) {
   std::vector<Column> columns;
   for (const auto& [name, value] : move.members) {
     const std::string_view member = name;
@@ -132,63 +150,41 @@ std::vector<Column> columns_of(const JsonValue& move) {
   return columns;
 }
 
-void append_cell(std::string& out, const JsonValue* value) {
-  if (value == nullptr) return;
-  const std::string& text = value->text;
-  if (text.find_first_of(",\"") == std::string::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  out += '"';
-}
-
-template <class Cell>
-void append_row(std::string& out, const std::vector<Column>& columns, const Cell& cell) {
-  for (const Column& column : columns) {
-    if (&column != &columns.front()) out += ',';
-    cell(column);
-  }
-  out += "\r\n";
-}
-
-}  // namespace
-
-std::string trace_json(const app::RunTrace& trace) {
-  std::string out(kHead);
-  for (const machine::TracedMove& move : trace.moves) {
-    if (&move != &trace.moves.front()) out += ",\n";
-    JsonWriter json(out);
-    write_move(json, move, trace);
-  }
-  out += fmt::format("\n],\"dropped\":{}}}", trace.dropped);
-  return out;
-}
-
-Result<std::string> trace_csv(std::string_view json) {
-  std::string out;
-  std::vector<Column> columns;
-  json.remove_prefix(std::min(kHead.size(), json.size()));
-  while (json.starts_with('{')) {
-    const std::size_t end = std::min(json.find('\n'), json.size());
-    std::string_view line = json.substr(0, end);
-    json.remove_prefix(std::min(end + 1, json.size()));
-    if (line.ends_with(',')) line.remove_suffix(1);
-    const Result<JsonValue> parsed = parse_stored_json(line, "trace of a run");
-    if (!parsed) return parsed.error();
-    const JsonValue& move = *parsed;
-    if (columns.empty()) {
-      columns = columns_of(move);
-      append_row(out, columns, [&out](const Column& column) { out += column.title(); });
+Result<void> TraceCsv::append_line(std::string& out, std::string_view line) {
+  const auto append_row = [&](const auto& append) {
+    for (const Column& column : columns_) {
+      if (&column != &columns_.front()) out += ',';
+      append(column);
     }
-    append_row(out, columns, [&](const Column& column) {
-      const JsonValue* value = move.find(column.member);
-      append_cell(out, column.axis.empty() || value == nullptr ? value : value->find(column.axis));
-    });
+    out += "\r\n";
+  };
+  const Result<JsonValue> move = parse_stored_json(line, "trace of a run");
+  if (!move) return move.error();
+  if (columns_.empty()) {
+    columns_ = columns_of(*move);
+    append_row([&](const Column& column) { out += column.title(); });
+  }
+  append_row([&](const Column& column) {
+    const JsonValue* value = move->find(column.member);
+    append_cell(out, column.axis.empty() || value == nullptr ? value : value->find(column.axis));
+  });
+  return {};
+}
+
+// Only the head also begins a line with a brace, and it ends in a bracket.
+Result<std::string> TraceCsv::rows(std::string_view piece) {
+  std::string out;
+  while (!piece.empty()) {
+    const std::size_t end = std::min(piece.find('\n'), piece.size());
+    rest_ += piece.substr(0, end);
+    if (end == piece.size()) break;
+    piece.remove_prefix(end + 1);
+    std::string_view line = rest_;
+    if (line.ends_with(',')) line.remove_suffix(1);
+    if (line.starts_with('{') && !line.ends_with('[')) {
+      if (const auto appended = append_line(out, line); !appended) return appended.error();
+    }
+    rest_.clear();
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/runs/run_trace.hpp"
 #include "machine/simulated_machine.hpp"
 #include "run/run_files.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 using interpreter::MessageKind;
 using interpreter::RunStatus;
 
-/// Moves that are kept: about 15 MB as text.
+/// Moves that are kept: about 15 MB as text, which is packed.
 constexpr std::size_t kLongestTrace = 30'000;
 
 /// Passes on what a run prints and remembers which block is commanding the machine.
@@ -42,19 +43,11 @@ class Follower final : public interpreter::RunObserver {
     if (shows_last_) show(Look::StateAndFiles);
   }
 
-  /// The index of the present block among the places of the trace.
-  std::int64_t place() {
-    if (place_.program == nullptr) {
-      if (places_.empty()) places_.emplace_back();  // a move before the first block
-    } else if (places_.empty() || kept_.program != place_.program || kept_.index != place_.index ||
-               places_.back().cycle != cycle_) {
-      places_.push_back({std::string(place_.path()), place_.line(), place_.block(), cycle_});
-      kept_ = place_;
-    }
-    return static_cast<std::int64_t>(places_.size()) - 1;
+  /// The block, or the cycle, that commands the machine now.
+  TracePlace place() const {
+    if (place_.program == nullptr) return {};  // a move before the first block
+    return {place_.path(), place_.line(), place_.block(), cycle_};
   }
-
-  std::vector<RunTrace::Place> take_places() { return std::move(places_); }
 
  private:
   void answer_look() {
@@ -100,15 +93,7 @@ class Follower final : public interpreter::RunObserver {
   std::vector<interpreter::RunMessage> errors_;
   interpreter::Place place_;
   int cycle_ = 0;
-  interpreter::Place kept_;  ///< the last of places_
-  std::vector<RunTrace::Place> places_;
 };
-
-std::shared_ptr<const interpreter::LinkedFile> load(const RunSurroundings& surroundings,
-                                                    const interpreter::ControlPath& path) {
-  const auto file = surroundings.disk.find(path);
-  return file ? surroundings.programs.get(*file) : nullptr;
-}
 
 std::vector<machine::Axis> axes_of(const machine::Setup& setup) {
   std::vector<machine::Axis> axes;
@@ -138,15 +123,15 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
   if (active.stop_token().stop_requested()) {
     return {unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
                       "the run was cancelled before its first block", program),
-            {}};
+            empty_trace(surroundings.trace)};
   }
-  const auto main = load(surroundings, order.program);
+  const auto main = surroundings.programs.get(surroundings.disk, order.program);
   const auto linked = main == nullptr ? nullptr : main->runnable(order.options.keeps_unreadable);
   if (linked == nullptr) {
     return {unstarted(RunStatus::Failed, MessageKind::Error,
                       "the program was deleted or replaced by one with errors before the run began",
                       program),
-            {}};
+            empty_trace(surroundings.trace)};
   }
   const interpreter::RunLimits& limits = order.options.limits;
   Allowance allowance(limits.time, limits.memory_bytes, active.stop_token());
@@ -160,8 +145,9 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
   } else {
     actual = &simulated.emplace(order.setup, &allowance);
   }
-  machine::TracingMachine machine(
-      *actual, {.block = [&follower] { return follower.place(); }, .longest = kLongestTrace});
+  TraceWriter trace(surroundings.trace, axes_of(order.setup));
+  const auto keep = [&](const machine::TracedMove& move) { trace.add(move, follower.place()); };
+  machine::TracingMachine machine(*actual, {.keep = keep, .longest = kLongestTrace});
   follower.follow(machine);
   ExecutedRun executed;
   executed.result = interpreter::run(
@@ -177,10 +163,7 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
          .line = 1,
          .block = 0});
   }
-  executed.trace = {.moves = machine.moves(),
-                    .places = follower.take_places(),
-                    .axes = axes_of(order.setup),
-                    .dropped = machine.dropped()};
+  executed.trace = trace.finish(machine.dropped());
   return executed;
 }
 

@@ -10,12 +10,13 @@ struct RunSurroundings {
   const interpreter::ControlDisk& disk;
   interpreter::ProgramCache& programs;
   const Clock& clock;
+  const TraceFormat& trace;
   bool shows_last = false;  ///< whether the run's last state is shown, with its files
 };
 
 struct ExecutedRun {
   interpreter::RunResult result;
-  RunTrace trace;
+  std::string trace;  ///< packed: TraceReader reads it
 };
 
 /// Builds the machine of the run's setup and runs its program on it, on the calling thread;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,25 +59,30 @@ struct RunReport {
   std::string id_text() const { return run_id_text(id, origin); }
 };
 
-/// The moves of a run, and the blocks they belong to.
-struct RunTrace {
-  struct Place {
-    std::string program;
-    std::uint32_t line = 0;
-    std::optional<std::uint32_t> block{};  ///< its number as written
-    int cycle = 0;                         ///< that commands the machine, 0 for the block itself
-  };
+/// Whose move it is.
+struct TracePlace {
+  std::string_view program{};
+  std::uint32_t line = 0;
+  std::optional<std::uint32_t> block{};  ///< its number as written
+  int cycle = 0;                         ///< that commands the machine, 0 for the block itself
+};
 
-  std::vector<machine::TracedMove> moves{};  ///< their `block` is an index into `places`
-  std::vector<Place> places{};
-  std::vector<machine::Axis> axes{};  ///< that the machine has
-  std::size_t dropped = 0;            ///< moves that came after the longest trace was full
+/// How the moves of a run are written down, one after the other while it moves.
+struct TraceFormat {
+  std::string_view head{};
+  std::string_view separator{};  ///< between two moves
+  /// @param axes that the machine has
+  std::function<void(std::string& out, const machine::TracedMove&, const TracePlace&,
+                     std::span<const machine::Axis> axes)>
+      move{};
+  /// @param dropped moves that came after the longest trace was full
+  std::function<std::string(std::size_t dropped)> tail{};
 };
 
 /// How runs are written down; the text is opaque here and in the store.
 struct RunFormat {
   std::function<std::string(const RunReport&)> report;
-  std::function<std::string(const RunTrace&)> trace;
+  TraceFormat trace;
   /// The seed of the setup in an order as it was stored.
   std::function<std::uint64_t(const std::string& request)> seed;
   /// The payload of the event run.finished.

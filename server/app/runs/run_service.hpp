@@ -15,7 +15,9 @@
 #include "app/runs/active_run.hpp"
 #include "app/runs/control_tables.hpp"
 #include "app/runs/mesh_files.hpp"
+#include "app/runs/run_executor.hpp"
 #include "app/runs/run_report.hpp"
+#include "app/runs/run_trace.hpp"
 #include "app/runs/worker_pool.hpp"
 #include "app/tables/live_tables.hpp"
 #include "klartext/diagnostic.hpp"
@@ -130,7 +132,7 @@ class RunService {
   /// @errors RunUnknown, StorageUnavailable.
   void find(std::int64_t id, Done<StoredRun> done);
   /// @errors RunUnknown; RunUnfinished while there is none yet.
-  void trace(std::int64_t id, Done<std::string> done);
+  void trace(std::int64_t id, Done<TraceReader> done);
   struct File {
     std::string path;
     std::string bytes;
@@ -152,9 +154,10 @@ class RunService {
                                  std::optional<std::string> draft = std::nullopt);
   void run(const std::shared_ptr<ActiveRun>& run);
   bool withdraw(std::int64_t id);
-  void end(ActiveRun& active, interpreter::RunResult result, const RunTrace& trace);
-  interpreter::RunResult execute_guarded(ActiveRun& active, RunTrace& trace);
-  Result<FinishedRun> keep(const RunReport& report, const RunTrace& trace,
+  void end(ActiveRun& active, ExecutedRun executed);
+  ExecutedRun execute_guarded(ActiveRun& active);
+  ExecutedRun without_moves(interpreter::RunResult result) const;
+  Result<FinishedRun> keep(const RunReport& report, std::string_view trace,
                            const std::optional<std::string>& caller);
   Result<void> close_interrupted(RunState state);
 

@@ -30,15 +30,10 @@ class Walk {
   Walk(const ControlDisk& disk, ProgramCache& programs, Allowance& allowance)
       : disk_(disk), programs_(programs), allowance_(allowance) {}
 
-  void visit(const ControlFile& file) {
-    const auto linked = programs_.get(file);
-    add(linked->diagnostics);
-    for (const FileReference& reference : linked->references) follow(file.path, reference);
-  }
-
-  void visit_all(const ControlFile& main) {
-    seen_.insert(main.path.key());
-    visit(main);
+  /// @returns whether there is such a program.
+  bool visit_all(const ControlPath& main) {
+    seen_.insert(main.key());
+    if (!visit(main)) return false;
     while (!pending_.empty()) {
       const Named named = std::move(pending_.front());
       pending_.pop_front();
@@ -47,15 +42,24 @@ class Walk {
              "the programs named are too many to check at once; this one is checked when it is "
              "called",
              klartext::DiagnosticCode::ProgramTooLarge);
-      } else if (const auto file = disk_.find(named.path)) {
-        visit(*file);
+      } else {
+        visit(named.path);
       }
     }
+    return true;
   }
 
   std::vector<Diagnostic> take() { return std::move(diagnostics_); }
 
  private:
+  bool visit(const ControlPath& path) {
+    const auto linked = programs_.get(disk_, path);
+    if (linked == nullptr) return false;
+    add(linked->diagnostics);
+    for (const FileReference& reference : linked->references) follow(path, reference);
+    return true;
+  }
+
   /// A program that is still to be looked into, and where it is named.
   struct Named {
     ControlPath path;
@@ -102,12 +106,10 @@ class Walk {
 
 Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
                                       ProgramCache& programs, Allowance& allowance) {
-  const auto file = disk.find(program);
-  if (!file) {
+  Walk walk(disk, programs, allowance);
+  if (!walk.visit_all(program)) {
     return Error{ErrorCode::ProgramUnknown, "there is no program " + program.text()};
   }
-  Walk walk(disk, programs, allowance);
-  walk.visit_all(*file);
   return walk.take();
 }
 

@@ -1,17 +1,40 @@
 #include "program/program_cache.hpp"
 
+#include <fmt/format.h>
+
 namespace fitgauge::interpreter {
 
+namespace {
+
+std::string key_of(const ControlPath& path, std::string_view revision) {
+  return fmt::format("{}|{}", path.key(), revision);
+}
+
+}  // namespace
+
+std::shared_ptr<const LinkedFile> ProgramCache::at_hand(const std::string& key) {
+  const std::lock_guard lock(mutex_);
+  const auto it = index_.find(key);
+  if (it == index_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, it->second);
+  return it->second->file;
+}
+
+std::shared_ptr<const LinkedFile> ProgramCache::get(const ControlDisk& disk,
+                                                    const ControlPath& path) {
+  const auto revision = disk.revision(path);
+  if (!revision) return nullptr;
+  if (auto linked = at_hand(key_of(path, *revision))) return linked;
+  const auto file = disk.find(path);
+  return file ? get(*file) : nullptr;
+}
+
 std::shared_ptr<const LinkedFile> ProgramCache::get(const ControlFile& file) {
-  const std::string key = file.path.key() + '|' + file.revision;
+  const std::string key = key_of(file.path, file.revision);
   // What a run has written has no revision that other runs share.
   const bool cached = file.source != FileSource::Run;
   if (cached) {
-    const std::lock_guard lock(mutex_);
-    if (const auto it = index_.find(key); it != index_.end()) {
-      entries_.splice(entries_.begin(), entries_, it->second);
-      return it->second->file;
-    }
+    if (auto linked = at_hand(key)) return linked;
   }
   auto linked = std::make_shared<const LinkedFile>(
       link(klartext::parse_program(*file.bytes, file.path.text()), file.path));

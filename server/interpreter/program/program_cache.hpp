@@ -18,10 +18,15 @@ class ProgramCache {
  public:
   explicit ProgramCache(std::size_t bytes = std::size_t{32} << 20) : capacity_(bytes) {}
 
-  /// The linked file, also when it has errors. Never null.
+  /// The linked file, also when it has errors; null when there is none of that path. The disk reads
+  /// its bytes only when it is not at hand.
+  std::shared_ptr<const LinkedFile> get(const ControlDisk& disk, const ControlPath& path);
+  /// The same of a file that has been read. Never null.
   std::shared_ptr<const LinkedFile> get(const ControlFile& file);
 
  private:
+  std::shared_ptr<const LinkedFile> at_hand(const std::string& key);
+
   struct Entry {
     std::string key;
     std::shared_ptr<const LinkedFile> file;

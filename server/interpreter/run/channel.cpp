@@ -37,12 +37,16 @@ NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
 }
 
 NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const ControlPath& path) {
-  const auto file = files.find(path);
-  if (!file) return nc_error(fmt::format("program {} does not exist", path.text()));
-  std::shared_ptr<const LinkedProgram>& known = loaded_[path.key() + '|' + file->revision];
+  const auto missing = [&] {
+    return nc_error(fmt::format("program {} does not exist", path.text()));
+  };
+  const auto revision = files.revision(path);
+  if (!revision) return missing();
+  std::shared_ptr<const LinkedProgram>& known = loaded_[path.key() + '|' + *revision];
   if (known != nullptr) return known;
   Allowance& allowance = budget.allowance();
-  const auto linked = allowance.uncounted([&] { return environment.programs.get(*file); });
+  const auto linked = allowance.uncounted([&] { return environment.programs.get(files, path); });
+  if (linked == nullptr) return missing();
   allowance.share(linked->memory_bytes);
   if (auto checked = budget.check(); !checked) return checked.error();
   const auto& program = linked->runnable(options.keeps_unreadable);

@@ -16,16 +16,16 @@ namespace fitgauge::interpreter {
 
 /// The control's disk as this run has left it: what it wrote lies over what is stored, and stays
 /// in the run. Not thread-safe.
-class RunFiles {
+class RunFiles final : public ControlDisk {
  public:
   /// @param disk must outlive this object, as must `budget`.
   RunFiles(const ControlDisk& disk, OutputBudget& budget, std::size_t most_files)
       : disk_(disk), budget_(budget), most_files_(most_files) {}
 
-  std::optional<ControlFile> find(const ControlPath& path) const;
+  std::optional<ControlFile> find(const ControlPath& path) const override;
   /// That of the file `find` gives, without reading its bytes.
-  std::optional<std::string> revision(const ControlPath& path) const;
-  bool has_directory(std::string_view directory) const;
+  std::optional<std::string> revision(const ControlPath& path) const override;
+  bool has_directory(std::string_view directory) const override;
 
   /// Counts a file that will be written later. @errors limit: number of files.
   NcResult<void> reserve(const ControlPath& path);

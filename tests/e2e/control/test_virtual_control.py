@@ -251,8 +251,7 @@ class Settings(unittest.TestCase):
         self.assertEqual(daemon.stop(), 0)
         daemon.start()
         trace = daemon.get(f"/v1/runs/{run}/trace").json
-        self.assertEqual(len(trace["moves"]), 1000)
-        self.assertGreater(trace["dropped"], 0)
+        self.assertGreater(len(trace["moves"]), 1000)
         self.assertEqual(daemon.stop(), 0)
 
     def test_the_machine_is_that_of_the_setup(self):

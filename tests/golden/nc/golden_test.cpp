@@ -109,7 +109,7 @@ class Case {
     const auto file = programs_.get(*disk.find(path(name)));
     if (file->program == nullptr) return "refused: " + klartext::render(file->diagnostics.front());
     machine::SimulatedMachine machine(setup_.machine);
-    machine::TracingMachine tracing(machine, {.block = {}, .longest = 10'000, .lines = true});
+    machine::TracingMachine tracing(machine, {.keep = {}, .longest = 10'000, .lines = true});
     const GoldenClock clock;
     RunObserver observer;
     const RunResult result = interpreter::run(

@@ -1,13 +1,12 @@
 #include "api/runs/run_codec.hpp"
 
-#include "api/runs/trace_codec.hpp"
-
 #include <doctest/doctest.h>
 
 #include <limits>
 
 #include "api/runs/run_events.hpp"
 #include "api/runs/trace_codec.hpp"
+#include "app/runs/run_trace.hpp"
 #include "base/json_value.hpp"
 
 using namespace fitgauge;
@@ -37,6 +36,21 @@ app::RunReport report() {
                              .block = 29});
   result.presets = {machine::Preset{.number = 1, .comment = {}, .frame = {{0.5, 0, 0}, {}, {}}}};
   return report;
+}
+
+constexpr app::TracePlace kPlace{.program = "TNC:\\a.h", .line = 4, .block = 3};
+
+/// As it is stored and sent.
+std::string trace_of(const std::vector<machine::TracedMove>& moves, const app::TracePlace& place,
+                     std::vector<machine::Axis> axes = {machine::Axis::X, machine::Axis::Y,
+                                                        machine::Axis::Z}) {
+  const app::TraceFormat format = trace_json();
+  app::TraceWriter writer(format, std::move(axes));
+  for (const machine::TracedMove& move : moves) writer.add(move, place);
+  app::TraceReader reader(writer.finish(0));
+  std::string text;
+  for (std::string piece; !(piece = reader.next().value()).empty();) text += piece;
+  return text;
 }
 
 TEST_CASE("a run is written with the fields of the contract") {
@@ -73,17 +87,14 @@ TEST_CASE("a number that is none is null in every document of a run") {
   CHECK(run->find("presets")->items.at(0).find("y_mm")->is(JsonValue::Kind::Null));
   CHECK(run->find("parameters")->members.at(0).second.is(JsonValue::Kind::Null));
 
-  app::RunTrace trace;
-  trace.axes = {machine::Axis::X};
-  trace.places.resize(1);
-  machine::TracedMove& move = trace.moves.emplace_back();
+  machine::TracedMove move;
   move.seconds = infinite;
   move.end[machine::Axis::X] = std::numeric_limits<double>::quiet_NaN();
-  const std::string json = trace_json(trace);
+  const std::string json = trace_of({move}, {}, {machine::Axis::X});
   REQUIRE(parse_json(json).has_value());
   CHECK(json.find("\"seconds\":null") != std::string::npos);
   CHECK(json.find("\"end_mm\":{\"X\":null}") != std::string::npos);
-  CHECK(trace_csv(json).value().find("inf") == std::string::npos);
+  CHECK(TraceCsv().rows(json).value().find("inf") == std::string::npos);
 }
 
 TEST_CASE("stored text that cannot be read is an error and not an exception") {
@@ -91,7 +102,8 @@ TEST_CASE("stored text that cannot be read is an error and not an exception") {
   for (const char* const report : {R"({"screen":[inf]})", R"({"screen":["a")", "7"}) {
     CHECK(finished_run_events(report, {}).error().code == ErrorCode::StorageCorrupt);
   }
-  CHECK(trace_csv("{\"moves\":[\n" + spoiled + "\n]}").error().code == ErrorCode::StorageCorrupt);
+  CHECK(TraceCsv().rows("{\"moves\":[\n" + spoiled + "\n]}").error().code ==
+        ErrorCode::StorageCorrupt);
   CHECK(finished_run_events("{}", {}).has_value());  // an older form, without the screen
 }
 
@@ -137,13 +149,7 @@ TEST_CASE("the seed of an order that is stored is found again") {
 }
 
 TEST_CASE("a trace is written move by move") {
-  app::RunTrace trace;
-  trace.axes = {machine::Axis::X, machine::Axis::Y, machine::Axis::Z};
-  trace.places = {{.program = "TNC:\\a.h", .line = 4, .block = 3}};
-  machine::TracedMove move{};
-  move.block = 0;
-  trace.moves = {move};
-  const auto written = parse_json(run_format().trace(trace)).value();
+  const auto written = parse_json(trace_of({machine::TracedMove{}}, kPlace)).value();
   const JsonValue& first = written.find("moves")->items.at(0);
   CHECK(first.find("block")->text == "3");
   CHECK(first.find("end_mm")->find("X")->text == "0");
@@ -155,9 +161,8 @@ TEST_CASE("a trace is written move by move") {
 }
 
 TEST_CASE("an arc and a contact bring what draws them, and columns in every CSV") {
-  app::RunTrace trace;
-  trace.axes = {machine::Axis::X, machine::Axis::Y, machine::Axis::Z};
-  trace.places = {{.program = "TNC:\\a.h", .line = 4, .block = 3, .cycle = 421}};
+  app::TracePlace place = kPlace;
+  place.cycle = 421;
   machine::TracedMove arc{};
   arc.kind = machine::MoveKind::Arc;
   arc.arc = machine::TracedArc{
@@ -166,8 +171,7 @@ TEST_CASE("an arc and a contact bring what draws them, and columns in every CSV"
   probe.kind = machine::MoveKind::Probe;
   probe.contact =
       machine::TracedContact{.surface = {4, 5, 6}, .machine_surface = {7, 8, 9}, .normal = {}};
-  trace.moves = {machine::TracedMove{}, arc, probe};
-  const std::string json = run_format().trace(trace);
+  const std::string json = trace_of({machine::TracedMove{}, arc, probe}, place);
   const auto moves = parse_json(json).value();
   const JsonValue& drawn = moves.find("moves")->items.at(1);
   CHECK(drawn.find("center_mm")->find("Y")->text == "2");
@@ -179,10 +183,15 @@ TEST_CASE("an arc and a contact bring what draws them, and columns in every CSV"
   CHECK(touched.find("contact_mm")->find("X")->text == "4");
   CHECK(touched.find("machine_contact_mm")->find("X")->text == "7");
   CHECK(touched.find("machine_contact_normal")->is(JsonValue::Kind::Null));
-  const std::string csv = trace_csv(json).value();
+  const std::string csv = TraceCsv().rows(json).value();
   CHECK(csv.find("center_x_mm,center_y_mm,center_z_mm,sweep_deg,axis,machine_center_x_mm") !=
         std::string::npos);
   CHECK(csv.find("1,2,3,-90,Y,") != std::string::npos);
+
+  TraceCsv byte_by_byte;
+  std::string same;
+  for (const char byte : json) same += byte_by_byte.rows({&byte, 1}).value();
+  CHECK(same == csv);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ class Examples {
     set("Q31", is_hole ? -10.0 : 15.0);
     for (const char* zero : {"Q11", "Q21", "Q41", "Q51"}) set(zero, 0.0);
     ActiveRun run(1, "5f0c9a3e77d21b40", std::make_shared<const RunOrder>(std::move(order)), {});
-    return execute({projected_, programs_, clock_}, run).result;
+    return execute({projected_, programs_, clock_, trace_}, run).result;
   }
 
  private:
@@ -78,6 +78,10 @@ class Examples {
   interpreter::ProjectingDisk projected_{disk_, project(tables())};
   interpreter::ProgramCache programs_;
   SystemClock clock_;
+  const TraceFormat trace_{
+      .move = [](std::string&, const machine::TracedMove&, const TracePlace&,
+                 std::span<const machine::Axis>) {},
+      .tail = [](std::size_t) { return std::string(); }};
 };
 
 std::optional<Length> length_of(const interpreter::RunResult& result, std::string_view name) {

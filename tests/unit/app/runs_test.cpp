@@ -38,9 +38,10 @@ TEST_CASE("a run leaves its report, its trace and its files") {
   CHECK(stored->state == RunState::Completed);
   CHECK(stored->program == "TNC:\\main.h");
   CHECK(stored->request == "{}");
-  const auto trace =
-      wait_for<std::string>([&](auto done) { service->runs().trace(report.id, std::move(done)); });
-  CHECK(trace.value() == "1 moves");
+  auto trace =
+      wait_for<TraceReader>([&](auto done) { service->runs().trace(report.id, std::move(done)); });
+  CHECK(trace->next().value() == "a move, the end");
+  CHECK(trace->next().value().empty());
   const auto file = wait_for<RunService::File>(
       [&](auto done) { service->runs().file(report.id, "OUT.TXT", std::move(done)); });
   CHECK(file->bytes.starts_with("Q1 IS  5"));
@@ -124,7 +125,7 @@ TEST_CASE("a run is cancelled while it goes on and while it waits, each with its
   waiting.setup.seed = 77;
   const auto first = service.start(endless()).value();
   const auto second = service.start(std::move(waiting)).value();
-  const auto unfinished = wait_for<std::string>(
+  const auto unfinished = wait_for<TraceReader>(
       [&](auto done) { service->runs().trace(second->id(), std::move(done)); });
   CHECK(unfinished.error().code == ErrorCode::RunUnfinished);
 

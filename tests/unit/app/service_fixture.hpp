@@ -53,8 +53,9 @@ class Service {
     app_ = Application::open(options, clock_).value();
     const auto opened = app_->runs().open(
         {.report = [this](const RunReport& report) { return keep(report); },
-         .trace =
-             [](const RunTrace& trace) { return std::to_string(trace.moves.size()) + " moves"; },
+         .trace = {.move = [](std::string& out, const machine::TracedMove&, const TracePlace&,
+                              std::span<const machine::Axis>) { out += "a move, "; },
+                   .tail = [](std::size_t) { return std::string("the end"); }},
          .seed = [](const std::string&) { return std::uint64_t{1}; },
          .event = [](const RunReport&) { return std::string("{}"); }});
     REQUIRE(opened.has_value());

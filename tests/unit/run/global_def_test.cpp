@@ -11,7 +11,7 @@ const std::string kPoint =
 /// The tip's highest and lowest Z of the touch: clearance height, and SET_UP + Q320 over the part.
 std::pair<double, double> heights(Control& control) {
   std::pair<double, double> found{-1000, 1000};
-  for (const auto& line : control.tracing->moves()) {
+  for (const auto& line : control.traced) {
     if (line.kind != machine::MoveKind::Probe) continue;
     found.second = line.start.linear.z;
   }

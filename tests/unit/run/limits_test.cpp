@@ -208,7 +208,7 @@ TEST_CASE("the machining time stays a finite number") {
        {"TOOL CALL 30 Z\nL X+100 FQ1", "TOOL CALL 30 Z\nL X+1 F1\nL X+100 FQ1"}) {
     const RunResult result = control.run(body);
     CHECK(std::isfinite(result.machining_time_s));
-    for (const machine::TracedMove& move : control.tracing->moves()) {
+    for (const machine::TracedMove& move : control.traced) {
       CHECK(std::isfinite(move.seconds));
     }
   }

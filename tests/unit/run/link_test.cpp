@@ -84,6 +84,36 @@ TEST_CASE("a program is linked once for each revision of its file") {
   CHECK(value(control.run(), "Q1") == "2");
 }
 
+TEST_CASE("a program at hand is not read from the disk again") {
+  /// Counts how often bytes are read.
+  struct CountingDisk final : ControlDisk {
+    explicit CountingDisk(const MemoryDisk& disk) : inner(disk) {}
+    std::optional<ControlFile> find(const ControlPath& path) const override {
+      ++reads;
+      return inner.find(path);
+    }
+    std::optional<std::string> revision(const ControlPath& path) const override {
+      return inner.revision(path);
+    }
+    bool has_directory(std::string_view directory) const override {
+      return inner.has_directory(directory);
+    }
+    const MemoryDisk& inner;
+    mutable int reads = 0;
+  };
+  Control control;
+  control.program("Q1 = 1");
+  const CountingDisk disk(control.disk);
+  const auto first = control.programs.get(disk, Control::main_path());
+  REQUIRE(first != nullptr);
+  CHECK(control.programs.get(disk, Control::main_path()) == first);
+  CHECK(disk.reads == 1);
+  control.program("Q1 = 2");
+  CHECK(control.programs.get(disk, Control::main_path()) != first);
+  CHECK(disk.reads == 2);
+  CHECK(control.programs.get(disk, ControlPath::parse("TNC:\\none.h").value()) == nullptr);
+}
+
 TEST_CASE("a cache holds as many bytes as it may") {
   ProgramCache cache(1);
   Control control;

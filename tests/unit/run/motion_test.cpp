@@ -95,7 +95,7 @@ TEST_CASE("an INCH program moves in millimetres") {
   mill.program("TOOL CALL 5 Z S1000\nL X+1 FMAX\nL X+2 F20", "main.h", true);
   const RunResult result = mill.run();
   CHECK(outcome(result) == "completed");
-  const auto& moves = mill.tracing->moves();
+  const auto& moves = mill.traced;
   REQUIRE(moves.size() == 2);
   CHECK(moves[0].end[machine::Axis::X] == doctest::Approx(25.4));
   CHECK(moves[1].feed_mm_min == doctest::Approx(50.8));

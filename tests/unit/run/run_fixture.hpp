@@ -49,10 +49,14 @@ class Control {
       for (const auto& found : file->diagnostics) all += klartext::render(found) + "\n";
       FAIL(all);
     }
+    traced.clear();
     allowance.emplace(options.limits.time, options.limits.memory_bytes, std::move(stop));
     machine = std::make_unique<machine::SimulatedMachine>(setup, &*allowance);
     tracing = std::make_unique<machine::TracingMachine>(
-        *machine, machine::TraceOptions{.block = {}, .longest = 1000, .lines = true});
+        *machine, machine::TraceOptions{
+                      .keep = [this](const machine::TracedMove& move) { traced.push_back(move); },
+                      .longest = 1000,
+                      .lines = true});
     return interpreter::run(file->program, {*tracing, disk, programs, clock, observer, &*allowance},
                             options);
   }
@@ -73,6 +77,7 @@ class Control {
   std::optional<Allowance> allowance;
   std::unique_ptr<machine::SimulatedMachine> machine;
   std::unique_ptr<machine::TracingMachine> tracing;
+  std::vector<machine::TracedMove> traced;  ///< of the last run
 };
 
 /// The value of a parameter at the end of a run, as text: `2.5`, `GOOD`, or `undefined`.

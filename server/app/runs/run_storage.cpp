@@ -1,0 +1,182 @@
+// Runs on their way to the store and back.
+
+#include <chrono>
+#include <thread>
+
+#include "app/measurements/measurement_storage.hpp"
+#include "app/runs/run_measurements.hpp"
+#include "app/runs/run_service.hpp"
+#include "store/database.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using interpreter::MessageKind;
+using interpreter::RunStatus;
+
+constexpr std::string_view kFinishedEvent = "run.finished";
+/// Runs a start looks at together.
+constexpr std::size_t kPage = 100;
+
+store::RunStatus run_status(RunState state) {
+  switch (state) {
+    case RunState::Queued: return store::RunStatus::Queued;
+    case RunState::Running: return store::RunStatus::Running;
+    case RunState::Completed: return store::RunStatus::Completed;
+    case RunState::Stopped: return store::RunStatus::Stopped;
+    case RunState::Failed: return store::RunStatus::Failed;
+    case RunState::LimitExceeded: return store::RunStatus::LimitExceeded;
+    case RunState::Cancelled: break;
+  }
+  return store::RunStatus::Cancelled;
+}
+
+RunState run_state(store::RunStatus status) {
+  switch (status) {
+    case store::RunStatus::Queued: return RunState::Queued;
+    case store::RunStatus::Running: return RunState::Running;
+    case store::RunStatus::Completed: return RunState::Completed;
+    case store::RunStatus::Stopped: return RunState::Stopped;
+    case store::RunStatus::Failed: return RunState::Failed;
+    case store::RunStatus::LimitExceeded: return RunState::LimitExceeded;
+    case store::RunStatus::Cancelled: break;
+  }
+  return RunState::Cancelled;
+}
+
+StoredRun stored_run(store::Run run, std::string_view origin) {
+  StoredRun stored{.id = run.id,
+                   .origin = origin,
+                   .state = run_state(run.status),
+                   .program = std::move(run.program),
+                   .request = std::move(run.request),
+                   .report = std::move(run.result),
+                   .created_at = {run.created_at_ns},
+                   .finished_at = {}};
+  if (run.finished_at_ns) stored.finished_at = Timestamp{*run.finished_at_ns};
+  return stored;
+}
+
+Error unknown_run(const std::string& id) {
+  return {ErrorCode::RunUnknown, "there is no run '" + id + "'"};
+}
+
+}  // namespace
+
+Result<void> RunService::close_interrupted(RunState state) {
+  while (true) {
+    const auto page = database_.readers().wait(
+        [state](const store::Stores& stores) -> Result<store::RunsStore::Page> {
+          return stores.runs.list({.status = run_status(state)}, {}, kPage);
+        });
+    if (!page) return page.error();
+    for (const store::Run& run : page->runs) {
+      const RunReport report{.id = run.id,
+                             .origin = origin_,
+                             .program = run.program,
+                             .result = unstarted(RunStatus::Failed, MessageKind::Error,
+                                                 "the service ended before the run did; nothing "
+                                                 "it had done was kept",
+                                                 run.program),
+                             .seed = format_.seed(run.request),
+                             .created_at = {run.created_at_ns},
+                             .finished_at = clock_.now()};
+      const auto kept = keep(report, empty_trace(format_.trace), run.caller);
+      if (!kept) return kept.error();
+    }
+    if (!page->next) return {};
+  }
+}
+
+/// One transaction for all that a run leaves.
+Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view trace,
+                                     const std::optional<std::string>& caller) {
+  FinishedRun finished{.state = state_of(report.result.status), .report = format_.report(report)};
+  const std::string event = format_.event(report);
+  std::vector<store::RunFile> files;
+  files.reserve(report.result.files.size());
+  for (const interpreter::WrittenFile& file : report.result.files) {
+    files.push_back({.path = file.path.text(), .content = file.bytes});
+  }
+  std::vector<Measurement> measurements = measurements_of(report, caller);
+  const auto store = [&](store::Stores& stores) -> Result<bool> {
+    const std::int64_t now = report.finished_at.nanoseconds;
+    const auto closed = stores.runs.finish(report.id,
+                                           {.status = run_status(finished.state),
+                                            .result = finished.report,
+                                            .trace = trace,
+                                            .files = files},
+                                           now);
+    if (!closed) return closed.error();
+    if (const auto first = append(stores, measurements, std::nullopt, origin_); !first) {
+      return first.error();
+    }
+    stores.events.append(kFinishedEvent, event, now);
+    return true;
+  };
+  // What a run has done is not thrown away because the writer is busy for a moment.
+  for (int attempt = 0;; ++attempt) {
+    const auto stored = database_.writer().wait(store);
+    if (stored) return finished;
+    constexpr int kAttempts = 100;
+    if (stored.error().code != ErrorCode::StorageBusy || attempt == kAttempts) {
+      return stored.error();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+void RunService::find(std::int64_t id, Done<StoredRun> done) {
+  database_.readers().submit(
+      [this, id](const store::Stores& stores) -> Result<StoredRun> {
+        auto run = stores.runs.find(id);
+        if (!run) return unknown_run(run_id_text(id, origin_));
+        return stored_run(*std::move(run), origin_);
+      },
+      std::move(done));
+}
+
+void RunService::trace(std::int64_t id, Done<TraceReader> done) {
+  database_.readers().submit(
+      [this, id](const store::Stores& stores) -> Result<TraceReader> {
+        if (auto trace = stores.runs.trace(id)) return TraceReader(*std::move(trace));
+        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_));
+        return Error{ErrorCode::RunUnfinished, "run '" + run_id_text(id, origin_) +
+                                                   "' is not over; its trace comes with its end"};
+      },
+      std::move(done));
+}
+
+void RunService::file(std::int64_t id, std::string name, Done<File> done) {
+  database_.readers().submit(
+      [this, id, name = std::move(name)](const store::Stores& stores) -> Result<File> {
+        if (auto file = stores.runs.file(id, name)) {
+          return File{.path = std::move(file->path), .bytes = std::move(file->content)};
+        }
+        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_));
+        return Error{ErrorCode::FileUnknown,
+                     "run '" + run_id_text(id, origin_) + "' has written no file '" + name + "'"};
+      },
+      std::move(done));
+}
+
+void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::size_t limit,
+                      Done<Page> done) {
+  store::RunFilter filter{.program = std::move(query.program)};
+  if (query.state) filter.status = run_status(*query.state);
+  database_.readers().submit(
+      [this, filter = std::move(filter), after,
+       limit](const store::Stores& stores) -> Result<Page> {
+        store::RunsStore::Page found = stores.runs.list(filter, after, limit);
+        Page page{.runs = {}, .next = found.next};
+        for (store::Run& run : found.runs) {
+          run.request.clear();
+          run.result.clear();
+          page.runs.push_back(stored_run(std::move(run), origin_));
+        }
+        return page;
+      },
+      std::move(done));
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/runs/run_report.hpp"
+#include "base/gzip.hpp"
+
+namespace fitgauge::app {
+
+/// Writes the trace of a run, packed as it comes: the text of a long one is 15 MB, packed a
+/// twentieth of it, and a run holds no more than that.
+class TraceWriter {
+ public:
+  /// @param format outlives the writer.
+  TraceWriter(const TraceFormat& format, std::vector<machine::Axis> axes);
+
+  void add(const machine::TracedMove& move, const TracePlace& place);
+  /// The whole trace, for TraceReader. Nothing can be added any more.
+  std::string finish(std::size_t dropped);
+
+ private:
+  const TraceFormat& format_;
+  const std::vector<machine::Axis> axes_;
+  GzipWriter packed_;
+  std::string text_;  ///< of the last move
+  bool is_empty_ = true;
+};
+
+/// The trace of a run without a move.
+std::string empty_trace(const TraceFormat& format);
+
+/// Reads a stored trace piece by piece. Those that were stored before traces were packed are text.
+class TraceReader {
+ public:
+  explicit TraceReader(std::string stored);
+
+  /// The next piece of the text; empty at its end. @errors StorageCorrupt.
+  Result<std::string> next();
+
+ private:
+  std::string text_;                    ///< of one that is not packed
+  std::unique_ptr<GzipReader> packed_;  ///< of one that is
+};
+
+}  // namespace fitgauge::app
