@@ -8,7 +8,7 @@ import threading
 import time
 import unittest
 
-from support.broker import Broker, Forgetful, free_port, wait_for
+from support.broker import Broker, Forgetful, free_port, kill_in_step, wait_for
 from support.certificates import certificate
 from support.daemon import Daemon
 
@@ -146,7 +146,8 @@ class Lost(Mqtt):
 
         writer = threading.Thread(target=load)
         writer.start()
-        for end in (broker.kill, broker.stop, broker.kill):
+        kill = lambda: kill_in_step(broker, daemon, seen)  # noqa: E731
+        for end in (kill, broker.stop, kill):
             told = len(seen.messages)
             wait_for(lambda: len(seen.messages) > told + 50, 60, lambda: self.state(daemon))
             end()

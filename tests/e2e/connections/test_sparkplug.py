@@ -13,7 +13,7 @@ import threading
 import time
 import unittest
 
-from support.broker import Broker, wait_for
+from support.broker import Broker, kill_in_step, wait_for
 from support.daemon import ROOT, Daemon
 
 HERE = pathlib.Path(__file__).parent
@@ -306,7 +306,8 @@ class Lost(Sparkplug):
         count = lambda: sum("/DDATA/" in m.topic for m in list(self.seen.messages))  # noqa: E731
         writer = threading.Thread(target=load)
         writer.start()
-        for end in (self.broker.kill, self.broker.stop, self.broker.kill):
+        kill = lambda: kill_in_step(self.broker, self.daemon, self.seen)  # noqa: E731
+        for end in (kill, self.broker.stop, kill):
             told = count()
             wait_for(lambda: count() > told + 30, 60, self.state)
             end()

@@ -24,6 +24,17 @@ def wait_for(condition, seconds=60, say=lambda: ""):
         time.sleep(0.01)
 
 
+def kill_in_step(broker, daemon, subscriber):
+    """Kills the broker when the subscriber has all it took: what it has acknowledged it forgets with its life."""
+    daemon.process.send_signal(signal.SIGSTOP)
+    told = -1
+    while told != len(subscriber.messages):
+        told = len(subscriber.messages)
+        time.sleep(1)
+    broker.kill()
+    daemon.process.send_signal(signal.SIGCONT)
+
+
 class Broker:
     """A mosquitto that listens on one port over all its lives."""
 
