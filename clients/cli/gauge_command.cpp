@@ -245,7 +245,8 @@ Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
 Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
   if (!options.serial.empty()) return follow_port(context, options);
   if (options.measured.empty()) {
-    return Failure{ExitCode::Usage, "a measured value is needed, or --serial PORT"};
+    return Failure{ExitCode::Usage,
+                   "a measured value is needed, or --serial PORT; see fitgauge gauge --help"};
   }
   return judge(context, options, options.measured);
 }

@@ -14,7 +14,7 @@ COLUMN = [{"over_mm": 18, "up_to_mm": 30, "upper_um": Decimal("15.5"), "lower_um
 PROGRAM = "TNC:\\nc_prog\\8255\\8255.h"
 FOREVER = b"0 BEGIN PGM loop MM\n1 LBL 1\n2 FN 9: IF +1 EQU +1 GOTO LBL 1\n3 END PGM loop MM\n"
 # The page with its parts, and the same fit in two segments.
-NOT_THE_CLIENTS = {("GET", "/"), ("GET", "/web/{path}"), ("GET", "/v1/fits/{hole}/{shaft}")}
+NOT_THE_CLIENTS = {("GET", "/"), ("GET", "/web/{path}"), ("GET", "/v1/fits/{hole}/{shaft}"), ("GET", "/v1/log/revisions")}
 
 
 class Recorder(fitgauge.Client):

@@ -155,7 +155,7 @@ class Answers(ContractTest):
         self.expect("getPageFile", 200, path="app.js")
         self.assert_seen("Limits", "Fit", "Verdict", "Measurement", "MeasurementList", "SummaryGroup", "Accepted",
                          "RunOrder", "Diagnostic", "Cycle", "Trace",
-                         without={"RunOrder": {"block_skip", "language"}, "Measurement": {"caller"}})
+                         without={"RunOrder": {"block_skip", "language"}, "Measurement": {"caller", "conflict"}})
 
     def measurements(self):
         full = {"designation": "25 H7", "measured_mm": 25.013, "uncertainty_um": 0.8, "coverage_factor": 2,
