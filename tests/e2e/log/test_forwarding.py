@@ -172,7 +172,8 @@ class Forwarding(unittest.TestCase):
         keys = folder.get("/v1/log/key").text.split()
 
         def forward(port, *flags):
-            return command("forward", *flags, "--data", folder.data, "--forward-to", f"http://127.0.0.1:{port}")
+            # It waits a minute for a centre that is not there.
+            return command("forward", *flags, "--data", folder.data, "--forward-to", f"http://127.0.0.1:{port}", timeout=120)
 
         self.assertNotEqual(forward(self.centre.port, "--all").returncode, 0, "the service has the folder")
         folder.stop()
