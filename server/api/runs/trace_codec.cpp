@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "api/wire/csv_reader.hpp"
 #include "api/wire/json_writer.hpp"
 #include "base/json_value.hpp"
 #include "base/text.hpp"
@@ -97,21 +98,6 @@ constexpr std::pair<std::string_view, bool> kOptional[] = {
     {"machine_center_mm", true},  {"machine_axis", true},
     {"machine_contact_mm", true}, {"machine_contact_normal", true}};
 
-void append_cell(std::string& out, const JsonValue* value) {
-  if (value == nullptr) return;
-  const std::string& text = value->text;
-  if (text.find_first_of(",\"") == std::string::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  out += '"';
-}
-
 }  // namespace
 
 app::TraceFormat trace_json() {
@@ -166,7 +152,8 @@ Result<void> TraceCsv::append_line(std::string& out, std::string_view line) {
   }
   append_row([&](const Column& column) {
     const JsonValue* value = move->find(column.member);
-    append_cell(out, column.axis.empty() || value == nullptr ? value : value->find(column.axis));
+    if (value != nullptr && !column.axis.empty()) value = value->find(column.axis);
+    if (value != nullptr) append_csv_cell(out, value->text);
   });
   return {};
 }

@@ -107,6 +107,11 @@ TEST_CASE("stored text that cannot be read is an error and not an exception") {
   CHECK(finished_run_events("{}", {}).has_value());  // an older form, without the screen
 }
 
+TEST_CASE("a cell of a trace is quoted as in every CSV") {
+  const std::string trace = "{\"moves\":[\n{\"program\":\"a;b\",\"call\":\"c\\n\\\"d\\\"\"}\n]}";
+  CHECK(TraceCsv().rows(trace).value().find("\"a;b\",\"c\n\"\"d\"\"\"") != std::string::npos);
+}
+
 TEST_CASE("events of a run that is over carry ids, and a reader goes on behind the one it had") {
   const std::string report = R"({"screen":["one","two"]})";
   const auto events = [&](std::optional<std::string_view> last) {
