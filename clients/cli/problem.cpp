@@ -43,6 +43,8 @@ std::optional<Problem> problem_of(const Answer& answer) {
                   .title = std::string(document->text_of("title")),
                   .detail = std::string(document->text_of("detail")),
                   .where = std::string(document->text_of("where"))};
+  // Of what cannot be read the detail says all.
+  if (problem.code.ends_with(".malformed")) return problem;
   for (const JsonValue& entry : document->member("errors").items) {
     problem.fields.push_back({.pointer = std::string(entry.text_of("pointer")),
                               .line = line_of(entry),

@@ -114,9 +114,11 @@ Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& 
 
 std::string told(std::string_view file_name, const Error& error) {
   std::string text = fmt::format("{}: nothing of this file is stored.\n\n", file_name);
-  if (error.details.empty()) text += fmt::format("{}\n", error.message);
+  // A file that cannot be read has one fault, and its message names the line.
+  const bool has_fields = error.code == ErrorCode::RequestInvalid && !error.details.empty();
+  if (!has_fields) text += fmt::format("{}\n", error.message);
   std::size_t count = 0;
-  for (const Error& field : error.details) {
+  for (const Error& field : has_fields ? error.details : std::vector<Error>()) {
     if (++count > kMostTold) break;
     const std::string line =
         field.details.empty() ? "" : fmt::format("line {}: ", field.details.front().where);

@@ -67,6 +67,14 @@ Result<void> decode_json(std::string_view body, const BatchContext& context,
   return finish(errors);
 }
 
+/// A row that cannot be read is listed as a wrong field is: by its number, with its line.
+Error at_row(Error error, std::size_t row, std::size_t line) {
+  FieldErrors listed;
+  listed.add(error.code, pointer_to("", row), error.message, line);
+  error.details = listed.take()->details;
+  return error;
+}
+
 Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
                            MeasurementBatch& batch) {
   FieldErrors errors;
@@ -94,7 +102,7 @@ Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
       Error error = std::move(parsed).error();
       error.message = fmt::format("line {}: {}", line, error.message);
       error.where = fmt::format("line {}", line);
-      return error;
+      return at_row(std::move(error), row, line);
     }
     reader.begin(row++, line);
     read_row(*parsed, reader, batch);
@@ -131,7 +139,7 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
   std::size_t row = 0;
   for (;; ++row) {
     const auto cells = csv->next();
-    if (!cells) return cells.error();
+    if (!cells) return at_row(cells.error(), row, csv->line());
     if (*cells == nullptr) break;
     if (row == kMostRows) return too_many_rows();
     reader.begin(row, csv->line());

@@ -23,6 +23,15 @@ class BadInput(DaemonTest):
             codes = [e["code"] for e in problem.get("errors", [])] or [problem["code"]]
             self.assertEqual(codes, [code], answer)
 
+    def test_a_line_that_cannot_be_read_is_listed_with_its_row(self):
+        good = '{"designation":"25H7","measured_mm":25}\n'
+        for body, media_type, code, row in (
+                (good + "{bad\n", "application/x-ndjson", "json.malformed", "/1"),
+                ("designation,measured_mm\n25H7,25,9\n", "text/csv", "csv.malformed", "/0")):
+            answer = self.daemon.measure(body, {"Content-Type": media_type})
+            self.assertEqual((answer.status, answer.json["code"]), (400, code))
+            self.assertEqual([(e["pointer"], e["line"], e["code"]) for e in answer.json["errors"]], [(row, 2, code)])
+
     def test_sizes(self):
         for nominal, code in ((0, "size.out_of_range"), (-1, "size.out_of_range"),
                               ("3150.000001", "size.out_of_range"), ("25.0000001", "length.too_fine")):
