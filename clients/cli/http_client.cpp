@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 
-#include "base/text.hpp"
+#include "base/retry_after.hpp"
 #include "cli/address.hpp"
 
 namespace fitgauge::cli {
@@ -64,19 +63,9 @@ std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
   return CURL_WRITEFUNC_ERROR;
 }
 
-/// `Retry-After` in seconds, the form the service uses (RFC 9110, 10.2.3).
 std::size_t take_header(char* data, std::size_t, std::size_t size, void* user) {
-  constexpr std::string_view kName = "Retry-After:";
-  const std::string_view line(data, size);
-  if (ascii_iequals(line.substr(0, kName.size()), kName)) {
-    std::string_view value = trim(line.substr(kName.size()));
-    while (value.ends_with('\n') || value.ends_with('\r')) value.remove_suffix(1);
-    int seconds = 0;
-    const auto read = std::from_chars(value.data(), value.data() + value.size(), seconds);
-    if (read.ec == std::errc() && read.ptr == value.data() + value.size() && seconds >= 0) {
-      static_cast<Reading*>(user)->answer.retry_after = std::chrono::seconds(seconds);
-    }
-  }
+  if (const auto wait = retry_after({data, size}))
+    static_cast<Reading*>(user)->answer.retry_after = *wait;
   return size;
 }
 
