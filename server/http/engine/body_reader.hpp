@@ -31,8 +31,12 @@ class BodyReader {
     std::size_t limit = 0;
     bool gzip = false;
     bool discard = false;  ///< count and decode only
+
+    /// Whether what comes is kept as it is.
+    bool is_verbatim() const { return !gzip && !discard; }
   };
   void start(const Plan& plan);
+  const Plan& plan() const { return plan_; }
 
   /// Makes room for `size` bytes in all; NoBudget leaves everything as it was.
   Outcome reserve(std::size_t size);

@@ -1,8 +1,6 @@
 #include "http/engine/connection.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <exception>
 #include <utility>
 #include <variant>
@@ -18,8 +16,6 @@ constexpr std::size_t kBatch = std::size_t{64} << 10;
 /// A sender of a body that is silent for longer gives way when others wait for memory.
 constexpr auto kStalled = std::chrono::seconds(1);
 constexpr auto kLinger = std::chrono::seconds(2);
-constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-constexpr std::array<char, Request::kBodyPadding> kNoBody{};
 
 const Refusal kTimedOut{408, ErrorCode::RequestTimeout, "The request took too long to arrive."};
 
@@ -34,18 +30,9 @@ Connection::Connection(IoThread& thread, Peer peer)
   deadline_ = thread_.now() + thread_.shared().options.header_timeout;
 }
 
-template <class Function>
-void Connection::guarded(Function&& function) noexcept {
-  try {
-    function();
-  } catch (const std::exception&) {  // out of memory, or a hook that throws: this client alone
-    close();
-  }
-}
-
 void Connection::begin() {
   if (phase_ != Phase::Opening) return;
-  phase_ = Phase::Head;
+  phase_ = Phase::Idle;
   deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
   guarded([&] { advance(); });
 }
@@ -56,9 +43,9 @@ void Connection::on_read(const error_code& error, std::size_t count) noexcept {
   if (error) return close();
   guarded([&] {
     if (phase_ == Phase::Lingering) return read_more();
-    if (close_after_ && !in_request_) return;  // refused while it was being read
-    if (phase_ == Phase::ReadingBody) last_body_byte_ = thread_.now();
-    if (phase_ == Phase::ReadingBody && reads_directly_) {
+    if (phase_ == Phase::Idle && close_after_) return;  // refused while it was being read
+    last_body_byte_ = thread_.now();
+    if (phase_ == Phase::FillingBody) {
       body_.added(count);
       body_left_ -= count;
       received_ += count;
@@ -88,22 +75,28 @@ void Connection::advance() {
   }
   if (phase_ == Phase::Closed) return;
   if (writing_) return output_.keep();
-  if (phase_ == Phase::Head && close_after_ && !in_request_) return end();
-  if (phase_ == Phase::Head || phase_ == Phase::ReadingBody) read_more();
+  switch (phase_) {
+    case Phase::Idle: return close_after_ ? end() : read_more();
+    case Phase::Head:
+    case Phase::ReadingBody:
+    case Phase::FillingBody: return read_more();
+    default: return;
+  }
 }
 
 bool Connection::step() {
   if (output_.has_long_body() || output_.text_size() > kBatch) return false;
   switch (phase_) {
+    case Phase::Idle: return !close_after_ && begin_request();
     case Phase::Head: return step_head();
     case Phase::ReadingBody: return step_body();
+    case Phase::FillingBody: return body_left_ == 0 && finish_body();
     case Phase::Stream: return step_stream();
     default: return false;
   }
 }
 
 bool Connection::step_head() {
-  if (!in_request_ && (close_after_ || !begin_request())) return false;
   std::size_t used = 0;
   const RequestParser::Step parsed = parser_->put(input_.unread(), used);
   input_.advance(used);
@@ -123,7 +116,7 @@ bool Connection::begin_request() {
   }
   if (input_.unread().empty() || input_.unread() == "\r") return false;
   const ServerShared& shared = thread_.shared();
-  in_request_ = true;
+  phase_ = Phase::Head;
   received_ = 0;
   parser_.emplace(head_);
   deadline_ = thread_.now() + shared.options.header_timeout;
@@ -142,123 +135,7 @@ bool Connection::open_exchange() {
     return true;
   }
   if (head_.has_body()) return begin_body();
-  exchange_.set_body({kNoBody.data(), 0});
-  run_handler();
-  return true;
-}
-
-void Connection::skip_buffered_body() {
-  if (!head_.has_body()) return;
-  const auto length = head_.content_length.value_or(input_.unread().size() + 1);
-  if (length <= input_.unread().size()) {
-    input_.advance(static_cast<std::size_t>(length));
-  } else {
-    close_after_ = lingers_ = true;
-  }
-}
-
-bool Connection::begin_body() {
-  const BodyReader::Plan plan = exchange_.body_plan();
-  body_left_ = static_cast<std::size_t>(head_.content_length.value_or(0));
-  reads_directly_ = !head_.chunked && !plan.gzip && !plan.discard;
-  if (reads_directly_ && input_.unread().size() >= body_left_) {
-    exchange_.set_body(input_.unread().substr(0, body_left_));
-    input_.advance(body_left_);
-    received_ += body_left_;
-    run_handler();
-    return true;
-  }
-  input_.pin_head();
-  parser_->limit_body(plan.limit);
-  body_.start(plan);
-  phase_ = Phase::ReadingBody;
-  last_body_byte_ = thread_.now();
-  if (reads_directly_) return take_body_outcome(body_.reserve(body_left_));
-  return admit_body();
-}
-
-bool Connection::admit_body() {
-  if (exchange_.wants_continue() && input_.unread().empty()) output_.text().append(kContinue);
-  if (reads_directly_) {
-    const std::string_view there = input_.unread();
-    std::memcpy(body_.room().data(), there.data(), there.size());
-    body_.added(there.size());
-    body_left_ -= there.size();
-    received_ += there.size();
-    input_.advance(there.size());
-  }
-  return true;
-}
-
-bool Connection::step_body() {
-  if (reads_directly_) return body_left_ == 0 && finish_body();
-  if (!pending_piece_.empty()) return take_body_outcome(body_.add(pending_piece_));
-  if (!head_.chunked) {
-    if (body_left_ == 0) return finish_body();
-    pending_piece_ = input_.unread().substr(0, body_left_);
-    input_.advance(pending_piece_.size());
-    received_ += pending_piece_.size();
-    body_left_ -= pending_piece_.size();
-    return !pending_piece_.empty();
-  }
-  if (input_.unread().empty()) return false;
-  std::size_t used = 0;
-  const RequestParser::Step parsed = parser_->put(input_.unread(), used);
-  input_.advance(used);
-  received_ += used;
-  switch (parsed) {
-    case RequestParser::Step::NeedMore: return false;
-    case RequestParser::Step::Complete: return finish_body();
-    case RequestParser::Step::Refused: refuse(parser_->refusal()); return true;
-    default: pending_piece_ = parser_->piece(); return true;
-  }
-}
-
-bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
-  switch (outcome) {
-    case BodyReader::Outcome::Ok: return !reads_directly_ || admit_body();
-    case BodyReader::Outcome::NoBudget:
-      phase_ = Phase::Budget;
-      wait_begun_ = thread_.now();
-      thread_.shared().budget.begin_wait();
-      return false;
-    case BodyReader::Outcome::TooLarge:
-      refuse({413, ErrorCode::BodyTooLarge,
-              "The body is larger than this route takes, after decompression."});
-      return true;
-    case BodyReader::Outcome::Malformed:
-      refuse({400, ErrorCode::RequestMalformed, "The body is not a gzip stream."});
-      return true;
-  }
-  return false;
-}
-
-std::size_t Connection::bytes_waited_for() const {
-  if (phase_ != Phase::Budget) return 0;
-  return std::max(static_cast<std::size_t>(head_.content_length.value_or(0)),
-                  2 * body_.bytes().size());
-}
-
-void Connection::retry_budget() {
-  guarded([&] {
-    const BodyReader::Outcome outcome =
-        reads_directly_ ? body_.reserve(body_left_) : body_.add(pending_piece_);
-    if (outcome == BodyReader::Outcome::NoBudget) return;
-    thread_.shared().budget.end_wait();
-    phase_ = Phase::ReadingBody;
-    last_body_byte_ = thread_.now();
-    request_deadline_ += thread_.now() - wait_begun_;  // the wait was not the client's doing
-    take_body_outcome(outcome);
-    advance();
-  });
-}
-
-bool Connection::finish_body() {
-  if (body_.finish() != BodyReader::Outcome::Ok) {
-    refuse({400, ErrorCode::RequestMalformed, "The gzip stream of the body is incomplete."});
-    return true;
-  }
-  exchange_.set_body(body_.bytes().empty() ? std::string_view(kNoBody.data(), 0) : body_.bytes());
+  exchange_.set_body({});
   run_handler();
   return true;
 }
@@ -284,7 +161,6 @@ void Connection::answer(Response&& response) {
   if (!sent_.streams) return finish_request();
   stream_ = std::move(std::get<StreamedBody>(response.body));
   phase_ = Phase::Stream;
-  piece_awaited_ = false;
 }
 
 void Connection::finish_request() {
@@ -307,8 +183,7 @@ void Connection::finish_request() {
   pending_piece_ = {};
   if (!reading_) body_.clear();  // otherwise close() does, when nothing reads into it any more
   input_.next_request();
-  in_request_ = false;
-  phase_ = Phase::Head;
+  phase_ = Phase::Idle;
 }
 
 bool Connection::send() {
@@ -334,13 +209,14 @@ bool Connection::send() {
 void Connection::read_more() {
   if (reading_) return;
   std::span<char> room;
-  if (phase_ == Phase::Lingering) {
-    room = input_.room_to_discard();
-  } else if (phase_ == Phase::ReadingBody) {
-    room = reads_directly_ ? body_.room() : input_.room_for_body(kMaxFraming);
-  } else {
-    if (!in_request_) deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
-    room = input_.room_for_head(head_);
+  switch (phase_) {
+    case Phase::Lingering: room = input_.room_to_discard(); break;
+    case Phase::FillingBody: room = body_.room(); break;
+    case Phase::ReadingBody: room = input_.room_for_body(kMaxFraming); break;
+    case Phase::Idle:
+      deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
+      [[fallthrough]];
+    default: room = input_.room_for_head(head_);
   }
   reading_ = true;
   read_some(room);
@@ -370,8 +246,8 @@ void Connection::close() noexcept {
 
 void Connection::drain() {
   close_after_ = true;
-  const bool is_idle = phase_ == Phase::Head && !in_request_ && !writing_;
-  if (is_idle || phase_ == Phase::Opening || phase_ == Phase::Stream) close();
+  const bool streams = phase_ == Phase::Stream || phase_ == Phase::Piece;
+  if (phase_ == Phase::Opening || (phase_ == Phase::Idle && !writing_) || streams) close();
 }
 
 void Connection::check_deadline(Tick now) {
@@ -382,11 +258,11 @@ void Connection::check_deadline(Tick now) {
   guarded([&] {
     switch (phase_) {
       case Phase::Head:
-        if (now < (in_request_ ? std::min(deadline_, request_deadline_) : deadline_)) return;
-        if (!in_request_) return close();
+        if (now < std::min(deadline_, request_deadline_)) return;
         refuse(kTimedOut);
         return advance();
-      case Phase::ReadingBody: {
+      case Phase::ReadingBody:
+      case Phase::FillingBody: {
         const bool gives_way = body_.holds_budget() && thread_.shared().budget.is_short() &&
                                now - last_body_byte_ >= kStalled;
         if (now < request_deadline_ && !gives_way) return;
@@ -396,15 +272,17 @@ void Connection::check_deadline(Tick now) {
       case Phase::Budget: {
         if (now - wait_begun_ < thread_.shared().options.request_timeout) return;
         thread_.shared().budget.end_wait();
-        phase_ = Phase::ReadingBody;
+        phase_ = body_phase();
         refuse({503, ErrorCode::Overloaded, "Too many large bodies arrive at once; try again."});
         return advance();
       }
-      case Phase::Stream: return beat(now);
+      case Phase::Piece: return beat(now);
       case Phase::Opening:
+      case Phase::Idle:
       case Phase::Lingering:
         if (now >= deadline_) close();
         return;
+      case Phase::Stream:
       case Phase::InHandler:
       case Phase::Closed: return;
     }

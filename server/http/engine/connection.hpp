@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
@@ -74,19 +75,29 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   enum class Phase : std::uint8_t {
-    Opening,  ///< the transport shakes hands
-    Head,     ///< between requests, or in the head of one
-    ReadingBody,
-    Budget,  ///< a body waits for its share of memory
+    Opening,      ///< the transport shakes hands
+    Idle,         ///< between requests: no byte of the next has come
+    Head,         ///< the first byte of a request has come
+    ReadingBody,  ///< through the parser or a decoder
+    FillingBody,  ///< as it comes: the socket fills its memory
+    Budget,       ///< a body waits for its share of memory
     InHandler,
-    Stream,     ///< a streamed body: its next piece is awaited or on its way
+    Stream,     ///< a streamed body: its last piece is on its way
+    Piece,      ///< a streamed body: its next piece is awaited
     Lingering,  ///< answered and shut down; what still comes is thrown away, so that no reset
                 ///< overtakes the answer
     Closed,
   };
 
+  /// What is out of memory, or a hook that throws, ends this connection alone.
   template <class Function>
-  void guarded(Function&& function) noexcept;
+  void guarded(Function&& function) noexcept {
+    try {
+      function();
+    } catch (const std::exception&) {
+      close();
+    }
+  }
   template <class Function>
   void post(Function function);
 
@@ -101,6 +112,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool begin_request();
   bool open_exchange();
   void skip_buffered_body();
+  Phase body_phase() const;
   bool begin_body();
   bool admit_body();
   bool take_body_outcome(BodyReader::Outcome outcome);
@@ -121,12 +133,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Phase phase_ = Phase::Opening;
   bool reading_ = false;
   bool writing_ = false;
-  bool in_request_ = false;      ///< the first byte of a request has come
-  bool close_after_ = false;     ///< no further request on this connection
-  bool lingers_ = false;         ///< the client may still be sending what is not read any more
-  bool reads_directly_ = false;  ///< the body needs no decoding: the socket fills its memory
-  bool piece_awaited_ = false;   ///< the stream has been asked for a piece
-  Tick deadline_{};              ///< of the phase
+  bool close_after_ = false;  ///< no further request on this connection
+  bool lingers_ = false;      ///< the client may still be sending what is not read any more
+  Tick deadline_{};           ///< of the phase
   Tick request_deadline_{};
   Tick write_deadline_{};
   Tick last_body_byte_{};

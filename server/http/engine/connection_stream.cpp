@@ -46,19 +46,19 @@ void Connection::post_unanswered() {
 
 void Connection::post_piece(std::string bytes, bool is_last) {
   post([bytes = std::move(bytes), is_last](Connection& self) {
-    if (self.phase_ == Phase::Stream && self.piece_awaited_) self.take_piece(bytes, is_last);
+    if (self.phase_ == Phase::Piece) self.take_piece(bytes, is_last);
   });
 }
 
 void Connection::post_stream_failure() {
   post([](Connection& self) {
-    if (self.phase_ == Phase::Stream && self.piece_awaited_) self.close();
+    if (self.phase_ == Phase::Piece) self.close();
   });
 }
 
 bool Connection::step_stream() {
-  if (piece_awaited_ || !output_.empty()) return false;
-  piece_awaited_ = true;
+  if (!output_.empty()) return false;
+  phase_ = Phase::Piece;
   deadline_ = thread_.now() + stream_->heartbeat_interval;
   stream_->source->next(ChunkSink(shared_from_this()));
   return false;
@@ -75,7 +75,7 @@ void Connection::append_piece(std::string_view bytes) {
 }
 
 void Connection::take_piece(std::string_view bytes, bool is_last) {
-  piece_awaited_ = false;
+  phase_ = Phase::Stream;
   append_piece(bytes);
   if (!is_last) return;
   if (sent_.chunked) output_.text().append(kLastChunk);
@@ -84,7 +84,7 @@ void Connection::take_piece(std::string_view bytes, bool is_last) {
 }
 
 void Connection::beat(Tick now) {
-  if (now < deadline_ || !piece_awaited_ || stream_->heartbeat.empty()) return;
+  if (now < deadline_ || stream_->heartbeat.empty()) return;
   deadline_ = now + stream_->heartbeat_interval;
   append_piece(stream_->heartbeat);
   advance();

@@ -34,7 +34,11 @@ class Exchange {
   BodyReader::Plan body_plan() const;
   /// The client waits for 100 (Continue) before it sends the body.
   bool wants_continue() const { return wants_continue_; }
-  void set_body(std::string_view body) { request_.body_ = body; }
+  /// @param body with what Request::kBodyPadding asks for behind it, unless it is empty.
+  void set_body(std::string_view body) {
+    static constexpr char kNothing[Request::kBodyPadding]{};
+    request_.body_ = body.empty() ? std::string_view(kNothing, 0) : body;
+  }
 
   bool is_synchronous() const {
     return std::holds_alternative<SyncHandler>(request_.route()->handler);
