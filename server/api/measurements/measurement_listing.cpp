@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "api/measurements/measurement_codec.hpp"
+#include "api/wire/request_facts.hpp"
 #include "app/measurements/record.hpp"
 #include "app/runs/run_service.hpp"
 #include "http/body_stream.hpp"
@@ -106,23 +107,6 @@ class MeasurementStream final : public http::BodyStream,
   Form form_;
   bool begun_ = false;
 };
-
-/// The link to the next page keeps the filters and replaces the cursor.
-std::string next_link(const http::Request& request, std::string_view cursor) {
-  std::string link(request.path());
-  char separator = '?';
-  std::string_view rest = request.query();
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('&'), rest.size());
-    const std::string_view pair = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (pair.empty() || pair.starts_with("after=")) continue;
-    link += separator;
-    link += pair;
-    separator = '&';
-  }
-  return fmt::format("<{}{}after={}>; rel=\"next\"", link, separator, cursor);
-}
 
 void answer_page(const http::Request& request, http::Responder& responder, Form form,
                  const std::string& rows, const app::ListPage& page) {

@@ -225,6 +225,8 @@ std::string unfinished_run_json(const app::StoredRun& run) {
   return unfinished_json(run.id_text(), run.state, run.program, run.created_at, 0, {});
 }
 
+std::string run_cursor(std::int64_t id) { return fmt::format("r{}", id); }
+
 std::string run_page_json(const app::RunService::Page& page) {
   std::string out;
   JsonWriter json(out);
@@ -241,7 +243,7 @@ std::string run_page_json(const app::RunService::Page& page) {
   }
   json.end_array().key("next");
   if (page.next) {
-    json.value(fmt::format("r{}", *page.next));
+    json.value(run_cursor(*page.next));
   } else {
     json.null();
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,8 @@ std::string unfinished_run_json(const app::ActiveRun& run);
 /// The same of a run that is known to the store alone.
 std::string unfinished_run_json(const app::StoredRun& run);
 
+/// `next` of a page that ends before run `id`.
+std::string run_cursor(std::int64_t id);
 /// `{"runs":[{"id","status","program","created_at","finished_at"},...],"next"}`
 std::string run_page_json(const app::RunService::Page& page);
 

@@ -180,12 +180,15 @@ void list_runs(const Services& services, const http::Request& request, http::Res
     }
     after = *id;
   }
-  services.runs.list(std::move(query), after,
-                     static_cast<std::size_t>(request.integer("limit").value_or(kDefaultLimit)),
-                     [shared = share(std::move(responder))](Result<app::RunService::Page> page) {
-                       if (!page) return shared->fail(page.error());
-                       shared->answer(json_response(run_page_json(*page)));
-                     });
+  services.runs.list(
+      std::move(query), after,
+      static_cast<std::size_t>(request.integer("limit").value_or(kDefaultLimit)),
+      [&request, shared = share(std::move(responder))](Result<app::RunService::Page> page) {
+        if (!page) return shared->fail(page.error());
+        http::Response response = json_response(run_page_json(*page));
+        if (page->next) response.with("Link", next_link(request, run_cursor(*page->next)));
+        shared->answer(std::move(response));
+      });
 }
 
 const http::Parameter kId{

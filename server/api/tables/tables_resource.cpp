@@ -1,9 +1,12 @@
 #include "api/tables/tables_resource.hpp"
 
+#include <fmt/format.h>
+
 #include "api/limits/limits_codec.hpp"
 #include "api/tables/table_codec.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json_value.hpp"
+#include "iso286/tolerance_class.hpp"
 #include "tabfile/iso286_projection.hpp"
 #include "tabfile/tab_writer.hpp"
 
@@ -85,15 +88,28 @@ void answer_change(const std::shared_ptr<http::Responder>& responder, int status
   responder->answer(std::move(response).with("ETag", '"' + stored.revision + '"'));
 }
 
+/// The column that the path names. @errors PathMalformed when no column can be called so.
+Result<std::string> column_name(const http::Request& request) {
+  const std::string_view name = *request.text("name");
+  if (iso286::is_class_name(name)) return std::string(name);
+  return Error{ErrorCode::PathMalformed,
+               fmt::format("'{}' is no name of a column: that is a letter and up to 15 letters, "
+                           "digits or underscores",
+                           name),
+               "name"};
+}
+
 void put_column(const Services& services, Feature feature, const http::Request& request,
                 http::Responder responder) {
+  auto name = column_name(request);
+  if (!name) return responder.fail(name.error());
   const auto parsed = parse_json(request.body());
   if (!parsed) return responder.fail(parsed.error());
   auto rows = decode_custom_rows(*parsed);
   if (!rows) return responder.fail(rows.error());
   const auto shared = std::make_shared<http::Responder>(std::move(responder));
   services.tables.put_column(
-      {.feature = feature, .name = std::string(*request.text("name")), .rows = *std::move(rows)},
+      {.feature = feature, .name = *std::move(name), .rows = *std::move(rows)},
       revisions_to_match(request), [shared](Result<app::TableCatalog::ColumnStored> stored) {
         if (stored) return answer_change(shared, stored->created ? 201 : 200, *stored);
         Error error = std::move(stored).error();
@@ -104,9 +120,10 @@ void put_column(const Services& services, Feature feature, const http::Request& 
 
 void remove_column(const Services& services, Feature feature, const http::Request& request,
                    http::Responder responder) {
+  auto name = column_name(request);
+  if (!name) return responder.fail(name.error());
   const auto shared = std::make_shared<http::Responder>(std::move(responder));
-  services.tables.remove_column(feature, std::string(*request.text("name")),
-                                revisions_to_match(request),
+  services.tables.remove_column(feature, *std::move(name), revisions_to_match(request),
                                 [shared](Result<app::TableCatalog::ColumnStored> stored) {
                                   if (!stored) return shared->fail(stored.error());
                                   answer_change(shared, 204, *stored);

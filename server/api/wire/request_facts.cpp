@@ -1,5 +1,7 @@
 #include "api/wire/request_facts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -109,6 +111,22 @@ bool Preconditions::hold(std::optional<std::string_view> etag) const {
 
 /// As much as a header section holds.
 constexpr std::size_t kLongestTags = std::size_t{32} << 10;
+
+std::string next_link(const http::Request& request, std::string_view cursor) {
+  std::string link(request.path());
+  char separator = '?';
+  std::string_view rest = request.query();
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('&'), rest.size());
+    const std::string_view pair = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (pair.empty() || pair.starts_with("after=")) continue;
+    link += separator;
+    link += pair;
+    separator = '&';
+  }
+  return fmt::format("<{}{}after={}>; rel=\"next\"", link, separator, cursor);
+}
 
 void add_precondition_parameters(std::vector<http::Parameter>& parameters) {
   parameters.push_back({.name = "If-Match",

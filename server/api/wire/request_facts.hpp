@@ -51,6 +51,9 @@ std::string etag_of_text(std::string_view text);
 using TextPrecondition = std::function<bool(std::optional<std::string_view> text)>;
 TextPrecondition text_precondition_of(const http::Request& request);
 
+/// The Link of a page that is not the last (RFC 8288): the same filters, this cursor.
+std::string next_link(const http::Request& request, std::string_view cursor);
+
 /// The header parameters of the routes that honour them.
 void add_precondition_parameters(std::vector<http::Parameter>& parameters);
 

@@ -157,10 +157,13 @@ class Runs(ControlTest):
     def test_runs_are_listed_the_newest_first(self):
         program = self.upload_program("listed", "Q1 = 1")
         ids = [self.run_program(program)["id"] for _ in range(3)]
-        page = self.daemon.get("/v1/runs?program=tnc:%5Clisted.h&limit=2").json
-        self.assertEqual([run["id"] for run in page["runs"]], ids[:0:-1])
-        rest = self.daemon.get(f"/v1/runs?program=TNC:%5Clisted.h&after={page['next']}").json
-        self.assertEqual(([run["id"] for run in rest["runs"]], rest["next"]), ([ids[0]], None))
+        answer = self.daemon.get("/v1/runs?program=tnc:%5Clisted.h&limit=2")
+        self.assertEqual([run["id"] for run in answer.json["runs"]], ids[:0:-1])
+        following = f"/v1/runs?program=tnc:%5Clisted.h&limit=2&after={answer.json['next']}"
+        self.assertEqual(answer.headers["link"], f'<{following}>; rel="next"')
+        last = self.daemon.get(following)
+        self.assertEqual(([run["id"] for run in last.json["runs"]], last.json["next"]), ([ids[0]], None))
+        self.assertNotIn("link", last.headers)
         completed = self.daemon.get("/v1/runs?status=completed&limit=1000").json["runs"]
         self.assertTrue(set(ids) <= {run["id"] for run in completed})
         self.assert_problem(self.daemon.get("/v1/runs?status=done"), 400, "query.invalid")

@@ -76,6 +76,12 @@ class CustomColumns(DaemonTest):
         self.assert_problem(self.daemon.get("/v1/limits/25PRESS"), 400, "designation.malformed")
         self.assert_problem(self.daemon.request("DELETE", "/v1/tables/hole/classes/PRESS"), 404, "class.unknown")
 
+    def test_a_name_that_no_column_has_cannot_be_read(self):
+        for name in ("1A", "A-1", "A" * 17):
+            for answer in (self.put(name, ROWS), self.daemon.request("DELETE", f"/v1/tables/hole/classes/{name}")):
+                self.assert_problem(answer, 400, "path.malformed")
+        self.assert_problem(self.put("BEREICH", ROWS), 422, "request.invalid")
+
     def test_a_column_may_stand_before_the_standard_s_class(self):
         tag = self.daemon.get("/v1/limits/25H8").headers["etag"]
         self.assertEqual(self.put("H8", ROWS).status, 201)
