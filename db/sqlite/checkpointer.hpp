@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "sqlite/connection.hpp"
+#include "sqlite/session.hpp"
 #include "store/open_options.hpp"
 
 namespace fitgauge::store {

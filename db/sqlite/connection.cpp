@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "sql/statement.hpp"
+#include "sqlite/measurement_table.hpp"
+#include "sqlite/prepared.hpp"
 #include "sqlite/row_digest.hpp"
-#include "sqlite/statement.hpp"
 #include "store/storage_failure.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {
 
 constexpr int kBusyMilliseconds = 5'000;
+
+constexpr sql::Dialect kDialect{.has_seals = true, .streams = true};
 
 int flags_of(Mode mode) {
   switch (mode) {
@@ -48,7 +52,7 @@ std::string_view name_of(Synchronous synchronous) {
 }  // namespace
 
 Connection::Connection(const std::filesystem::path& file, Mode mode, Synchronous synchronous)
-    : database_(open(file, mode)) {
+    : sql::Connection(kDialect), database_(open(file, mode)) {
   sqlite3_extended_result_codes(handle(), 1);
   add_row_digest(handle());
   // temp_store: savepoints keep what they may undo in memory, so no temporary directory is needed.
@@ -65,19 +69,30 @@ Connection::Connection(const std::filesystem::path& file, Mode mode, Synchronous
   }
 }
 
+Connection::~Connection() = default;
+
+std::unique_ptr<sql::Prepared> Connection::prepare(const std::string& sql) {
+  return std::make_unique<Prepared>(*this, sql);
+}
+
+sql::MeasurementTable& Connection::measurements() {
+  if (!measurements_) measurements_ = std::make_unique<MeasurementTable>(*this);
+  return *measurements_;
+}
+
 void Connection::execute(const std::string& sql) {
   require_ok(handle(), sqlite3_exec(handle(), sql.c_str(), nullptr, nullptr, nullptr), "storage");
 }
 
 std::int64_t Connection::query_integer(const std::string& sql) {
-  Statement statement(*this, sql);
-  Rows rows = statement.query();
+  sql::Statement statement(*this, sql);
+  sql::Rows rows = statement.query();
   return rows.next() ? rows.get<std::int64_t>(0) : 0;
 }
 
 std::string Connection::query_text(const std::string& sql) {
-  Statement statement(*this, sql);
-  Rows rows = statement.query();
+  sql::Statement statement(*this, sql);
+  sql::Rows rows = statement.query();
   return rows.next() ? rows.get<std::string>(0) : std::string();
 }
 

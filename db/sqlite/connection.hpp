@@ -3,9 +3,11 @@
 #include <SQLiteCpp/Database.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "sql/connection.hpp"
 #include "sqlite/failure.hpp"
 #include "store/open_options.hpp"
 
@@ -19,10 +21,14 @@ enum class Mode {
 
 /// A connection to one file with fitgauge's settings. Used by one thread at a time. Every failure
 /// is thrown as sqlite/failure.hpp says; after one the connection is closed and opened again.
-class Connection {
+class Connection final : public sql::Connection {
  public:
   Connection(const std::filesystem::path& file, Mode mode,
              Synchronous synchronous = Synchronous::Full);
+  ~Connection() override;
+
+  std::unique_ptr<sql::Prepared> prepare(const std::string& sql) override;
+  sql::MeasurementTable& measurements() override;
 
   void execute(const std::string& sql);
   std::int64_t query_integer(const std::string& sql);
@@ -37,6 +43,7 @@ class Connection {
 
  private:
   SQLite::Database database_;
+  std::unique_ptr<sql::MeasurementTable> measurements_;
 };
 
 }  // namespace fitgauge::store::sqlite

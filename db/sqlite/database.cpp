@@ -1,95 +1,100 @@
-#include "store/database.hpp"
+#include "sqlite/database.hpp"
 
-#include <system_error>
-#include <utility>
+#include <filesystem>
+#include <optional>
 
+#include "sql/read_pool_engine.hpp"
+#include "sql/writer_engine.hpp"
 #include "sqlite/data_directory.hpp"
 #include "sqlite/database_file.hpp"
-#include "sqlite/read_pool_engine.hpp"
 #include "sqlite/scrub.hpp"
 #include "sqlite/verifier.hpp"
-#include "sqlite/writer_engine.hpp"
+#include "sqlite/writer_session.hpp"
 #include "store/storage_failure.hpp"
 
-namespace fitgauge::store {
+namespace fitgauge::store::sqlite {
+namespace {
 
 /// Destroyed from the last member to the first: the writer closes after the readers, and so
 /// checkpoints; the lock goes last.
-struct Database::Parts {
-  Parts(std::optional<DirectoryLock> held, const OpenOptions& chosen, const Clock& time)
-      : lock(std::move(held)),
-        options(chosen),
-        clock(time),
-        file(chosen.directory / kDatabaseFile),
-        monitor(chosen.health_changed),
-        writer_engine(chosen, time, monitor),
-        reader_engine(chosen, time, monitor),
-        writer(writer_engine),
-        readers(reader_engine) {
+class FileDatabase final : public Database {
+ public:
+  FileDatabase(std::optional<DirectoryLock> held, const OpenOptions& chosen, const Clock& time)
+      : lock_(std::move(held)),
+        options_(chosen),
+        clock_(time),
+        file_(chosen.directory / kDatabaseFile),
+        monitor_(chosen.health_changed),
+        writer_engine_(chosen, time, monitor_,
+                       [this] { return std::make_unique<WriterSession>(options_, clock_); }),
+        reader_engine_(chosen, monitor_,
+                       [this] { return std::make_unique<Session>(options_, clock_, Mode::Read); }),
+        writer_(writer_engine_),
+        readers_(reader_engine_) {
     const bool too_large_for_the_start =
-        std::filesystem::file_size(file) > options.check_at_open_limit;
-    if (options.access == Access::Serve) {
-      scrub.emplace(options, clock, monitor, too_large_for_the_start);
+        std::filesystem::file_size(file_) > options_.check_at_open_limit;
+    if (options_.access == Access::Serve) {
+      scrub_.emplace(options_, clock_, monitor_, too_large_for_the_start);
     }
   }
 
-  std::optional<DirectoryLock> lock;
-  OpenOptions options;
-  const Clock& clock;
-  std::filesystem::path file;
-  HealthMonitor monitor;
-  Writer::Engine writer_engine;
-  ReadPool::Engine reader_engine;
-  Writer writer;
-  ReadPool readers;
-  std::optional<Scrub> scrub;
+  Writer& writer() override { return writer_; }
+  ReadPool& readers() override { return readers_; }
+
+  /// The readers first: the last connection to close, the writer's, checkpoints.
+  void drain() override {
+    scrub_.reset();
+    reader_engine_.stop();
+    writer_engine_.stop();
+  }
+
+  Health health() const override { return monitor_.health(); }
+  const WriterCounters& writer_counters() const override { return writer_engine_.counters(); }
+  std::size_t writer_queue() const override { return writer_engine_.queued(); }
+
+  Result<void> backup(const std::filesystem::path& file) const override {
+    return copy_database(file_, file);
+  }
+
+  Result<VerifyReport> verify(const MeasurementCheck& check) const override {
+    try {
+      Session session(options_, clock_, Mode::Read);
+      return Verifier(session, check).run();
+    } catch (const StorageFailure& failure) {
+      return failure.error();
+    }
+  }
+
+ private:
+  std::optional<DirectoryLock> lock_;
+  const OpenOptions options_;
+  const Clock& clock_;
+  const std::filesystem::path file_;
+  HealthMonitor monitor_;
+  Writer::Engine writer_engine_;
+  ReadPool::Engine reader_engine_;
+  Writer writer_;
+  ReadPool readers_;
+  std::optional<Scrub> scrub_;
 };
 
-Database::Database(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
-Database::~Database() = default;
+}  // namespace
 
-Result<std::unique_ptr<Database>> Database::open(const OpenOptions& options, const Clock& clock) {
+Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock) {
   std::optional<DirectoryLock> lock;
   if (options.access == Access::Serve) {
     Result<DirectoryLock> held = DirectoryLock::acquire(options.directory);
     if (!held) return held.error();
     lock.emplace(*std::move(held));
   }
-  const Result<void> prepared =
-      prepare_file(options, sqlite::migrations(), clock.now().nanoseconds);
+  const Result<void> prepared = prepare_file(options, migrations(), clock.now().nanoseconds);
   if (!prepared) return prepared.error();
   try {
     return std::unique_ptr<Database>(
-        new Database(std::make_unique<Parts>(std::move(lock), options, clock)));
+        std::make_unique<FileDatabase>(std::move(lock), options, clock));
   } catch (const StorageFailure& failure) {
     return failure.error();
   }
 }
 
-Writer& Database::writer() { return parts_->writer; }
-ReadPool& Database::readers() { return parts_->readers; }
-/// The readers first: the last connection to close, the writer's, checkpoints.
-void Database::drain() {
-  parts_->scrub.reset();
-  parts_->reader_engine.stop();
-  parts_->writer_engine.stop();
-}
-
-Health Database::health() const { return parts_->monitor.health(); }
-const WriterCounters& Database::writer_counters() const { return parts_->writer_engine.counters(); }
-std::size_t Database::writer_queue() const { return parts_->writer_engine.queued(); }
-
-Result<void> Database::backup(const std::filesystem::path& file) const {
-  return copy_database(parts_->file, file);
-}
-
-Result<VerifyReport> Database::verify(const MeasurementCheck& check) const {
-  try {
-    Session session(parts_->options, parts_->clock, sqlite::Mode::Read);
-    return Verifier(session, check).run();
-  } catch (const StorageFailure& failure) {
-    return failure.error();
-  }
-}
-
-}  // namespace fitgauge::store
+}  // namespace fitgauge::store::sqlite

@@ -13,7 +13,7 @@ namespace fitgauge::store {
 /// Makes `fitgauge.db` of the options' directory ready for use with the schema `known`: creates it
 /// or checks it, and upgrades it after a backup (`fitgauge.db.schema-N.backup`).
 /// With Access::Attach it must be there and have just this schema.
-/// @errors as Database::open, except DatabaseInUse.
+/// @errors as open_database(), except DatabaseInUse.
 Result<void> prepare_file(const OpenOptions& options, std::span<const sqlite::Migration> known,
                           std::int64_t now_ns);
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sqlite/statement.hpp"
+#include "sql/statement.hpp"
 
 namespace fitgauge::store::sqlite {
 
@@ -20,8 +20,9 @@ Result<void> check_history(Connection& connection, std::span<const Migration> kn
                              "the newer version, or restore the backup made before its upgrade",
                              version, known.size())};
   }
-  Statement applied(connection, "SELECT number, checksum FROM schema_migrations ORDER BY number");
-  Rows rows = applied.query();
+  sql::Statement applied(connection,
+                         "SELECT number, checksum FROM schema_migrations ORDER BY number");
+  sql::Rows rows = applied.query();
   int count = 0;
   for (; rows.next(); ++count) {
     const auto number = rows.get<int>(0);
@@ -43,7 +44,7 @@ Result<void> check_history(Connection& connection, std::span<const Migration> kn
 
 void migrate(Connection& connection, std::span<const Migration> known, std::int64_t now_ns) {
   connection.execute("BEGIN IMMEDIATE");
-  Statement record(connection, "INSERT INTO schema_migrations VALUES (?, ?, ?, ?)");
+  sql::Statement record(connection, "INSERT INTO schema_migrations VALUES (?, ?, ?, ?)");
   for (const Migration& migration :
        known.subspan(static_cast<std::size_t>(schema_version(connection)))) {
     connection.execute(std::string(migration.sql));

@@ -2,65 +2,9 @@
 
 #include <sqlite3.h>
 
-#include <span>
-#include <string>
-#include <string_view>
-
-#include "sqlite/statement.hpp"
-
-namespace fitgauge::store {
-
-/// A table whose rows nothing else can tell: its column `seal` is `row_digest` of the others.
-struct SealedTable {
-  std::string_view name;
-  std::string_view key;  ///< names a row in a finding; the primary key where there is one column
-  std::string_view columns;  ///< separated by ", "; without an id that the database gives
-
-  /// `INSERT INTO … (columns, seal) VALUES (?1, …)`: the values of the columns, in their order.
-  std::string insert(std::string_view verb = "INSERT") const;
-  /// Seals a changed row anew; binds its key.
-  std::string reseal() const;
-  /// An expression of a SELECT: 0 where a row is not what was stored.
-  std::string is_sound(std::string_view alias = {}) const;
-  /// The keys of the rows that are not what was stored.
-  std::string altered() const;
-};
-
-inline constexpr SealedTable kTableSets{"table_sets", "id", "digest"};
-inline constexpr SealedTable kTableRevisions{
-    "table_revisions", "number", "digest, table_set, source, created_at, parent, caller"};
-inline constexpr SealedTable kApiKeys{"api_keys", "id",
-                                      "name, role, token_hash, created_at, revoked_at"};
-inline constexpr SealedTable kIdempotentAnswers{
-    "idempotent_answers", "id",
-    "key, caller, method, path, body_digest, status, content_type, location, body, expires_at, "
-    "measurement"};
-inline constexpr SealedTable kFileRevisions{"file_revisions", "revision",
-                                            "path, path_key, content, modified_at, caller"};
-inline constexpr SealedTable kDocuments{"documents", "name",
-                                        "kind, name, text, modified_at, caller"};
-inline constexpr SealedTable kRuns{
-    "runs", "id", "status, program, program_key, request, result, created_at, finished_at, caller"};
-inline constexpr SealedTable kRunTraces{"run_traces", "run", "run, trace"};
-inline constexpr SealedTable kRunFiles{"run_files", "run", "run, name_key, path, content"};
-inline constexpr SealedTable kLog{"log", "id", "origin, name, chained, size"};
-inline constexpr SealedTable kLogKeys{"log_keys", "number", "vkey, created_at"};
-inline constexpr SealedTable kOrigins{"origins", "number", "digits, first_row, size, checkpoint"};
-inline constexpr SealedTable kOriginKeys{"origin_keys", "number", "origin, vkey, created_at"};
-inline constexpr SealedTable kOriginForks{"origin_forks", "number",
-                                          "origin, checkpoint, created_at"};
-inline constexpr SealedTable kOriginRevisions{"origin_revisions", "number", "id"};
-inline constexpr SealedTable kForwarding{"forwarding", "id", "id, centre, size"};
-inline constexpr SealedTable kReceived{"received", "name", "kind, name, number, digest"};
-inline constexpr SealedTable kTableRevisionIds{"table_revision_ids", "revision", "revision, id"};
-inline constexpr SealedTable kEvents{"events", "id", "type, payload, created_at"};
-
-std::span<const SealedTable> sealed_tables();
+namespace fitgauge::store::sqlite {
 
 /// Lets the statements of a connection call `row_digest(value, …)`.
 void add_row_digest(sqlite3* handle);
 
-/// @throws StorageFailure (StorageCorrupt) unless the column holds 1.
-void require_sound(const sqlite::Rows& rows, int column, const SealedTable& table);
-
-}  // namespace fitgauge::store
+}  // namespace fitgauge::store::sqlite

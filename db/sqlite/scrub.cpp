@@ -41,7 +41,7 @@ void Scrub::check_file(const std::stop_token& stop) {
 
 void Scrub::pass(const std::stop_token& stop) {
   try {
-    Session session(options_, clock_, sqlite::Mode::Read);
+    sqlite::Session session(options_, clock_, sqlite::Mode::Read);
     Verifier verifier(session, options_.check_measurement);
     using Time = std::chrono::steady_clock;
     auto begin = Time::now();

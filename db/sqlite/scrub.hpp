@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/clock.hpp"
-#include "sqlite/health_monitor.hpp"
+#include "sql/health_monitor.hpp"
 #include "store/open_options.hpp"
 
 namespace fitgauge::store {

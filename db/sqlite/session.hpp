@@ -3,30 +3,49 @@
 #include <string_view>
 
 #include "base/clock.hpp"
+#include "sql/session.hpp"
+#include "sql/statement.hpp"
 #include "sqlite/connection.hpp"
-#include "sqlite/statement.hpp"
 #include "store/open_options.hpp"
-#include "store/stores.hpp"
 
 namespace fitgauge::store {
 
 /// The name of the database in its directory.
 inline constexpr std::string_view kDatabaseFile = "fitgauge.db";
 
-/// A connection with its stores and the statements that delimit a transaction.
-struct Session {
-  Session(const OpenOptions& options, const Clock& clock, sqlite::Mode mode)
-      : connection(options.directory / kDatabaseFile, mode, options.synchronous),
-        stores(connection, clock, options.idempotency_retention) {}
+namespace sqlite {
 
-  sqlite::Connection connection;
-  Stores stores;
-  sqlite::Statement begin_reading{connection, "BEGIN"};
-  sqlite::Statement begin_writing{connection, "BEGIN IMMEDIATE"};
-  sqlite::Statement commit{connection, "COMMIT"};
-  sqlite::Statement savepoint{connection, "SAVEPOINT job"};
-  sqlite::Statement undo{connection, "ROLLBACK TO job"};
-  sqlite::Statement release{connection, "RELEASE job"};
+/// A connection to the file with its stores.
+class Session : public sql::Session {
+ public:
+  Session(const OpenOptions& options, const Clock& clock, Mode mode)
+      : connection(options.directory / kDatabaseFile, mode, options.synchronous),
+        stores_(connection, clock, options.idempotency_retention) {}
+
+  Stores& stores() override { return stores_; }
+  void begin_reading() override { begin_reading_.run(); }
+  void begin_writing() override { begin_writing_.run(); }
+  void commit() override { commit_.run(); }
+  void rollback() noexcept override { connection.rollback(); }
+  void savepoint() override { savepoint_.run(); }
+  void undo() override { undo_.run(); }
+  void release() override { release_.run(); }
+  void probe() override {
+    connection.execute("UPDATE storage_probe SET probed_at = probed_at + 1");
+  }
+  void tidy_up(WriterCounters& /*counters*/) override {}
+
+  Connection connection;
+
+ private:
+  Stores stores_;
+  sql::Statement begin_reading_{connection, "BEGIN"};
+  sql::Statement begin_writing_{connection, "BEGIN IMMEDIATE"};
+  sql::Statement commit_{connection, "COMMIT"};
+  sql::Statement savepoint_{connection, "SAVEPOINT job"};
+  sql::Statement undo_{connection, "ROLLBACK TO job"};
+  sql::Statement release_{connection, "RELEASE job"};
 };
 
+}  // namespace sqlite
 }  // namespace fitgauge::store

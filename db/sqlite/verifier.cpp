@@ -19,11 +19,11 @@ constexpr std::size_t kScrubPage = 1'000;
 
 /// `table measurements: CREATE TABLE …` for each object, sorted.
 std::vector<std::string> schema_of(sqlite::Connection& connection) {
-  sqlite::Statement objects(connection,
-                            "SELECT type || ' ' || name || ': ' || coalesce(sql, '') "
-                            "FROM sqlite_schema WHERE name NOT LIKE 'sqlite_stat%' ORDER BY 1");
+  sql::Statement objects(connection,
+                         "SELECT type || ' ' || name || ': ' || coalesce(sql, '') "
+                         "FROM sqlite_schema WHERE name NOT LIKE 'sqlite_stat%' ORDER BY 1");
   std::vector<std::string> schema;
-  for (sqlite::Rows rows = objects.query(); rows.next();) {
+  for (sql::Rows rows = objects.query(); rows.next();) {
     schema.push_back(rows.get<std::string>(0));
   }
   return schema;
@@ -58,13 +58,13 @@ std::optional<std::string> Verifier::first_altered_row(const std::function<bool(
 }
 
 void Verifier::check_file() {
-  sqlite::Statement integrity(session_.connection, "PRAGMA integrity_check");
-  for (sqlite::Rows rows = integrity.query(); rows.next();) {
+  sql::Statement integrity(session_.connection, "PRAGMA integrity_check");
+  for (sql::Rows rows = integrity.query(); rows.next();) {
     if (auto finding = rows.get<std::string>(0); finding != "ok") note(std::move(finding));
   }
-  sqlite::Statement references(session_.connection,
-                               "SELECT \"table\", rowid, parent FROM pragma_foreign_key_check");
-  for (sqlite::Rows rows = references.query(); rows.next();) {
+  sql::Statement references(session_.connection,
+                            "SELECT \"table\", rowid, parent FROM pragma_foreign_key_check");
+  for (sql::Rows rows = references.query(); rows.next();) {
     note(fmt::format("row {} of {} refers to a row of {} that is not there",
                      rows.get<std::int64_t>(1), rows.get<std::string>(0),
                      rows.get<std::string>(2)));
@@ -93,8 +93,8 @@ void Verifier::check_schema() {
 }
 
 void Verifier::check_tables() {
-  const TablesStore& tables = session_.stores.tables;
-  for (const OriginsStore::Revision& other : session_.stores.origins.revisions()) {
+  const TablesStore& tables = session_.stores().tables;
+  for (const OriginsStore::Revision& other : session_.stores().origins.revisions()) {
     revisions_.insert(-other.number);  // of a station: its content is there
   }
   for (const TableRevision& revision : tables.list()) {
@@ -112,26 +112,26 @@ void Verifier::check_rows() {
 }
 
 void Verifier::check_rows(const SealedTable& table) {
-  sqlite::Statement altered(session_.connection, table.altered());
-  for (sqlite::Rows rows = altered.query(); rows.next();) {
+  sql::Statement altered(session_.connection, table.altered());
+  for (sql::Rows rows = altered.query(); rows.next();) {
     note(fmt::format("the row {} of {} was altered: it does not fit its seal",
                      rows.get<std::string>(0), table.name));
   }
 }
 
 void Verifier::check_files() {
-  sqlite::Statement files(session_.connection,
-                          "SELECT path_key FROM files LEFT JOIN (SELECT path_key, max(revision) AS "
-                          "revision FROM file_revisions GROUP BY path_key) newest USING (path_key) "
-                          "WHERE files.revision IS NOT newest.revision");
-  for (sqlite::Rows rows = files.query(); rows.next();) {
+  sql::Statement files(session_.connection,
+                       "SELECT path_key FROM files LEFT JOIN (SELECT path_key, max(revision) AS "
+                       "revision FROM file_revisions GROUP BY path_key) newest USING (path_key) "
+                       "WHERE files.revision IS NOT newest.revision");
+  for (sql::Rows rows = files.query(); rows.next();) {
     note(fmt::format("the file {} does not have its newest revision", rows.get<std::string>(0)));
   }
 }
 
 void Verifier::check_measurements(std::size_t page, const std::function<bool()>& go_on) {
-  const MeasurementsStore& measurements = session_.stores.measurements;
-  chained_ = session_.stores.log.state().chained;
+  const MeasurementsStore& measurements = session_.stores().measurements;
+  chained_ = session_.stores().log.state().chained;
   const MeasurementFilter all{.source = std::nullopt, .history = true};
   const auto check = [this](const MeasurementRow& row) { check_measurement(row); };
   std::optional<std::int64_t> after = 0;
@@ -142,10 +142,10 @@ void Verifier::check_measurements(std::size_t page, const std::function<bool()>&
 
 void Verifier::check_index() {
   // The writer goes on indexing meanwhile: nodes and values have to be of the same moment.
-  session_.begin_reading.run();
-  session_.stores.measurements.verify_index(
+  session_.begin_reading();
+  session_.stores().measurements.verify_index(
       [this](std::string finding) { note(std::move(finding)); });
-  session_.commit.run();
+  session_.commit();
 }
 
 void Verifier::check_measurement(const MeasurementRow& row) {

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "sqlite/row_digest.hpp"
+#include "sql/sealed_table.hpp"
 #include "sqlite/session.hpp"
 #include "store/measurement_hash.hpp"
 #include "store/verify.hpp"
@@ -18,7 +18,8 @@ namespace fitgauge::store {
 /// does not hold up a running daemon's checkpoints.
 class Verifier {
  public:
-  Verifier(Session& session, const MeasurementCheck& check) : session_(session), check_(check) {}
+  Verifier(sqlite::Session& session, const MeasurementCheck& check)
+      : session_(session), check_(check) {}
 
   VerifyReport run();
 
@@ -40,7 +41,7 @@ class Verifier {
   void check_measurement(const MeasurementRow& row);
   void note(std::string finding);
 
-  Session& session_;
+  sqlite::Session& session_;
   const MeasurementCheck& check_;
   VerifyReport report_;
   std::set<std::int64_t> revisions_;

@@ -9,7 +9,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -34,7 +34,7 @@ struct Document {
 /// Documents by kind and name.
 class DocumentsStore {
  public:
-  explicit DocumentsStore(sqlite::Connection& connection);
+  explicit DocumentsStore(sql::Connection& connection);
   ~DocumentsStore();
 
   bool put(const Document& document);  ///< @returns whether it is new

@@ -9,7 +9,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -23,7 +23,7 @@ struct Event {
 /// Events for replay, the newest ones only. Ids rise and are never used twice.
 class EventsStore {
  public:
-  explicit EventsStore(sqlite::Connection& connection);
+  explicit EventsStore(sql::Connection& connection);
   ~EventsStore();
 
   std::int64_t append(std::string_view type, std::string_view payload, std::int64_t now_ns);

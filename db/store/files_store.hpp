@@ -9,7 +9,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -40,7 +40,7 @@ struct FileWrite {
 /// regard to ASCII case, as on the control.
 class FilesStore {
  public:
-  explicit FilesStore(sqlite::Connection& connection);
+  explicit FilesStore(sql::Connection& connection);
   ~FilesStore();
 
   struct PutOutcome {

@@ -13,7 +13,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -40,8 +40,7 @@ struct StoredAnswer {
 /// purges them when it is idle.
 class IdempotencyStore {
  public:
-  IdempotencyStore(sqlite::Connection& connection, const Clock& clock,
-                   std::chrono::hours retention);
+  IdempotencyStore(sql::Connection& connection, const Clock& clock, std::chrono::hours retention);
   ~IdempotencyStore();
 
   /// The kept answer, none when the key is new. Looked at before the body is parsed: what was once

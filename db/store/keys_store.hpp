@@ -13,7 +13,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -49,7 +49,7 @@ class KeyRing {
 /// The API keys. A revoked key stays in the list, so that its name in old rows can be explained.
 class KeysStore {
  public:
-  explicit KeysStore(sqlite::Connection& connection);
+  explicit KeysStore(sql::Connection& connection);
   ~KeysStore();
 
   /// Stores the hash of `token` (new_token, or an administrator's own of at least 16 characters).

@@ -15,7 +15,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -23,7 +23,7 @@ class Connection;
 /// its tree that are kept. The leaves stand in the measurements (MeasurementsStore::log_hashes).
 class LogStore {
  public:
-  explicit LogStore(sqlite::Connection& connection);
+  explicit LogStore(sql::Connection& connection);
   ~LogStore();
 
   struct State {

@@ -17,7 +17,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -35,7 +35,7 @@ struct MeasuredValue {
 /// Measurements, kept for ever: the database refuses UPDATE and DELETE.
 class MeasurementsStore {
  public:
-  explicit MeasurementsStore(sqlite::Connection& connection);
+  explicit MeasurementsStore(sql::Connection& connection);
   ~MeasurementsStore();
 
   /// Appends rows, which have their hash and the ids from last_id() + 1 on. A row with

@@ -13,7 +13,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -21,7 +21,7 @@ class Connection;
 /// this folder's own log was forwarded.
 class OriginsStore {
  public:
-  explicit OriginsStore(sqlite::Connection& connection);
+  explicit OriginsStore(sql::Connection& connection);
   ~OriginsStore();
 
   struct Origin {

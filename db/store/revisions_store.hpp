@@ -11,7 +11,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -24,7 +24,7 @@ enum class RevisionKind : std::uint8_t { Tables = 1, Key = 2, Setup = 3, Plan = 
 /// MeasurementsStore::append().
 class RevisionsStore {
  public:
-  explicit RevisionsStore(sqlite::Connection& connection);
+  explicit RevisionsStore(sql::Connection& connection);
   ~RevisionsStore();
 
   struct Revision {

@@ -13,7 +13,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -63,7 +63,7 @@ struct RunFilter {
 /// Runs with their files and traces.
 class RunsStore {
  public:
-  explicit RunsStore(sqlite::Connection& connection);
+  explicit RunsStore(sql::Connection& connection);
   ~RunsStore();
 
   /// Stores a run that is queued, running or, with `finish` in the same job, already over.

@@ -17,7 +17,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -25,8 +25,7 @@ class Connection;
 /// `Stores&`. Used by the connection's thread alone. Every function throws StorageFailure when the
 /// storage fails; the writer and the read pool turn that into an Error.
 struct Stores {
-  Stores(sqlite::Connection& connection, const Clock& clock,
-         std::chrono::hours idempotency_retention);
+  Stores(sql::Connection& connection, const Clock& clock, std::chrono::hours idempotency_retention);
 
   TablesStore tables;
   MeasurementsStore measurements;

@@ -13,7 +13,7 @@
 
 namespace fitgauge::store {
 
-namespace sqlite {
+namespace sql {
 class Connection;
 }
 
@@ -87,7 +87,7 @@ std::string shown_digits(const Digest& digest);
 /// standard that a revision shares with an older one are stored once.
 class TablesStore {
  public:
-  explicit TablesStore(sqlite::Connection& connection);
+  explicit TablesStore(sql::Connection& connection);
   ~TablesStore();
 
   /// @errors PreconditionFailed when `parent` is not the newest revision (another import came

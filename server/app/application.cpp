@@ -5,6 +5,7 @@
 #include "app/log/log_check.hpp"
 #include "app/log/log_keys.hpp"
 #include "app/measurements/mapping.hpp"
+#include "sqlite/database.hpp"
 #include "store/database.hpp"
 #include "tlog/tile.hpp"
 
@@ -145,7 +146,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     };
   }
   app->directory_ = options.directory;
-  auto database = store::Database::open(open_options, clock);
+  auto database = store::sqlite::open_database(open_options, clock);
   if (!database) return database.error();
   app->database_ = *std::move(database);
   auto tables = TableCatalog::open(*app->database_, clock, options.has_centre);

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "bare_sqlite.hpp"
-#include "store/database.hpp"
+#include "sqlite/database.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -63,7 +63,7 @@ std::unique_ptr<Database> open(const fs::path& directory, const Clock& clock, bo
   OpenOptions options;
   options.directory = directory;
   options.commit_each = commit_each;
-  auto database = Database::open(options, clock).value();
+  auto database = sqlite::open_database(options, clock).value();
   const auto imported = database->writer().wait([](Stores& stores) -> Result<TableRevision> {
     return stores.tables.import({.content = {}, .source = "bench"}, 1);
   });

@@ -59,7 +59,7 @@ TEST_CASE("a creation that is killed can be repeated") {
     const auto create = [&] { static_cast<void>(prepare_file(options, sqlite::migrations(), 1)); };
     run_and_kill(random, std::chrono::milliseconds(60), create);
     const ManualClock clock;
-    const auto opened = Database::open(options, clock);
+    const auto opened = sqlite::open_database(options, clock);
     REQUIRE_MESSAGE(opened.has_value(), (opened ? "" : opened.error().message));
     CHECK((*opened)->verify()->findings.empty());
   }
@@ -119,7 +119,7 @@ TEST_CASE("measurements acknowledged before a kill are there after it") {
     int channel[2];
     REQUIRE(::pipe(channel) == 0);
     run_and_kill(random, std::chrono::milliseconds(300), [&] {
-      const auto database = Database::open(options, clock);
+      const auto database = sqlite::open_database(options, clock);
       while (database.has_value()) {
         MeasurementRow row = sample_row();
         const auto ids = (*database)->writer().wait(
@@ -132,7 +132,7 @@ TEST_CASE("measurements acknowledged before a kill are there after it") {
     while (::read(channel[0], &id, sizeof id) == sizeof id) acknowledged = id;
     ::close(channel[0]);
 
-    const auto opened = Database::open(options, clock);
+    const auto opened = sqlite::open_database(options, clock);
     REQUIRE_MESSAGE(opened.has_value(), (opened ? "" : opened.error().message));
     const auto last_id = (*opened)->readers().wait(
         [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.last_id(); });

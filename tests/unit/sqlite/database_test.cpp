@@ -21,7 +21,7 @@ namespace {
 Error refusal(const TempDirectory& directory, OpenOptions options = {}) {
   const ManualClock clock;
   options.directory = directory.path();
-  const auto opened = Database::open(options, clock);
+  const auto opened = sqlite::open_database(options, clock);
   REQUIRE(opened.has_error());
   return opened.error();
 }
@@ -39,7 +39,7 @@ void create_database(const TempDirectory& directory) {
   const ManualClock clock;
   OpenOptions options;
   options.directory = directory.path();
-  REQUIRE(Database::open(options, clock).has_value());
+  REQUIRE(sqlite::open_database(options, clock).has_value());
 }
 
 void alter(const TempDirectory& directory, const std::string& sql) {
@@ -150,7 +150,7 @@ TEST_CASE("a directory that cannot be made or written is refused with its name")
   const ManualClock clock;
   OpenOptions options;
   options.directory = directory.path() / "file" / "data";
-  const auto opened = Database::open(options, clock);
+  const auto opened = sqlite::open_database(options, clock);
   REQUIRE(opened.has_error());
   CHECK(opened.error().code == ErrorCode::StorageUnavailable);
   CHECK(opened.error().message.find("data") != std::string::npos);
@@ -189,7 +189,7 @@ TEST_CASE("a command attaches beside the running daemon") {
   Fixture fixture;
   OpenOptions options = fixture.options;
   options.access = Access::Attach;
-  const auto attached = Database::open(options, fixture.clock);
+  const auto attached = sqlite::open_database(options, fixture.clock);
   REQUIRE(attached.has_value());
   const auto created = (*attached)->writer().wait(
       [](Stores& stores) { return stores.keys.create("press-3", Role::Operator, new_token(), 1); });
@@ -220,7 +220,7 @@ TEST_CASE("a backup is a complete database of its own and overwrites nothing") {
 
   OpenOptions options;
   options.directory = other.path();
-  const auto restored = Database::open(options, fixture.clock);
+  const auto restored = sqlite::open_database(options, fixture.clock);
   REQUIRE(restored.has_value());
   CHECK(*(*restored)->readers().wait([](const Stores& stores) -> Result<std::int64_t> {
     return stores.measurements.last_id();

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "store/database.hpp"
+#include "sqlite/database.hpp"
 #include "store/measurement_hash.hpp"
 
 namespace fitgauge::store::test {
@@ -103,7 +103,7 @@ struct Fixture {
 
   void open() {
     options.directory = directory.path();
-    auto opened = Database::open(options, clock);
+    auto opened = sqlite::open_database(options, clock);
     REQUIRE_MESSAGE(opened.has_value(), (opened ? "" : opened.error().message));
     database = *std::move(opened);
   }

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "fixture.hpp"
+#include "sql/statement.hpp"
 #include "sqlite/connection.hpp"
-#include "sqlite/statement.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -126,11 +126,11 @@ const std::map<std::string, std::string> kFree = {
 using Column = std::pair<std::string, std::string>;
 
 std::vector<Column> columns_of(sqlite::Connection& connection) {
-  sqlite::Statement all(connection,
-                        "SELECT t.name, c.name FROM sqlite_schema t, pragma_table_info(t.name) c "
-                        "WHERE t.type = 'table' AND t.name NOT LIKE 'sqlite_%'");
+  sql::Statement all(connection,
+                     "SELECT t.name, c.name FROM sqlite_schema t, pragma_table_info(t.name) c "
+                     "WHERE t.type = 'table' AND t.name NOT LIKE 'sqlite_%'");
   std::vector<Column> columns;
-  for (sqlite::Rows rows = all.query(); rows.next();) {
+  for (sql::Rows rows = all.query(); rows.next();) {
     columns.emplace_back(rows.get<std::string>(0), rows.get<std::string>(1));
   }
   return columns;
@@ -168,7 +168,7 @@ TEST_CASE("a changed value is found in every column of every table") {
     CAPTURE(name);
     REQUIRE_NOTHROW(
         sqlite::Connection(sample.directory.file(), sqlite::Mode::Write).execute(flip(column)));
-    const auto opened = Database::open(sample.options, sample.clock);
+    const auto opened = sqlite::open_database(sample.options, sample.clock);
     const bool found = !opened || !(*opened)->verify(check_hash)->findings.empty();
     CHECK_MESSAGE(found, name);
   }

@@ -52,7 +52,7 @@ TEST_CASE("an upgrade keeps the rows and leaves a backup of the state before") {
   CHECK(query(backup, "PRAGMA user_version") == old);
 
   // The older build refuses it now.
-  const auto older = Database::open(fixture.options, fixture.clock);
+  const auto older = sqlite::open_database(fixture.options, fixture.clock);
   REQUIRE(older.has_error());
   CHECK(older.error().code == ErrorCode::DatabaseNewer);
 }
@@ -75,7 +75,7 @@ TEST_CASE("setups of before become documents, and one that does not fit its seal
   }
   REQUIRE(prepare_file(options, sqlite::migrations(), 8).has_value());
   ManualClock clock;
-  auto database = Database::open(options, clock);
+  auto database = sqlite::open_database(options, clock);
   REQUIRE(database.has_value());
   const auto text_of = [&](DocumentKind kind, const char* name) {
     return (*database)->readers().wait([=](const Stores& stores) -> Result<std::string> {

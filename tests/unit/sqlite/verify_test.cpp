@@ -202,7 +202,7 @@ TEST_CASE("what is derived from the measurements is derived again") {
 
 TEST_CASE("tables that change while rows are being read are known") {
   VerifyFixture fixture;
-  Session session(fixture.options, fixture.clock, sqlite::Mode::Read);
+  sqlite::Session session(fixture.options, fixture.clock, sqlite::Mode::Read);
   const MeasurementCheck no_check;
   Verifier verifier(session, no_check);
   bool has_changed = false;

@@ -1,0 +1,130 @@
+#include "store/files_store.hpp"
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "sql/sealed_table.hpp"
+#include "sql/statement.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sql::Blob;
+using sql::Rows;
+
+constexpr std::string_view kEntry =
+    "r.path, r.revision, coalesce(length(r.content), 0), r.modified_at, r.caller, "
+    "r.content IS NULL";
+constexpr int kContent = 6;  ///< the column after an entry's
+
+FileEntry read_entry(const Rows& rows) {
+  return {.path = rows.get<std::string>(0),
+          .revision = rows.get<std::int64_t>(1),
+          .size = rows.get<std::int64_t>(2),
+          .modified_at_ns = rows.get<std::int64_t>(3),
+          .caller = rows.get<std::optional<std::string>>(4),
+          .deleted = rows.get<bool>(5)};
+}
+
+std::optional<FileContent> read_file(Rows rows) {
+  if (!rows.next()) return std::nullopt;
+  require_sound(rows, kContent + 1, kFileRevisions);
+  return FileContent{read_entry(rows), std::string(rows.get<Blob>(kContent).bytes)};
+}
+
+std::vector<FileEntry> read_entries(Rows rows) {
+  std::vector<FileEntry> entries;
+  while (rows.next()) entries.push_back(read_entry(rows));
+  return entries;
+}
+
+}  // namespace
+
+struct FilesStore::Statements {
+  explicit Statements(sql::Connection& c)
+      : stat(c, fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
+                            "WHERE f.path_key = ?",
+                            kEntry)),
+        find(c, fmt::format("SELECT {}, r.content, {} FROM files f JOIN file_revisions r "
+                            "USING (revision) WHERE f.path_key = ?",
+                            kEntry, kFileRevisions.is_sound(c, "r"))),
+        find_revision(c, fmt::format("SELECT {}, r.content, {} FROM file_revisions r "
+                                     "WHERE r.revision = ? AND r.content IS NOT NULL",
+                                     kEntry, kFileRevisions.is_sound(c, "r"))),
+        list(c, fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
+                            "WHERE f.path_key >= ?1 AND substr(f.path_key, 1, length(?1)) = ?1 "
+                            "ORDER BY f.path_key",
+                            kEntry)),
+        history(c, fmt::format("SELECT {} FROM file_revisions r WHERE r.path_key = ? "
+                               "ORDER BY r.revision DESC",
+                               kEntry)),
+        insert(c, kFileRevisions.insert(c) + " RETURNING revision"),
+        point(
+            c,
+            "INSERT INTO files (path_key, revision) VALUES (?, ?) ON CONFLICT (path_key) DO UPDATE "
+            "SET revision = excluded.revision"),
+        unpoint(c, "DELETE FROM files WHERE path_key = ?") {}
+
+  sql::Statement stat;
+  sql::Statement find;
+  sql::Statement find_revision;
+  sql::Statement list;
+  sql::Statement history;
+  sql::Statement insert;
+  sql::Statement point;
+  sql::Statement unpoint;
+};
+
+FilesStore::FilesStore(sql::Connection& connection)
+    : statements_(std::make_unique<Statements>(connection)) {}
+FilesStore::~FilesStore() = default;
+
+FilesStore::PutOutcome FilesStore::put(const FileWrite& file) {
+  // Else the pages of the large files before it would stay, as many as the cache takes.
+  constexpr std::size_t kLarge = std::size_t{256} << 10;
+  if (file.content.size() > kLarge) statements_->insert.release_pages();
+  const std::string key = ascii_upper(file.path);
+  const bool created = !stat(file.path);
+  const auto revision = statements_->insert.returning<std::int64_t>(
+      file.path, key, Blob{file.content}, file.modified_at_ns, file.caller);
+  statements_->point.run(key, revision);
+  return {.created = created, .revision = revision};
+}
+
+bool FilesStore::remove(std::string_view path, std::int64_t now_ns,
+                        std::optional<std::string_view> caller) {
+  const std::optional<FileEntry> file = stat(path);
+  if (!file) return false;
+  const std::string key = ascii_upper(path);
+  statements_->insert.returning<std::int64_t>(file->path, key, std::optional<Blob>(), now_ns,
+                                              caller);
+  statements_->unpoint.run(key);
+  return true;
+}
+
+std::optional<FileEntry> FilesStore::stat(std::string_view path) const {
+  const std::string key = ascii_upper(path);
+  Rows rows = statements_->stat.query(key);
+  return rows.next() ? std::optional(read_entry(rows)) : std::nullopt;
+}
+
+std::optional<FileContent> FilesStore::find(std::string_view path) const {
+  const std::string key = ascii_upper(path);
+  return read_file(statements_->find.query(key));
+}
+
+std::optional<FileContent> FilesStore::find_revision(std::int64_t revision) const {
+  return read_file(statements_->find_revision.query(revision));
+}
+
+std::vector<FileEntry> FilesStore::list(std::string_view prefix) const {
+  const std::string key = ascii_upper(prefix);
+  return read_entries(statements_->list.query(key));
+}
+
+std::vector<FileEntry> FilesStore::history(std::string_view path) const {
+  const std::string key = ascii_upper(path);
+  return read_entries(statements_->history.query(key));
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,292 @@
+#include "sql/measurement_indexer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "sql/connection.hpp"
+#include "sql/measurement_query.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sql::Blob;
+using sql::Rows;
+
+/// More values of a field than these have no aggregates: in a block each would be as long as the
+/// rows it stands for, and no summary has more than 10,000 groups.
+constexpr std::array<std::size_t, kLevels> kMostValues = {256, 4'096, 10'000, 10'000};
+
+/// The columns of a block's rows before its texts.
+struct BlockColumn {
+  enum : int { MeasuredAt, ReceivedAt, Measured, Verdict, Source, Nominal, Run, Current, Texts };
+};
+
+std::string block_sql() {
+  std::string columns;
+  for (const TextColumn& column : kTextColumns) columns += fmt::format(", m.{}", column.column);
+  return fmt::format(
+      "SELECT m.measured_at, m.received_at, m.measured_nm, m.verdict, m.source, m.nominal_nm, "
+      "m.run_id, {}{} FROM measurements m WHERE m.id BETWEEN ? AND ? ORDER BY m.id",
+      CurrentCondition(std::to_string(kLastId)).both(), columns);
+}
+
+int kind_of(int source, int verdict) { return 8 * source + verdict; }
+
+using Values = std::set<std::optional<std::string>>;
+
+/// Takes the aggregates of a field with too many values away.
+void drop_field(NodeIndex& index, int field) {
+  std::erase_if(index.aggregates,
+                [&](const auto& entry) { return std::get<0>(entry.first) == field; });
+}
+
+}  // namespace
+
+MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
+    : connection_(c),
+      last_block_(last_block_statement(c)),
+      block_(c, block_sql()),
+      insert_node_(c, "INSERT INTO measurement_nodes VALUES (?, ?, ?, ?, ?, ?, 0)"),
+      insert_posting_(c, "INSERT INTO measurement_postings VALUES (?, ?, ?, ?)"),
+      insert_aggregate_(c,
+                        fmt::format("INSERT INTO measurement_aggregates VALUES (?, ?, ?, {}, ?, ?)",
+                                    AggregatedValue(c).parameter)),
+      child_times_(c,
+                   "SELECT min(min_measured_at), max(max_measured_at), min(min_received_at), "
+                   "max(max_received_at) FROM measurement_nodes WHERE level = ? AND node BETWEEN ? "
+                   "AND ?"),
+      child_aggregates_(c, fmt::format("SELECT node, field, value, kind, statistics, {} FROM "
+                                       "measurement_aggregates WHERE level = ? AND node BETWEEN ? "
+                                       "AND ?",
+                                       AggregatedValue(c).is_none)),
+      make_stale_(c, "UPDATE measurement_nodes SET stale = 1 WHERE level = ? AND node = ?"),
+      rivals_(
+          c,
+          "WITH RECURSIVE back(id) AS (SELECT id FROM measurements WHERE correction_of = ?1 AND "
+          "(SELECT count(*) FROM measurements WHERE correction_of = ?1) > 1 UNION ALL "
+          "SELECT c.id FROM back JOIN measurements c ON c.correction_of = back.id) "
+          "SELECT id FROM back"),
+      stale_(c,
+             "SELECT level, node FROM measurement_nodes WHERE stale = 1 ORDER BY level, node "
+             "LIMIT 1"),
+      delete_aggregates_(c, "DELETE FROM measurement_aggregates WHERE level = ? AND node = ?"),
+      make_fresh_(c, "UPDATE measurement_nodes SET stale = 0 WHERE level = ? AND node = ?"),
+      nodes_(c,
+             "SELECT level, node, min_measured_at, max_measured_at, min_received_at, "
+             "max_received_at, stale FROM measurement_nodes ORDER BY level, node"),
+      posting_(c,
+               "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND block = ?"),
+      node_aggregates_(c, fmt::format("SELECT field, value, kind, statistics, {} FROM "
+                                      "measurement_aggregates WHERE level = ? AND node = ?",
+                                      AggregatedValue(c).is_none)),
+      count_postings_(c, "SELECT count(*) FROM measurement_postings") {}
+
+bool MeasurementIndexer::step() {
+  std::optional<IndexNode> stale;
+  if (Rows rows = stale_.query(); rows.next()) {
+    stale = IndexNode{rows.get<int>(0), rows.get<std::int64_t>(1)};
+  }
+  if (stale) {
+    delete_aggregates_.run(stale->level, stale->node);
+    insert_aggregates(*stale, derive(*stale));
+    make_fresh_.run(stale->level, stale->node);
+    return true;
+  }
+  const std::int64_t indexed = indexed_to(last_block_);
+  if (connection_.measurements().last_id() < indexed + kBlock) return false;
+  IndexNode node = IndexNode::of(indexed + 1, 0);
+  insert(node, derive(node));
+  while (node.level + 1 < kLevels && node.ids().last == node.parent().ids().last) {
+    node = node.parent();
+    insert(node, derive(node));
+  }
+  return true;
+}
+
+void MeasurementIndexer::corrected(std::int64_t id) {
+  make_stale(id);
+  // One of the rivals took the place of another, and of what corrects that.
+  for (Rows rows = rivals_.query(id); rows.next();) make_stale(rows.get<std::int64_t>(0));
+}
+
+void MeasurementIndexer::make_stale(std::int64_t id) {
+  for (int level = 0; level < kLevels; ++level) {
+    make_stale_.run(level, IndexNode::of(id, level).node);
+  }
+}
+
+NodeIndex MeasurementIndexer::derive(const IndexNode& node) {
+  return node.level == 0 ? derive_block(node) : derive_parent(node);
+}
+
+NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
+  NodeIndex index;
+  const IdSpan ids = node.ids();
+  std::int64_t row = 0;
+  std::array<Values, kTextColumns.size()> values;
+  for (Rows rows = block_.query(ids.first, ids.last); rows.next(); ++row) {
+    const auto measured_at = rows.get<std::int64_t>(BlockColumn::MeasuredAt);
+    const auto received_at = rows.get<std::int64_t>(BlockColumn::ReceivedAt);
+    if (row == 0) {
+      index.min_measured_at = index.max_measured_at = measured_at;
+      index.min_received_at = index.max_received_at = received_at;
+    }
+    index.min_measured_at = std::min(index.min_measured_at, measured_at);
+    index.max_measured_at = std::max(index.max_measured_at, measured_at);
+    index.min_received_at = std::min(index.min_received_at, received_at);
+    index.max_received_at = std::max(index.max_received_at, received_at);
+    const auto source = rows.get<int>(BlockColumn::Source);
+    const auto verdict = rows.get<int>(BlockColumn::Verdict);
+    const auto post = [&](int field, std::string value) {
+      index.postings[{field, std::move(value)}].add(row);
+    };
+    post(number_of(IndexField::Source), std::to_string(source));
+    post(number_of(IndexField::Verdict), std::to_string(verdict));
+    if (const auto run = rows.get<std::optional<std::int64_t>>(BlockColumn::Run)) {
+      post(number_of(IndexField::Run), std::to_string(*run));
+    }
+    for (const TextColumn& column : kTextColumns) {
+      const auto field = index_of(column.field);
+      auto value =
+          rows.get<std::optional<std::string>>(BlockColumn::Texts + static_cast<int>(field));
+      if (rows.get<bool>(BlockColumn::Current) && values[field].size() <= kMostValues[0]) {
+        values[field].insert(value);
+        index.aggregates[{number_of(column.field), value, kind_of(source, verdict)}].add(
+            rows.get<std::int64_t>(BlockColumn::Measured));
+      }
+      if (!value) continue;
+      if (column.field == TextField::ToleranceClass) {
+        post(number_of(IndexField::Designation),
+             designation_key(rows.get<std::int64_t>(BlockColumn::Nominal), *value));
+      }
+      post(number_of(column.field), *std::move(value));
+    }
+  }
+  for (const TextColumn& column : kTextColumns) {
+    if (values[index_of(column.field)].size() > kMostValues[0]) {
+      drop_field(index, number_of(column.field));
+    }
+  }
+  return index;
+}
+
+/// Joins the nodes below. A field that one of them has too many values of may still have few
+/// enough for this one: those of 32 blocks are read again, more are not.
+NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
+  NodeIndex index;
+  const IndexNode first = node.child(0);
+  const IndexNode last = node.child(kFanOut - 1);
+  if (Rows rows = child_times_.query(first.level, first.node, last.node); rows.next()) {
+    index.min_measured_at = rows.get<std::int64_t>(0);
+    index.max_measured_at = rows.get<std::int64_t>(1);
+    index.min_received_at = rows.get<std::int64_t>(2);
+    index.max_received_at = rows.get<std::int64_t>(3);
+  }
+  std::map<int, std::set<std::int64_t>> children;
+  std::map<int, Values> values;
+  for (Rows rows = child_aggregates_.query(first.level, first.node, last.node); rows.next();) {
+    const auto field = rows.get<int>(1);
+    auto value = rows.get<bool>(5) ? std::nullopt : rows.get<std::optional<std::string>>(2);
+    children[field].insert(rows.get<std::int64_t>(0));
+    values[field].insert(value);
+    index.aggregates[{field, std::move(value), rows.get<int>(3)}].add(
+        ExactStatistics::decode(rows.get<Blob>(4).bytes));
+  }
+  const std::size_t most = kMostValues.at(static_cast<std::size_t>(node.level));
+  for (const TextColumn& column : kTextColumns) {
+    const int field = number_of(column.field);
+    const bool complete = children[field].size() == static_cast<std::size_t>(kFanOut);
+    if (complete && values[field].size() <= most) continue;
+    drop_field(index, field);
+    if (!complete && node.level == 1) aggregate_rows(node, column.field, index);
+  }
+  return index;
+}
+
+void MeasurementIndexer::aggregate_rows(const IndexNode& node, TextField field, NodeIndex& index) {
+  MeasurementQuery query(connection_,
+                         fmt::format("m.{}, m.source, m.verdict, m.measured_nm", column_of(field)));
+  Values values;
+  const MeasurementFilter current{.source = std::nullopt};
+  const bool few = query.run(current, node.ids(), ListOrder::OldestFirst, [&](const Rows& rows) {
+    auto value = rows.get<std::optional<std::string>>(0);
+    values.insert(value);
+    if (values.size() > kMostValues[1]) return false;
+    index
+        .aggregates[{number_of(field), std::move(value),
+                     kind_of(rows.get<int>(1), rows.get<int>(2))}]
+        .add(rows.get<std::int64_t>(3));
+    return true;
+  });
+  if (!few) drop_field(index, number_of(field));
+}
+
+void MeasurementIndexer::insert(const IndexNode& node, const NodeIndex& index) {
+  insert_node_.run(node.level, node.node, index.min_measured_at, index.max_measured_at,
+                   index.min_received_at, index.max_received_at);
+  for (const auto& [key, rows] : index.postings) {
+    insert_posting_.run(key.first, key.second, node.node, Blob{rows.encode()});
+  }
+  insert_aggregates(node, index);
+}
+
+void MeasurementIndexer::insert_aggregates(const IndexNode& node, const NodeIndex& index) {
+  for (const auto& [key, statistics] : index.aggregates) {
+    const auto& [field, value, kind] = key;
+    const auto bytes = statistics.encode();
+    const Blob blob{{bytes.data(), bytes.size()}};
+    insert_aggregate_.run(node.level, node.node, field, value, kind, blob);
+  }
+}
+
+void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
+  struct Stored {
+    IndexNode node;
+    bool stale = false;
+    std::array<std::int64_t, 4> times{};
+  };
+  std::vector<Stored> stored;
+  for (Rows rows = nodes_.query(); rows.next();) {
+    Stored& node = stored.emplace_back();
+    node.node = {rows.get<int>(0), rows.get<std::int64_t>(1)};
+    for (int i = 0; i < 4; ++i)
+      node.times.at(static_cast<std::size_t>(i)) = rows.get<std::int64_t>(2 + i);
+    node.stale = rows.get<bool>(6);
+  }
+  std::int64_t postings = 0;
+  for (const Stored& node : stored) {
+    const NodeIndex index = derive(node.node);
+    postings += static_cast<std::int64_t>(index.postings.size());
+    const std::array<std::int64_t, 4> times{index.min_measured_at, index.max_measured_at,
+                                            index.min_received_at, index.max_received_at};
+    if (times == node.times && is_stored(node.node, index, node.stale)) continue;
+    const IdSpan ids = node.node.ids();
+    note(fmt::format("the index of measurements {} to {} (level {}) is not what they make it",
+                     ids.first, ids.last, node.node.level));
+  }
+  const auto surplus = count_postings_.returning<std::int64_t>() - postings;
+  if (surplus != 0) note(fmt::format("the index has {} values that no measurement has", surplus));
+}
+
+bool MeasurementIndexer::is_stored(const IndexNode& node, const NodeIndex& index, bool stale) {
+  for (const auto& [key, rows] : index.postings) {
+    Rows found = posting_.query(key.first, key.second, node.node);
+    if (!found.next() || found.get<Blob>(0).bytes != rows.encode()) return false;
+  }
+  if (stale) return true;
+  std::size_t count = 0;
+  for (Rows rows = node_aggregates_.query(node.level, node.node); rows.next(); ++count) {
+    const auto found = index.aggregates.find(
+        {rows.get<int>(0),
+         rows.get<bool>(4) ? std::nullopt : rows.get<std::optional<std::string>>(1),
+         rows.get<int>(2)});
+    if (found == index.aggregates.end()) return false;
+    const auto bytes = found->second.encode();
+    if (rows.get<Blob>(3).bytes != std::string_view(bytes.data(), bytes.size())) return false;
+  }
+  return count == index.aggregates.size();
+}
+
+}  // namespace fitgauge::store

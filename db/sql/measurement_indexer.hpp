@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "sql/statement.hpp"
+#include "store/measurement_index.hpp"
+#include "store/measurement_statistics.hpp"
+
+namespace fitgauge::store {
+
+/// What the index says of a node; derived from the measurements alone.
+struct NodeIndex {
+  std::int64_t min_measured_at = 0;
+  std::int64_t max_measured_at = 0;
+  std::int64_t min_received_at = 0;
+  std::int64_t max_received_at = 0;
+
+  /// By field and value; of a block, empty for other nodes.
+  std::map<std::pair<int, std::string>, RowSet> postings;
+  /// By field, value and kind (8 * source + verdict) of the rows that no other row corrects.
+  using AggregateKey = std::tuple<int, std::optional<std::string>, int>;
+  std::map<AggregateKey, ExactStatistics> aggregates;
+};
+
+/// Makes the index of the measurements: nodes, postings and aggregates. Used by the writer's
+/// maintenance, and by the verifier to derive all of it again.
+class MeasurementIndexer {
+ public:
+  explicit MeasurementIndexer(sql::Connection& connection);
+
+  /// Indexes the next whole block with the nodes that it completes, or makes the aggregates of a
+  /// stale node anew. @returns whether there was something to do.
+  bool step();
+
+  /// A row was corrected: its nodes' aggregates are stale until a step has made them anew.
+  void corrected(std::int64_t id);
+
+  /// Derives the whole index and calls `note` with each node that differs from what is stored.
+  void verify(const std::function<void(std::string)>& note);
+
+ private:
+  void make_stale(std::int64_t id);
+  NodeIndex derive(const IndexNode& node);
+  NodeIndex derive_block(const IndexNode& node);
+  NodeIndex derive_parent(const IndexNode& node);
+  void aggregate_rows(const IndexNode& node, TextField field, NodeIndex& index);
+  void insert(const IndexNode& node, const NodeIndex& index);
+  void insert_aggregates(const IndexNode& node, const NodeIndex& index);
+  bool is_stored(const IndexNode& node, const NodeIndex& index, bool stale);
+
+  sql::Connection& connection_;
+  sql::Statement last_block_;
+  sql::Statement block_;
+  sql::Statement insert_node_;
+  sql::Statement insert_posting_;
+  sql::Statement insert_aggregate_;
+  sql::Statement child_times_;
+  sql::Statement child_aggregates_;
+  sql::Statement make_stale_;
+  sql::Statement rivals_;
+  sql::Statement stale_;
+  sql::Statement delete_aggregates_;
+  sql::Statement make_fresh_;
+  sql::Statement nodes_;
+  sql::Statement posting_;
+  sql::Statement node_aggregates_;
+  sql::Statement count_postings_;
+};
+
+}  // namespace fitgauge::store

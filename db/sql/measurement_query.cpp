@@ -1,0 +1,257 @@
+#include "sql/measurement_query.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "sql/connection.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sql::Blob;
+using sql::Rows;
+using sql::Statement;
+
+/// Statements kept for the filters asked with; then all begin anew.
+constexpr std::size_t kMostKept = 64;
+constexpr std::int64_t kRowsAtATime = 1024;
+
+/// Calls `add(condition, value)` for each condition a row `m` has to meet.
+template <class Add>
+void for_each_condition(const MeasurementFilter& filter, Add&& add) {
+  if (filter.verdict) add("m.verdict = ?", *filter.verdict);
+  if (filter.source) add("m.source = ?", *filter.source);
+  if (filter.run_id) {
+    add("m.run_id = ?", *filter.run_id);
+    add("coalesce(m.origin, 0) = ?", filter.run_origin);
+  }
+  if (filter.designation) {
+    add("m.nominal_nm = ?", filter.designation->nominal_nm);
+    add("m.tolerance_class = ?", std::string_view(filter.designation->tolerance_class));
+  }
+  for (std::size_t i = 0; i < kTextColumns.size(); ++i) {
+    if (!filter.texts[i]) continue;
+    add(fmt::format("m.{} = ?", kTextColumns[i].column), std::string_view(*filter.texts[i]));
+  }
+  if (filter.from_ns) add("m.measured_at >= ?", *filter.from_ns);
+  if (filter.to_ns) add("m.measured_at < ?", *filter.to_ns);
+  if (filter.received_from_ns) add("m.received_at >= ?", *filter.received_from_ns);
+  if (filter.received_to_ns) add("m.received_at < ?", *filter.received_to_ns);
+  if (!filter.history) {
+    static const CurrentCondition current("?");
+    add(current.is_not_corrected, filter.as_of_id.value_or(kLastId));
+    add(current.has_no_later_rival, filter.as_of_id.value_or(kLastId));
+  }
+}
+
+/// The same for the node `b` of a block that may hold such rows.
+template <class Add>
+void for_each_time_condition(const MeasurementFilter& filter, Add&& add) {
+  if (filter.from_ns) add("b.max_measured_at >= ?", *filter.from_ns);
+  if (filter.to_ns) add("b.min_measured_at < ?", *filter.to_ns);
+  if (filter.received_from_ns) add("b.max_received_at >= ?", *filter.received_from_ns);
+  if (filter.received_to_ns) add("b.min_received_at < ?", *filter.received_to_ns);
+}
+
+std::string_view direction(ListOrder order) {
+  return order == ListOrder::NewestFirst ? " DESC" : "";
+}
+
+}  // namespace
+
+// The later one of two corrections that were made apart stands, at each end alike: whatever order
+// they came in. Where they were received at the same time, their leaves decide.
+CurrentCondition::CurrentCondition(std::string_view last)
+    : is_not_corrected(
+          fmt::format("NOT EXISTS (SELECT 1 FROM measurements c WHERE c.correction_of = m.id AND "
+                      "c.id <= {})",
+                      last)),
+      has_no_later_rival(fmt::format(
+          "(m.correction_of IS NULL OR NOT EXISTS (WITH RECURSIVE back(target, at, leaf) AS ("
+          "SELECT m.correction_of, m.received_at, m.hash UNION ALL "
+          "SELECT b.correction_of, b.received_at, b.hash FROM back JOIN measurements b "
+          "ON b.id = back.target WHERE b.correction_of IS NOT NULL) "
+          "SELECT 1 FROM back JOIN measurements r ON r.correction_of = back.target "
+          "WHERE (r.received_at, r.hash) > (back.at, back.leaf) AND r.id <= {}))",
+          last)) {}
+
+AggregatedValue::AggregatedValue(const sql::Connection& connection)
+    : is_none(connection.dialect().keys_may_be_null ? "value IS NULL" : "value = 0"),
+      parameter(connection.dialect().keys_may_be_null ? "?" : "coalesce(?, 0)") {}
+
+Statement last_block_statement(sql::Connection& connection) {
+  return {connection, "SELECT max(node) FROM measurement_nodes WHERE level = 0"};
+}
+
+std::int64_t indexed_to(Statement& last_block) {
+  const auto block = last_block.returning<std::optional<std::int64_t>>();
+  return block ? IndexNode{0, *block}.ids().last : 0;
+}
+
+MeasurementQuery::MeasurementQuery(sql::Connection& connection, std::string columns)
+    : connection_(connection),
+      columns_(std::move(columns)),
+      most_at_once_(connection.dialect().streams ? kLastId : kRowsAtATime),
+      last_block_(last_block_statement(connection)),
+      block_rows_(connection,
+                  "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND "
+                  "block = ?") {}
+
+bool MeasurementQuery::run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
+                           const Visitor& visit) {
+  if (statements_.size() > kMostKept) statements_.clear();
+  const std::int64_t indexed = indexed_to(last_block_);
+  const IdSpan all = intersection(ids, {.first = 1, .last = filter.as_of_id.value_or(kLastId)});
+  const IdSpan known = intersection(all, {.first = 1, .last = indexed});
+  const IdSpan newer = intersection(all, {.first = indexed + 1, .last = kLastId});
+  Statement& matching = matching_rows(filter, order);
+  if (order == ListOrder::NewestFirst) {
+    return scan(matching, newer, order, visit) &&
+           run_indexed(filter, matching, known, order, visit);
+  }
+  return run_indexed(filter, matching, known, order, visit) && scan(matching, newer, order, visit);
+}
+
+/// The rows between two ids that match, all bound but the ids.
+Statement& MeasurementQuery::matching_rows(const MeasurementFilter& filter, ListOrder order) {
+  std::string sql =
+      fmt::format("SELECT {}, m.id FROM measurements m WHERE m.id BETWEEN ? AND ?", columns_);
+  for_each_condition(filter, [&](std::string_view condition, const auto&) {
+    sql += " AND ";
+    sql += condition;
+  });
+  Statement& matching = statement(fmt::format("{} ORDER BY m.id{} LIMIT ?", sql, direction(order)));
+  int index = 2;
+  for_each_condition(filter,
+                     [&](std::string_view, const auto& value) { matching.bind(++index, value); });
+  matching.bind(++index, most_at_once_);
+  return matching;
+}
+
+/// An engine whose queries bring all rows at once is asked for some at a time.
+bool MeasurementQuery::scan(Statement& matching, const IdSpan& ids, ListOrder order,
+                            const Visitor& visit) {
+  for (IdSpan left = ids; !left.empty();) {
+    matching.bind(1, left.first);
+    matching.bind(2, left.last);
+    std::int64_t count = 0;
+    std::int64_t id = 0;
+    for (Rows rows(matching); rows.next(); ++count) {
+      id = rows.get<std::int64_t>(rows.columns() - 1);
+      if (!visit(rows)) return false;
+    }
+    if (count < most_at_once_) return true;
+    if (order == ListOrder::NewestFirst) {
+      left.last = id - 1;
+    } else {
+      left.first = id + 1;
+    }
+  }
+  return true;
+}
+
+/// The values asked for, those first that are likely to have the fewest rows.
+std::vector<MeasurementQuery::Posting> MeasurementQuery::postings_of(
+    const MeasurementFilter& filter) {
+  std::vector<Posting> postings;
+  const auto add_text = [&](TextField field) {
+    if (const auto& text = filter.text(field)) postings.push_back({number_of(field), *text});
+  };
+  add_text(TextField::PartId);
+  if (filter.run_id)
+    postings.push_back({number_of(IndexField::Run), std::to_string(*filter.run_id)});
+  for (const TextField field : {TextField::Subgroup, TextField::Order, TextField::Characteristic,
+                                TextField::Operation, TextField::Gauge, TextField::Operator}) {
+    add_text(field);
+  }
+  if (filter.designation) {
+    postings.push_back(
+        {number_of(IndexField::Designation),
+         designation_key(filter.designation->nominal_nm, filter.designation->tolerance_class)});
+  }
+  for (const TextField field :
+       {TextField::Machine, TextField::Unit, TextField::Caller, TextField::ToleranceClass}) {
+    add_text(field);
+  }
+  const auto add_code = [&](IndexField field, const auto& code) {
+    if (code) postings.push_back({number_of(field), std::to_string(static_cast<int>(*code))});
+  };
+  add_code(IndexField::Verdict, filter.verdict);
+  add_code(IndexField::Source, filter.source);
+  return postings;
+}
+
+bool MeasurementQuery::run_indexed(const MeasurementFilter& filter, Statement& matching,
+                                   const IdSpan& ids, ListOrder order, const Visitor& visit) {
+  if (ids.empty()) return true;
+  const std::vector<Posting> postings = postings_of(filter);
+  if (postings.empty() && !filter.has_times()) return scan(matching, ids, order, visit);
+  std::string sql =
+      postings.empty()
+          ? "SELECT b.node FROM measurement_nodes b WHERE b.level = 0 AND b.node BETWEEN ? AND ?"
+          : "SELECT p.block, p.rows FROM measurement_postings p CROSS JOIN measurement_nodes b "
+            "WHERE b.level = 0 AND b.node = p.block AND p.block BETWEEN ? AND ? AND p.field = ? "
+            "AND "
+            "p.value = ?";
+  for_each_time_condition(filter, [&](std::string_view condition, std::int64_t) {
+    sql += " AND ";
+    sql += condition;
+  });
+  Statement& blocks = statement(fmt::format(
+      "{} ORDER BY {}{}", sql, postings.empty() ? "b.node" : "p.block", direction(order)));
+  int index = 0;
+  blocks.bind(++index, IndexNode::of(ids.first, 0).node);
+  blocks.bind(++index, IndexNode::of(ids.last, 0).node);
+  if (!postings.empty()) {
+    blocks.bind(++index, postings.front().field);
+    blocks.bind(++index, std::string_view(postings.front().value));
+  }
+  for_each_time_condition(
+      filter, [&](std::string_view, std::int64_t value) { blocks.bind(++index, value); });
+  for (Rows rows(blocks); rows.next();) {
+    const auto block = rows.get<std::int64_t>(0);
+    RowSet wanted = postings.empty() ? RowSet::all() : RowSet::decode(rows.get<Blob>(1).bytes);
+    for (std::size_t i = 1; i < postings.size() && !wanted.empty(); ++i) {
+      // A source is looked at in the rows: most have the one that is asked for.
+      if (postings[i].field == number_of(IndexField::Source)) break;
+      wanted &= rows_in_block(postings[i], block);
+    }
+    if (!run_block(matching, ids, wanted, block, order, visit)) return false;
+  }
+  return true;
+}
+
+RowSet MeasurementQuery::rows_in_block(const Posting& posting, std::int64_t block) {
+  Rows rows = block_rows_.query(posting.field, posting.value, block);
+  return rows.next() ? RowSet::decode(rows.get<Blob>(0).bytes) : RowSet();
+}
+
+/// Reads the rows of a block, those that follow each other at once.
+bool MeasurementQuery::run_block(Statement& matching, const IdSpan& ids, const RowSet& rows,
+                                 std::int64_t block, ListOrder order, const Visitor& visit) {
+  std::vector<IdSpan> runs;
+  const IdSpan whole = IndexNode{0, block}.ids();
+  const IdSpan looked_at = intersection(ids, whole);
+  for (std::int64_t id = looked_at.first; id <= looked_at.last; ++id) {
+    if (!rows.contains(id - whole.first)) continue;
+    if (!runs.empty() && runs.back().last == id - 1) {
+      runs.back().last = id;
+    } else {
+      runs.push_back({id, id});
+    }
+  }
+  if (order == ListOrder::NewestFirst) std::reverse(runs.begin(), runs.end());
+  return std::all_of(runs.begin(), runs.end(),
+                     [&](const IdSpan& run) { return scan(matching, run, order, visit); });
+}
+
+Statement& MeasurementQuery::statement(const std::string& sql) {
+  const auto found = statements_.find(sql);
+  if (found != statements_.end()) return found->second;
+  return statements_.try_emplace(sql, connection_, sql).first->second;
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sql/statement.hpp"
+#include "store/measurement_filter.hpp"
+#include "store/measurement_index.hpp"
+
+namespace fitgauge::store {
+
+/// The end of what is indexed: rows up to this id are in blocks. 0 when none is.
+std::int64_t indexed_to(sql::Statement& last_block);
+sql::Statement last_block_statement(sql::Connection& connection);
+
+/// The value of a field that aggregates are of, where the rows have none: NULL, or 0 in an engine
+/// whose keys cannot be NULL.
+struct AggregatedValue {
+  std::string_view is_none;
+  std::string_view parameter;
+
+  explicit AggregatedValue(const sql::Connection& connection);
+};
+
+/// That no correction takes the place of a row `m`: none names it, and of rivals, which name the
+/// same record, none later than it or a correction that it goes back to. @param last the last id
+/// that counts, or a parameter, which stands once in each.
+struct CurrentCondition {
+  std::string is_not_corrected;
+  std::string has_no_later_rival;
+
+  explicit CurrentCondition(std::string_view last);
+  std::string both() const { return is_not_corrected + " AND " + has_no_later_rival; }
+};
+
+/// Finds the measurements that match a filter, in either order: of the indexed blocks those that
+/// hold the values asked for, and in the newer rows all.
+class MeasurementQuery {
+ public:
+  /// @param columns what to select of the table `m`; the id comes behind them.
+  MeasurementQuery(sql::Connection& connection, std::string columns);
+
+  /// Called for each row; false ends the query.
+  using Visitor = std::function<bool(const sql::Rows&)>;
+
+  /// Visits the matching rows among `ids`. @returns false when the visitor ended the query.
+  bool run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
+           const Visitor& visit);
+
+ private:
+  /// A value that the index knows the rows of.
+  struct Posting {
+    int field = 0;
+    std::string value;
+  };
+  static std::vector<Posting> postings_of(const MeasurementFilter& filter);
+
+  sql::Statement& matching_rows(const MeasurementFilter& filter, ListOrder order);
+  bool scan(sql::Statement& matching, const IdSpan& ids, ListOrder order, const Visitor& visit);
+  bool run_indexed(const MeasurementFilter& filter, sql::Statement& matching, const IdSpan& ids,
+                   ListOrder order, const Visitor& visit);
+  bool run_block(sql::Statement& matching, const IdSpan& ids, const RowSet& rows,
+                 std::int64_t block, ListOrder order, const Visitor& visit);
+  RowSet rows_in_block(const Posting& posting, std::int64_t block);
+  sql::Statement& statement(const std::string& sql);
+
+  sql::Connection& connection_;
+  const std::string columns_;
+  const std::int64_t most_at_once_;
+  sql::Statement last_block_;
+  sql::Statement block_rows_;
+  std::map<std::string, sql::Statement> statements_;  ///< by their text
+};
+
+}  // namespace fitgauge::store

@@ -1,0 +1,345 @@
+#include "store/measurements_store.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <stdexcept>
+
+#include "sql/connection.hpp"
+#include "sql/log_query.hpp"
+#include "sql/measurement_indexer.hpp"
+#include "sql/measurement_query.hpp"
+#include "sql/measurement_summary.hpp"
+#include "sql/statement.hpp"
+#include "store/measurement_fields.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sql::Rows;
+using sql::Statement;
+
+MeasurementRow read_row(const Rows& rows) {
+  MeasurementRow row;
+  int column = 0;
+  row.id = rows.get<std::int64_t>(column);
+  for_each_field(row, [&](const char*, auto& value) {
+    value = rows.get<std::remove_reference_t<decltype(value)>>(++column);
+  });
+  row.hash = rows.get<Digest>(++column);
+  return row;
+}
+
+constexpr std::string_view kValueColumns =
+    "m.id, coalesce(m.corrected_nm, m.measured_nm), m.nominal_nm + m.lower_deviation_nm, "
+    "m.nominal_nm + m.upper_deviation_nm, m.subgroup, coalesce(m.origin, 0), "
+    "CASE WHEN m.origin > 0 THEN coalesce(m.number, m.seq) ELSE m.id END";
+
+MeasuredValue read_value(const Rows& rows) {
+  return {.id = rows.get<std::int64_t>(0),
+          .measured_nm = rows.get<std::int64_t>(1),
+          .lower_limit_nm = rows.get<std::int64_t>(2),
+          .upper_limit_nm = rows.get<std::int64_t>(3),
+          .subgroup = rows.get<std::optional<std::string_view>>(4),
+          .origin = rows.get<std::int64_t>(5),
+          .number = rows.get<std::int64_t>(6)};
+}
+
+/// Visits a page of the rows that match. @param read visits a row and gives its id
+/// @returns the cursor for the next page, or none when this was the last
+template <class Read>
+std::optional<std::int64_t> read_page(MeasurementQuery& query, const MeasurementFilter& filter,
+                                      const IdSpan& ids, std::size_t limit, ListOrder order,
+                                      const Read& read) {
+  std::int64_t last = 0;
+  std::size_t count = 0;
+  bool more = false;
+  query.run(filter, ids, order, [&](const Rows& rows) {
+    // One row more than the page tells that there is a next one.
+    more = count++ == limit;
+    if (!more) last = read(rows);
+    return !more;
+  });
+  return more ? std::optional(last) : std::nullopt;
+}
+
+}  // namespace
+
+struct MeasurementsStore::Statements {
+  explicit Statements(sql::Connection& c)
+      : connection(c),
+        table(c.measurements()),
+        by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
+        correction(c,
+                   "SELECT id FROM measurements WHERE correction_of = ? "
+                   "ORDER BY received_at DESC, hash DESC LIMIT 1"),
+        lost_target(c,
+                    fmt::format("SELECT correction_of FROM measurements m WHERE id = ? AND NOT {}",
+                                CurrentCondition(std::to_string(kLastId)).has_no_later_rival)),
+        corrections(c, "SELECT count(*) FROM measurements WHERE correction_of = ?"),
+        hand_on(
+            c,
+            "WITH RECURSIVE back(target, origin) AS (SELECT correction_of, origin FROM "
+            "measurements WHERE id = ?1 UNION ALL SELECT m.correction_of, m.origin FROM back "
+            "JOIN measurements m ON m.id = back.target) INSERT INTO revisions (tag, kind, name, "
+            "station) SELECT randomblob(8), 5, ?1, origin FROM back WHERE target IS NULL AND "
+            "origin > 0"),
+        revision(c,
+                 "SELECT 1 FROM table_revisions WHERE number = ?1 UNION ALL "
+                 "SELECT 1 FROM origin_revisions WHERE number = -?1"),
+        first_forwarded(c, "SELECT min(first_row) FROM origins"),
+        forwarded(c, "SELECT size FROM forwarding"),
+        newest_of_own(c, "SELECT max(seq) FROM measurements WHERE origin = 0"),
+        by_number(c, "SELECT id FROM measurements WHERE origin = ? AND number = ?"),
+        by_place(c, "SELECT id FROM measurements WHERE origin = ? AND seq = ? AND number IS NULL"),
+        log_rows(c, measurement_columns()),
+        log_hashes(c, "hash"),
+        indexer(c),
+        whole_rows(c, measurement_columns()),
+        values(c, std::string(kValueColumns)),
+        ids(c, "m.id") {}
+
+  /// @errors as append
+  Result<void> require_current(std::int64_t id) {
+    if (!by_id.query(id).next()) {
+      return Error{ErrorCode::MeasurementUnknown,
+                   fmt::format("there is no measurement {} to correct", id)};
+    }
+    if (replaced_by(id)) {
+      return Error{ErrorCode::MeasurementCorrected,
+                   fmt::format("measurement {} was corrected before; correct the current one", id)};
+    }
+    return {};
+  }
+
+  /// Of an older copy of a folder the centre has more: those would get the same places again.
+  Result<void> require_newest_copy() {
+    std::int64_t there = 0;
+    if (Rows rows = forwarded.query(); rows.next()) there = rows.get<std::int64_t>(0);
+    if (there == 0) return {};
+    const std::int64_t here = log_size();
+    if (there <= here) return {};
+    return Error{ErrorCode::StorageUnavailable,
+                 fmt::format("an older copy of this data folder was put back: its centre has {} "
+                             "measurements of it, and {} are here. Put the newest copy back, or "
+                             "start with an empty folder",
+                             there, here)};
+  }
+
+  std::int64_t log_size() {
+    const std::int64_t others = alone();
+    if (others != kLastId) return own_rows(others);
+    return table.last_id();
+  }
+
+  /// A row with limits of a revision that is not there is a bug of the caller's. Revisions are
+  /// never deleted: one that was seen is there.
+  void require_revision(std::int64_t number) {
+    if (number == seen_revision) return;
+    if (!revision.query(number).next()) {
+      throw std::logic_error(fmt::format("there is no table revision {}", number));
+    }
+    seen_revision = number;
+  }
+
+  /// Up to this id all rows are of this folder.
+  std::int64_t alone() {
+    const auto first = first_forwarded.returning<std::optional<std::int64_t>>();
+    return first ? *first - 1 : kLastId;
+  }
+
+  std::int64_t own_rows(std::int64_t first_others) {
+    return newest_of_own.returning<std::optional<std::int64_t>>().value_or(first_others);
+  }
+
+  /// Whether rows of others stand here, once they do or others may bring some; else it was seen.
+  void look_for_others() {
+    if (may_hold_others || connection.dialect().is_shared) may_hold_others = alone() != kLastId;
+  }
+
+  /// Numbers rows of this folder in its own log, where others have come between.
+  std::vector<MeasurementRow> numbered(std::span<const MeasurementRow> rows) {
+    std::vector<MeasurementRow> numbered(rows.begin(), rows.end());
+    std::int64_t place = own_rows(alone());
+    for (MeasurementRow& row : numbered) {
+      row.origin = 0;
+      row.seq = ++place;
+    }
+    return numbered;
+  }
+
+  std::optional<std::int64_t> corrected_by(std::int64_t id) {
+    Rows rows = correction.query(id);
+    return rows.next() ? std::optional(rows.get<std::int64_t>(0)) : std::nullopt;
+  }
+
+  /// The correction that stands in the place of a row: its own, or its rival.
+  std::optional<std::int64_t> replaced_by(std::int64_t id) {
+    if (const auto newer = corrected_by(id)) return newer;
+    std::optional<std::int64_t> target;
+    if (Rows rows = lost_target.query(id); rows.next()) target = rows.get<std::int64_t>(0);
+    return target ? corrected_by(*target) : std::nullopt;
+  }
+
+  /// Made at the first summary by this field.
+  MeasurementSummary& summary_by(TextField field) {
+    return summaries.try_emplace(field, connection, field).first->second;
+  }
+
+  sql::Connection& connection;
+  sql::MeasurementTable& table;
+  Statement by_id;
+  Statement correction;
+  Statement lost_target;
+  Statement corrections;
+  Statement hand_on;
+  Statement revision;
+  Statement first_forwarded;
+  Statement forwarded;
+  Statement newest_of_own;
+  Statement by_number;
+  Statement by_place;
+  LogQuery log_rows;
+  LogQuery log_hashes;
+  MeasurementIndexer indexer;
+  MeasurementQuery whole_rows;
+  MeasurementQuery values;
+  MeasurementQuery ids;
+  std::map<TextField, MeasurementSummary> summaries;
+  std::optional<std::int64_t> seen_revision;
+  bool may_hold_others = true;  ///< of the writer's: no other connection appends
+};
+
+MeasurementsStore::MeasurementsStore(sql::Connection& connection)
+    : statements_(std::make_unique<Statements>(connection)) {}
+MeasurementsStore::~MeasurementsStore() = default;
+
+Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
+  if (const Result<void> newest = statements_->require_newest_copy(); !newest) return newest;
+  for (const MeasurementRow& row : rows) {
+    if (row.correction_of) {
+      if (Result<void> open = statements_->require_current(*row.correction_of); !open) {
+        return open.error();
+      }
+    }
+    if (row.table_revision) statements_->require_revision(*row.table_revision);
+  }
+  statements_->look_for_others();
+  if (statements_->may_hold_others) {
+    statements_->table.append(statements_->numbered(rows));
+  } else {
+    statements_->table.append(rows);
+  }
+  for (const MeasurementRow& row : rows) {
+    if (!row.correction_of) continue;
+    statements_->indexer.corrected(*row.correction_of);
+    if (statements_->may_hold_others) statements_->hand_on.run(row.id);
+  }
+  return {};
+}
+
+void MeasurementsStore::append_forwarded(std::span<const MeasurementRow> rows) {
+  statements_->may_hold_others = true;
+  statements_->table.append(rows);
+  for (const MeasurementRow& row : rows) {
+    if (row.correction_of) statements_->indexer.corrected(*row.correction_of);
+  }
+}
+
+std::optional<std::int64_t> MeasurementsStore::find_forwarded(std::int64_t origin,
+                                                              std::int64_t number) const {
+  for (Statement* by : {&statements_->by_number, &statements_->by_place}) {
+    if (Rows rows = by->query(origin, number); rows.next()) return rows.get<std::int64_t>(0);
+  }
+  return std::nullopt;
+}
+
+void MeasurementsStore::list_log(std::int64_t origin, std::int64_t after, std::int64_t limit,
+                                 const Visitor& visit) const {
+  statements_->log_rows.run(origin, statements_->alone(), after, limit,
+                            [&](const Rows& rows) { visit(read_row(rows)); });
+}
+
+std::int64_t MeasurementsStore::log_hashes(std::int64_t origin, std::int64_t after,
+                                           std::int64_t limit, const HashVisitor& visit) const {
+  return statements_->log_hashes.run(origin, statements_->alone(), after, limit,
+                                     [&](const Rows& rows) { visit(rows.get<Digest>(0)); });
+}
+
+bool MeasurementsStore::find(std::int64_t id, const Visitor& visit) const {
+  Rows rows = statements_->by_id.query(id);
+  if (!rows.next()) return false;
+  visit(read_row(rows));
+  return true;
+}
+
+std::optional<std::int64_t> MeasurementsStore::corrected_by(std::int64_t id) const {
+  return statements_->corrected_by(id);
+}
+
+std::optional<std::int64_t> MeasurementsStore::replaced_by(std::int64_t id) const {
+  return statements_->replaced_by(id);
+}
+
+bool MeasurementsStore::has_rivals(std::int64_t correction_of) const {
+  return statements_->corrections.returning<std::int64_t>(correction_of) > 1;
+}
+
+std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& filter,
+                                                    std::int64_t after, std::size_t limit,
+                                                    const Visitor& visit, ListOrder order) const {
+  IdSpan ids{.first = 1, .last = kLastId};
+  if (order == ListOrder::NewestFirst) {
+    if (after > 0) ids.last = after - 1;
+  } else {
+    if (after == kLastId) return std::nullopt;
+    ids.first = after + 1;
+  }
+  return read_page(statements_->whole_rows, filter, ids, limit, order, [&](const Rows& rows) {
+    const MeasurementRow row = read_row(rows);
+    visit(row);
+    return row.id;
+  });
+}
+
+std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilter& filter,
+                                                           std::int64_t after, std::size_t limit,
+                                                           const ValueVisitor& visit) const {
+  if (after == kLastId) return std::nullopt;
+  const IdSpan ids{.first = after + 1, .last = kLastId};
+  return read_page(statements_->values, filter, ids, limit, ListOrder::OldestFirst,
+                   [&](const Rows& rows) {
+                     const MeasuredValue value = read_value(rows);
+                     visit(value);
+                     return value.id;
+                   });
+}
+
+std::optional<std::int64_t> MeasurementsStore::first_of_newest(const MeasurementFilter& filter,
+                                                               std::size_t count) const {
+  std::optional<std::int64_t> first;
+  const IdSpan all{.first = 1, .last = kLastId};
+  statements_->ids.run(filter, all, ListOrder::NewestFirst, [&](const Rows& rows) {
+    first = rows.get<std::int64_t>(0);
+    return --count > 0;
+  });
+  return first;
+}
+
+bool MeasurementsStore::index_step() { return statements_->indexer.step(); }
+
+void MeasurementsStore::verify_index(const std::function<void(std::string)>& note) const {
+  statements_->indexer.verify(note);
+}
+
+std::int64_t MeasurementsStore::log_size() const { return statements_->log_size(); }
+
+std::int64_t MeasurementsStore::last_id() const { return statements_->table.last_id(); }
+
+Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFilter& filter,
+                                                             TextField group_by,
+                                                             std::size_t max_groups) const {
+  return statements_->summary_by(group_by).run(filter, max_groups);
+}
+
+}  // namespace fitgauge::store

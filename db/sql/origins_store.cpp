@@ -1,0 +1,172 @@
+#include "store/origins_store.hpp"
+
+#include <fmt/format.h>
+
+#include "sql/sealed_table.hpp"
+#include "sql/statement.hpp"
+
+namespace fitgauge::store {
+
+using sql::Rows;
+using sql::Statement;
+
+namespace {
+
+std::string select(const sql::Connection& c, const SealedTable& table, std::string_view columns,
+                   std::string_view where) {
+  return fmt::format("SELECT {}, {} FROM {} {}", columns, table.is_sound(c), table.name, where);
+}
+
+constexpr std::string_view kOriginColumns = "number, digits, first_row, size, checkpoint";
+
+OriginsStore::Origin read_origin(const Rows& rows) {
+  require_sound(rows, 5, kOrigins);
+  return {.number = rows.get<std::int64_t>(0),
+          .digits = rows.get<std::string>(1),
+          .first_row = rows.get<std::optional<std::int64_t>>(2),
+          .size = rows.get<std::int64_t>(3),
+          .checkpoint = rows.get<std::string>(4)};
+}
+
+std::optional<OriginsStore::Origin> read_one(Rows rows) {
+  return rows.next() ? std::optional(read_origin(rows)) : std::nullopt;
+}
+
+/// The texts of the first column.
+std::vector<std::string> read_texts(Rows rows, const SealedTable& table) {
+  std::vector<std::string> texts;
+  while (rows.next()) {
+    require_sound(rows, 1, table);
+    texts.push_back(rows.get<std::string>(0));
+  }
+  return texts;
+}
+
+}  // namespace
+
+struct OriginsStore::Statements {
+  explicit Statements(sql::Connection& c)
+      : list(c, select(c, kOrigins, kOriginColumns, "ORDER BY number")),
+        by_digits(c, select(c, kOrigins, kOriginColumns, "WHERE digits = ?")),
+        by_number(c, select(c, kOrigins, kOriginColumns, "WHERE number = ?")),
+        insert(c, kOrigins.insert(c) + " RETURNING number"),
+        set_head(c, "UPDATE origins SET first_row = ?, size = ?, checkpoint = ? WHERE number = ?"),
+        seal(c, kOrigins),
+        keys(c, select(c, kOriginKeys, "vkey", "WHERE origin = ? ORDER BY number")),
+        add_key(c, kOriginKeys.insert(c)),
+        put_node(c,
+                 "INSERT INTO origin_nodes VALUES (?, ?, ?, ?) ON CONFLICT (origin, level, node) "
+                 "DO UPDATE SET hash = excluded.hash"),
+        nodes(c,
+              "SELECT hash FROM origin_nodes WHERE origin = ? AND level = ? AND node >= ? AND "
+              "node < ? ORDER BY node"),
+        forks(c, select(c, kOriginForks, "checkpoint", "WHERE origin = ? ORDER BY number")),
+        add_fork(c, kOriginForks.insert(c) + " ON CONFLICT DO NOTHING RETURNING 1"),
+        revisions(c, "SELECT number, id FROM origin_revisions ORDER BY number"),
+        revision(c, "SELECT number FROM origin_revisions WHERE id = ?"),
+        add_revision(c, kOriginRevisions.insert(c) + " RETURNING number"),
+        forwarded(c, select(c, kForwarding, "centre, size", "")),
+        set_forwarded(c, kForwarding.replace(c)) {}
+
+  Statement list;
+  Statement by_digits;
+  Statement by_number;
+  Statement insert;
+  Statement set_head;
+  Seal seal;
+  Statement keys;
+  Statement add_key;
+  Statement put_node;
+  Statement nodes;
+  Statement forks;
+  Statement add_fork;
+  Statement revisions;
+  Statement revision;
+  Statement add_revision;
+  Statement forwarded;
+  Statement set_forwarded;
+};
+
+OriginsStore::OriginsStore(sql::Connection& connection)
+    : statements_(std::make_unique<Statements>(connection)) {}
+OriginsStore::~OriginsStore() = default;
+
+std::vector<OriginsStore::Origin> OriginsStore::list() const {
+  std::vector<Origin> origins;
+  for (Rows rows = statements_->list.query(); rows.next();) origins.push_back(read_origin(rows));
+  return origins;
+}
+
+std::optional<OriginsStore::Origin> OriginsStore::find(std::string_view digits) const {
+  return read_one(statements_->by_digits.query(digits));
+}
+
+std::optional<OriginsStore::Origin> OriginsStore::find(std::int64_t number) const {
+  return read_one(statements_->by_number.query(number));
+}
+
+std::int64_t OriginsStore::add(std::string_view digits) {
+  return statements_->insert.returning<std::int64_t>(digits, std::optional<std::int64_t>(), 0,
+                                                     std::string_view());
+}
+
+void OriginsStore::set_head(const Origin& origin) {
+  statements_->set_head.run(origin.first_row, origin.size, origin.checkpoint, origin.number);
+  statements_->seal.renew(origin.number);
+}
+
+std::vector<std::string> OriginsStore::keys(std::int64_t origin) const {
+  return read_texts(statements_->keys.query(origin), kOriginKeys);
+}
+
+void OriginsStore::add_key(std::int64_t origin, std::string_view vkey, std::int64_t now_ns) {
+  statements_->add_key.run(origin, vkey, now_ns);
+}
+
+void OriginsStore::keep_nodes(std::int64_t origin, std::span<const LogStore::Node> nodes) {
+  for (const LogStore::Node& node : nodes) {
+    statements_->put_node.run(origin, node.level, node.index, node.hash);
+  }
+}
+
+std::int64_t OriginsStore::nodes(std::int64_t origin, int level, std::int64_t first,
+                                 std::int64_t count, const LogStore::Visitor& visit) const {
+  std::int64_t visited = 0;
+  Rows rows = statements_->nodes.query(origin, level, first, first + count);
+  for (; rows.next(); ++visited) visit(rows.get<Digest>(0));
+  return visited;
+}
+
+std::vector<std::string> OriginsStore::forks(std::int64_t origin) const {
+  return read_texts(statements_->forks.query(origin), kOriginForks);
+}
+
+bool OriginsStore::add_fork(std::int64_t origin, std::string_view checkpoint, std::int64_t now_ns) {
+  return statements_->add_fork.run_counting(origin, checkpoint, now_ns) > 0;
+}
+
+std::vector<OriginsStore::Revision> OriginsStore::revisions() const {
+  std::vector<Revision> revisions;
+  for (Rows rows = statements_->revisions.query(); rows.next();) {
+    revisions.push_back({.number = rows.get<std::int64_t>(0), .id = rows.get<std::string>(1)});
+  }
+  return revisions;
+}
+
+std::int64_t OriginsStore::add_revision(std::string_view id) {
+  if (Rows rows = statements_->revision.query(id); rows.next()) return rows.get<std::int64_t>(0);
+  return statements_->add_revision.returning<std::int64_t>(id);
+}
+
+std::optional<OriginsStore::Forwarded> OriginsStore::forwarded() const {
+  Rows rows = statements_->forwarded.query();
+  if (!rows.next()) return std::nullopt;
+  require_sound(rows, 2, kForwarding);
+  return Forwarded{.centre = rows.get<std::string>(0), .size = rows.get<std::int64_t>(1)};
+}
+
+void OriginsStore::set_forwarded(const Forwarded& forwarded) {
+  statements_->set_forwarded.run(1, forwarded.centre, forwarded.size);
+}
+
+}  // namespace fitgauge::store

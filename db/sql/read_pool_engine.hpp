@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "sql/health_monitor.hpp"
+#include "sql/session.hpp"
+#include "store/job_queue.hpp"
+#include "store/open_options.hpp"
+#include "store/read_pool.hpp"
+
+namespace fitgauge::store {
+
+/// The reader threads with their connections. Destroying it runs what is queued.
+class ReadPool::Engine {
+ public:
+  using ReadJob = Job<const Stores>;
+
+  Engine(const OpenOptions& options, HealthMonitor& health, sql::OpenSession open);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  ~Engine();
+
+  void enqueue(std::unique_ptr<ReadJob> job) { queue_.push(std::move(job)); }
+
+  /// Runs what is queued and ends the threads; what comes later is refused.
+  void stop();
+
+ private:
+  void run();
+  void read(std::unique_ptr<sql::Session>& session, ReadJob& job);
+
+  const OpenOptions options_;
+  HealthMonitor& health_;
+  const sql::OpenSession open_;
+  JobQueue<ReadJob> queue_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace fitgauge::store

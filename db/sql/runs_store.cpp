@@ -1,0 +1,157 @@
+#include "store/runs_store.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/text.hpp"
+#include "sql/sealed_table.hpp"
+#include "sql/statement.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sql::Blob;
+using sql::Rows;
+
+constexpr std::string_view kRun =
+    "id, status, program, request, result, created_at, finished_at, caller";
+
+Run read_run(const Rows& rows) {
+  require_sound(rows, 8, kRuns);
+  return {.id = rows.get<std::int64_t>(0),
+          .status = rows.get<RunStatus>(1),
+          .program = rows.get<std::string>(2),
+          .request = rows.get<std::string>(3),
+          .result = rows.get<std::string>(4),
+          .created_at_ns = rows.get<std::int64_t>(5),
+          .finished_at_ns = rows.get<std::optional<std::int64_t>>(6),
+          .caller = rows.get<std::optional<std::string>>(7)};
+}
+
+/// `TNC:\nc_prog\LOG.TXT` is called `LOG.TXT`.
+std::string_view name_of(std::string_view path) {
+  return path.substr(path.find_last_of("\\/:") + 1);
+}
+
+}  // namespace
+
+struct RunsStore::Statements {
+  explicit Statements(sql::Connection& c)
+      : insert(c, kRuns.insert(c) + " RETURNING id"),
+        start(c, "UPDATE runs SET status = 2 WHERE id = ?"),
+        finish(c, "UPDATE runs SET status = ?2, result = ?3, finished_at = ?4 WHERE id = ?1"),
+        seal(c, kRuns),
+        insert_trace(c, kRunTraces.insert(c)),
+        insert_file(c, kRunFiles.insert(c)),
+        status(c, "SELECT status FROM runs WHERE id = ?"),
+        find(c, fmt::format("SELECT {}, {} FROM runs WHERE id = ?", kRun, kRuns.is_sound(c))),
+        trace(c, fmt::format("SELECT trace, {} FROM run_traces WHERE run = ?",
+                             kRunTraces.is_sound(c))),
+        file(c, fmt::format("SELECT path, content, {} FROM run_files WHERE run = ? AND "
+                            "name_key = ? ORDER BY path",
+                            kRunFiles.is_sound(c))),
+        page(c, fmt::format("SELECT {}, {} FROM runs WHERE (?1 IS NULL OR status = ?1) "
+                            "AND (?2 IS NULL OR program_key = ?2) AND id < ?3 "
+                            "ORDER BY id DESC LIMIT ?4",
+                            kRun, kRuns.is_sound(c))),
+        purge(c,
+              "DELETE FROM runs WHERE id IN "
+              "(SELECT id FROM runs WHERE finished_at < ? LIMIT ?) RETURNING 1") {}
+
+  Result<void> require_unfinished(std::int64_t id) {
+    Rows rows = status.query(id);
+    if (!rows.next()) return Error{ErrorCode::RunUnknown, fmt::format("there is no run {}", id)};
+    if (is_finished(rows.get<RunStatus>(0))) {
+      return Error{ErrorCode::RunFinished, fmt::format("run {} has finished", id)};
+    }
+    return {};
+  }
+
+  sql::Statement insert;
+  sql::Statement start;
+  sql::Statement finish;
+  Seal seal;
+  sql::Statement insert_trace;
+  sql::Statement insert_file;
+  sql::Statement status;
+  sql::Statement find;
+  sql::Statement trace;
+  sql::Statement file;
+  sql::Statement page;
+  sql::Statement purge;
+};
+
+RunsStore::RunsStore(sql::Connection& connection)
+    : statements_(std::make_unique<Statements>(connection)) {}
+RunsStore::~RunsStore() = default;
+
+std::int64_t RunsStore::create(const Run& run) {
+  const std::string program_key = ascii_upper(run.program);
+  return statements_->insert.returning<std::int64_t>(run.status, run.program, program_key,
+                                                     run.request, run.result, run.created_at_ns,
+                                                     run.finished_at_ns, run.caller);
+}
+
+Result<void> RunsStore::start(std::int64_t id) {
+  if (Result<void> open = statements_->require_unfinished(id); !open) return open;
+  statements_->start.run(id);
+  statements_->seal.renew(id);
+  return {};
+}
+
+Result<void> RunsStore::finish(std::int64_t id, const RunOutcome& outcome, std::int64_t now_ns) {
+  if (Result<void> open = statements_->require_unfinished(id); !open) return open;
+  statements_->finish.run(id, outcome.status, outcome.result, now_ns);
+  statements_->seal.renew(id);
+  statements_->insert_trace.run(id, Blob{outcome.trace});
+  for (const RunFile& file : outcome.files) {
+    const std::string key = ascii_upper(name_of(file.path));
+    statements_->insert_file.run(id, key, file.path, Blob{file.content});
+  }
+  return {};
+}
+
+std::optional<Run> RunsStore::find(std::int64_t id) const {
+  Rows rows = statements_->find.query(id);
+  return rows.next() ? std::optional(read_run(rows)) : std::nullopt;
+}
+
+std::optional<std::string> RunsStore::trace(std::int64_t id) const {
+  Rows rows = statements_->trace.query(id);
+  if (!rows.next()) return std::nullopt;
+  require_sound(rows, 1, kRunTraces);
+  return std::string(rows.get<Blob>(0).bytes);
+}
+
+std::optional<RunFile> RunsStore::file(std::int64_t id, std::string_view name) const {
+  const std::string key = ascii_upper(name);
+  Rows rows = statements_->file.query(id, key);
+  if (!rows.next()) return std::nullopt;
+  require_sound(rows, 2, kRunFiles);
+  return RunFile{rows.get<std::string>(0), std::string(rows.get<Blob>(1).bytes)};
+}
+
+RunsStore::Page RunsStore::list(const RunFilter& filter, std::optional<std::int64_t> after,
+                                std::size_t limit) const {
+  const std::optional<std::string> program_key =
+      filter.program ? std::optional(ascii_upper(*filter.program)) : std::nullopt;
+  const std::int64_t before = after.value_or(std::numeric_limits<std::int64_t>::max());
+  Page page;
+  // One row more than the page tells whether there is a next one.
+  for (Rows rows = statements_->page.query(filter.status, program_key, before, limit + 1);
+       rows.next();) {
+    if (page.runs.size() == limit) {
+      page.next = page.runs.back().id;
+      break;
+    }
+    page.runs.push_back(read_run(rows));
+  }
+  return page;
+}
+
+std::int64_t RunsStore::purge(std::int64_t before_ns, std::int64_t limit) {
+  return statements_->purge.run_counting(before_ns, limit);
+}
+
+}  // namespace fitgauge::store

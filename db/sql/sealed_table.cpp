@@ -1,0 +1,103 @@
+#include "sql/sealed_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+constexpr std::array kTables = {kTableSets,
+                                kTableRevisions,
+                                kApiKeys,
+                                kIdempotentAnswers,
+                                kFileRevisions,
+                                kDocuments,
+                                kRuns,
+                                kRunTraces,
+                                kRunFiles,
+                                kEvents,
+                                kLog,
+                                kLogKeys,
+                                kOrigins,
+                                kOriginKeys,
+                                kOriginForks,
+                                kOriginRevisions,
+                                kForwarding,
+                                kReceived,
+                                kTableRevisionIds};
+
+std::vector<std::string_view> names_of(std::string_view columns) {
+  std::vector<std::string_view> names;
+  while (!columns.empty()) {
+    const std::size_t end = std::min(columns.find(", "), columns.size());
+    names.push_back(columns.substr(0, end));
+    columns.remove_prefix(std::min(end + 2, columns.size()));
+  }
+  return names;
+}
+
+std::string insert_into(const SealedTable& table, std::string_view verb, bool is_sealed) {
+  std::string values = "?1";
+  for (std::size_t i = 2; i <= names_of(table.columns).size(); ++i) {
+    values += fmt::format(", ?{}", i);
+  }
+  return is_sealed
+             ? fmt::format("{} INTO {} ({}, seal) VALUES ({}, row_digest({}))", verb, table.name,
+                           table.columns, values, values)
+             : fmt::format("{} INTO {} ({}) VALUES ({})", verb, table.name, table.columns, values);
+}
+
+}  // namespace
+
+std::string SealedTable::insert(const sql::Connection& connection) const {
+  return insert_into(*this, "INSERT", connection.dialect().has_seals);
+}
+
+std::string SealedTable::replace(const sql::Connection& connection) const {
+  if (connection.dialect().has_seals) return insert_into(*this, "INSERT OR REPLACE", true);
+  std::string changes;
+  for (const std::string_view column : names_of(columns)) {
+    changes += fmt::format("{}{} = excluded.{}", changes.empty() ? "" : ", ", column, column);
+  }
+  return fmt::format("{} ON CONFLICT ({}) DO UPDATE SET {}", insert(connection), unique, changes);
+}
+
+std::string SealedTable::is_sound(const sql::Connection& connection, std::string_view alias) const {
+  if (!connection.dialect().has_seals) return "1";
+  std::string prefixed;
+  const std::string prefix = alias.empty() ? std::string() : fmt::format("{}.", alias);
+  for (const std::string_view column : names_of(columns)) {
+    prefixed += fmt::format("{}{}{}", prefixed.empty() ? "" : ", ", prefix, column);
+  }
+  return fmt::format("coalesce({}seal = row_digest({}), 1)", prefix, prefixed);
+}
+
+std::string SealedTable::altered() const {
+  return fmt::format("SELECT {} FROM {} WHERE NOT coalesce(seal = row_digest({}), 1)", key, name,
+                     columns);
+}
+
+std::span<const SealedTable> sealed_tables() { return kTables; }
+
+Seal::Seal(sql::Connection& connection, const SealedTable& table)
+    : is_sealed_(connection.dialect().has_seals),
+      reseal_(connection, fmt::format("UPDATE {} SET seal = row_digest({}) WHERE {} = ?",
+                                      table.name, table.columns, table.key)) {}
+
+void Seal::renew(std::int64_t key) {
+  if (is_sealed_) reseal_.run(key);
+}
+
+void require_sound(const sql::Rows& rows, int column, const SealedTable& table) {
+  if (rows.get<bool>(column)) return;
+  throw StorageFailure(
+      Error{ErrorCode::StorageCorrupt,
+            fmt::format("a row of {} does not fit its seal; restore a backup", table.name)});
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "store/stores.hpp"
+#include "store/writer_counters.hpp"
+
+namespace fitgauge::store::sql {
+
+/// A connection with its stores, and what delimits a transaction on it. Used by one thread. After a
+/// StorageFailure it is closed and another is opened.
+class Session {
+ public:
+  Session() = default;
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  virtual ~Session() = default;
+
+  virtual Stores& stores() = 0;
+
+  /// All that follows sees the state of the first statement.
+  virtual void begin_reading() = 0;
+  /// Nobody else writes until the commit: what is read here stays true, and ids follow each other
+  /// in the order of the commits.
+  virtual void begin_writing() = 0;
+  virtual void commit() = 0;
+  virtual void rollback() noexcept = 0;
+
+  /// Around each job of a transaction: undo() takes back what it has changed.
+  virtual void savepoint() = 0;
+  virtual void undo() = 0;
+  virtual void release() = 0;
+
+  /// Writes something, to find out whether commits work again after one has failed.
+  virtual void probe() = 0;
+  /// Of the writer, between two transactions.
+  virtual void tidy_up(WriterCounters& counters) = 0;
+};
+
+using OpenSession = std::function<std::unique_ptr<Session>()>;
+
+}  // namespace fitgauge::store::sql

@@ -1,0 +1,180 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "base/digest.hpp"
+#include "sql/prepared.hpp"
+
+namespace fitgauge::store::sql {
+
+class Connection;
+class Rows;
+
+/// Bytes that are bound and read as a BLOB.
+struct Blob {
+  std::string_view bytes;
+};
+
+template <class T>
+inline constexpr bool kIsOptional = false;
+template <class T>
+inline constexpr bool kIsOptional<std::optional<T>> = true;
+
+template <class T>
+constexpr Kind kind_of_value() {
+  if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
+    return Kind::Integer;
+  } else if constexpr (std::is_same_v<T, Digest> || std::is_same_v<T, Blob>) {
+    return Kind::Bytes;
+  } else {
+    return Kind::Text;
+  }
+}
+
+/// Binds an integer, enumeration, text, Digest, Blob, or an optional of these.
+template <class Statement, class T>
+void bind_value(Statement& statement, int index, const T& value) {
+  if constexpr (kIsOptional<T>) {
+    using Value = typename T::value_type;
+    value ? bind_value(statement, index, *value)
+          : statement.bind_null(index, kind_of_value<Value>());
+  } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
+    statement.bind_integer(index, static_cast<std::int64_t>(value));
+  } else if constexpr (std::is_same_v<T, Digest>) {
+    statement.bind_blob(index, {reinterpret_cast<const char*>(value.data()), value.size()});
+  } else if constexpr (std::is_same_v<T, Blob>) {
+    statement.bind_blob(index, value.bytes);
+  } else {
+    statement.bind_text(index, value);
+  }
+}
+
+/// A statement of one connection: prepared at its first use and kept.
+/// Bound texts are not copied: they live until the statement has run, and every run binds all anew.
+class Statement {
+ public:
+  Statement(Connection& connection, std::string sql);
+
+  /// Runs to the end, for what gives no rows.
+  template <class... Values>
+  void run(const Values&... values);
+
+  /// Runs to the end and gives the first column of its first row; for INSERT … RETURNING.
+  template <class T, class... Values>
+  T returning(const Values&... values);
+
+  /// Runs to the end and counts the rows it gives; for DELETE … RETURNING.
+  template <class... Values>
+  std::int64_t run_counting(const Values&... values);
+
+  /// Starts a query; one at a time.
+  template <class... Values>
+  Rows query(const Values&... values);
+
+  void release_pages() noexcept {
+    if (prepared_) prepared_->release_pages();
+  }
+
+  /// For long lists of values: bind from 1 on, then query with Rows.
+  template <class T>
+  void bind(int index, const T& value) {
+    bind_value(prepared(), index, value);
+  }
+
+ private:
+  friend class Rows;
+
+  template <class... Values>
+  void bind_all(const Values&... values) {
+    int index = 0;
+    (bind(++index, values), ...);
+  }
+  Prepared& prepared() {
+    if (!prepared_) prepare();
+    return *prepared_;
+  }
+  void prepare();
+
+  Connection* connection_;
+  std::string sql_;
+  std::unique_ptr<Prepared> prepared_;
+};
+
+/// The rows of a query; ends it when destroyed, so that no read transaction stays open.
+class Rows {
+ public:
+  explicit Rows(Statement& statement) : prepared_(&statement.prepared()) {}
+  explicit Rows(Prepared& prepared) : prepared_(&prepared) {}
+  Rows(Rows&& other) noexcept : prepared_(std::exchange(other.prepared_, nullptr)) {}
+  Rows& operator=(Rows&&) = delete;
+  ~Rows() {
+    if (prepared_ != nullptr) prepared_->reset();
+  }
+
+  bool next() { return prepared_->step(); }
+  int columns() const { return prepared_->columns(); }
+
+  /// A column from 0 on: integer, enumeration, text, Digest, Blob, or an optional of these. Views
+  /// are valid until the next step.
+  template <class T>
+  T get(int column) const {
+    if constexpr (kIsOptional<T>) {
+      if (prepared_->is_null(column)) return std::nullopt;
+      return get<typename T::value_type>(column);
+    } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
+      return static_cast<T>(prepared_->integer(column));
+    } else if constexpr (std::is_same_v<T, Digest>) {
+      Digest digest{};
+      const std::string_view bytes = prepared_->blob(column);
+      std::copy_n(bytes.begin(), std::min(bytes.size(), digest.size()), digest.begin());
+      return digest;
+    } else if constexpr (std::is_same_v<T, Blob>) {
+      return Blob{prepared_->blob(column)};
+    } else {
+      return T(prepared_->text(column));
+    }
+  }
+
+ private:
+  Prepared* prepared_;
+};
+
+template <class... Values>
+void Statement::run(const Values&... values) {
+  bind_all(values...);
+  prepared().run();
+}
+
+template <class T, class... Values>
+T Statement::returning(const Values&... values) {
+  Rows rows = query(values...);
+  rows.next();
+  T first = rows.get<T>(0);
+  while (rows.next()) {
+  }
+  return first;
+}
+
+template <class... Values>
+std::int64_t Statement::run_counting(const Values&... values) {
+  Rows rows = query(values...);
+  std::int64_t count = 0;
+  while (rows.next()) ++count;
+  return count;
+}
+
+template <class... Values>
+Rows Statement::query(const Values&... values) {
+  prepared();
+  bind_all(values...);
+  return Rows(*this);
+}
+
+}  // namespace fitgauge::store::sql

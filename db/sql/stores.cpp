@@ -1,0 +1,19 @@
+#include "store/stores.hpp"
+
+namespace fitgauge::store {
+
+Stores::Stores(sql::Connection& connection, const Clock& clock,
+               std::chrono::hours idempotency_retention)
+    : tables(connection),
+      measurements(connection),
+      idempotency(connection, clock, idempotency_retention),
+      keys(connection),
+      files(connection),
+      documents(connection),
+      runs(connection),
+      events(connection),
+      log(connection),
+      origins(connection),
+      revisions(connection) {}
+
+}  // namespace fitgauge::store

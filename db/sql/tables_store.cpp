@@ -1,0 +1,217 @@
+#include "store/tables_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "sql/sealed_table.hpp"
+#include "sql/statement.hpp"
+#include "store/canonical_digest.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sql::Rows;
+
+void sort(TableContent& content) {
+  std::sort(content.cells.begin(), content.cells.end());
+  std::sort(content.custom.begin(), content.custom.end());
+}
+
+bool is_valid(const TableCell& cell) { return cell.over_nm >= 0 && cell.over_nm < cell.up_to_nm; }
+bool is_valid(const CustomCell& cell) {
+  return cell.over_nm >= 0 && cell.over_nm < cell.up_to_nm && cell.lower_nm <= cell.upper_nm;
+}
+
+/// The first cell of a sorted list that is not valid or begins at the size of the one before.
+template <class Cell>
+const Cell* first_invalid(const std::vector<Cell>& cells) {
+  const Cell* before = nullptr;
+  for (const Cell& cell : cells) {
+    const bool twice = before != nullptr && before->table == cell.table &&
+                       before->column == cell.column && before->over_nm == cell.over_nm;
+    if (twice || !is_valid(cell)) return &cell;
+    before = &cell;
+  }
+  return nullptr;
+}
+
+template <class Cell>
+Error invalid(const Cell& cell) {
+  return {ErrorCode::TableRowsInvalid,
+          "a size range is given twice, is empty, or has its lower deviation above the upper one",
+          fmt::format("{} {} over {} nm up to {} nm", cell.table, cell.column, cell.over_nm,
+                      cell.up_to_nm)};
+}
+
+constexpr std::size_t kShownDigits = 8;
+
+TableRevision read_revision(const Rows& rows) {
+  TableRevision revision{.number = rows.get<std::int64_t>(0),
+                         .id = {},
+                         .digest = rows.get<Digest>(1),
+                         .source = rows.get<std::string>(2),
+                         .created_at_ns = rows.get<std::int64_t>(3),
+                         .parent = rows.get<std::optional<std::int64_t>>(4),
+                         .caller = rows.get<std::optional<std::string>>(5)};
+  const auto given = rows.get<std::optional<std::string>>(6);
+  revision.id =
+      given.value_or(fmt::format("{}-{}", revision.number, shown_digits(revision.digest)));
+  return revision;
+}
+
+std::string select_revision(std::string_view rest) {
+  return fmt::format(
+      "SELECT number, digest, source, created_at, parent, caller, (SELECT id FROM "
+      "table_revision_ids WHERE revision = number) FROM table_revisions {}",
+      rest);
+}
+
+}  // namespace
+
+struct TablesStore::Statements {
+  explicit Statements(sql::Connection& c)
+      : newest(c, select_revision("ORDER BY number DESC LIMIT 1")),
+        by_number(c, select_revision("WHERE number = ?")),
+        by_given_id(c, select_revision("WHERE number = (SELECT max(revision) FROM "
+                                       "table_revision_ids WHERE id = ?)")),
+        all(c, select_revision("ORDER BY number")),
+        cells(c,
+              "SELECT table_name, column_name, over_nm, up_to_nm, value_nm FROM table_cells WHERE "
+              "table_set = (SELECT table_set FROM table_revisions WHERE number = ?) "
+              "ORDER BY table_name, column_name, over_nm"),
+        custom(c,
+               "SELECT table_name, column_name, over_nm, up_to_nm, upper_nm, lower_nm FROM "
+               "custom_cells WHERE revision = ? ORDER BY table_name, column_name, over_nm"),
+        set_by_digest(c, "SELECT id FROM table_sets WHERE digest = ?"),
+        insert_set(c, kTableSets.insert(c) + " RETURNING id"),
+        insert_cell(c, "INSERT INTO table_cells VALUES (?, ?, ?, ?, ?, ?)"),
+        insert_revision(c, kTableRevisions.insert(c) + " RETURNING number"),
+        insert_custom(c, "INSERT INTO custom_cells VALUES (?, ?, ?, ?, ?, ?, ?)"),
+        insert_id(c, kTableRevisionIds.insert(c)) {}
+
+  std::optional<TableRevision> one(sql::Statement& statement, auto... key) {
+    Rows rows = statement.query(key...);
+    if (!rows.next()) return std::nullopt;
+    return read_revision(rows);
+  }
+
+  std::optional<LoadedTables> load(std::optional<TableRevision> revision) {
+    if (!revision) return std::nullopt;
+    LoadedTables loaded{.revision = *std::move(revision), .content = {}, .computed = {}};
+    for (Rows rows = cells.query(loaded.revision.number); rows.next();) {
+      loaded.content.cells.push_back({.table = rows.get<std::string>(0),
+                                      .column = rows.get<std::string>(1),
+                                      .over_nm = rows.get<std::int64_t>(2),
+                                      .up_to_nm = rows.get<std::int64_t>(3),
+                                      .value_nm = rows.get<std::optional<std::int64_t>>(4)});
+    }
+    for (Rows rows = custom.query(loaded.revision.number); rows.next();) {
+      loaded.content.custom.push_back({.table = rows.get<std::string>(0),
+                                       .column = rows.get<std::string>(1),
+                                       .over_nm = rows.get<std::int64_t>(2),
+                                       .up_to_nm = rows.get<std::int64_t>(3),
+                                       .upper_nm = rows.get<std::int64_t>(4),
+                                       .lower_nm = rows.get<std::int64_t>(5)});
+    }
+    loaded.computed = digest_of(loaded.content);
+    return loaded;
+  }
+
+  /// The set that holds just these cells, stored now if it was not.
+  std::int64_t set_of(const std::vector<TableCell>& list) {
+    const Digest digest = digest_of({.cells = list, .custom = {}});
+    if (Rows rows = set_by_digest.query(digest); rows.next()) return rows.get<std::int64_t>(0);
+    const auto set = insert_set.returning<std::int64_t>(digest);
+    for (const TableCell& cell : list) {
+      insert_cell.run(set, cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.value_nm);
+    }
+    return set;
+  }
+
+  sql::Statement newest;
+  sql::Statement by_number;
+  sql::Statement by_given_id;
+  sql::Statement all;
+  sql::Statement cells;
+  sql::Statement custom;
+  sql::Statement set_by_digest;
+  sql::Statement insert_set;
+  sql::Statement insert_cell;
+  sql::Statement insert_revision;
+  sql::Statement insert_custom;
+  sql::Statement insert_id;
+};
+
+std::string shown_digits(const Digest& digest) { return to_hex(digest).substr(0, kShownDigits); }
+
+Digest digest_of(TableContent content) {
+  sort(content);
+  CanonicalDigest digest;
+  const auto add_all = [&digest](const auto&... values) { (digest.add(values), ...); };
+  digest.add(content.cells.size());
+  for (const TableCell& cell : content.cells) {
+    add_all(cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.value_nm);
+  }
+  digest.add(content.custom.size());
+  for (const CustomCell& cell : content.custom) {
+    add_all(cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.upper_nm, cell.lower_nm);
+  }
+  return digest.finish();
+}
+
+TablesStore::TablesStore(sql::Connection& connection)
+    : statements_(std::make_unique<Statements>(connection)) {}
+TablesStore::~TablesStore() = default;
+
+Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_t now_ns) {
+  const std::optional<TableRevision> newest = statements_->one(statements_->newest);
+  const std::optional<std::int64_t> in_force =
+      newest ? std::optional(newest->number) : std::nullopt;
+  if (tables.parent != in_force) {
+    return Error{ErrorCode::PreconditionFailed,
+                 fmt::format("the tables in force are revision {}; read them again and repeat the "
+                             "change",
+                             newest ? newest->id : "none")};
+  }
+  TableContent content = tables.content;
+  sort(content);
+  if (const TableCell* cell = first_invalid(content.cells)) return invalid(*cell);
+  if (const CustomCell* cell = first_invalid(content.custom)) return invalid(*cell);
+
+  const std::int64_t set = statements_->set_of(content.cells);
+  const auto number = statements_->insert_revision.returning<std::int64_t>(
+      digest_of(content), set, tables.source, now_ns, tables.parent, tables.caller);
+  for (const CustomCell& cell : content.custom) {
+    statements_->insert_custom.run(number, cell.table, cell.column, cell.over_nm, cell.up_to_nm,
+                                   cell.upper_nm, cell.lower_nm);
+  }
+  if (tables.id) statements_->insert_id.run(number, *tables.id);
+  return *statements_->one(statements_->by_number, number);
+}
+
+std::optional<LoadedTables> TablesStore::load_latest() const {
+  return statements_->load(statements_->one(statements_->newest));
+}
+
+std::optional<LoadedTables> TablesStore::load(std::int64_t number) const {
+  return statements_->load(statements_->one(statements_->by_number, number));
+}
+
+std::optional<LoadedTables> TablesStore::load(std::string_view id) const {
+  if (auto given = statements_->load(statements_->one(statements_->by_given_id, id))) return given;
+  std::int64_t number = 0;
+  std::from_chars(id.data(), id.data() + id.size(), number);
+  std::optional<LoadedTables> loaded = load(number);
+  if (loaded && loaded->revision.id != id) loaded.reset();
+  return loaded;
+}
+
+std::vector<TableRevision> TablesStore::list() const {
+  std::vector<TableRevision> revisions;
+  for (Rows rows = statements_->all.query(); rows.next();) revisions.push_back(read_revision(rows));
+  return revisions;
+}
+
+}  // namespace fitgauge::store

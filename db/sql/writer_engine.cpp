@@ -1,0 +1,203 @@
+#include "sql/writer_engine.hpp"
+
+#include <exception>
+#include <iterator>
+
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kProbeInterval{1'000};
+/// Jobs that are waiting when a transaction has taken so long go into the next one.
+constexpr milliseconds kLongestBatch{20};
+
+Error internal_error(const std::exception& bug) {
+  return {ErrorCode::Internal, std::string("a storage job failed: ") + bug.what()};
+}
+
+}  // namespace
+
+Writer::Engine::Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
+                       sql::OpenSession open)
+    : options_(options),
+      clock_(clock),
+      health_(health),
+      open_(std::move(open)),
+      queue_(options.queue_limit) {
+  session();
+  thread_ = std::thread([this] { run(); });
+}
+
+Writer::Engine::~Engine() { stop(); }
+
+void Writer::Engine::stop() {
+  queue_.close();
+  if (thread_.joinable()) thread_.join();
+}
+
+bool Writer::Engine::begin(const IdempotentRequest& request) {
+  const std::lock_guard lock(under_way_mutex_);
+  return under_way_.emplace(request.caller, request.method, request.path, request.key).second;
+}
+
+void Writer::Engine::end(const IdempotentRequest& request) {
+  const std::lock_guard lock(under_way_mutex_);
+  under_way_.erase({request.caller, request.method, request.path, request.key});
+}
+
+void Writer::Engine::run() {
+  Jobs jobs;
+  while (true) {
+    if (jobs.empty()) jobs = queue_.take_all(patience());
+    if (jobs.empty() && queue_.is_finished()) break;
+    const bool had_jobs = !jobs.empty();
+    if (had_jobs) commit(jobs);
+    if (session_) session_->tidy_up(counters_);
+    if (failing_ && !had_jobs) probe();
+    if (!failing_ && (!had_jobs || pace_.is_due(MaintenancePace::Clock::now()))) maintain();
+  }
+  session_.reset();
+}
+
+/// One transaction for the first jobs, which it takes away, then their outcomes.
+void Writer::Engine::commit(Jobs& jobs) {
+  Jobs rest;
+  if (options_.commit_each) {
+    std::move(std::next(jobs.begin()), jobs.end(), std::back_inserter(rest));
+    jobs.resize(1);
+  }
+  std::vector<std::optional<Error>> errors;
+  const std::optional<Error> error = try_commit(jobs, errors);
+  if (error) errors.assign(jobs.size(), error);
+  std::move(jobs.begin() + static_cast<std::ptrdiff_t>(errors.size()), jobs.end(),
+            std::back_inserter(rest));
+  const auto tell_outcomes = [&] {
+    for (std::size_t i = 0; i < errors.size(); ++i) tell(*jobs[i], std::move(errors[i]));
+  };
+  options_.around_outcomes ? options_.around_outcomes(tell_outcomes) : tell_outcomes();
+  jobs = std::move(rest);
+  if (!error && options_.committed) guarded("a listener of commits", options_.committed);
+}
+
+/// Runs jobs until the transaction has taken long enough: one at least, so that none waits for
+/// more than a long one before it.
+/// @param errors gets what concerns one job, an entry for each that was run.
+/// @returns what concerns the whole batch, run or not.
+std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
+                                                std::vector<std::optional<Error>>& errors) {
+  const Health health = health_.health();
+  if (health.state == HealthState::Damaged) return Error{ErrorCode::StorageCorrupt, health.reason};
+  std::optional<Error> error;
+  try {
+    const auto begin = MaintenancePace::Clock::now();
+    const auto end = begin + kLongestBatch;
+    session().begin_writing();
+    do {
+      errors.push_back(run_in_savepoint(*jobs[errors.size()]));
+    } while (errors.size() < jobs.size() && MaintenancePace::Clock::now() < end);
+    const std::int64_t own_rows = session().stores().measurements.log_size();
+    session().commit();
+    counters_.own_rows = own_rows;  // before the outcomes are told
+    succeed();
+    const auto now = MaintenancePace::Clock::now();
+    pace_.committed(now);
+    counters_.commit_seconds.observe(std::chrono::duration<double>(now - begin).count());
+    counters_.batch_jobs.observe(static_cast<double>(errors.size()));
+  } catch (const StorageFailure& failure) {
+    error = failure.error();
+  } catch (const std::exception& bug) {
+    error = internal_error(bug);
+  }
+  if (error) fail(*error);
+  return error;
+}
+
+/// @returns the job's bug, if it threw. Broken storage concerns the whole batch and is thrown.
+std::optional<Error> Writer::Engine::run_in_savepoint(WriteJob& job) {
+  sql::Session& session = *session_;
+  session.savepoint();
+  std::optional<Error> bug;
+  bool keep = false;
+  try {
+    keep = job.run(session.stores());
+  } catch (const StorageFailure&) {
+    throw;
+  } catch (const std::exception& thrown) {
+    bug = internal_error(thrown);
+    if (options_.job_threw) options_.job_threw(*bug);
+  }
+  if (!keep) session.undo();
+  session.release();
+  return bug;
+}
+
+milliseconds Writer::Engine::patience() const {
+  const bool damaged = health_.health().state == HealthState::Damaged;
+  if (failing_ && !damaged) return kProbeInterval;
+  return pace_.patience(MaintenancePace::Clock::now());
+}
+
+void Writer::Engine::maintain() {
+  const auto begin = MaintenancePace::Clock::now();
+  bool more = false;
+  try {
+    if (health_.health().state != HealthState::Damaged) {
+      more = run_maintenance_step(session(), options_, clock_.now());
+    }
+  } catch (const StorageFailure& failure) {
+    fail(failure.error());
+  } catch (const std::exception& bug) {
+    fail(internal_error(bug));
+  }
+  pace_.stepped(begin, MaintenancePace::Clock::now(), more);
+}
+
+/// Finds out whether commits work again.
+void Writer::Engine::probe() {
+  if (health_.health().state == HealthState::Damaged) return;
+  try {
+    session().probe();
+    succeed();
+  } catch (const StorageFailure& failure) {
+    fail(failure.error());
+  } catch (const std::exception& bug) {
+    fail(internal_error(bug));
+  }
+}
+
+void Writer::Engine::succeed() {
+  failing_ = false;
+  health_.writes_succeeded();
+}
+
+/// After a failure the connection starts afresh: what it holds in memory is not to be trusted.
+void Writer::Engine::fail(const Error& error) {
+  ++counters_.failed_commits;
+  if (session_) session_->rollback();
+  session_.reset();
+  failing_ = true;
+  if (error.code == ErrorCode::StorageCorrupt) {
+    health_.damaged(error.message);
+  } else {
+    health_.writes_failed(error.message);
+  }
+}
+
+sql::Session& Writer::Engine::session() {
+  if (!session_) session_ = open_();
+  return *session_;
+}
+
+void Writer::enqueue(std::unique_ptr<Job<Stores>> job) { engine_.enqueue(std::move(job)); }
+bool Writer::begin(const IdempotentRequest& request) { return engine_.begin(request); }
+void Writer::end(const IdempotentRequest& request) { engine_.end(request); }
+
+Error Writer::in_progress() {
+  return {ErrorCode::IdempotencyInProgress,
+          "the first request with this Idempotency-Key is still running; try again soon"};
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "sql/health_monitor.hpp"
+#include "sql/maintenance.hpp"
+#include "sql/session.hpp"
+#include "store/job_queue.hpp"
+#include "store/open_options.hpp"
+#include "store/writer.hpp"
+#include "store/writer_counters.hpp"
+
+namespace fitgauge::store {
+
+/// The writer's thread with its session. Destroying it runs what is queued and closes.
+class Writer::Engine {
+ public:
+  using WriteJob = Job<Stores>;
+
+  /// Opens a session, so that a start on a database that cannot be opened fails.
+  Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
+         sql::OpenSession open);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  ~Engine();
+
+  void enqueue(std::unique_ptr<WriteJob> job) { queue_.push(std::move(job)); }
+
+  const WriterCounters& counters() const { return counters_; }
+  std::size_t queued() const { return queue_.size(); }
+
+  /// Runs what is queued and closes; what comes later is refused.
+  void stop();
+
+  /// @returns whether no request of the same scope and key is under way.
+  bool begin(const IdempotentRequest& request);
+  void end(const IdempotentRequest& request);
+
+ private:
+  using Jobs = JobQueue<WriteJob>::Jobs;
+  using RequestKey = std::tuple<std::string, std::string, std::string, std::string>;
+
+  void run();
+  void commit(Jobs& jobs);
+  std::optional<Error> try_commit(Jobs& jobs, std::vector<std::optional<Error>>& errors);
+  std::optional<Error> run_in_savepoint(WriteJob& job);
+  std::chrono::milliseconds patience() const;
+  void maintain();
+  void probe();
+  void succeed();
+  void fail(const Error& error);
+  sql::Session& session();
+
+  const OpenOptions options_;
+  const Clock& clock_;
+  HealthMonitor& health_;
+  const sql::OpenSession open_;
+  JobQueue<WriteJob> queue_;
+  WriterCounters counters_;
+  std::mutex under_way_mutex_;
+  std::set<RequestKey> under_way_;
+  std::unique_ptr<sql::Session> session_;  // the thread's own from here on
+  bool failing_ = false;
+  MaintenancePace pace_;
+  std::thread thread_;
+};
+
+}  // namespace fitgauge::store
