@@ -1,4 +1,5 @@
 #include "api/measurements/measurement_listing.hpp"
+#include "api/handlers.hpp"
 
 #include <fmt/format.h>
 
@@ -220,8 +221,7 @@ void list_measurements(const Services& services, const http::Request& request,
         if (form == Form::Json && !rows->empty()) *rows += ',';
         append_row(*rows, form, measurement);
       },
-      [&request, rows, form, responder = std::make_shared<http::Responder>(std::move(responder))](
-          Result<app::ListPage> page) {
+      [&request, rows, form, responder = share(std::move(responder))](Result<app::ListPage> page) {
         if (!page) return responder->fail(page.error());
         answer_page(request, *responder, form, *rows, *page);
       });

@@ -13,8 +13,7 @@ namespace {
 constexpr std::size_t kLargeBody = std::size_t{64} << 10;
 
 http::Response response_of(app::Answer answer, Preference applied) {
-  http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
-  if (!answer.location.empty()) response.with("Location", std::move(answer.location));
+  http::Response response = api::response_of(std::move(answer));
   if (applied == Preference::Minimal) response.with("Preference-Applied", "return=minimal");
   if (applied == Preference::Representation) {
     response.with("Preference-Applied", "return=representation");
@@ -91,21 +90,14 @@ void judge_where_it_may_take_long(const SharedPosting& posting) {
 
 void post_once(const Services& services, const http::Request& request, http::Responder responder,
                std::function<void(const SharedPosting&)> first_time) {
-  const auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});
-  const auto key = idempotency_key(request);
-  if (!key) return posting->responder.fail(key.error());
-  if (!*key) return first_time(posting);
-  posting->scope = app::IdempotencyScope{.caller = std::string(caller_name(request).value_or("")),
-                                         .method = "POST",
-                                         .path = std::string(request.path()),
-                                         .key = **key,
-                                         .body = request.body()};
+  const SharedPosting posting = begin_posting(services, request, std::move(responder));
+  if (!posting) return;
+  if (!posting->scope) return first_time(posting);
   services.measurements.find_answer(*posting->scope, [posting, first_time = std::move(first_time)](
                                                          Result<std::optional<app::Answer>> kept) {
     if (!kept) return posting->responder.fail(kept.error());
     if (!*kept) return first_time(posting);
-    posting->responder.answer(
-        response_of(**std::move(kept), Preference::None).with("Idempotency-Replayed", "true"));
+    posting->responder.answer(replayed(**std::move(kept)));
   });
 }
 

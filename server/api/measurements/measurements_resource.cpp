@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "api/handlers.hpp"
 #include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/measurement_correction.hpp"
 #include "api/measurements/measurement_listing.hpp"
@@ -21,8 +22,7 @@ void find_measurement(const Services& services, const http::Request& request,
   auto body = std::make_shared<std::string>();
   services.measurements.find(
       *id, [body](const app::Measurement& measurement) { app::append_record(*body, measurement); },
-      [body, responder = std::make_shared<http::Responder>(std::move(responder))](
-          const Result<std::int64_t>& found) {
+      [body, responder = share(std::move(responder))](const Result<std::int64_t>& found) {
         if (!found) return responder->fail(found.error());
         responder->answer({200, "application/json", std::move(*body)});
       });
@@ -34,18 +34,11 @@ void summarise(const Services& services, const http::Request& request, http::Res
   const std::string_view group_by = request.text("group_by").value_or("characteristic");
   services.measurements.summary(
       *query, group_by,
-      [group_by, responder = std::make_shared<http::Responder>(std::move(responder))](
-          Result<std::vector<app::MeasurementGroup>> groups) {
+      [group_by,
+       responder = share(std::move(responder))](Result<std::vector<app::MeasurementGroup>> groups) {
         if (!groups) return responder->fail(groups.error());
         responder->answer({200, "application/json", summary_json(group_by, *groups)});
       });
-}
-
-http::AsyncHandler with(const Services& services,
-                        void (*handler)(const Services&, const http::Request&, http::Responder)) {
-  return [&services, handler](const http::Request& request, http::Responder responder) {
-    handler(services, request, std::move(responder));
-  };
 }
 
 std::vector<http::Parameter> posting_parameters(std::vector<http::Parameter> parameters = {}) {

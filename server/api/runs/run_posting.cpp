@@ -1,6 +1,6 @@
 #include "api/runs/run_posting.hpp"
 
-#include "api/handlers.hpp"
+#include "api/posting.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/runs/run_order_codec.hpp"
 #include "api/wire/problem.hpp"
@@ -14,21 +14,9 @@ namespace {
 
 constexpr std::string_view kRuns = "/v1/runs/";
 
-/// Everything one POST needs until it is answered. The request lives as long as its responder.
-struct Posting {
-  const Services& services;
-  const http::Request& request;
-  http::Responder responder;
-  bool at_once = false;
-  std::optional<app::IdempotencyScope> scope{};
-};
-using SharedPosting = std::shared_ptr<Posting>;
-
-http::Response response_of(app::Answer answer) {
-  http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
-  response.with("Location", std::move(answer.location));
-  if (answer.status == 202) response.with("Preference-Applied", "respond-async");
-  return response;
+/// Of a run that is answered before its end.
+http::Response with_preference(http::Response response) {
+  return std::move(response).with("Preference-Applied", "respond-async");
 }
 
 /// What is kept under an Idempotency-Key: of a run that is waited for the place alone, since its
@@ -52,8 +40,7 @@ void answer_end(const SharedPosting& posting, std::string location,
 
 void replay(const SharedPosting& posting, app::Answer kept) {
   if (kept.status == 202) {
-    return posting->responder.answer(
-        response_of(std::move(kept)).with("Idempotency-Replayed", "true"));
+    return posting->responder.answer(with_preference(replayed(std::move(kept))));
   }
   const std::string_view location = kept.location;
   const auto id =
@@ -62,18 +49,18 @@ void replay(const SharedPosting& posting, app::Answer kept) {
     return posting->responder.fail(
         {ErrorCode::StorageCorrupt, "the answer kept under this Idempotency-Key names no run"});
   }
-  posting->services.runs.find(*id, [posting,
-                                    kept = std::move(kept)](Result<app::StoredRun> run) mutable {
-    if (!run) return posting->responder.fail(run.error());
-    if (run->report.empty()) {
-      return posting->responder.fail({ErrorCode::IdempotencyInProgress,
-                                      "the first request with this Idempotency-Key is still "
-                                      "running; try again soon"});
-    }
-    kept.content_type = "application/json";
-    kept.body = std::move(run->report);
-    posting->responder.answer(response_of(std::move(kept)).with("Idempotency-Replayed", "true"));
-  });
+  posting->services.runs.find(
+      *id, [posting, kept = std::move(kept)](Result<app::StoredRun> run) mutable {
+        if (!run) return posting->responder.fail(run.error());
+        if (run->report.empty()) {
+          return posting->responder.fail({ErrorCode::IdempotencyInProgress,
+                                          "the first request with this Idempotency-Key is still "
+                                          "running; try again soon"});
+        }
+        kept.content_type = "application/json";
+        kept.body = std::move(run->report);
+        posting->responder.answer(replayed(std::move(kept)));
+      });
 }
 
 /// The problem document with the findings of the check.
@@ -134,12 +121,14 @@ void prepare(const SharedPosting& posting) {
     return posting->responder.answer(
         invalid_program(posting->request, order->program.text(), *diagnostics));
   }
-  const bool at_once = posting->at_once;
+  const bool at_once = prefers_async(posting->request);
   const auto run = runs.start(*std::move(order), posting->scope,
                               [at_once](const app::ActiveRun& r) { return accepted(r, at_once); });
   if (!run) return posting->responder.fail(run.error());
   app::Answer answer = accepted(**run, at_once);
-  if (at_once) return posting->responder.answer(response_of(std::move(answer)));
+  if (at_once) {
+    return posting->responder.answer(with_preference(response_of(std::move(answer))));
+  }
   (*run)->on_end([posting, location = std::move(answer.location)](
                      const Result<app::FinishedRun>& end) { answer_end(posting, location, end); });
 }
@@ -147,17 +136,8 @@ void prepare(const SharedPosting& posting) {
 }  // namespace
 
 void post_run(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});
-  posting->at_once = prefers_async(request);
-  const auto key = idempotency_key(request);
-  if (!key) return posting->responder.fail(key.error());
-  if (*key) {
-    posting->scope = app::IdempotencyScope{.caller = std::string(caller_name(request).value_or("")),
-                                           .method = "POST",
-                                           .path = std::string(request.path()),
-                                           .key = **key,
-                                           .body = request.body()};
-  }
+  const SharedPosting posting = begin_posting(services, request, std::move(responder));
+  if (!posting) return;
   services.runs.prepare([posting] { prepare(posting); },
                         [posting](Error error) { posting->responder.fail(std::move(error)); });
 }

@@ -1,4 +1,5 @@
 #include "api/tables/tables_resource.hpp"
+#include "api/handlers.hpp"
 
 #include <fmt/format.h>
 
@@ -50,15 +51,14 @@ http::AsyncHandler table_handler(const Services& services,
       if (!response) return responder.fail(response.error());
       return responder.answer(*std::move(response));
     }
-    services.tables.at_revision(
-        std::string(*revision),
-        [&request, feature, responder = std::make_shared<http::Responder>(std::move(responder))](
-            Result<app::TableCatalog::Tables> tables) {
-          if (!tables) return responder->fail(tables.error());
-          auto response = table_response(request, feature, **tables);
-          if (!response) return responder->fail(response.error());
-          responder->answer(*std::move(response));
-        });
+    services.tables.at_revision(std::string(*revision),
+                                [&request, feature, responder = share(std::move(responder))](
+                                    Result<app::TableCatalog::Tables> tables) {
+                                  if (!tables) return responder->fail(tables.error());
+                                  auto response = table_response(request, feature, **tables);
+                                  if (!response) return responder->fail(response.error());
+                                  responder->answer(*std::move(response));
+                                });
   };
 }
 
@@ -107,7 +107,7 @@ void put_column(const Services& services, Feature feature, const http::Request& 
   if (!parsed) return responder.fail(parsed.error());
   auto rows = decode_custom_rows(*parsed);
   if (!rows) return responder.fail(rows.error());
-  const auto shared = std::make_shared<http::Responder>(std::move(responder));
+  const auto shared = share(std::move(responder));
   services.tables.put_column(
       {.feature = feature, .name = *std::move(name), .rows = *std::move(rows)},
       revisions_to_match(request), [shared](Result<app::TableCatalog::ColumnStored> stored) {
@@ -122,7 +122,7 @@ void remove_column(const Services& services, Feature feature, const http::Reques
                    http::Responder responder) {
   auto name = column_name(request);
   if (!name) return responder.fail(name.error());
-  const auto shared = std::make_shared<http::Responder>(std::move(responder));
+  const auto shared = share(std::move(responder));
   services.tables.remove_column(feature, *std::move(name), revisions_to_match(request),
                                 [shared](Result<app::TableCatalog::ColumnStored> stored) {
                                   if (!stored) return shared->fail(stored.error());
