@@ -141,7 +141,7 @@ std::vector<http::Parameter> measurement_filter_parameters() {
   }
   const std::vector<http::Parameter> others = {
       {.name = "designation", .description = "Nominal size and class, as in `25 H7`"},
-      {.name = "run_id", .description = "Of this run; with source=simulation or all"},
+      {.name = "run_id", .description = "Of this run, whatever the source where source is absent"},
       {.name = "verdict",
        .type = http::Words{{"good", "rework", "reject", "indeterminate"}},
        .description = "Only this verdict"},
@@ -175,6 +175,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
     const auto run = services.measurements.parse_run(*text);
     if (!run) return Error{ErrorCode::QueryInvalid, "run_id is the id of a run", "run_id"};
     query.run_id = *run;
+    query.source.reset();  // what a run stores is no gauge's
   }
   if (const auto verdict = request.text("verdict")) {
     query.verdict = gauging::verdict_from_word(*verdict);

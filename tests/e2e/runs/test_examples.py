@@ -58,9 +58,11 @@ class Examples(ControlTest):
         self.assertEqual(log.headers["x-content-type-options"], "nosniff")
         self.assertEqual(log.headers["content-security-policy"],
                          "sandbox; default-src 'none'; style-src 'unsafe-inline'")
-        records = [row for row in self.daemon.stored("source=simulation")
-                   if row["run_id"] == run["id"]]
+        records = self.daemon.stored(f"run_id={run['id']}")
+        self.assertEqual(records, [row for row in self.daemon.stored("source=simulation")
+                                   if row["run_id"] == run["id"]])
         self.assertEqual(len(records), 1)
+        self.assertEqual(self.daemon.stored(f"run_id={run['id']}&source=gauge"), [])
         expected = {"source": "simulation", "cycle": 421, "nominal_mm": 25, "basis": "explicit",
                     "upper_limit_mm": 25.021, "lower_limit_mm": 25, "measured_mm": 25.013,
                     "verdict": "good"}
