@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <future>
 #include <optional>
 #include <type_traits>
@@ -7,6 +8,7 @@
 
 #include "base/guarded.hpp"
 #include "base/result.hpp"
+#include "base/thread_memory.hpp"
 
 namespace fitgauge::store {
 
@@ -57,15 +59,28 @@ class CallableJob final : public Job<Stores> {
 };
 
 /// Submits `work` to `queue` and waits for its outcome. Not for I/O threads, nor for the queue's
-/// own.
+/// own. What the outcome holds is counted as the calling thread's memory, the job itself is not.
 template <class Queue, class Stores, class Work>
 auto wait_for(Queue& queue, Work work) {
   using Outcome = std::invoke_result_t<Work&, Stores&>;
-  std::promise<Outcome> promise;
-  auto future = promise.get_future();
-  queue.submit(std::move(work),
-               [&promise](Outcome outcome) { promise.set_value(std::move(outcome)); });
-  return future.get();
+  const std::int64_t before = thread_memory();
+  std::int64_t taken = 0;
+  auto outcome = [&] {
+    std::promise<Outcome> promise;
+    auto future = promise.get_future();
+    queue.submit(
+        [&work, &taken](Stores& stores) {
+          const std::int64_t begun = thread_memory();
+          Outcome made = work(stores);
+          taken = thread_memory() - begun;
+          hand_over_memory(-taken);
+          return made;
+        },
+        [&promise](Outcome made) { promise.set_value(std::move(made)); });
+    return future.get();
+  }();
+  hand_over_memory(before + taken - thread_memory());
+  return outcome;
 }
 
 }  // namespace fitgauge::store

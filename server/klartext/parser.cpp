@@ -35,6 +35,9 @@ class Parser {
   bool is_parameter_line(std::size_t begin) const;
   bool at_q_form_cycle();
 
+  bool is_too_large() const {
+    return parts_.blocks.size() >= kMostBlocks || parts_.memory_bytes() > kMostMemory;
+  }
   std::size_t parse_block(std::size_t begin);
   void end_program();
   void parse_body(Block& block);
@@ -214,6 +217,9 @@ void Parser::end_program() {
   if (parts_.blocks.size() == kMostBlocks && !ended_) {
     report(Severity::Error, DiagnosticCode::ProgramTooLarge, parts_.blocks.back(),
            fmt::format("the program has more than {} blocks", kMostBlocks));
+  } else if (is_too_large()) {
+    report(Severity::Error, DiagnosticCode::ProgramTooLarge, parts_.blocks.back(),
+           too_much_memory());
   } else if (!ended_) {
     if (parts_.line_starts.empty()) parts_.line_starts.push_back(0);
     diagnostics_.add(Severity::Error, DiagnosticCode::EndMissing,
@@ -225,21 +231,25 @@ void Parser::end_program() {
 
 ParsedProgram Parser::parse() && {
   const std::size_t size = parts_.source.size();
-  // Most words are longer; memory that is reserved and not used is never touched.
-  constexpr std::size_t kShortWord = 10;
+  // Memory that is reserved and not used is never touched. Only what is too large has more words.
+  constexpr std::size_t kShortWord = 3;
   const std::size_t lines = count_lines(parts_.source);
   parts_.blocks.reserve(std::min(lines, kMostBlocks));
   parts_.line_starts.reserve(lines);
   parts_.words.reserve(size / kShortWord);
-  for (std::size_t at = 0; at < size && !ended_ && parts_.blocks.size() < kMostBlocks;) {
-    at = parse_block(at) + 1;
-  }
+  for (std::size_t at = 0; at < size && !ended_ && !is_too_large();) at = parse_block(at) + 1;
   end_program();
   std::vector<Diagnostic> diagnostics = diagnostics_.take();
   return {Program(std::move(parts_)), std::move(diagnostics)};
 }
 
 }  // namespace
+
+std::string too_much_memory() {
+  return fmt::format(
+      "the program takes more than {} MB of memory; split it into programs that call each other",
+      kMostMemory >> 20);
+}
 
 bool ParsedProgram::has_errors() const { return contains_error(diagnostics); }
 

@@ -14,6 +14,12 @@ inline constexpr std::size_t kLargestSource = std::size_t{64} << 20;
 inline constexpr std::size_t kMostBlocks = 500'000;
 /// Empty ones, those of comments and those that a `~` continues among them.
 inline constexpr std::size_t kMostLines = 1'000'000;
+/// Bytes of a program with its source, blocks, words and formulas, its code included. No run holds
+/// more.
+inline constexpr std::size_t kMostMemory = std::size_t{48} << 20;
+
+/// The message of a program beyond kMostMemory.
+std::string too_much_memory();
 
 struct ParsedProgram {
   Program program;

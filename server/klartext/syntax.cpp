@@ -14,7 +14,19 @@ const BeginProgram* begin_of(const std::vector<Block>& blocks) {
   return nullptr;
 }
 
+template <class T>
+std::size_t bytes_of(const std::vector<T>& pool) {
+  return sizeof(T) * pool.size();
+}
+
 }  // namespace
+
+std::size_t ProgramParts::memory_bytes() const {
+  constexpr std::size_t kGrown = 2;
+  return source.size() + bytes_of(line_starts) + bytes_of(blocks) + bytes_of(words) +
+         kGrown *
+             (bytes_of(cycle_parameters) + bytes_of(nodes) + bytes_of(operands) + texts.size());
+}
 
 SourceRange Program::range(Slice<char> place) const {
   return {position_of(parts_.source, parts_.line_starts, place.first),

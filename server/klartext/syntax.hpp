@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -47,6 +48,10 @@ struct ProgramParts {
   std::vector<Node> nodes{};
   std::vector<Expr> operands{};
   std::string texts{};
+
+  /// What they occupy, at most: a pool has twice its size when it has grown, but for those that
+  /// were reserved.
+  std::size_t memory_bytes() const;
 };
 
 /// A parsed program: immutable, so it may be read by any number of threads. Owns its source and all
@@ -58,6 +63,7 @@ class Program {
 
   std::string_view file_name() const { return parts_.file_name; }
   std::string_view source() const { return parts_.source; }
+  std::size_t memory_bytes() const { return parts_.memory_bytes(); }
 
   /// All blocks in order. Without errors, BEGIN PGM comes first but for comments, and
   /// END PGM last.

@@ -10,11 +10,16 @@ namespace {
 
 constinit thread_local std::int64_t held = 0;
 
+/// With the word in which malloc keeps the size: of a small piece it is a third.
+std::int64_t size_of(void* memory) {
+  return static_cast<std::int64_t>(malloc_usable_size(memory) + sizeof(std::size_t));
+}
+
 template <class Take>
 void* taken(const Take& take) {
   while (true) {
     if (void* const memory = take(); memory != nullptr) {
-      held += static_cast<std::int64_t>(malloc_usable_size(memory));
+      held += size_of(memory);
       return memory;
     }
     const std::new_handler handler = std::get_new_handler();
@@ -25,7 +30,7 @@ void* taken(const Take& take) {
 
 void give_back(void* memory) noexcept {
   if (memory == nullptr) return;
-  held -= static_cast<std::int64_t>(malloc_usable_size(memory));
+  held -= size_of(memory);
   std::free(memory);
 }
 
@@ -34,6 +39,8 @@ void give_back(void* memory) noexcept {
 namespace fitgauge {
 
 std::int64_t thread_memory() { return held; }
+
+void hand_over_memory(std::int64_t bytes) { held += bytes; }
 
 }  // namespace fitgauge
 

@@ -27,8 +27,6 @@ using klartext::Text;
 constexpr std::uint32_t kMostRepeats = 65'535;
 /// Files that a check looks at.
 constexpr std::size_t kMostReferences = 1000;
-/// Memory of the pools of a parsed program for each byte of its source, about.
-constexpr std::size_t kPoolBytes = 16;
 
 bool is_dynamic(const Label& label) { return std::holds_alternative<QRef>(label); }
 
@@ -43,9 +41,18 @@ class Linker {
   Linker(const klartext::Program& program, LinkedFile& file)
       : program_(program), file_(file), writer_(program) {}
 
+  /// Nothing, but for the finding, when the program is too large.
   LinkedParts link() {
     const auto blocks = program_.blocks();
-    for (std::uint32_t i = 0; i < blocks.size(); ++i) link_block(i, blocks[i]);
+    const std::size_t parsed = program_.memory_bytes();
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+      if (parsed + writer_.memory_bytes() > klartext::kMostMemory) {
+        report(Severity::Error, DiagnosticCode::ProgramTooLarge, blocks[i],
+               klartext::too_much_memory());
+        return {};
+      }
+      link_block(i, blocks[i]);
+    }
     writer_.begin_block(blocks.empty() ? 0 : static_cast<std::uint32_t>(blocks.size() - 1));
     writer_.add({.op = Op::End});
     resolve_jumps();
@@ -280,10 +287,21 @@ class Linker {
   std::vector<Jump> jumps_;
 };
 
-std::size_t memory_of(const klartext::Program& program, const LinkedParts& parts) {
-  return program.source().size() * kPoolBytes + program.blocks().size() * sizeof(Block) +
-         parts.code.size() * (sizeof(Instruction) + sizeof(std::uint32_t)) +
-         parts.constants.size() * sizeof(double);
+template <class T>
+std::size_t bytes_of(const std::vector<T>& pool) {
+  return sizeof(T) * pool.size();
+}
+
+std::size_t memory_of(const LinkedParts& parts) {
+  // A node of a hash table: its link, the hash of a name, and the word beside it.
+  constexpr std::size_t kNode = 4 * sizeof(void*);
+  std::size_t bytes = bytes_of(parts.code) + bytes_of(parts.block_of) + bytes_of(parts.constants) +
+                      bytes_of(parts.cycles) +
+                      parts.numbered_labels.size() * (kNode + sizeof(std::uint64_t));
+  for (const auto& [name, at] : parts.named_labels) {
+    bytes += kNode + sizeof(name) + sizeof(at) + name.capacity();
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -291,10 +309,15 @@ std::size_t memory_of(const klartext::Program& program, const LinkedParts& parts
 LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
   LinkedFile file;
   file.diagnostics = std::move(parsed.diagnostics);
+  if (std::any_of(file.diagnostics.begin(), file.diagnostics.end(), [](const auto& diagnostic) {
+        return diagnostic.code == DiagnosticCode::ProgramTooLarge;
+      })) {
+    return file;
+  }
   LinkedParts parts = Linker(parsed.program, file).link();
   std::stable_sort(file.diagnostics.begin(), file.diagnostics.end(),
                    [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
-  file.memory_bytes = memory_of(parsed.program, parts);
+  file.memory_bytes = parsed.program.memory_bytes() + memory_of(parts);
   const auto has_error = [&](bool tolerant) {
     return std::any_of(
         file.diagnostics.begin(), file.diagnostics.end(), [tolerant](const auto& diagnostic) {

@@ -38,6 +38,13 @@ std::uint32_t CodeWriter::constant(double value) {
   return it->second;
 }
 
+std::size_t CodeWriter::memory_bytes() const {
+  // A constant is in two vectors that may have grown and in a node of the table that finds it.
+  constexpr std::size_t kConstant = 2 * sizeof(double) + 6 * sizeof(void*);
+  return code_.size() * (sizeof(Instruction) + sizeof(std::uint32_t)) +
+         constants_.size() * kConstant;
+}
+
 std::uint32_t CodeWriter::temporary() {
   const std::uint32_t cell = kTemporaries + used_temporaries_++;
   most_temporaries_ = std::max(most_temporaries_, used_temporaries_);

@@ -37,6 +37,9 @@ class CodeWriter {
   void assign(std::uint32_t target, const klartext::Expr& expr);
   std::uint32_t constant(double value);
 
+  /// What the code occupies while it is written, at most.
+  std::size_t memory_bytes() const;
+
   std::vector<Instruction> take_code() { return std::move(code_); }
   std::vector<std::uint32_t> take_blocks() { return std::move(block_of_); }
   /// Moves the temporaries, whose number and place are known only at the end, behind `counters`.

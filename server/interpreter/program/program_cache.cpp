@@ -25,19 +25,21 @@ std::shared_ptr<const LinkedFile> ProgramCache::get(const ControlDisk& disk,
   const auto revision = disk.revision(path);
   if (!revision) return nullptr;
   if (auto linked = at_hand(key_of(path, *revision))) return linked;
-  const auto file = disk.find(path);
-  return file ? get(*file) : nullptr;
+  auto file = disk.find(path);
+  return file ? get(*std::move(file)) : nullptr;
 }
 
-std::shared_ptr<const LinkedFile> ProgramCache::get(const ControlFile& file) {
+std::shared_ptr<const LinkedFile> ProgramCache::get(ControlFile file) {
   const std::string key = key_of(file.path, file.revision);
   // What a run has written has no revision that other runs share.
   const bool cached = file.source != FileSource::Run;
   if (cached) {
     if (auto linked = at_hand(key)) return linked;
   }
+  std::string source = *file.bytes;
+  file.bytes.reset();  // a large program is not held twice
   auto linked = std::make_shared<const LinkedFile>(
-      link(klartext::parse_program(*file.bytes, file.path.text()), file.path));
+      link(klartext::parse_program(std::move(source), file.path.text()), file.path));
   if (!cached) return linked;
 
   const std::lock_guard lock(mutex_);

@@ -22,7 +22,7 @@ class ProgramCache {
   /// its bytes only when it is not at hand.
   std::shared_ptr<const LinkedFile> get(const ControlDisk& disk, const ControlPath& path);
   /// The same of a file that has been read. Never null.
-  std::shared_ptr<const LinkedFile> get(const ControlFile& file);
+  std::shared_ptr<const LinkedFile> get(ControlFile file);
 
  private:
   std::shared_ptr<const LinkedFile> at_hand(const std::string& key);

@@ -37,6 +37,23 @@ TEST_CASE("what a thread holds is counted in every form it can be taken") {
   CHECK(thread_memory() - before < 1 << 20);
 }
 
+TEST_CASE("what one thread takes and another gives back is handed over") {
+  const std::int64_t before = thread_memory();
+  std::string text;
+  std::int64_t taken = 0;
+  std::thread([&] {
+    const std::int64_t begun = thread_memory();
+    text.assign(100'000, 'x');
+    taken = thread_memory() - begun;
+    hand_over_memory(-taken);
+    CHECK(thread_memory() == begun);
+  }).join();
+  hand_over_memory(before + taken - thread_memory());
+  CHECK(thread_memory() - before >= 100'000);
+  std::string().swap(text);
+  CHECK(thread_memory() == before);
+}
+
 TEST_CASE("an allowance is spent by time, by memory or by a stop, and stays so") {
   Allowance unlimited;
   CHECK(unlimited.look() == Spent::Nothing);

@@ -145,6 +145,11 @@ TEST_CASE("A program beyond the limits is refused") {
     REQUIRE(parsed.diagnostics.size() == 1);
     CHECK(parsed.diagnostics[0].code == DiagnosticCode::ProgramTooLarge);
   }
+  std::string words;
+  for (std::size_t i = 0; i < kMostBlocks / 2; ++i) words += "L X1Y1Z1A1B1C1\n";
+  const Diagnostic heavy = parse_lines(words).diagnostics.back();
+  CHECK(heavy.code == DiagnosticCode::ProgramTooLarge);
+  CHECK(heavy.message == too_much_memory());
   const std::string lines = std::string(kMostLines - 2, '\n');
   CHECK_FALSE(parse_program("BEGIN PGM T MM\n" + lines + "END PGM T MM", "t.h").has_errors());
 }
