@@ -15,11 +15,27 @@ set(page_bundled "${page_packages}/bundled")
 file(GLOB_RECURSE page_files RELATIVE "${page_root}" CONFIGURE_DEPENDS
      "${page_root}/*.html" "${page_root}/*.css" "${page_root}/*.js" "${page_root}/*.svg")
 
-# Packages come from npm's cache where it has them: without a network a filled cache is enough.
+# Each package is what its SHA-512 says, whoever delivers it.
+file(READ "${page_root}/package-lock.json" page_lock)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${page_root}/package-lock.json")
+string(JSON page_package_count LENGTH "${page_lock}" packages)
+math(EXPR page_last_package "${page_package_count} - 1")
+foreach(i RANGE 1 ${page_last_package})  # the first is the page itself
+  string(JSON page_package MEMBER "${page_lock}" packages ${i})
+  string(JSON page_integrity ERROR_VARIABLE ignored GET "${page_lock}" packages "${page_package}" integrity)
+  if(NOT page_integrity MATCHES "^sha512-")
+    message(FATAL_ERROR
+      "clients/web/package-lock.json does not pin ${page_package} by a SHA-512: remove the file and make it anew "
+      "with `npm install --package-lock-only --omit-lockfile-registry-resolved` in a folder without node_modules.")
+  endif()
+endforeach()
+
+# They come from npm's cache where it has them: without a network a filled cache is enough. What a proxy's
+# certificate proves does not matter then: a network may end TLS with its own, unknown to the image being built.
 add_custom_command(
   OUTPUT "${page_packages}/installed"
   COMMAND ${CMAKE_COMMAND} -E copy "${page_root}/package.json" "${page_root}/package-lock.json" "${page_packages}"
-  COMMAND ${FITGAUGE_NPM} ci --prefix "${page_packages}" --prefer-offline --ignore-scripts --no-audit --no-fund --loglevel=error
+  COMMAND ${FITGAUGE_NPM} ci --prefix "${page_packages}" --prefer-offline --strict-ssl=false --ignore-scripts --no-audit --no-fund --loglevel=error
   COMMAND ${CMAKE_COMMAND} -E touch "${page_packages}/installed"
   DEPENDS "${page_root}/package.json" "${page_root}/package-lock.json"
   COMMENT "Fetching the libraries of the page"
