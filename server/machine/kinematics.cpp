@@ -17,6 +17,11 @@ Transform turned(const RotaryAxis& axis, double angle, const Displacements& rest
          Transform::rotation_around(axis.centre, axis.direction, angle);
 }
 
+/// How far the axis is turned where A, B, C show `rotary`.
+double angle_of(const RotaryAxis& axis, const Vec3& rotary) {
+  return rotary[index(axis.axis) - 3] + axis.zero_deg;
+}
+
 /// The part of `v` across the unit vector `axis`.
 Vec3 across(const Vec3& v, const Vec3& axis) { return v - axis * dot(v, axis); }
 
@@ -35,6 +40,13 @@ struct Joint {
   Vec3 direction;
   std::size_t letter;  ///< 0 to 2 for A, B, C
 };
+
+/// What the axes are turned by where they show 0.
+Vec3 zeros_of(const std::vector<RotaryAxis>& axes) {
+  Vec3 zeros;
+  for (const RotaryAxis& axis : axes) zeros[index(axis.axis) - 3] = axis.zero_deg;
+  return zeros;
+}
 
 /// Solves normal = turn(outer) turn(inner) tool: the middle vector has the tool's component along
 /// the inner axis and the normal's along the outer one, and length 1 (Paden and Kahan).
@@ -86,7 +98,7 @@ Transform Kinematics::table(const Vec3& rotary, const Displacements& rest) const
   Transform chain;
   for (const RotaryAxis& axis : axes_) {
     if (axis.mount != AxisMount::Table) continue;
-    chain = chain * turned(axis, -rotary[index(axis.axis) - 3], rest);
+    chain = chain * turned(axis, -angle_of(axis, rotary), rest);
   }
   return chain;
 }
@@ -96,7 +108,7 @@ Vec3 Kinematics::tool_vector(const Vec3& rotary, Axis tool_axis, double length,
   Transform head = Transform::translation(offset_);
   for (const RotaryAxis& axis : axes_) {
     if (axis.mount != AxisMount::Head) continue;
-    head = head * turned(axis, rotary[index(axis.axis) - 3], rest);
+    head = head * turned(axis, angle_of(axis, rotary), rest);
   }
   return head.point(unit_vector(tool_axis) * -length);
 }
@@ -105,13 +117,15 @@ Vec3 Kinematics::tool_direction(const Vec3& rotary, Axis tool_axis) const {
   Matrix3 head;
   for (const RotaryAxis& axis : axes_) {
     if (axis.mount != AxisMount::Head) continue;
-    head = head * Matrix3::rotation(axis.direction, rotary[index(axis.axis) - 3]);
+    head = head * Matrix3::rotation(axis.direction, angle_of(axis, rotary));
   }
   return head * unit_vector(tool_axis);
 }
 
-std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& current,
+std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown,
                                            Axis tool_axis) const {
+  const Vec3 zeros = zeros_of(axes_);
+  const Vec3 current = shown + zeros;
   // A table turns the normal to the tool, which is the tool the other way round: from the workpiece
   // to the bed, then from the column to the tool, all turn the same way.
   std::vector<Joint> joints;
@@ -147,6 +161,9 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& curre
   }
   std::stable_sort(found.begin(), found.end(),
                    [&](const Vec3& a, const Vec3& b) { return way(current, a) < way(current, b); });
+  if (zeros != Vec3{}) {
+    for (Vec3& rotary : found) rotary = rotary - zeros;
+  }
   return found;
 }
 

@@ -20,6 +20,7 @@ struct RotaryAxis {
   Vec3 centre;  ///< a point of the axis in mm: of a table in machine coordinates, of a head from
                 ///< the spindle nose
   Vec3 direction{0, 0, 1};  ///< unit vector
+  double zero_deg = 0;      ///< by how much it is turned where it shows 0
 
   friend bool operator==(const RotaryAxis&, const RotaryAxis&) = default;
 };

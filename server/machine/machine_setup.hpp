@@ -29,11 +29,12 @@ struct AxisSetup {
   double hirth_grid_deg = 0;           ///< 0: any angle
   AxisMount mount = AxisMount::Table;  ///< on
   Vec3 centre{0, 0, -100};             ///< center_mm, of a table; a head turns about the nose
-  Vec3 direction{0, 0, 1};  ///< any length; the tool turns around it relative to the workpiece
-  Vec3 centre_error;        ///< center_error_mm: real centre minus modelled centre
-  Vec3 tilt_error_deg;      ///< spatial angles by which the real direction differs
-  double backlash_deg = 0;  ///< lost motion when the direction of turning changes
-  double scatter_um = 0;    ///< standard deviation, each way, of where what it carries rests
+  Vec3 direction{0, 0, 1};    ///< any length; the tool turns around it relative to the workpiece
+  Vec3 centre_error;          ///< center_error_mm: real centre minus modelled centre
+  Vec3 tilt_error_deg;        ///< spatial angles by which the real direction differs
+  double zero_error_deg = 0;  ///< by how much it is turned where it shows 0
+  double backlash_deg = 0;    ///< lost motion when the direction of turning changes
+  double scatter_um = 0;      ///< standard deviation, each way, of where what it carries rests
 
   /// X, Y, Z: -500 to 500 mm. A, B: -120 to 120 degrees, C: -360 to 360, each around its own axis.
   static AxisSetup of(Axis axis);

@@ -20,6 +20,7 @@ RotaryAxis AxisSetup::built(Axis axis) const {
   RotaryAxis real = modelled(axis);
   real.centre = real.centre + centre_error;
   real.direction = Matrix3::spatial(tilt_error_deg) * real.direction;
+  real.zero_deg = zero_error_deg;
   return real;
 }
 

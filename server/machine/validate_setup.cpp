@@ -72,6 +72,7 @@ void check_axis(Findings& findings, const std::string& at, Axis axis, const Axis
   findings.direction(at + "/direction", setup.direction);
   findings.point(at + "/center_error_mm", setup.centre_error, 100);
   findings.point(at + "/tilt_error_deg", setup.tilt_error_deg, 45);
+  findings.within(at + "/zero_error_deg", setup.zero_error_deg, -45, 45);
   findings.within(at + "/backlash_deg", setup.backlash_deg, 0, 10);
   findings.within(at + "/scatter_um", setup.scatter_um, 0, 1e6);
 }

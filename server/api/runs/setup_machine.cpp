@@ -22,6 +22,8 @@ void read_rotary_axis(SetupFields& fields, machine::AxisSetup& setup) {
   fields.mm({"center_error_mm", "Real centre minus modelled centre"}, setup.centre_error);
   fields.numbers({"tilt_error_deg", "Spatial angles by which the real axis is tilted"},
                  setup.tilt_error_deg);
+  fields.number({"zero_error_deg", "By how much it is turned where it shows 0"},
+                setup.zero_error_deg);
   fields.number({"backlash_deg", "Lost motion when the direction of turning changes"},
                 setup.backlash_deg);
   fields.um({"scatter_um", "Standard deviation of where it comes to rest"}, setup.scatter_um);

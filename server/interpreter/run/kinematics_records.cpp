@@ -22,6 +22,7 @@ using tabfile::TabTable;
 constexpr std::string_view kTool = "TOOL";
 constexpr std::string_view kOnTable = "TABLE";
 constexpr std::string_view kOnHead = "HEAD";
+constexpr std::string_view kZero = "ZERO";
 
 ControlPath records_path() { return ControlPath::parse("TNC:\\table\\DATA450.KD").value(); }
 
@@ -70,8 +71,10 @@ class RecordReader {
       return fail("the axis is there twice");
     const Vec3 direction = vector(row, {"I", "J", "K"});
     if (direction == Vec3{}) return fail("the direction is zero");
+    // Records that were written before there were zeros have no such column.
+    const double zero = table_.find_column(kZero) ? number(row, kZero) : 0;
     axes.push_back(
-        {*axis, mount == kOnTable ? AxisMount::Table : AxisMount::Head, point, direction});
+        {*axis, mount == kOnTable ? AxisMount::Table : AxisMount::Head, point, direction, zero});
   }
 
   std::string_view text(std::int64_t row, std::string_view column) {
@@ -82,15 +85,14 @@ class RecordReader {
   }
   Vec3 vector(std::int64_t row, const std::array<std::string_view, 3>& columns) {
     Vec3 vector;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto value = table_.number(row, columns[k]);
-      if (value) {
-        vector[k] = *value;
-      } else {
-        fail(value.error().message);
-      }
-    }
+    for (std::size_t k = 0; k < 3; ++k) vector[k] = number(row, columns[k]);
     return vector;
+  }
+  double number(std::int64_t row, std::string_view column) {
+    const auto value = table_.number(row, column);
+    if (value) return *value;
+    fail(value.error().message);
+    return 0;
   }
   void fail(std::string_view what) {
     if (wrong_.empty()) wrong_ = what;
@@ -112,17 +114,19 @@ TabTable empty_table() {
   for (const char* name : {"X", "Y", "Z", "I", "J", "K"}) {
     columns.push_back({.name = name, .width = kNumber});
   }
+  columns.push_back({.name = std::string(kZero), .width = kNumber});
   return TabTable({.name = "DATA450 .KD", .unit = "MM", .form = tabfile::HeaderForm::None},
                   std::move(columns));
 }
 
 void append(TabTable& table, const std::string& name, std::string_view part, std::string_view on,
-            const Vec3& point, const Vec3& direction) {
+            const Vec3& point, const Vec3& direction, double zero_deg) {
   std::vector<std::string> cells{fmt::to_string(table.row_count()), name, std::string(part),
                                  std::string(on)};
   for (const Vec3& vector : {point, direction}) {
     for (std::size_t k = 0; k < 3; ++k) cells.push_back(fmt::format("{}", vector[k]));
   }
+  cells.push_back(fmt::format("{}", zero_deg));
   table.append_row(std::move(cells)).value();
 }
 
@@ -143,9 +147,10 @@ NcResult<void> write_kinematics_records(RunFiles& files,
   for (const auto& [name, model] : records) {
     for (const RotaryAxis& axis : model.axes()) {
       append(table, name, machine::name(axis.axis),
-             axis.mount == AxisMount::Table ? kOnTable : kOnHead, axis.centre, axis.direction);
+             axis.mount == AxisMount::Table ? kOnTable : kOnHead, axis.centre, axis.direction,
+             axis.zero_deg);
     }
-    append(table, name, kTool, {}, model.offset(), {});
+    append(table, name, kTool, {}, model.offset(), {}, 0);
   }
   return files.write(records_path(), tabfile::write_tab(table));
 }

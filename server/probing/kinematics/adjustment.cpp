@@ -21,7 +21,8 @@ Vec3 turning_point(const Vec3& sphere, const RotaryAxis& axis, const MeasuringTo
   return axis.mount == machine::AxisMount::Table ? sphere : unit_vector(tool.axis) * -tool.length;
 }
 
-Line line_of(const RotaryAxis& axis, const Vec3& sphere, const MeasuringTool& tool) {
+Line line_of(const RotaryAxis& axis, const Vec3& sphere, const MeasuringTool& tool,
+             const RotaryAxis* carrier) {
   const Vec3& along = axis.direction;
   const Vec3 lever = turning_point(sphere, axis, tool) - axis.centre;
   // The machine's axis that is most across gives the first vector, so that it is named alike.
@@ -31,6 +32,7 @@ Line line_of(const RotaryAxis& axis, const Vec3& sphere, const MeasuringTool& to
   }
   Vec3 beside;
   beside[most] = 1;
+  if (carrier != nullptr) beside = cross(carrier->direction, along);
   const Vec3 first = unit(beside - along * dot(beside, along));
   return {axis, axis.centre + along * dot(lever, along), {first, cross(along, first)}};
 }
@@ -75,20 +77,23 @@ Kinematics Adjustment::at(const Eigen::VectorXd& values) const {
     const Line& line = poses_.lines[k];
     Vec3 moved = line.anchor;
     Vec3 turned = line.modelled.direction;
+    double zero = line.modelled.zero_deg;
     bool changes = false;
     for (std::size_t j = 0; j < unknowns_.size(); ++j) {
       if (unknowns_[j].axis != k) continue;
-      const Vec3 step = line.across[unknowns_[j].side] * values[index_of(j)];
-      if (unknowns_[j].is_direction) {
-        turned = turned + step * (1 / kLever);
-      } else {
-        moved = moved + step;
+      const double value = values[index_of(j)];
+      const Vec3 step = line.across[unknowns_[j].side] * value;
+      switch (unknowns_[j].kind) {
+        case ErrorKind::Location: moved = moved + step; break;
+        case ErrorKind::Direction: turned = turned + step * (1 / kLever); break;
+        case ErrorKind::Zero: zero += machine::degrees(value / kLever); break;
       }
       changes = true;
     }
     if (!changes) continue;
     const auto axis = std::ranges::find(axes, line.modelled.axis, &RotaryAxis::axis);
     const double height = dot(line.modelled.centre - line.anchor, line.modelled.direction);
+    axis->zero_deg = zero;
     axis->direction = unit(turned);
     axis->centre = moved + axis->direction * height;
   }

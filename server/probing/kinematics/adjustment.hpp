@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <cstdint>
 
 #include "probing/kinematics/fit.hpp"
 
@@ -10,11 +11,13 @@ namespace fitgauge::probing {
 /// mm: the lever at which a direction counts as much as a location.
 inline constexpr double kLever = 100;
 
+enum class ErrorKind : std::uint8_t { Location, Direction, Zero };
+
 /// One value that is fitted, in mm: a location or, at kLever, a direction of an axis, along one of
-/// its two vectors.
+/// its two vectors, or at kLever its zero.
 struct Unknown {
   std::size_t axis = 0;
-  bool is_direction = false;
+  ErrorKind kind = ErrorKind::Location;
   std::size_t side = 0;
 };
 
@@ -28,8 +31,10 @@ struct Line {
 /// The point of the sphere (on a table) or of the ball (under a head) that turns around the axis.
 machine::Vec3 turning_point(const machine::Vec3& sphere, const machine::RotaryAxis& axis,
                             const MeasuringTool& tool);
+/// @param carrier the axis that carries it, if its zero is fitted: the first vector across then is
+///   the way this axis turns with it
 Line line_of(const machine::RotaryAxis& axis, const machine::Vec3& sphere,
-             const MeasuringTool& tool);
+             const MeasuringTool& tool, const machine::RotaryAxis* carrier = nullptr);
 
 /// What one fit works on; the parts outlive it.
 struct AdjustedPoses {

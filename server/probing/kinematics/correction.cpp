@@ -9,13 +9,22 @@
 namespace fitgauge::probing {
 namespace {
 
-/// `location of axis C (0.0012 mm, twice its uncertainty 0.0300 mm)`
+/// `location of axis C (0.0012 mm, twice its uncertainty 0.0300 mm)` of the first that is
+/// insignificant: a location tells enough of its axis.
 std::string insignificant(const AxisErrors& errors) {
-  const bool location = errors.location && !errors.location->is_significant;
-  const FoundError& found = location ? *errors.location : *errors.tilt_deg;
-  return fmt::format("{} of axis {} ({:.4f} mm{}, twice its uncertainty {:.4f} mm)",
-                     location ? "location" : "direction", name(errors.axis), found.size,
-                     location ? "" : " at 100 mm", 2 * found.standard_uncertainty);
+  struct Kind {
+    std::string_view name;
+    std::string_view lever;
+    const std::optional<FoundError>& found;
+  };
+  for (const auto& [kind, lever, found] :
+       {Kind{"location", "", errors.location}, Kind{"direction", " at 100 mm", errors.tilt_deg},
+        Kind{"zero", " at 100 mm", errors.zero_deg}}) {
+    if (!found || found->is_significant) continue;
+    return fmt::format("{} of axis {} ({:.4f} mm{}, twice its uncertainty {:.4f} mm)", kind,
+                       name(errors.axis), found->size, lever, 2 * found->standard_uncertainty);
+  }
+  return {};
 }
 
 std::string insignificant(std::span<const AxisErrors> errors) {

@@ -13,12 +13,14 @@ namespace {
 using namespace parameter;
 
 constexpr std::array kMode{choice(
-    406, "Mode: 0 check, 1 optimise locations, 2 optimise locations and directions", 0, 2, 0)};
+    406, "Mode: 0 check, 1 optimise locations, 2 optimise locations and directions, 3 zeros too", 0,
+    3, 0)};
 constexpr std::array kEnd{kTouchesOfSphere, kPresetAtSphere, kBacklashAngle};
 constexpr auto kParameters = join(join(kMode, kSphereApproach), join(kRotaryAxes, kEnd));
 
-constexpr std::array<std::string_view, 3> kModes{"0 = check", "1 = optimise locations",
-                                                 "2 = optimise locations and directions"};
+constexpr std::array<std::string_view, 4> kModes{"0 = check", "1 = optimise locations",
+                                                 "2 = optimise locations and directions",
+                                                 "3 = optimise zeros, locations and directions"};
 
 /// The error of the axis that was measured last.
 Vec3 offset_error(const KinematicsMeasurement& measurement) {
@@ -38,8 +40,9 @@ CycleResult<void> measure(const CycleContext& context) {
   if (!probing) return probing.error();
   if (auto set = preset.before(context, *probing); !set) return set;
 
-  const auto measurement =
-      measure_kinematics(context, *probing, *plans, fit_options(context, mode != 1));
+  FitOptions options = fit_options(context, mode != 1);
+  options.zeros = mode == 3;
+  const auto measurement = measure_kinematics(context, *probing, *plans, options);
   if (!measurement) return measurement.error();
   write_kinematics_results(context.host, *measurement, offset_error(*measurement));
   const KinematicsReport report{.mode = kModes.at(static_cast<std::size_t>(mode)),
@@ -71,7 +74,12 @@ constinit const TouchProbeCycle kCycle451{
          "All parameters, against the calibration_sphere of the setup. All measured axes are "
          "fitted together, the others standing at their incidence. Q406 = 1 corrects the location "
          "of each measured axis in the kinematic model, 2 its direction too; 0 says what 2 would "
-         "correct. An error below twice its uncertainty is not corrected: 1102 when nothing is "
+         "correct. 3 corrects the zeros besides: what a measured axis is tilted by around the "
+         "measured axis that carries it is that axis' zero (a C that leans around A shows where A "
+         "0 really stands), and the preset is to be set anew (Q431). The zero of the axis next to "
+         "the sphere or to the tool shows in no position: it belongs to the preset or to the "
+         "probe. "
+         "An error below twice its uncertainty is not corrected: 1102 when nothing is "
          "left to correct, or a note with insignificant_corrections of the setup. Beyond its "
          "max_modification_mm the cycle stops for NC Start before it corrects. Q408 = 0 needs the "
          "option of TCPM (tcpm_option): the probe then circles the sphere. A reference is measured "
@@ -82,8 +90,7 @@ constinit const TouchProbeCycle kCycle451{
          "they tell what another axis has come to rest with from a location error. The axes end at "
          "0. An axis of strobe_rotary_axes stands at 0 before the start, gets its targets in Q120 "
          "to Q122 for its M function and has no backlash measured. Backlash is measured, never "
-         "compensated. The log TCHPR451.html.",
-     .not_simulated = "Q406 = 3, the zero of the rotary axes: the kinematic model has none."},
+         "compensated. The log TCHPR451.html."},
     measure};
 
 }  // namespace fitgauge::probing

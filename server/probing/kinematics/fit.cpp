@@ -1,6 +1,7 @@
 #include "probing/kinematics/fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <utility>
@@ -19,23 +20,25 @@ using machine::Vec3;
 /// mm: what is smaller is nothing.
 constexpr double kNothing = 1e-6;
 
-/// What belongs together: the location or the direction of one axis.
-bool is_of(const Unknown& unknown, std::size_t axis, bool is_direction) {
-  return unknown.axis == axis && unknown.is_direction == is_direction;
+/// What belongs together: the location, the direction or the zero of one axis.
+bool is_of(const Unknown& unknown, std::size_t axis, ErrorKind kind) {
+  return unknown.axis == axis && unknown.kind == kind;
 }
 
-/// Gives up what is not seen: the direction of an axis goes as a whole, and before any location.
+bool is_angle(const Unknown& unknown) { return unknown.kind != ErrorKind::Location; }
+
+/// Gives up what is not seen: the direction of an axis goes as a whole, angles before any location.
 /// @return whether something was given up.
 bool drop_unseen(std::vector<Unknown>& unknowns, const std::vector<bool>& seen) {
   std::vector<Unknown> lost;
   for (std::size_t j = 0; j < unknowns.size(); ++j) {
     if (!seen[j]) lost.push_back(unknowns[j]);
   }
-  const bool directions = std::ranges::any_of(lost, &Unknown::is_direction);
+  const bool angles = std::ranges::any_of(lost, is_angle);
   const auto is_lost = [&](const Unknown& unknown) {
-    if (unknown.is_direction != directions) return false;
+    if (is_angle(unknown) != angles) return false;
     return std::ranges::any_of(
-        lost, [&](const Unknown& gone) { return is_of(gone, unknown.axis, directions); });
+        lost, [&](const Unknown& gone) { return is_of(gone, unknown.axis, unknown.kind); });
   };
   return std::erase_if(unknowns, is_lost) > 0;
 }
@@ -51,27 +54,36 @@ double restless_axes(const Kinematics& model, Axis axis) {
   return static_cast<double>(found - axes.begin() + heads);
 }
 
-/// A location or a direction with its uncertainty.
+/// What one mm of an unknown is: mm, or a rotation vector in degrees.
+Vec3 step_of(const Unknown& unknown, const Line& line) {
+  const Vec3& across = line.across.at(unknown.side);
+  const Vec3& along = line.modelled.direction;
+  switch (unknown.kind) {
+    case ErrorKind::Location: return across;
+    case ErrorKind::Direction: return cross(along, across) * machine::degrees(1 / kLever);
+    case ErrorKind::Zero: break;
+  }
+  return along * machine::degrees(1 / kLever);
+}
+
+/// A location, a direction or a zero with its uncertainty.
 class Estimate {
  public:
-  Estimate(const Adjustment& fit, const Line& line, std::size_t axis, bool is_direction)
+  Estimate(const Adjustment& fit, const Line& line, std::size_t axis, ErrorKind kind)
       : scatter_(fit.scatter()) {
     const Eigen::MatrixXd all = fit.covariance();
     std::array<Eigen::Index, 2> rows{};
     std::size_t sides = 0;
     for (std::size_t j = 0; j < fit.unknowns().size(); ++j) {
       const Unknown& unknown = fit.unknowns()[j];
-      if (!is_of(unknown, axis, is_direction)) continue;
+      if (!is_of(unknown, axis, kind)) continue;
       rows.at(sides) = static_cast<Eigen::Index>(j);
-      const Vec3& step = line.across.at(unknown.side);
-      steps_.at(sides++) =
-          is_direction ? cross(line.modelled.direction, step) * machine::degrees(1 / kLever) : step;
+      steps_.at(sides++) = step_of(unknown, line);
     }
-    is_seen_ = sides == 2;
-    if (!is_seen_) return;
-    for (Eigen::Index i = 0; i < 2; ++i) {
+    is_seen_ = sides > 0;
+    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(sides); ++i) {
       values_[i] = fit.values()[rows.at(static_cast<std::size_t>(i))];
-      for (Eigen::Index j = 0; j < 2; ++j) {
+      for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(sides); ++j) {
         covariance_(i, j) =
             all(rows.at(static_cast<std::size_t>(i)), rows.at(static_cast<std::size_t>(j)));
       }
@@ -126,32 +138,47 @@ std::vector<AxisErrors> errors_of(const Adjustment& fit, const Kinematics& model
     const Axis axis = lines[k].modelled.axis;
     AxisErrors& errors = all.emplace_back();
     errors.axis = axis;
-    if (const Estimate location(fit, lines[k], k, false); location.is_seen()) {
+    if (const Estimate location(fit, lines[k], k, ErrorKind::Location); location.is_seen()) {
       errors.valuation = 1 / location.worst();
       errors.location = location.found(restless_axes(model, axis), coverage);
     }
-    if (const Estimate direction(fit, lines[k], k, true); direction.is_seen()) {
+    if (const Estimate direction(fit, lines[k], k, ErrorKind::Direction); direction.is_seen()) {
       errors.tilt_deg = direction.found(0, coverage);
+    }
+    if (const Estimate zero(fit, lines[k], k, ErrorKind::Zero); zero.is_seen()) {
+      errors.zero_deg = zero.found(0, coverage);
     }
   }
   return all;
 }
 
-/// Leaves out of the unknowns what is least significant, directions first.
+constexpr std::array kKinds{ErrorKind::Zero, ErrorKind::Direction, ErrorKind::Location};
+
+template <class Errors>
+auto& found_of(Errors& errors, ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::Location: return errors.location;
+    case ErrorKind::Direction: return errors.tilt_deg;
+    case ErrorKind::Zero: break;
+  }
+  return errors.zero_deg;
+}
+
+/// Leaves out of the unknowns what is least significant, angles first.
 /// @return whether something was left out.
 bool drop_insignificant(std::vector<Unknown>& unknowns, const std::vector<AxisErrors>& errors) {
-  for (const bool is_direction : {true, false}) {
+  for (const ErrorKind kind : kKinds) {
     double least = 0;
     std::optional<std::size_t> dropped;
     for (std::size_t k = 0; k < errors.size(); ++k) {
-      const auto& found = is_direction ? errors[k].tilt_deg : errors[k].location;
+      const auto& found = found_of(errors[k], kind);
       if (!found || found->is_significant) continue;
       const double significance = found->size / found->standard_uncertainty;
       if (!dropped || significance < least) dropped = k;
       least = dropped == k ? significance : least;
     }
     if (!dropped) continue;
-    std::erase_if(unknowns, [&](const Unknown& u) { return is_of(u, *dropped, is_direction); });
+    std::erase_if(unknowns, [&](const Unknown& u) { return is_of(u, *dropped, kind); });
     return true;
   }
   return false;
@@ -159,14 +186,29 @@ bool drop_insignificant(std::vector<Unknown>& unknowns, const std::vector<AxisEr
 
 /// What is insignificant beside others may be significant without them: what is left is corrected.
 void mark_corrected(std::vector<AxisErrors>& errors, const std::vector<Unknown>& unknowns) {
-  const auto is_left = [&](std::size_t axis, bool is_direction) {
-    return std::ranges::any_of(unknowns,
-                               [&](const Unknown& u) { return is_of(u, axis, is_direction); });
-  };
   for (std::size_t k = 0; k < errors.size(); ++k) {
-    if (errors[k].location) errors[k].location->is_significant = is_left(k, false);
-    if (errors[k].tilt_deg) errors[k].tilt_deg->is_significant = is_left(k, true);
+    for (const ErrorKind kind : kKinds) {
+      auto& found = found_of(errors[k], kind);
+      if (!found) continue;
+      found->is_significant =
+          std::ranges::any_of(unknowns, [&](const Unknown& u) { return is_of(u, k, kind); });
+    }
   }
+}
+
+/// Which of `axes` carries the k-th of them, if it does so at once and across it.
+std::optional<std::size_t> carrier_of(const Kinematics& model, std::span<const Axis> axes,
+                                      std::size_t k) {
+  constexpr double kAcross = 1e-3;  // of the sine of the angle between both
+  const auto& chain = model.axes();
+  const auto own = std::ranges::find(chain, axes[k], &RotaryAxis::axis);
+  if (own == chain.begin() || std::prev(own)->mount != own->mount) return std::nullopt;
+  const RotaryAxis& carrier = *std::prev(own);
+  const auto found = std::ranges::find(axes, carrier.axis);
+  if (found == axes.end() || norm(cross(carrier.direction, own->direction)) < kAcross) {
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(found - axes.begin());
 }
 
 std::vector<Spread> spreads(std::span<const PoseGroup> groups, const Kinematics& model,
@@ -223,10 +265,15 @@ KinematicsFit fit_kinematics(std::span<const PoseGroup> groups, const Kinematics
   const bool own_groups = groups.size() == axes.size();
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const Vec3& sphere = found.before[own_groups ? k : 0].centre;
-    lines.push_back(line_of(*model.find(axes[k]), sphere, tool));
+    const auto carrier = options.zeros ? carrier_of(model, axes, k) : std::nullopt;
+    lines.push_back(line_of(*model.find(axes[k]), sphere, tool,
+                            carrier ? model.find(axes[*carrier]) : nullptr));
     for (std::size_t side = 0; side < 2; ++side) {
-      unknowns.push_back({k, false, side});
-      if (options.directions) unknowns.push_back({k, true, side});
+      unknowns.push_back({k, ErrorKind::Location, side});
+      if (!options.directions) continue;
+      const bool is_zero = carrier && side == 0;
+      unknowns.push_back(is_zero ? Unknown{*carrier, ErrorKind::Zero}
+                                 : Unknown{k, ErrorKind::Direction, side});
     }
   }
   const AdjustedPoses poses{groups, model, tool, lines};

@@ -60,12 +60,14 @@ struct AxisErrors {
   machine::Axis axis = machine::Axis::C;
   std::optional<FoundError> location;  ///< in mm across the axis, at the height of the sphere
   std::optional<FoundError> tilt_deg;  ///< a rotation vector across the axis
+  std::optional<FoundError> zero_deg;  ///< a rotation vector along the axis
   /// The variance of one measured centre over that of the location, in its worst direction; 0
   /// without a location.
   double valuation = 0;
 
   bool is_significant() const {
-    return (!location || location->is_significant) && (!tilt_deg || tilt_deg->is_significant);
+    return (!location || location->is_significant) && (!tilt_deg || tilt_deg->is_significant) &&
+           (!zero_deg || zero_deg->is_significant);
   }
 };
 
@@ -78,7 +80,10 @@ struct KinematicsFit {
 };
 
 struct FitOptions {
-  bool directions = true;         ///< of the axes, beside their locations
+  bool directions = true;  ///< of the axes, beside their locations
+  /// With directions: what an axis that is fitted too is tilted by around the one that carries it
+  /// is the error of the carrier's zero.
+  bool zeros = false;
   bool only_significant = false;  ///< corrects no error that is not significant
 };
 
@@ -86,7 +91,7 @@ struct FitOptions {
 /// distances of the sphere centres on the table from the mean of their group (Gauss-Newton; the
 /// places of the sphere are eliminated): exact whatever the order of the axes and wherever the
 /// others stand (decision 26). A value that the singular value decomposition of the positions
-/// leaves undefined is not determined: first directions are given up, then locations.
+/// leaves undefined is not determined: first directions and zeros are given up, then locations.
 KinematicsFit fit_kinematics(std::span<const PoseGroup> groups, const machine::Kinematics& model,
                              const MeasuringTool& tool, std::span<const machine::Axis> axes,
                              const FitOptions& options);

@@ -108,6 +108,10 @@ std::string error_rows(const AxisErrors& errors) {
     html += error_rows("Direction error, turned around the axes, in degrees", "the direction error",
                        *errors.tilt_deg, degrees);
   }
+  if (errors.zero_deg) {
+    html += error_rows("Error of the zero, turned around the axes, in degrees",
+                       "the error of the zero", *errors.zero_deg, degrees);
+  }
   return html;
 }
 

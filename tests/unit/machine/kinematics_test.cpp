@@ -45,6 +45,17 @@ TEST_CASE("a head turns the tool with the sense of its axis") {
   check_near(trunnion().tool_direction({30, 0, 60}, Axis::Z), {0, 0, 1});
 }
 
+TEST_CASE("an axis is turned by its zero besides what it shows") {
+  const Kinematics table({{Axis::C, AxisMount::Table, {0, 0, -50}, {0, 0, 1}},
+                          {Axis::A, AxisMount::Table, {0, 0, -100}, {1, 0, 0}, 1.5}});
+  check_near(table.table({88.5, 0, 0}).point({}), {0, 100, -100});
+  check_near(table.orientations({0, 0, 1}, {}, Axis::Z).at(0), {-1.5, 0, 0});
+  const Kinematics head({{Axis::B, AxisMount::Head, {}, {0, 1, 0}, -2}});
+  check_near(head.tool_direction({0, 92, 0}, Axis::Z), {1, 0, 0});
+  check_near(head.tool_vector({0, 92, 0}, Axis::Z, 100), {-100, 0, 0});
+  check_near(head.orientations({1, 0, 0}, {}, Axis::Z).at(0), {0, 92, 0});
+}
+
 TEST_CASE("what an axis has come to rest with is turned by the axes that carry it") {
   const Kinematics table = trunnion();
   check_near(table.table({90, 0, 0}, {{{0, 0, 1}, {}, {}}}).point({}), {0, 100, -99});

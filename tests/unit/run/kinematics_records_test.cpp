@@ -26,9 +26,10 @@ NcResult<probing::KinematicsRecords> read(const std::string& rows) {
 }  // namespace
 
 TEST_CASE("records of kinematics come back as they were written") {
-  const Kinematics table({{Axis::A, AxisMount::Table, {1.0 / 3, -0.03, 1e-9}, {1, 2e-4, -1e-7}},
-                          {Axis::C, AxisMount::Table, {0, 0, -100}, {0, 0, 1}}},
-                         {0.1, 0, -2.0 / 7});
+  const Kinematics table(
+      {{Axis::A, AxisMount::Table, {1.0 / 3, -0.03, 1e-9}, {1, 2e-4, -1e-7}, -0.0123},
+       {Axis::C, AxisMount::Table, {0, 0, -100}, {0, 0, 1}}},
+      {0.1, 0, -2.0 / 7});
   const Kinematics head({{Axis::B, AxisMount::Head, {}, {0, 1, 0}}});
   const probing::KinematicsRecords records{{"7", table}, {"A NAME OF SIXTEE", head}, {"-", {}}};
   const MemoryDisk disk;
@@ -49,6 +50,7 @@ TEST_CASE("records of kinematics come back as they were written") {
       CHECK(found.axes()[k].axis == model.axes()[k].axis);
       CHECK(found.axes()[k].mount == model.axes()[k].mount);
       CHECK(found.axes()[k].centre == model.axes()[k].centre);
+      CHECK(found.axes()[k].zero_deg == model.axes()[k].zero_deg);
       CHECK(norm(found.axes()[k].direction - model.axes()[k].direction) < 1e-15);
     }
   }
