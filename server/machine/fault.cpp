@@ -31,6 +31,10 @@ FaultText text_of(FaultKind kind) {
     case FaultKind::PresetLocked: return {1085, "Line is write-protected"};
     case FaultKind::ValueInvalid: return {1011, "Input value incorrect"};
     case FaultKind::Interrupted: return {0, "Program run interrupted"};
+    case FaultKind::EmergencyStop: return {0, "Emergency stop"};
+    case FaultKind::FeedHold: return {0, "Feed hold"};
+    case FaultKind::Aborted: return {0, "Motion aborted by the operator"};
+    case FaultKind::ConnectionLost: return {0, "Connection to the machine lost"};
     case FaultKind::ScriptExhausted: return {0, "No recorded contact is left"};
     case FaultKind::ScriptedDifferent: return {0, "Command differs from the recorded one"};
   }

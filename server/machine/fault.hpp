@@ -25,6 +25,10 @@ enum class FaultKind : std::uint8_t {
   PresetLocked,       ///< 1085: the row of the preset table is write-protected
   ValueInvalid,       ///< 1011: a coordinate, direction or time is not a finite number in range
   Interrupted,        ///< the allowance of the run is spent, or the run was called off
+  EmergencyStop,      ///< the machine was stopped by its emergency stop
+  FeedHold,           ///< the feed was held for longer than the driver waits
+  Aborted,            ///< the operator has aborted the motion
+  ConnectionLost,     ///< nobody knows where the machine stands
   ScriptExhausted,    ///< a scripted machine has no contact left
   ScriptedDifferent,  ///< a scripted machine met a command its log does not have
 };

@@ -117,6 +117,8 @@ struct MachineSetup {
   std::vector<Preset> presets{default_preset()};
   int active_preset = 1;
 
+  /// Where the axes stand at first: Z at the top of its range, the others at 0.
+  Position start_position() const;
   static ToolSetup default_probe_tool();  ///< 30, PROBE, 120 mm, ball radius 2 mm, probe 1
   static Preset default_preset();         ///< row 1, zero
 };

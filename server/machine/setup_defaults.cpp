@@ -24,6 +24,18 @@ RotaryAxis AxisSetup::built(Axis axis) const {
   return real;
 }
 
+Position MachineSetup::start_position() const {
+  Position position;
+  for (const Axis axis : kAllAxes) {
+    if (start[axis]) {
+      position[axis] = *start[axis];
+    } else if (axis == Axis::Z && axes[index(axis)]) {
+      position[axis] = axes[index(axis)]->max;
+    }
+  }
+  return position;
+}
+
 ToolSetup MachineSetup::default_probe_tool() {
   ToolSetup tool;
   tool.row.number = 30;

@@ -1,28 +1,12 @@
-#include "machine/modelled_machine.hpp"
+#include "machine/control.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 namespace fitgauge::machine {
-namespace {
-
-Position start_of(const MachineSetup& setup) {
-  Position start;
-  for (const Axis axis : kAllAxes) {
-    if (setup.start[axis]) {
-      start[axis] = *setup.start[axis];
-    } else if (axis == Axis::Z && setup.axes[index(axis)]) {
-      start[axis] = setup.axes[index(axis)]->max;
-    }
-  }
-  return start;
-}
-
-}  // namespace
-
-ModelledMachine::ModelledMachine(const MachineSetup& setup, Allowance* allowance)
-    : allowance_(allowance != nullptr ? *allowance : unlimited_) {
+Control::Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowance* allowance)
+    : axes_(std::move(axes)), allowance_(allowance != nullptr ? *allowance : unlimited_) {
   std::vector<RotaryAxis> rotary;
   for (const Axis axis : kAllAxes) {
     const auto& known = setup.axes[index(axis)];
@@ -41,10 +25,10 @@ ModelledMachine::ModelledMachine(const MachineSetup& setup, Allowance* allowance
     state_.frames.set_preset(preset->frame);
   }
   state_.rapid_mm_min = setup.rapid_mm_min;
-  state_.nose = start_of(setup);
+  state_.nose = axes_->nose();
 }
 
-MachineResult<void> ModelledMachine::call_tool(const ToolCall& call) {
+MachineResult<void> Control::call_tool(const ToolCall& call) {
   if (!call.axis && !state_.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
   if (call.axis && is_rotary(*call.axis)) {
     return make_fault(FaultKind::ValueInvalid, "the tool axis is X, Y or Z");
@@ -66,7 +50,7 @@ MachineResult<void> ModelledMachine::call_tool(const ToolCall& call) {
   return {};
 }
 
-MachineResult<void> ModelledMachine::write_tool(const Tool& tool) {
+MachineResult<void> Control::write_tool(const Tool& tool) {
   if (!is_finite({tool.l, tool.r, tool.r2}) || !is_finite({tool.dl, tool.dr, tool.dr2})) {
     return make_fault(FaultKind::ValueInvalid, fmt::format("lengths of tool {}", tool.number));
   }
@@ -74,7 +58,7 @@ MachineResult<void> ModelledMachine::write_tool(const Tool& tool) {
   return {};
 }
 
-MachineResult<void> ModelledMachine::write_probe(const ProbeRow& row) {
+MachineResult<void> Control::write_probe(const ProbeRow& row) {
   if (!is_finite({row.cal_of1, row.cal_of2, row.cal_ang}) ||
       !is_finite({row.feed, row.rapid, row.distance + row.set_up})) {
     return make_fault(FaultKind::ValueInvalid, fmt::format("values of probe {}", row.number));
@@ -83,7 +67,7 @@ MachineResult<void> ModelledMachine::write_probe(const ProbeRow& row) {
   return {};
 }
 
-MachineResult<void> ModelledMachine::write_preset(const Preset& preset) {
+MachineResult<void> Control::write_preset(const Preset& preset) {
   const auto& [origin, rotation, offsets] = preset.frame;
   if (!is_finite(origin) || !is_finite(rotation) || !is_finite(offsets) || preset.number < 0) {
     return make_fault(FaultKind::ValueInvalid, fmt::format("values of preset {}", preset.number));
@@ -101,7 +85,7 @@ MachineResult<void> ModelledMachine::write_preset(const Preset& preset) {
   return {};
 }
 
-MachineResult<void> ModelledMachine::write_tool_touch_probe(const ToolTouchProbe& tt) {
+MachineResult<void> Control::write_tool_touch_probe(const ToolTouchProbe& tt) {
   if (!is_finite(tt.centre) || !std::isfinite(tt.radius) || tt.radius <= 0) {
     return make_fault(FaultKind::ValueInvalid, "centre and radius of the tool touch probe");
   }
@@ -109,7 +93,7 @@ MachineResult<void> ModelledMachine::write_tool_touch_probe(const ToolTouchProbe
   return {};
 }
 
-MachineResult<void> ModelledMachine::activate_preset(int number) {
+MachineResult<void> Control::activate_preset(int number) {
   const Preset* preset = state_.presets.find(number);
   if (preset == nullptr) return make_fault(FaultKind::PresetUnknown, fmt::format("row {}", number));
   state_.active_preset = number;
@@ -118,7 +102,7 @@ MachineResult<void> ModelledMachine::activate_preset(int number) {
   return {};
 }
 
-MachineResult<void> ModelledMachine::set_frames(const Frames& frames) {
+MachineResult<void> Control::set_frames(const Frames& frames) {
   if (!frames.is_valid()) {
     return make_fault(FaultKind::ValueInvalid, "a frame is not finite or scales by 0");
   }
@@ -127,7 +111,7 @@ MachineResult<void> ModelledMachine::set_frames(const Frames& frames) {
   return {};
 }
 
-MachineResult<void> ModelledMachine::set_modes(const Modes& modes) {
+MachineResult<void> Control::set_modes(const Modes& modes) {
   if (modes.tcpm && !state_.kinematics_options.tcpm) {
     return make_fault(FaultKind::OptionMissing, "TCPM (tcpm_option of the setup)");
   }
@@ -142,7 +126,7 @@ MachineResult<void> ModelledMachine::set_modes(const Modes& modes) {
   return {};
 }
 
-MachineResult<void> ModelledMachine::set_kinematics(const Kinematics& kinematics) {
+MachineResult<void> Control::set_kinematics(const Kinematics& kinematics) {
   for (const RotaryAxis& axis : kinematics.axes()) {
     if (!state_.ranges[index(axis.axis)])
       return make_fault(FaultKind::AxisMissing, name(axis.axis));
@@ -158,19 +142,17 @@ MachineResult<void> ModelledMachine::set_kinematics(const Kinematics& kinematics
   return {};
 }
 
-void ModelledMachine::refresh_table() {
+void Control::refresh_table() {
   state_.frames.set_table(is_following() ? table_at(state_.nose.rotary) : Transform{});
 }
 
-MachineResult<void> ModelledMachine::dwell(double seconds) {
+MachineResult<void> Control::dwell(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) {
     return make_fault(FaultKind::ValueInvalid, fmt::format("a dwell of {} s", seconds));
   }
+  if (auto waited = axes_->dwell(seconds, allowance_); !waited) return waited;
   spend(seconds);
   return {};
 }
-
-void ModelledMachine::stop(std::string_view) {}
-void ModelledMachine::message(std::string_view) {}
 
 }  // namespace fitgauge::machine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "machine/modelled_machine.hpp"
+#include "machine/control.hpp"
 
 namespace fitgauge::machine {
 namespace {
@@ -22,7 +22,7 @@ MachineResult<void> check_finite(const AxisWords& words) {
 
 }  // namespace
 
-MachineResult<void> ModelledMachine::move(const LinearMove& move) {
+MachineResult<void> Control::move(const LinearMove& move) {
   if (auto checked = check_feed(move.feed); !checked) return checked;
   if (auto checked = check_finite(move.target); !checked) return checked;
   const auto rotary = target_rotary(move);
@@ -42,7 +42,7 @@ MachineResult<void> ModelledMachine::move(const LinearMove& move) {
   return travel(path, move.feed);
 }
 
-MachineResult<Vec3> ModelledMachine::target_rotary(const LinearMove& move) const {
+MachineResult<Vec3> Control::target_rotary(const LinearMove& move) const {
   Vec3 rotary = state_.nose.rotary;
   for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
     const auto& word = move.target[axis];
@@ -64,8 +64,8 @@ MachineResult<Vec3> ModelledMachine::target_rotary(const LinearMove& move) const
 }
 
 /// Where the nose ends with the rotary axes at `rotary`; `frames` are those that hold there.
-MachineResult<Position> ModelledMachine::target_nose(const LinearMove& move, const Frames& frames,
-                                                     const Vec3& rotary) const {
+MachineResult<Position> Control::target_nose(const LinearMove& move, const Frames& frames,
+                                             const Vec3& rotary) const {
   bool has_linear = false;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     has_linear = has_linear || move.target[axis];
@@ -91,7 +91,7 @@ MachineResult<Position> ModelledMachine::target_nose(const LinearMove& move, con
 }
 
 /// With TCPM the tip runs straight on the table while the rotary axes turn.
-Path ModelledMachine::following_path(const Position& end) const {
+Path Control::following_path(const Position& end) const {
   const Kinematics kinematics = state_.kinematics;
   const Axis axis = state_.tool_axis();
   const double length = state_.tool_length();
@@ -119,7 +119,7 @@ Path ModelledMachine::following_path(const Position& end) const {
   return path;
 }
 
-MachineResult<void> ModelledMachine::move_arc(const ArcMove& arc) {
+MachineResult<void> Control::move_arc(const ArcMove& arc) {
   if (auto checked = check_feed(arc.feed); !checked) return checked;
   constexpr double kLongestSweepDeg = 1e6;
   if (!is_finite(arc.end) || !is_finite(arc.centre) || is_rotary(arc.normal) ||
@@ -165,7 +165,7 @@ MachineResult<void> ModelledMachine::move_arc(const ArcMove& arc) {
 
 /// Of a way that is not straight: the end first; then, unless everything that near to the start is
 /// in range, every 0.1 degrees.
-MachineResult<void> ModelledMachine::check_way(const Path& path, double turn_deg) {
+MachineResult<void> Control::check_way(const Path& path, double turn_deg) {
   if (auto checked = check_range(path.end); !checked) return checked;
   bool is_clear = true;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
@@ -189,7 +189,7 @@ MachineResult<void> ModelledMachine::check_way(const Path& path, double turn_deg
   return {};
 }
 
-MachineResult<void> ModelledMachine::check_range(const Position& nose) const {
+MachineResult<void> Control::check_range(const Position& nose) const {
   for (const Axis axis : kAllAxes) {
     const auto& range = state_.ranges[index(axis)];
     if (!range) continue;
@@ -202,38 +202,72 @@ MachineResult<void> ModelledMachine::check_range(const Position& nose) const {
   return {};
 }
 
-Transform ModelledMachine::table_at(const Vec3& rotary) const {
-  return state_.kinematics.table(rotary);
-}
+Transform Control::table_at(const Vec3& rotary) const { return state_.kinematics.table(rotary); }
 
-void ModelledMachine::stand_at(const Position& nose) {
+void Control::stand_at(const Position& nose) {
   const bool has_turned = nose.rotary != state_.nose.rotary;
   state_.nose = nose;
   if (has_turned && is_following()) state_.frames.set_table(table_at(nose.rotary));
 }
 
-MachineResult<void> ModelledMachine::check_feed(const Feed& feed) {
+MachineResult<void> Control::check_feed(const Feed& feed) {
   const bool is_usable = feed.rate > 0 && (feed.is_rapid || std::isfinite(feed.rate));
   if (is_usable) return {};
   return make_fault(FaultKind::FeedMissing, fmt::format("a feed of {} mm/min", feed.rate));
 }
 
-double ModelledMachine::seconds_of(double way, const Feed& feed) const {
+double Control::seconds_of(double way, const Feed& feed) const {
   constexpr double kSecondsPerMinute = 60;
   return std::min(way / feed.rate_on(state_.rapid_mm_min) * kSecondsPerMinute, kLongestSeconds);
 }
 
-void ModelledMachine::spend(double seconds) {
+void Control::spend(double seconds) {
   state_.elapsed_s = std::min(state_.elapsed_s + seconds, kLongestSeconds);
 }
 
-MachineResult<void> ModelledMachine::travel(const Path& path, const Feed& feed) {
-  if (path.end.rotary != path.start.rotary) on_turn(path.end.rotary);
-  const double part = free_part(path);
-  if (allowance_.found() != Allowance::Spent::Nothing) return make_fault(FaultKind::Interrupted);
-  spend(seconds_of(part * std::max(path.length, path.turn), feed));
-  stand_at(part < 1 ? path.nose(part) : path.end);
-  if (part == 1) return {};
+Motion Control::motion(const Feed& feed, bool is_retract) {
+  const Tool* row = state_.active_tool();
+  return {.feed = Feed{feed.is_rapid, feed.rate_on(state_.rapid_mm_min)},
+          .tool = {.number = state_.tool.number,
+                   .is_probe = row != nullptr && row->is_probe(),
+                   .axis = state_.tool_axis(),
+                   .length = state_.tool_length(),
+                   .radius = state_.tool_radius(),
+                   .spindle_deg = state_.modes.spindle_deg},
+          .allowance = allowance_,
+          .is_retract = is_retract};
+}
+
+MachineResult<double> Control::follow(const Path& path, const Motion& motion) {
+  const bool is_linear = path.is_straight || path.end.linear == path.start.linear;
+  if (is_linear || axes_->capabilities().curves) return axes_->follow(path, motion);
+  return follow_pieces(path, motion, 0, 1);
+}
+
+/// Halves the part of the path until each piece is straight.
+MachineResult<double> Control::follow_pieces(const Path& path, const Motion& motion, double from,
+                                             double to) {
+  constexpr double kStraight = 5e-4;  // mm
+  constexpr double kLongestPiece = 0.125;
+  const Position start = path.nose(from);
+  const Position end = to < 1 ? path.nose(to) : path.end;
+  const double half = (from + to) / 2;
+  const Vec3 sag = path.nose(half).linear - (start.linear + end.linear) * 0.5;
+  if (to - from > kLongestPiece || norm(sag) > kStraight) {
+    auto first = follow_pieces(path, motion, from, half);
+    if (!first || *first < half) return first;
+    return follow_pieces(path, motion, half, to);
+  }
+  const auto part = axes_->follow(straight_path(start, end), motion);
+  return part ? MachineResult<double>(*part < 1 ? from + (to - from) * *part : to) : part;
+}
+
+MachineResult<void> Control::travel(const Path& path, const Feed& feed, bool is_retract) {
+  const auto part = follow(path, motion(feed, is_retract));
+  stand_at(axes_->nose());
+  if (!part) return part.error();
+  spend(seconds_of(*part * std::max(path.length, path.turn), feed));
+  if (*part == 1) return {};
   const Vec3 centre = state_.ball_centre();
   return make_fault(
       FaultKind::Collision,

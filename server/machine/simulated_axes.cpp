@@ -1,4 +1,4 @@
-#include "machine/simulated_machine.hpp"
+#include "machine/simulated_axes.hpp"
 
 #include <algorithm>
 
@@ -65,16 +65,16 @@ std::vector<Feature> around_plate(const ToolTouchProbeSetup& tt, double tool_rad
 
 }  // namespace
 
-SimulatedMachine::SimulatedMachine(const Setup& setup, Allowance* allowance)
-    : ModelledMachine(setup.machine, allowance),
-      setup_(setup.machine),
+SimulatedAxes::SimulatedAxes(const Setup& setup)
+    : setup_(setup.machine),
       workpiece_(on_table(setup)),
       kinematics_(as_built(setup.machine)),
+      nose_(setup.machine.start_position()),
       rest_{},
       random_(setup.seed) {}
 
-void SimulatedMachine::on_turn(const Vec3& rotary) {
-  const Vec3 turn = rotary - state().nose.rotary;
+void SimulatedAxes::turn(const Vec3& rotary) {
+  const Vec3 turn = rotary - nose_.rotary;
   for (std::size_t letter = 0; letter < 3; ++letter) {
     const auto& axis = setup_.axes[letter + 3];
     if (!axis || turn[letter] == 0) continue;
@@ -85,9 +85,9 @@ void SimulatedMachine::on_turn(const Vec3& rotary) {
   }
 }
 
-SimulatedMachine::RealTool SimulatedMachine::real_tool() const {
-  RealTool real{state().tool_length(), state().tool_radius(), {}, nullptr};
-  const int number = state().tool.number;
+SimulatedAxes::RealTool SimulatedAxes::real_tool(const SpindleTool& known) const {
+  RealTool real{known.axis, known.length, known.radius, {}, nullptr};
+  const int number = known.number;
   const auto tool = std::find_if(setup_.tools.begin(), setup_.tools.end(),
                                  [=](const ToolSetup& t) { return t.row.number == number; });
   if (tool == setup_.tools.end()) return real;
@@ -98,28 +98,38 @@ SimulatedMachine::RealTool SimulatedMachine::real_tool() const {
                                   [=](const ProbeSetup& p) { return p.row.number == row; });
   if (probe == setup_.probes.end()) return real;
   real.probe = &*probe;
-  real.offset = turned_offset(probe->centre_offset, state().tool_axis(), state().modes.spindle_deg);
+  real.offset = turned_offset(probe->centre_offset, known.axis, known.spindle_deg);
   return real;
 }
 
-Transform SimulatedMachine::real_table(const Vec3& rotary) const {
+Transform SimulatedAxes::real_table(const Vec3& rotary) const {
   return kinematics_.table(rotary + slack_deg_, rest_);
 }
 
-Vec3 SimulatedMachine::real_tool_point(const Position& nose, double length) const {
-  return nose.linear +
-         kinematics_.tool_vector(nose.rotary + slack_deg_, state().tool_axis(), length, rest_);
+Vec3 SimulatedAxes::real_tool_point(const Position& nose, const RealTool& tool,
+                                    double length) const {
+  return nose.linear + kinematics_.tool_vector(nose.rotary + slack_deg_, tool.axis, length, rest_);
 }
 
-Vec3 SimulatedMachine::ball_on_table(const Position& nose, const RealTool& tool) const {
-  const Vec3 centre = real_tool_point(nose, tool.length - tool.radius) + tool.offset;
+Vec3 SimulatedAxes::ball_on_table(const Position& nose, const RealTool& tool) const {
+  const Vec3 centre = real_tool_point(nose, tool, tool.length - tool.radius) + tool.offset;
   return real_table(nose.rotary).inverse().point(centre);
 }
 
-double SimulatedMachine::free_part(const Path& path) {
-  const Tool* row = state().active_tool();
-  if (row == nullptr || !row->is_probe() || workpiece_.is_empty()) return 1;
-  const RealTool tool = real_tool();
+MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& motion) {
+  if (path.end.rotary != path.start.rotary) turn(path.end.rotary);
+  const bool can_touch = motion.tool.is_probe && !motion.is_retract && !workpiece_.is_empty();
+  const double part = can_touch ? free_part(path, real_tool(motion.tool), motion.allowance) : 1;
+  if (motion.allowance.found() != Allowance::Spent::Nothing) {
+    return make_fault(FaultKind::Interrupted);
+  }
+  nose_ = part < 1 ? path.nose(part) : path.end;
+  return part;
+}
+
+/// The part of the path, 0 to 1, that the ball can go without touching.
+double SimulatedAxes::free_part(const Path& path, const RealTool& tool,
+                                Allowance& allowance) const {
   const double radius = tool.radius - kTouching;
 
   if (path.is_straight) {
@@ -127,7 +137,7 @@ double SimulatedMachine::free_part(const Path& path) {
     const Vec3 way = ball_on_table(path.end, tool) - start;
     const double length = norm(way);
     if (length == 0) return 1;
-    const auto touched = workpiece_.contact(start, way * (1 / length), radius, length, allowance());
+    const auto touched = workpiece_.contact(start, way * (1 / length), radius, length, allowance);
     return touched ? std::min(*touched / length, 1 - 1e-15) : 1;
   }
   double lever = norm(path.start.linear) + path.nose_speed + tool.length + norm(tool.offset);
@@ -140,28 +150,37 @@ double SimulatedMachine::free_part(const Path& path) {
       [&](double way) {
         return workpiece_.clearance(ball_on_table(path.nose(way / speed), tool), radius);
       },
-      speed, least_step(radius), allowance());
+      speed, least_step(radius), allowance);
   return touched ? std::min(*touched / speed, 1 - 1e-15) : 1;
 }
 
-MachineResult<double> SimulatedMachine::contact(const Vec3& direction, double distance) {
-  const RealTool tool = real_tool();
+MachineResult<Position> SimulatedAxes::probe(const Vec3& direction, double distance,
+                                             const Motion& motion) {
+  const RealTool tool = real_tool(motion.tool);
   touching_.reset();
-  return state().active_tool()->is_probe() ? probe_contact(direction, distance, tool)
-                                           : plate_contact(direction, distance, tool);
+  const auto way = motion.tool.is_probe
+                       ? probe_contact(direction, distance, tool, motion.allowance)
+                       : plate_contact(direction, distance, tool, motion.allowance);
+  if (motion.allowance.found() != Allowance::Spent::Nothing) {
+    return make_fault(FaultKind::Interrupted);
+  }
+  const bool is_missed = !way && way.error().kind == FaultKind::NoContact;
+  if (way || is_missed) nose_.linear = nose_.linear + direction * (way ? *way : distance);
+  if (!way) return way.error();
+  return nose_;
 }
 
-MachineResult<double> SimulatedMachine::probe_contact(const Vec3& direction, double distance,
-                                                      const RealTool& tool) {
-  const Vec3 start = ball_on_table(state().nose, tool);
+MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double distance,
+                                                   const RealTool& tool, Allowance& allowance) {
+  const Vec3 start = ball_on_table(nose_, tool);
   if (workpiece_.clearance(start, tool.radius) < -kTouching) {
     return make_fault(FaultKind::StylusDeflected);
   }
-  const Vec3 on_table = real_table(state().nose.rotary).inverse().direction(direction);
-  const auto touched = workpiece_.contact(start, on_table, tool.radius, distance, allowance());
+  const Vec3 on_table = real_table(nose_.rotary).inverse().direction(direction);
+  const auto touched = workpiece_.contact(start, on_table, tool.radius, distance, allowance);
   if (!touched) return make_fault(FaultKind::NoContact);
   touching_ = start + on_table * *touched;
-  table_at_contact_ = real_table(state().nose.rotary);
+  table_at_contact_ = real_table(nose_.rotary);
   double way = *touched;
   if (tool.probe != nullptr) {
     way += tool.probe->pretravel_um * kMillimetresPerMicrometre;
@@ -173,19 +192,19 @@ MachineResult<double> SimulatedMachine::probe_contact(const Vec3& direction, dou
   return std::max(way, 0.0);
 }
 
-std::optional<Vec3> SimulatedMachine::contact_normal() const {
+std::optional<Vec3> SimulatedAxes::contact_normal() const {
   if (!touching_) return std::nullopt;
   const auto normal = workpiece_.normal(*touching_);
   if (!normal) return std::nullopt;
   return unit(table_at_contact_.direction(*normal));
 }
 
-MachineResult<double> SimulatedMachine::plate_contact(const Vec3& direction, double distance,
-                                                      const RealTool& tool) {
+MachineResult<double> SimulatedAxes::plate_contact(const Vec3& direction, double distance,
+                                                   const RealTool& tool, Allowance& allowance) {
   const Workpiece plate(around_plate(setup_.tt, tool.radius));
-  const Vec3 tip = real_tool_point(state().nose, tool.length);
+  const Vec3 tip = real_tool_point(nose_, tool, tool.length);
   if (plate.clearance(tip, 0) < -kTouching) return make_fault(FaultKind::StylusDeflected);
-  const auto touched = plate.contact(tip, direction, 0, distance, allowance());
+  const auto touched = plate.contact(tip, direction, 0, distance, allowance);
   if (!touched) return make_fault(FaultKind::NoContact);
   double way = *touched;
   if (setup_.tt.repeatability_um != 0) {

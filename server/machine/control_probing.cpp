@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "machine/modelled_machine.hpp"
+#include "machine/control.hpp"
 
 namespace fitgauge::machine {
 
-MachineResult<ContactPoint> ModelledMachine::probe(const ProbeMove& move) {
+MachineResult<ContactPoint> Control::probe(const ProbeMove& move) {
   if (!state_.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
   if (state_.active_tool() == nullptr) return make_fault(FaultKind::NoTool);
   if (auto checked = check_feed(Feed::at(move.feed)); !checked) return checked.error();
@@ -16,45 +16,51 @@ MachineResult<ContactPoint> ModelledMachine::probe(const ProbeMove& move) {
       move.distance <= 0 || !std::isfinite(retract) || retract < 0) {
     return make_fault(FaultKind::ValueInvalid, "a probing move needs a direction and a distance");
   }
+  if (!axes_->capabilities().probes) {
+    return make_fault(FaultKind::OptionMissing, "the machine has no probe input");
+  }
   const Vec3 direction = unit(along);
   const double reachable = reach(direction, move.distance);
-  const auto travelled = contact(direction, reachable);
-  if (allowance_.found() != Allowance::Spent::Nothing) return make_fault(FaultKind::Interrupted);
-  const bool is_missed = !travelled && travelled.error().kind == FaultKind::NoContact;
-  if (!travelled && !is_missed) return travelled.error();
+  const Position start = state_.nose;
+  const auto contact = axes_->probe(direction, reachable, motion(Feed::at(move.feed)));
+  const bool is_missed = !contact && contact.error().kind == FaultKind::NoContact;
+  stand_at(contact ? *contact : axes_->nose());
+  if (!contact && !is_missed) return contact.error();
 
-  const double way = is_missed ? reachable : *travelled;
+  const double way = is_missed ? reachable : dot(contact->linear - start.linear, direction);
   const double seconds = seconds_of(way, Feed::at(move.feed));
-  advance(direction * way);
   spend(seconds);
   if (is_missed && reachable < move.distance) {
     return check_range(
                {state_.nose.linear + direction * (move.distance - reachable), state_.nose.rotary})
         .error();
   }
-  if (is_missed) return travelled.error();
+  if (is_missed) return contact.error();
 
   ContactPoint point = contact_point(direction);
   point.seconds = seconds;
-  if (auto returned = go_back(direction, way, move); !returned) return returned.error();
+  if (auto returned = go_back(start, direction, move); !returned) return returned.error();
   return point;
 }
 
 /// The way back to the start is free, since the ball came along it; beyond it is looked at.
-MachineResult<void> ModelledMachine::go_back(const Vec3& direction, double way,
-                                             const ProbeMove& move) {
+MachineResult<void> Control::go_back(const Position& start, const Vec3& direction,
+                                     const ProbeMove& move) {
+  const Position contact = state_.nose;
+  const double way = dot(contact.linear - start.linear, direction);
   const double back = move.retract.value_or(way);
-  const double free = std::min(back, way);
-  advance(direction * -free);
-  spend(seconds_of(free, move.retract_feed));
-  if (back == free) return {};
-  const Position end{state_.nose.linear - direction * (back - free), state_.nose.rotary};
+  const Position free =
+      back < way ? Position{contact.linear - direction * back, contact.rotary} : start;
+  // The axes may stand beyond the contact, where they came to rest.
+  const Path path = straight_path(axes_->nose(), free);
+  if (auto gone = travel(path, move.retract_feed, true); !gone || back <= way) return gone;
+  const Position end{start.linear - direction * (back - way), start.rotary};
   if (auto checked = check_range(end); !checked) return checked;
-  return travel(straight_path(state_.nose, end), move.retract_feed);
+  return travel(straight_path(start, end), move.retract_feed);
 }
 
 /// How far the nose can go along `direction` inside its ranges, at most `distance`.
-double ModelledMachine::reach(const Vec3& direction, double distance) const {
+double Control::reach(const Vec3& direction, double distance) const {
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     const auto& range = state_.ranges[index(axis)];
     const double part = direction[index(axis)];
@@ -65,7 +71,7 @@ double ModelledMachine::reach(const Vec3& direction, double distance) const {
   return distance;
 }
 
-ContactPoint ModelledMachine::contact_point(const Vec3& direction) const {
+ContactPoint Control::contact_point(const Vec3& direction) const {
   const Frames& frames = state_.frames;
   Vec3 centre = state_.ball_centre(CoordinateSystem::Machine);
   if (const auto probe = state_.probe_system()) {
