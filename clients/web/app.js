@@ -10,7 +10,9 @@ import { queue } from './queue.js';
 import { currentRoute, lastOf, remember } from './route.js';
 import { forget, readStored, store } from './stored.js';
 
-const VIEWS = ['gauge', 'fit', 'trend', 'overview', 'parts', 'programs', 'tables'];
+const BAR = ['gauge', 'fit', 'trend', 'overview', 'parts', 'programs', 'tables'];
+/** Behind the state of the connection stand those to the world outside. */
+const VIEWS = [...BAR, 'connections'];
 const main = document.getElementById('main');
 const printed = document.getElementById('printed');
 const viewOf = (route) => (VIEWS.includes(route.view) ? route.view : VIEWS[0]);
@@ -47,7 +49,7 @@ async function viewModule(view) {
 }
 
 function drawViews(current) {
-  refill(document.getElementById('views'), VIEWS.map((view) =>
+  refill(document.getElementById('views'), BAR.map((view) =>
     h('a', { href: lastOf(view), 'aria-current': view === current && 'page' }, t(`view.${view}`))));
   // On a narrow screen the views are a row that scrolls.
   const nav = document.getElementById('views');
@@ -65,9 +67,11 @@ function drawPrinted() {
 
 function drawLink() {
   const link = document.getElementById('link');
+  const said = link.firstElementChild;
   const state = connection.up ? (queue.size ? 'sending' : 'up') : 'away';
   const text = t(`link.${state}`, { count: queue.size });
-  if (link.textContent !== text) link.textContent = text;
+  if (said.textContent !== text) said.textContent = text;
+  said.title = t('view.connections');
   link.dataset.state = queue.size || !connection.up ? state : 'up';
 }
 

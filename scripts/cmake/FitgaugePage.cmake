@@ -1,5 +1,5 @@
 # The page (clients/web), compiled in: its files as they are, but those of bundled/, into which esbuild puts the
-# libraries that package-lock.json pins.
+# libraries that package-lock.json pins; and the example programs of clients/nc, as examples/.
 
 find_program(FITGAUGE_NODE NAMES node nodejs)
 find_program(FITGAUGE_NPM npm)
@@ -58,11 +58,20 @@ add_custom_command(
 set(page_sources ${page_files})
 list(FILTER page_sources EXCLUDE REGEX "^bundled/")
 list(TRANSFORM page_sources PREPEND "${page_root}/")
+# The example programs, which the page puts on the control's disk.
+set(page_examples "${CMAKE_SOURCE_DIR}/clients/nc")
+file(GLOB example_files RELATIVE "${page_examples}" CONFIGURE_DEPENDS
+     "${page_examples}/*/*.h" "${page_examples}/*/*.a" "${page_examples}/*/*.tab" "${page_examples}/*/setups/*.json")
+set(example_sources ${example_files})
+list(TRANSFORM example_sources PREPEND "${page_examples}/")
+list(TRANSFORM example_files PREPEND "examples/")
+
 set(embed_web "${CMAKE_SOURCE_DIR}/scripts/cmake/embed_web.cmake")
 add_custom_command(
-  OUTPUT page_assets.cpp
-  COMMAND ${CMAKE_COMMAND} -D "OUT=${CMAKE_CURRENT_BINARY_DIR}/page_assets.cpp"
-          -D "ROOT=${page_root}" -D "BUNDLED=${page_packages}" -D "FILES=${page_files};bundled/licences.txt" -P "${embed_web}"
-  DEPENDS ${page_sources} ${bundle_outputs} "${embed_web}"
+  OUTPUT page_assets.S page_assets.cpp
+  COMMAND ${CMAKE_COMMAND} -D "OUT=${CMAKE_CURRENT_BINARY_DIR}"
+          -D "ROOT=${page_root}" -D "BUNDLED=${page_packages}" -D "EXAMPLES=${page_examples}"
+          -D "FILES=${page_files};bundled/licences.txt;${example_files}" -P "${embed_web}"
+  DEPENDS ${page_sources} ${example_sources} ${bundle_outputs} "${embed_web}"
   COMMENT "Embedding the page"
   VERBATIM)

@@ -1,28 +1,27 @@
-# cmake -DOUT=<file> -DROOT=<folder> -DBUNDLED=<folder> -DFILES=<names> -P embed_web.cmake
-# Writes the table of server/api/service/page_assets.hpp: every file of the page as it is and gzipped, with its
+# cmake -DOUT=<folder> -DROOT=<folder> -DBUNDLED=<folder> -DEXAMPLES=<folder> -DFILES=<names> -P embed_web.cmake
+# Writes OUT/page_assets.S, which has the bytes, and OUT/page_assets.cpp, the table of server/api/service/page_assets.hpp: every file of the page as it is and gzipped, with its
 # media type and an entity tag made of its content. index.html names the other files below the build's name,
 # a digest of them all: what stands there never changes and may be kept for ever. Names below bundled/ are taken
-# from BUNDLED, all others from ROOT.
+# from BUNDLED, those below examples/ from EXAMPLES, all others from ROOT.
 
 set(type_html "text/html; charset=utf-8")
 set(type_css "text/css; charset=utf-8")
 set(type_js "text/javascript; charset=utf-8")
 set(type_svg "image/svg+xml")
 set(type_txt "text/plain; charset=utf-8")
-
-# The bytes of a file as the initialiser of an array.
-function(bytes_of file variable)
-  file(READ "${file}" hex HEX)
-  string(REGEX REPLACE "(................................)" "\\1\n" hex "${hex}")
-  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," hex "${hex}")
-  set(${variable} "${hex}" PARENT_SCOPE)
-endfunction()
+set(type_h "${type_txt}")
+set(type_a "${type_txt}")
+set(type_tab "${type_txt}")
+set(type_json "application/json")
 
 # Where the bytes of a file of the page are.
 function(source_of name variable)
   set(root "${ROOT}")
   if(name MATCHES "^bundled/")
     set(root "${BUNDLED}")
+  elseif(name MATCHES "^examples/")
+    set(root "${EXAMPLES}")
+    string(REGEX REPLACE "^examples/" "" name "${name}")
   endif()
   set(${variable} "${root}/${name}" PARENT_SCOPE)
 endfunction()
@@ -36,8 +35,17 @@ endforeach()
 string(SHA256 build "${digests}")
 string(SUBSTRING "${build}" 0 12 build)
 
+# Adds the bytes of a file to the object, and the array that the table sees of them.
+macro(embed file array)
+  file(SIZE "${file}" size)
+  string(APPEND bytes "  .global ${array}\n${array}:\n  .incbin \"${file}\"\n")
+  string(APPEND arrays "extern const unsigned char ${array}[${size}];\n")
+endmacro()
+
+set(bytes "")
 set(arrays "")
 set(rows "")
+file(MAKE_DIRECTORY "${OUT}/page")
 set(number 0)
 foreach(name IN LISTS FILES)
   string(REGEX REPLACE ".*\\." "" extension "${name}")
@@ -48,30 +56,30 @@ foreach(name IN LISTS FILES)
   if(name STREQUAL "index.html")
     file(READ "${source}" text)
     string(REPLACE "\"/web/" "\"/web/${build}/" text "${text}")
-    set(source "${OUT}.html")
+    set(source "${OUT}/page/index.html")
     file(WRITE "${source}" "${text}")
   endif()
-  set(packed "${OUT}.gz")
+  set(packed "${OUT}/page/${number}.gz")
   execute_process(COMMAND gzip -9 -n -c "${source}" OUTPUT_FILE "${packed}"
                   COMMAND_ERROR_IS_FATAL ANY)
   file(SHA256 "${source}" digest)
   string(SUBSTRING "${digest}" 0 16 digest)
-  bytes_of("${source}" plain)
-  bytes_of("${packed}" gzipped)
-  file(REMOVE "${packed}")
-  string(APPEND arrays
-    "constexpr unsigned char kPlain${number}[] = {\n${plain}};\n"
-    "constexpr unsigned char kGzipped${number}[] = {\n${gzipped}};\n")
+  embed("${source}" fitgauge_page_${number})
+  embed("${packed}" fitgauge_page_${number}_gz)
   string(APPEND rows
-    "    {\"${name}\", \"${type_${extension}}\", \"${digest}\", kPlain${number}, kGzipped${number}},\n")
+    "    {\"${name}\", \"${type_${extension}}\", \"${digest}\", fitgauge_page_${number}, fitgauge_page_${number}_gz},\n")
   math(EXPR number "${number} + 1")
 endforeach()
 
-file(WRITE "${OUT}"
+file(WRITE "${OUT}/page_assets.S"
+"  .section .rodata\n${bytes}  .section .note.GNU-stack, \"\", %progbits\n")
+
+file(WRITE "${OUT}/page_assets.cpp"
 "#include \"api/service/page_assets.hpp\"\n
+extern \"C\" {
+${arrays}}\n
 namespace fitgauge::api {
 namespace {\n
-${arrays}
 constexpr PageAsset kAssets[] = {
 ${rows}};\n
 }  // namespace\n

@@ -7,6 +7,7 @@ import { toJson } from '../exact.js';
 import { dateTime, explain, t } from '../i18n.js';
 import { listRuns, listSetups, onControl, readParameters, readSetup, writeSetup } from './disk.js';
 import { runReport, screenOf } from './run_report.js';
+import { WorkpieceForm } from './workpiece_form.js';
 
 /** So many earlier runs of a program are offered. */
 const MOST_RUNS = 10;
@@ -24,6 +25,8 @@ export class RunForm {
     this.onRun = onRun;
     this.setup = h('select', { onchange: () => this.#loadSetup() });
     this.setupText = h('textarea', { rows: 8, spellcheck: 'false', placeholder: '{"machine": {}, "workpiece": {"features": []}}' });
+    this.setupText.addEventListener('input', () => this.#typedSetup());
+    this.workpiece = new WorkpieceForm((features) => this.#shaped(features));
     this.setupName = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false' });
     this.parameters = h('textarea', { rows: 2, spellcheck: 'false', placeholder: 'Q1 = 25\nQS1 = H7' });
     this.note = h('p.note', { role: 'alert' });
@@ -32,9 +35,10 @@ export class RunForm {
     this.state = h('p.unseen', { role: 'status' });
     this.report = h('div.report');
     this.element = h('section.run', h('h2', t('programs.run_title')),
-      h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#run(); } },
+      h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.run(); } },
         h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters)),
-        h('details', h('summary', t('programs.setup_text')), field(t('programs.setup_json'), this.setupText),
+        h('details', { ontoggle: ({ target }) => target.open && this.#showWorkpiece() }, h('summary', t('programs.setup_text')), this.workpiece.element,
+          h('details', h('summary', t('programs.setup_whole')), field(t('programs.setup_json'), this.setupText)),
           h('div.line', field(t('programs.setup_name'), this.setupName),
             h('button', { type: 'button', onclick: () => this.#storeSetup() }, t('programs.store_setup')))),
         h('p.actions', this.start, this.cancel), this.note),
@@ -101,7 +105,27 @@ export class RunForm {
     this.setupName.value = this.setup.value;
     await this.#try(async () => {
       if (this.setup.value) this.setupText.value = JSON.stringify(JSON.parse(await readSetup(this.setup.value)), null, 1);
+      if (!this.workpiece.element.hidden) await this.#showWorkpiece();
     });
+  }
+
+  /** The features of the setup as a form, where its text can be read. */
+  #showWorkpiece() {
+    return this.#try(async () => {
+      await this.workpiece.show(JSON.parse(this.setupText.value.trim() || '{}').workpiece?.features);
+    });
+  }
+
+  /** Features that were filled in go into the text, which is what is run from now on. */
+  #shaped(features) {
+    const setup = JSON.parse(this.setupText.value.trim() || '{}');
+    this.setupText.value = JSON.stringify({ ...setup, workpiece: { ...setup.workpiece, features } }, null, 1);
+    this.setup.value = '';
+  }
+
+  #typedSetup() {
+    this.setup.value = '';
+    if (!this.workpiece.element.hidden) this.#showWorkpiece();
   }
 
   #storeSetup() {
@@ -121,7 +145,8 @@ export class RunForm {
     return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters}}`;
   }
 
-  #run() {
+  /** Runs the program as it is set up here. */
+  run() {
     return this.#try(async () => {
       await this.beforeRun();
       const response = await request('POST', url(['runs']), {

@@ -4,6 +4,7 @@ import { confirm } from '../confirm.js';
 import { h } from '../dom.js';
 import { explain, t } from '../i18n.js';
 import { fileName, isProgram, listFiles, removeFile, writeFile } from '../programs/disk.js';
+import { bringExample, EXAMPLES } from '../programs/examples.js';
 import { FileList } from '../programs/file_list.js';
 import { ProgramText } from '../programs/program_text.js';
 import { RunForm } from '../programs/run_form.js';
@@ -30,7 +31,9 @@ export function mount(main, route) {
     h('button', { type: 'button', onclick: () => attempt(checkCurrent) }, t('programs.check')),
     h('button', { type: 'button', onclick: () => attempt(remove) }, t('programs.delete')));
   const program = h('div.program', h('div.line', title, actions), source.element, form.element);
-  const nothing = h('p.empty', t('programs.pick'));
+  const examples = h('p.line', EXAMPLES.map((one) => h('button', { type: 'button', onclick: () => attempt(() => tryOut(one)) },
+    h('strong', one.name), h('span.aside', t(`example.${one.name}`)))));
+  const nothing = h('section.empty', h('p', t('programs.pick')), h('h2', t('example.title')), h('p', t('example.how')), examples);
 
   main.replaceChildren(h('div.desk.programs', h('h1.unseen', { tabindex: -1 }, t('view.programs')), files.element, h('div.program', note, nothing, program)));
 
@@ -111,6 +114,16 @@ export function mount(main, route) {
     await list();
     await open();
   };
+
+  /** Brings an example, opens it and runs it. */
+  async function tryOut(one) {
+    const { path, setup } = await bringExample(one);
+    current = path;
+    remember({ setup });
+    await list();
+    await open({ setup });
+    await form.run();
+  }
 
   function begin(path) {
     const stem = fileName(path).replace(/\.[^.]*$/, '');

@@ -101,7 +101,8 @@ void add_page_routes(std::vector<http::Route>& routes) {
       .operation = "getPageFile",
       .tag = "service",
       .outcomes = {{.meaning = "Its bytes",
-                    .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml"}}},
+                    .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml",
+                                    "text/plain", "application/json"}}},
       .refusals = {404},
   });
 }

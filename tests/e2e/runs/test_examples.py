@@ -1,9 +1,19 @@
-"""The example programs 8255, 8210, 8025 and 451 with their setups."""
+"""The example programs 8255, 8210, 8025, 444 and 451 with their setups."""
 
 from support.control import EXAMPLES, ControlTest, setup
 
 
 class Examples(ControlTest):
+    def test_444_probes_a_face_point_by_point(self):
+        run = self.run_example("444", setup("444/plate"))
+        self.assertEqual(run["status"], "completed", run["messages"])
+        # The four edges from the middle, 0.02 high, to the corners: two fifths of the way from each corner.
+        corners = {22: 0, 23: 0.01, 24: 0.045, 25: -0.015}
+        wanted = {f"Q{number}": 0.6 * corner + 0.4 * 0.02 for number, corner in corners.items()} | {"Q21": 0.02}
+        for name, deviation in wanted.items():
+            self.assertAlmostEqual(run["parameters"][name], deviation, places=4, msg=name)
+        self.assertEqual([file["path"].rsplit("\\", 1)[1].upper() for file in run["files"]], ["TCHPR444.HTML"])
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()

@@ -27,7 +27,7 @@ class ControlTest(DaemonTest):
             client.put_file(path, content.encode() if isinstance(content, str) else content)
 
     def upload_examples(self):
-        for program in ("8255", "8210", "8025", "451"):
+        for program in ("8255", "8210", "8025", "444", "451"):
             for file in (EXAMPLES / program).iterdir():
                 if file.is_file():
                     self.upload(f"nc_prog/{program}/{file.name}", file.read_bytes())

@@ -1,26 +1,16 @@
 /** Fits and the tables of deviations. */
 
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, it } from 'node:test';
+import { afterEach, describe, it } from 'node:test';
 
-import { close, launch, open, picture } from './support/browser.mjs';
-import { Daemon } from './support/daemon.mjs';
+import { close, hashOf, open, picture } from './support/browser.mjs';
+import { browser, daemon } from './support/stage.mjs';
 
-let browser;
-let daemon;
 let page;
 
-before(async () => {
-  browser = await launch();
-  daemon = await new Daemon().start();
-});
-after(async () => {
-  await browser.close();
-  await daemon.cleanup();
-});
 afterEach(() => close(page));
 
-const hash = () => decodeURIComponent(new URL(page.url()).hash);
+const hash = () => hashOf(page);
 
 describe('the fit', () => {
   it('shows the zones, the clearances and a measured pair, and the URL is the state', async () => {

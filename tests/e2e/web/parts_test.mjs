@@ -2,26 +2,17 @@
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
-import { after, afterEach, before, describe, it } from 'node:test';
+import { afterEach, describe, it } from 'node:test';
 
-import { close, findings, launch, open, picture } from './support/browser.mjs';
+import { close, findings, hashOf, open, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
+import { browser, daemon } from './support/stage.mjs';
 
-let browser;
-let daemon;
 let page;
 
-before(async () => {
-  browser = await launch();
-  daemon = await new Daemon().start();
-});
-after(async () => {
-  await browser.close();
-  await daemon.cleanup();
-});
 afterEach(() => close(page));
 
-const hash = () => decodeURIComponent(new URL(page.url()).hash);
+const hash = () => hashOf(page);
 
 describe('the parts', () => {
   it('answer show me part SN-17: every characteristic with its corrections', async () => {

@@ -4,25 +4,16 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, afterEach, before, describe, it } from 'node:test';
 
-import { close, findings, launch, open, openIn, picture } from './support/browser.mjs';
-import { Daemon, sleep } from './support/daemon.mjs';
+import { close, findings, hashOf, open, openIn, picture } from './support/browser.mjs';
+import { sleep } from './support/daemon.mjs';
 import { Gate } from './support/gate.mjs';
+import { browser, daemon } from './support/stage.mjs';
 
-let browser;
-let daemon;
 let page;
 
-before(async () => {
-  browser = await launch();
-  daemon = await new Daemon().start();
-});
-after(async () => {
-  await browser.close();
-  await daemon.cleanup();
-});
 afterEach(() => close(page));
 
-const hash = () => decodeURIComponent(new URL(page.url()).hash);
+const hash = () => hashOf(page);
 
 describe('answers that come late', () => {
   it('never overwrite a newer one, nor the next view', async () => {

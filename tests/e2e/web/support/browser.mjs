@@ -51,6 +51,9 @@ export async function openIn(context, daemon, fragment = '') {
   return page;
 }
 
+/** The state that a page's address names. */
+export const hashOf = (page) => decodeURIComponent(new URL(page.url()).hash);
+
 /** Closes a page's context after checking that it logged no error and asked nobody else. */
 export async function close(page) {
   assert.deepEqual(page.errors, []);
