@@ -233,6 +233,16 @@ void add_records(CLI::App& app, Action& chosen) {
   correct->add_option("id", options->id, "The record")->required();
   correct->add_option("measured", options->measured, "Right value in mm")->required();
   correct->add_option("--reason", options->reason, "Why it is corrected")->required();
+
+  const auto said = std::make_shared<NoteOptions>();
+  CLI::App* note = add_command(
+      app, "note", "Note a cause or measure beside a record; without one, show its notes", chosen,
+      said, run_note);
+  note->add_option("id", said->id, "The record")->required();
+  note->add_option("--cause", said->cause, "Why the value is what it is");
+  note->add_option("--measure", said->measure, "What was done about it");
+  note->add_option("--text", said->text, "Whatever else");
+  note->add_option("--operator", said->operator_name, "Who says so");
 }
 
 /// Registers a command of up to three words, the last of which may be left out.

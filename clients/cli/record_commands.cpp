@@ -47,6 +47,28 @@ class Output {
   bool good_ = true;
 };
 
+/// Sends it again until it is answered, under one key.
+Outcome<Answer> post_once(const Context& context, std::string target, std::string body) {
+  const Request request{.method = "POST",
+                        .target = std::move(target),
+                        .headers = {"Idempotency-Key: " + new_idempotency_key()},
+                        .content_type = "application/json",
+                        .body = std::move(body)};
+  return expect_ok(
+      send_until_answered(context.client, request, Backoff(context.retry_budget),
+                          [&context](const Failure& f, auto) { context.note(f.message); }),
+      context.client.url());
+}
+
+std::string note_line(const JsonValue& note) {
+  std::string line = fmt::format("{}  {}", note.text_of("received_at"), note.text_of("cause"));
+  for (const auto& [before, name] : {std::pair("-> ", "measure"), {"", "text"}, {"", "operator"}}) {
+    const std::string_view text = note.text_of(name);
+    if (!text.empty()) line += fmt::format("  {}{}", before, text);
+  }
+  return line;
+}
+
 }  // namespace
 
 std::string record_target(std::string path, const RecordQuery& query,
@@ -124,17 +146,32 @@ Outcome<ExitCode> run_correct(const Context& context, const CorrectOptions& opti
   if (!measured) return measured.error();
   const std::string body =
       JsonObject().add("measured_mm", *measured).add("reason", options.reason).text();
-  const Request request{
-      .method = "POST",
-      .target = "/v1/measurements/" + percent_encoded(options.id) + "/corrections",
-      .headers = {"Idempotency-Key: " + new_idempotency_key()},
-      .content_type = "application/json",
-      .body = body};
-  const auto answer = expect_ok(
-      send_until_answered(context.client, request, Backoff(context.retry_budget),
-                          [&context](const Failure& f, auto) { context.note(f.message); }),
-      context.client.url());
+  const auto answer =
+      post_once(context, "/v1/measurements/" + percent_encoded(options.id) + "/corrections", body);
   return answer ? show_verdict(context, *answer) : answer.error();
+}
+
+Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options) {
+  const std::string target = "/v1/measurements/" + percent_encoded(options.id) + "/notes";
+  if (options.cause.empty() && options.measure.empty() && options.text.empty()) {
+    const auto notes = get_document(context, target);
+    if (!notes) return notes.error();
+    if (context.json) return ExitCode::Good;
+    for (const JsonValue& note : notes->member("notes").items) {
+      context.print("{}\n", note_line(note));
+    }
+    return ExitCode::Good;
+  }
+  const std::string body = JsonObject()
+                               .add_given("cause", options.cause)
+                               .add_given("measure", options.measure)
+                               .add_given("text", options.text)
+                               .add_given("operator", options.operator_name)
+                               .text();
+  const auto answer = post_once(context, target, body);
+  if (!answer) return answer.error();
+  if (context.json) context.print_document(answer->body);
+  return ExitCode::Good;
 }
 
 }  // namespace fitgauge::cli

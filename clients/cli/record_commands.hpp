@@ -71,4 +71,16 @@ struct CorrectOptions {
 /// The exit code is the new verdict.
 Outcome<ExitCode> run_correct(const Context& context, const CorrectOptions& options);
 
+struct NoteOptions {
+  std::string id;
+  std::string cause;
+  std::string measure;
+  std::string text;
+  std::string operator_name;
+};
+
+/// `fitgauge note m17 --cause … --measure …`: adds a note beside a record; without any shows those
+/// that stand there.
+Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options);
+
 }  // namespace fitgauge::cli

@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-SHOWN_LATER = ("conflict", "corrected_by")  # not there yet when the record was answered first
+SHOWN_LATER = ("conflict", "corrected_by", "notes")  # not there yet when the record was answered first
 
 
 def canonical(value):

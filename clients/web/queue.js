@@ -4,7 +4,7 @@
  * service is away or the page is loaded again meanwhile. One is sent at a time, in the order of typing.
  */
 
-import { request } from './api.js';
+import { Problem, request, url } from './api.js';
 import { connection } from './connection.js';
 import { forget, readJson, store, storedKeys } from './stored.js';
 
@@ -12,17 +12,21 @@ const PREFIX = 'queue.';
 const SHORTEST_WAIT_MS = 200;
 const LONGEST_WAIT_MS = 2000;
 const TIMEOUT_MS = 10000;
+const KEPT_IDS = 'stored-ids';
+const MOST_IDS = 200;
 
 /** Unlikely anywhere else; crypto.randomUUID would need HTTPS. */
 const randomText = () =>
   Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
 
 /**
- * Fires `stored` with {entry, record}, `refused` with {entry, problem} and `change`. An entry is
- * {key, path, body, shown}: what is posted where, and what the page shows of it meanwhile.
+ * Fires `stored` with {entry, record}, `noted` with {entry}, `refused` with {entry, problem} and `change`. An entry
+ * is {key, path, body, shown}: what is posted where, and what the page shows of it meanwhile. A note has `of` instead of
+ * a path: the key of the value it is about, which is stored before it.
  */
 class Queue extends EventTarget {
   #entries = [];
+  #ids = new Map();
   #sending = false;
   #lastTime = 0;
   #wake = () => {};
@@ -31,7 +35,7 @@ class Queue extends EventTarget {
     super();
     const kept = storedKeys(PREFIX).map((name) => ({ name, ...readJson(name, {}) }));
     // Another window may have sent one meanwhile. What an earlier page left was not seen by anybody.
-    this.#entries = kept.filter((entry) => entry.path && entry.body && entry.shown);
+    this.#entries = kept.filter((entry) => (entry.path || entry.of) && entry.body && entry.shown);
     for (const entry of this.#entries) entry.shown.late = true;
     connection.addEventListener('change', () => this.#wake());
   }
@@ -44,6 +48,11 @@ class Queue extends EventTarget {
     return this.#entries;
   }
 
+  /** Those that are no notes. */
+  get values() {
+    return this.#entries.filter((entry) => !entry.of);
+  }
+
   /**
    * Takes a value over.
    * @param timed whether the body lacks the time of typing: it is added when it is first sent, since
@@ -51,11 +60,20 @@ class Queue extends EventTarget {
    * @returns its entry
    */
   add(path, body, shown, timed = false) {
+    return this.#add({ path, body, shown, ...(timed && { typedAt: Date.now() }) });
+  }
+
+  /** A note to a value that was taken over before. @param of its key */
+  addNote(of, body, shown) {
+    return this.#add({ of, body, shown });
+  }
+
+  #add(content) {
     // Names sort in the order of typing, also those of one millisecond.
     this.#lastTime = Math.max(this.#lastTime + 1, Date.now());
     const key = randomText();
     const name = `${PREFIX}${String(this.#lastTime).padStart(15, '0')}.${key}`;
-    const entry = { name, key, path, body, shown, ...(timed && { typedAt: Date.now() }) };
+    const entry = { name, key, ...content };
     this.#keep(entry);
     this.#entries.push(entry);
     this.#changed();
@@ -101,18 +119,26 @@ class Queue extends EventTarget {
     this.#sending = false;
   }
 
+  /** Where an entry goes: a note to the record that its value has become, through this window or another. */
+  #path({ path, of }) {
+    if (path) return path;
+    const id = this.#ids.get(of) ?? readJson(KEPT_IDS, []).find(([key]) => key === of)?.[1];
+    if (!id) throw new Problem(404, { code: 'measurement.unknown' });
+    return url(['measurements', id, 'notes']);
+  }
+
   /** @returns `answered` for good, `later` to try again, or `locked` without a key */
   async #sendOne(entry) {
     try {
       await this.#complete(entry);
-      const response = await request('POST', entry.path, {
+      const response = await request('POST', this.#path(entry), {
         body: entry.body,
         headers: { 'Content-Type': 'application/json', 'Idempotency-Key': `"${entry.key}"` },
         timeout: TIMEOUT_MS,
       });
       const record = await response.json();
       connection.report(true);
-      this.#finish(entry, 'stored', { entry, record });
+      this.#finish(entry, entry.of ? 'noted' : 'stored', { entry, record });
       return 'answered';
     } catch (problem) {
       const reached = problem.status !== undefined;
@@ -125,10 +151,16 @@ class Queue extends EventTarget {
   }
 
   #finish(entry, type, detail) {
+    if (type === 'stored') this.#remember(entry.key, detail.record.id);
     forget(entry.name);
     this.#entries.shift();
     this.dispatchEvent(new CustomEvent(type, { detail }));
     this.#changed();
+  }
+
+  #remember(key, id) {
+    this.#ids.set(key, id);
+    store(KEPT_IDS, JSON.stringify([...readJson(KEPT_IDS, []).slice(1 - MOST_IDS), [key, id]]));
   }
 
   /** Waits, but no longer than until the service is back. */

@@ -39,6 +39,9 @@ export function distanceText(record) {
   return t(`distance.${distance > 0 ? 'below' : 'above'}.${limit}`, { um: number(umText(Math.abs(distance))) });
 }
 
+/** "Insert worn → Insert changed · after the break" */
+export const noteText = ({ cause, measure, text }) => [[cause, measure].filter(Boolean).join(' → '), text].filter(Boolean).join(' · ');
+
 /** "25.000 to 25.021 mm" with equally many decimals. */
 export function limitsText(limits) {
   const [lower, upper] = boundsOf(limits);

@@ -40,6 +40,13 @@ void for_each_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.to_ns) add("m.measured_at < ?", *filter.to_ns);
   if (filter.received_from_ns) add("m.received_at >= ?", *filter.received_from_ns);
   if (filter.received_to_ns) add("m.received_at < ?", *filter.received_to_ns);
+  if (filter.cause) {
+    add("EXISTS (SELECT 1 FROM notes n WHERE n.measurement = m.id AND n.cause = ?)",
+        std::string_view(*filter.cause));
+  }
+  if (filter.has_notes) {
+    add("(SELECT count(*) FROM notes n WHERE n.measurement = m.id) >= ?", 1);
+  }
   if (!filter.history) {
     static const CurrentCondition current("?");
     add(current.is_not_corrected, filter.as_of_id.value_or(kLastId));

@@ -78,7 +78,9 @@ Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilte
 
 /// Whether the aggregates by the field, the source and the verdict answer the filter.
 bool MeasurementSummary::is_additive(const MeasurementFilter& filter) const {
-  if (filter.designation || filter.run_id || filter.as_of_id) return false;
+  if (filter.designation || filter.run_id || filter.as_of_id || filter.cause || filter.has_notes) {
+    return false;
+  }
   return std::all_of(kTextColumns.begin(), kTextColumns.end(), [&](const TextColumn& column) {
     return column.field == group_by_ || !filter.text(column.field);
   });

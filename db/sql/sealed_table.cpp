@@ -29,7 +29,8 @@ constexpr std::array kTables = {kTableSets,
                                 kOriginRevisions,
                                 kForwarding,
                                 kReceived,
-                                kTableRevisionIds};
+                                kTableRevisionIds,
+                                kNotes};
 
 std::vector<std::string_view> names_of(std::string_view columns) {
   std::vector<std::string_view> names;

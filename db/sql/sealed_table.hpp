@@ -57,6 +57,8 @@ inline constexpr SealedTable kForwarding{"forwarding", "id", "id, centre, size",
 inline constexpr SealedTable kReceived{"received", "name", "kind, name, number, digest",
                                        "kind, name"};
 inline constexpr SealedTable kTableRevisionIds{"table_revision_ids", "revision", "revision, id"};
+inline constexpr SealedTable kNotes{
+    "notes", "id", "measurement, cause, measure, text, operator, caller, received_at"};
 inline constexpr SealedTable kEvents{"events", "id", "type, payload, created_at"};
 
 std::span<const SealedTable> sealed_tables();

@@ -6,6 +6,7 @@ Stores::Stores(sql::Connection& connection, const Clock& clock,
                std::chrono::hours idempotency_retention)
     : tables(connection),
       measurements(connection),
+      notes(connection),
       idempotency(connection, clock, idempotency_retention),
       keys(connection),
       files(connection),

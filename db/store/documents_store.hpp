@@ -21,6 +21,7 @@ enum class DocumentKind : std::uint8_t {
   Plan = 4,
   Connection = 5,
   ConnectionProgress = 6,
+  Catalogue = 7,
 };
 
 struct Document {

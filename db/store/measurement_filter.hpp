@@ -72,6 +72,8 @@ struct MeasurementFilter {
   std::optional<std::int64_t> to_ns{};             ///< measured_at < to
   std::optional<std::int64_t> received_from_ns{};  ///< from <= received_at
   std::optional<std::int64_t> received_to_ns{};    ///< received_at < to
+  std::optional<std::string> cause{};              ///< named by a note, exactly so
+  bool has_notes = false;                          ///< only rows with a note
   bool history = false;                            ///< also rows that a later one corrects
   /// The state when this was the newest id, so that a list read in pages is of one piece.
   std::optional<std::int64_t> as_of_id{};

@@ -15,12 +15,19 @@ namespace sql {
 class Connection;
 }
 
-/// The codes are stored: never change one, never use one again. Setup and Plan are those of
-/// documents.
-enum class RevisionKind : std::uint8_t { Tables = 1, Key = 2, Setup = 3, Plan = 4, Correction = 5 };
+/// The codes are stored: never change one, never use one again. Setup, Plan and
+/// Catalogue are those of documents.
+enum class RevisionKind : std::uint8_t {
+  Tables = 1,
+  Key = 2,
+  Setup = 3,
+  Plan = 4,
+  Correction = 5,
+  Catalogue = 7
+};
 
 /// What a centre has changed, for its stations; and what a station has of its centre. Changes of
-/// tables, keys, setups and plans number themselves; corrections are numbered by
+/// tables, keys, setups, plans and catalogues number themselves; corrections are numbered by
 /// MeasurementsStore::append().
 class RevisionsStore {
  public:

@@ -10,6 +10,7 @@
 #include "store/keys_store.hpp"
 #include "store/log_store.hpp"
 #include "store/measurements_store.hpp"
+#include "store/notes_store.hpp"
 #include "store/origins_store.hpp"
 #include "store/revisions_store.hpp"
 #include "store/runs_store.hpp"
@@ -29,6 +30,7 @@ struct Stores {
 
   TablesStore tables;
   MeasurementsStore measurements;
+  NotesStore notes;
   IdempotencyStore idempotency;
   KeysStore keys;
   FilesStore files;

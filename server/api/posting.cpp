@@ -6,6 +6,12 @@
 
 namespace fitgauge::api {
 
+http::Parameter idempotency_parameter() {
+  return {.name = "Idempotency-Key",
+          .place = http::ParameterPlace::Header,
+          .description = "Makes a repeat answer what the first was answered"};
+}
+
 SharedPosting begin_posting(const Services& services, const http::Request& request,
                             http::Responder responder) {
   auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});

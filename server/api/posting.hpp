@@ -18,6 +18,9 @@ struct Posting {
 };
 using SharedPosting = std::shared_ptr<Posting>;
 
+/// The header of a route that answers a repeat as it did the first time.
+http::Parameter idempotency_parameter();
+
 /// @returns null when the Idempotency-Key is no key: that has been answered.
 SharedPosting begin_posting(const Services& services, const http::Request& request,
                             http::Responder responder);

@@ -10,6 +10,7 @@
 #include "api/log/log_resource.hpp"
 #include "api/log/revisions_resource.hpp"
 #include "api/measurements/measurements_resource.hpp"
+#include "api/measurements/notes_resource.hpp"
 #include "api/mtconnect/mtconnect_resource.hpp"
 #include "api/plans/plans_resource.hpp"
 #include "api/runs/runs_resource.hpp"
@@ -38,6 +39,7 @@ http::RouteTable make_routes(const Services& services) {
   add_tables_routes(routes, services, cache);
   add_verdicts_routes(routes, services);
   add_measurements_routes(routes, services);
+  add_notes_routes(routes, services);
   add_log_routes(routes, services);
   add_intake_routes(routes, services);
   add_revisions_routes(routes, services);

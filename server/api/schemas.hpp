@@ -10,6 +10,7 @@ namespace fitgauge::api {
 void add_limits_schemas(Schemas& schemas);
 void add_statistics_schemas(Schemas& schemas);
 void add_measurement_schemas(Schemas& schemas);
+void add_note_schemas(Schemas& schemas);
 void add_table_schemas(Schemas& schemas);
 void add_plan_schemas(Schemas& schemas);
 void add_file_schemas(Schemas& schemas);

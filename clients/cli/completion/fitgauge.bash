@@ -4,7 +4,7 @@
 _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
-  local commands='limits fit gauge measure list export summary capability chart correct nc setups runs control replay tables watch version completion'
+  local commands='limits fit gauge measure list export summary capability chart correct note nc setups runs control replay tables watch version completion'
   COMPREPLY=()
 
   # What the option before takes.
@@ -66,6 +66,7 @@ _fitgauge() {
     capability) options="$filters --target-mm --confidence --subgroups" ;;
     chart) options="$filters --kind --rules --subgroups" ;;
     correct) options='--reason' ;;
+    note) options='--cause --measure --text --operator' ;;
     setups) ((${#words[@]} > 1)) || options='ls put get rm' ;;
     runs)
       case ${words[1]-} in

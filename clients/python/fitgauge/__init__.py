@@ -25,7 +25,7 @@ from ._log import LogCalls
 from ._measurements import MeasurementCalls
 from ._service import ServiceCalls
 from ._statistics import StatisticsCalls
-from ._types import (Accepted, Event, FeatureWord, FieldError, Fit, Limits, Measurement, NewMeasurement, Parameter,
+from ._types import (Accepted, Event, FeatureWord, FieldError, Fit, Limits, Measurement, NewMeasurement, Note, Parameter,
                      RuleWord, Run, RunLimits, RunStatus, Verdict, VerdictWord, when)
 from ._version import VERSION as __version__
 
@@ -35,7 +35,7 @@ class Client(LimitsCalls, StatisticsCalls, MeasurementCalls, LogCalls, ControlCa
 
 
 __all__ = ["Accepted", "BadRequest", "Client", "Conflict", "Event", "FeatureWord", "FieldError", "Fit",
-           "FitgaugeError", "Forbidden", "Invalid", "Limits", "Measurement", "NewMeasurement", "NoAnswer", "NotFound",
+           "FitgaugeError", "Forbidden", "Invalid", "Limits", "Measurement", "NewMeasurement", "NoAnswer", "NotFound", "Note",
            "Parameter", "PreconditionFailed", "Problem", "ProgramInvalid", "RuleWord", "Run", "RunLimits",
            "RunStatus", "Size", "Text", "Unauthorized", "Unavailable", "Verdict", "VerdictWord", "__version__",
            "dumps", "loads", "when"]

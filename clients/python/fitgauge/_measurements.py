@@ -13,7 +13,7 @@ from ._errors import NoAnswer, Problem, Unavailable
 from ._json import Size, dumps
 from ._streams import Batch, counted_over_all, csv_records, cut_batches, read_events, total_of
 from ._transport import Request, Transport, path_of, pause_before, query_of
-from ._types import Accepted, Event, Measurement, NewMeasurement, Parameter
+from ._types import Accepted, Event, Measurement, NewMeasurement, Note, Parameter
 
 SILENCE_S = 45.0  # a stream of events has a sign of life every 15 s
 
@@ -105,6 +105,18 @@ class MeasurementCalls(Transport):
         return self._post(path_of("measurements", measurement_id, "corrections"),
                                          dumps(correction).encode(), "application/json", idempotency_key)
 
+    def note(self, measurement_id: str, *, cause: str | None = None, measure: str | None = None,
+             text: str | None = None, operator: str | None = None, idempotency_key: str | None = None) -> Note:
+        """Adds a note beside a record, which stays as it is: why the value is what it is, what was done, whatever else."""
+        said = {"cause": cause, "measure": measure, "text": text, "operator": operator}
+        given = {name: value for name, value in said.items() if value is not None}
+        return self._post(path_of("measurements", measurement_id, "notes"), dumps(given).encode(), "application/json",
+                          idempotency_key)
+
+    def notes(self, measurement_id: str) -> list[Note]:
+        """The notes beside a record, oldest first."""
+        return self._get(path_of("measurements", measurement_id, "notes"))["notes"]
+
     def certificate(self, *, order: str | None = None, part_id: str | None = None, **options: Parameter) -> bytes:
         """The inspection certificate of an order, a part or both, as PDF. `options` are `title`, `company`,
         `customer`, `paper` (a4, letter) and the filters of measurements."""
@@ -112,7 +124,8 @@ class MeasurementCalls(Transport):
         return self._bytes("/v1/certificates" + query, "application/pdf")
 
     def events(self, last_event_id: str | None = None, source: str | None = None) -> Iterator[Event]:
-        """What happens, for ever: measurement.recorded, verdict.reject, run.finished. When the connection
+        """What happens, for ever: measurement.recorded, verdict.reject, run.finished,
+        table.changed, note.added. When the connection
         breaks it is made again, and goes on after the last event, or after `last_event_id` to begin with.
         `resync` says that events are gone: read the lists again."""
         last, stood = last_event_id, False

@@ -1,4 +1,4 @@
-"""The service itself: plans, connections, health."""
+"""The service itself: plans, catalogues, connections, health."""
 
 # The service's answers are taken to have the types that its API promises.
 # mypy: no-warn-return-any
@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 import time
 import urllib.parse
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 from ._errors import NoAnswer, Unavailable
 from ._json import dumps, loads
@@ -17,7 +17,7 @@ from ._transport import Request, Transport, path_of, pause_before, query_of
 
 
 class ServiceCalls(Transport):
-    """Plans, connections to the world outside, and how the service is."""
+    """Plans, catalogues, connections to the world outside, and how the service is."""
 
     def plans(self) -> list[dict[str, Any]]:
         """`part`, `name`, how many `characteristics`, and `modified_at` of each plan."""
@@ -33,6 +33,22 @@ class ServiceCalls(Transport):
 
     def delete_plan(self, part: str) -> None:
         self._perform(Request("DELETE", path_of("plans", part)))
+
+    def catalogues(self) -> list[dict[str, Any]]:
+        """`name` and `modified_at` of each catalogue of causes and measures."""
+        return self._get("/v1/catalogues")["catalogues"]
+
+    def catalogue(self, name: str) -> dict[str, Any]:
+        """The `causes` and `measures` there are to choose from."""
+        return self._get(path_of("catalogues", name))
+
+    def put_catalogue(self, name: str, causes: Sequence[str], measures: Sequence[str]) -> bool:
+        """Stores a catalogue; True when it is new."""
+        body = dumps({"causes": list(causes), "measures": list(measures)}).encode()
+        return self._put(path_of("catalogues", name), body, "application/json").status == 201
+
+    def delete_catalogue(self, name: str) -> None:
+        self._perform(Request("DELETE", path_of("catalogues", name)))
 
     def connections(self) -> list[dict[str, Any]]:
         """The connections to the world outside: settings without secrets, state, lag, last error, what they did."""

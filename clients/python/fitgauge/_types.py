@@ -128,6 +128,22 @@ class Measurement(Verdict, _Origin, _Circumstances, total=False):
     conflict: bool
 
 
+class _NoteHead(TypedDict):
+    id: str
+    measurement_id: str
+    received_at: str
+
+
+class Note(_NoteHead, total=False):
+    """What was found and done about a measurement: it stands beside the record and is never changed."""
+
+    cause: str
+    measure: str
+    text: str
+    operator: str
+    caller: str
+
+
 class Accepted(TypedDict):
     """How many rows were stored, the ids of the first and the last, and how many of each verdict."""
 

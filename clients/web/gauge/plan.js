@@ -66,6 +66,11 @@ export class Plan {
     return this.plan?.part ?? '';
   }
 
+  /** The catalogues that its characteristics ask for. */
+  get catalogues() {
+    return [...new Set((this.plan?.characteristics ?? []).map((one) => one.catalogue).filter(Boolean))];
+  }
+
   /** The characteristic to measure, or undefined without a plan. */
   get current() {
     return this.plan?.characteristics[this.at];

@@ -3,7 +3,7 @@
 import { h } from '../dom.js';
 import { number, t, time } from '../i18n.js';
 import { readJson, store } from '../stored.js';
-import { distanceText, measuredText, verdictMark, verdictShape } from '../verdict.js';
+import { distanceText, measuredText, noteText, verdictMark, verdictShape } from '../verdict.js';
 
 const MOST = 100;
 const KEPT = 'recent';
@@ -27,11 +27,23 @@ export class Recent {
   /** @param row {key, state: waiting | stored | refused | dropped, shown, record, reason} */
   set(row) {
     const at = this.rows.findIndex((other) => other.key === row.key);
-    if (at >= 0) this.rows[at] = row;
+    if (at >= 0) this.rows[at] = { note: this.rows[at].note, ...row };
     else this.rows.unshift(row);
     const corrected = this.rows.find((other) => row.record && other.record?.id === row.record.correction_of);
     if (corrected) corrected.corrected = true;
     this.rows.length = Math.min(this.rows.length, MOST);
+    this.#keep();
+  }
+
+  /** Shows what was noted about a value. */
+  noted(key, note) {
+    const row = this.rows.find((other) => other.key === key);
+    if (!row) return;
+    row.note = note;
+    this.#keep();
+  }
+
+  #keep() {
     store(KEPT, JSON.stringify(this.rows), 'session');
     this.#draw();
   }
@@ -48,7 +60,7 @@ export class Recent {
       h('span.figure', record ? measuredText(record) : number(shown.measured)),
       h('span.aside', [(record ?? shown).part_id, record?.designation ?? shown.designation, time(new Date(shown.at)),
         row.corrected && t('recent.corrected')].filter(Boolean).join(' · ')),
-      h('span.aside', record ? distanceText(record) : row.reason ?? ''),
+      h('span.aside', record ? distanceText(record) : row.reason ?? ''), row.note && h('span.aside.noted', noteText(row.note)),
       state === 'stored' && !row.corrected && h('span.fix',
         this.#fix(record, 'measured_mm', 'recent.correct'), this.#fix(record, 'part_id', 'recent.correct_part')));
   }

@@ -20,6 +20,7 @@ export default {
   'error.uncertainty.unknown': 'Dieses Unsicherheitsbudget gibt es nicht.',
   'error.gauge.unknown': 'Dieses Messmittel ist nicht verzeichnet.',
   'error.plan.unknown': 'Für diese Teilenummer gibt es keinen Plan.',
+  'error.catalogue.unknown': 'Einen solchen Katalog von Ursachen gibt es nicht.',
   'error.limits.invalid': 'Die Grenzen widersprechen sich.',
   'error.limits.mixed': 'Die Werte haben verschiedene Grenzen.',
   'error.storage.unavailable': 'Der Speicher ist nicht erreichbar.',

@@ -20,6 +20,7 @@ export default {
   'error.uncertainty.unknown': 'Questo bilancio d’incertezza non esiste.',
   'error.gauge.unknown': 'Questo strumento non è registrato.',
   'error.plan.unknown': 'Per questo codice pezzo non c’è un piano.',
+  'error.catalogue.unknown': 'Non esiste un catalogo di cause con questo nome.',
   'error.limits.invalid': 'I limiti si contraddicono.',
   'error.limits.mixed': 'I valori hanno limiti diversi.',
   'error.storage.unavailable': 'L’archivio non è raggiungibile.',

@@ -20,6 +20,7 @@ export default {
   'error.uncertainty.unknown': 'Dit onzekerheidsbudget bestaat niet.',
   'error.gauge.unknown': 'Dit meetmiddel is niet geregistreerd.',
   'error.plan.unknown': 'Voor dit onderdeelnummer is er geen plan.',
+  'error.catalogue.unknown': 'Zo’n catalogus van oorzaken is er niet.',
   'error.limits.invalid': 'De grenzen spreken elkaar tegen.',
   'error.limits.mixed': 'De waarden hebben verschillende grenzen.',
   'error.storage.unavailable': 'De opslag is niet bereikbaar.',

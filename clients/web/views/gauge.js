@@ -29,7 +29,7 @@ export function mount(main, route) {
   let partBefore = route.options.part_id ?? '';
   const panel = new Panel();
   const badge = new Badge();
-  const reactions = new Reactions(() => entry.focus());
+  const reactions = new Reactions({ onDone: () => entry.focus(), onNote: (said) => note(said) });
   const entry = new Entry({
     job: () => (reactions.reason ? { reason: reactions.reason } : job.current()),
     prefixes: () => job.prefixes,
@@ -64,6 +64,7 @@ export function mount(main, route) {
 
   async function choosePlan(part) {
     await plan.load(part);
+    reactions.prepare(plan.catalogues);
     stepped = false;
     jobChanged(true);
     entry.focus();
@@ -110,10 +111,17 @@ export function mount(main, route) {
 
   function post({ text, correcting }) {
     if (correcting) return correct(correcting, text);
-    send(url(['measurements']), bodyOf(text), { ...shownOf(text), reaction: plan.current?.reaction }, true);
+    send(url(['measurements']), bodyOf(text), { ...shownOf(text), reaction: plan.current?.reaction, catalogue: plan.current?.catalogue }, true);
     stepped = Boolean(plan.current);
     plan.step();
     return undefined;
+  }
+
+  /** What was said about a value goes after it, and stands in the list at once. */
+  function note({ key, measured, cause, measure }) {
+    const said = { cause, measure };
+    recent.noted(key, said);
+    queue.addNote(key, toJson({ ...said, operator: job.options.operator || undefined }), { measured, at: connection.now() });
   }
 
   function correct(record, measured, fields = {}) {
@@ -143,18 +151,21 @@ export function mount(main, route) {
     if (shown.late) arrivals.stored(record);
     // A verdict that comes late is no verdict of the part that lies there now.
     if (!shown.late) panel.judged(record);
-    else if (!queue.size) next();
+    else if (!queue.values.length) next();
   }, { signal });
-  queue.addEventListener('refused', ({ detail: { entry: { key, shown }, problem } }) => {
-    recent.set({ key, state: 'refused', shown, reason: explain(problem) });
+  queue.addEventListener('refused', ({ detail: { entry: { key, of, shown }, problem } }) => {
+    const reason = explain(problem);
+    recent.set({ key, state: 'refused', shown, reason });
+    if (of) return entry.unread(t('note.refused', { reason }));
+    reactions.refused(key);
     if (shown.late) arrivals.refused(shown, explain(problem));
     else panel.refused(shown, explain(problem));
   }, { signal });
   connection.addEventListener('change', () => {
     unkept.textContent = connection.up || isKept() ? '' : t('gauge.unkept');
-    if (connection.up || !queue.size) return;
+    if (connection.up || !queue.values.length) return;
     for (const waiting of queue.entries) queue.mark(waiting, { late: true });
-    panel.waiting(queue.entries.at(-1).shown, true);
+    panel.waiting(queue.values.at(-1).shown, true);
   }, { signal });
 
   document.addEventListener('keydown', (event) => {

@@ -8,9 +8,10 @@ import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
 import { CertificateForm } from '../parts/certificate.js';
 import { correct } from '../parts/correction.js';
-import { limitsText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
+import { note } from '../parts/note.js';
+import { limitsText, measuredText, noteText, verdictMark, VERDICTS } from '../verdict.js';
 
-const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator'];
+const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator', 'cause'];
 const PAGE = 50;
 
 export function mount(main, route) {
@@ -22,14 +23,14 @@ export function mount(main, route) {
   const verdict = h('select', { name: 'verdict', onchange: () => search() }, ['', ...VERDICTS].map((word) =>
     h('option', { value: word, selected: word === (route.options.verdict ?? '') }, word ? t(`verdict.${word}`) : t('parts.any'))));
   const corrected = h('input', { type: 'checkbox', checked: route.options.history === 'all', onchange: () => search() });
-  const note = h('p.note', { role: 'status' });
+  const said = h('p.note', { role: 'status' });
   const rows = h('tbody');
   const table = h('div.scroll.records', { tabindex: 0, role: 'region', 'aria-label': t('view.parts') },
     h('table', h('thead', h('tr', ['field.part_id', 'field.characteristic', 'trend.verdict', 'trend.value', 'parts.deviation', 'parts.limits', 'parts.by', 'trend.time']
       .map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), rows));
   const more = h('button', { type: 'button', hidden: true, onclick: () => read() }, t('parts.more'));
-  const exported = downloadLink({ download: 'measurements.csv' }, t('parts.csv'), (reason) => { note.textContent = reason; });
-  const certificate = new CertificateForm((reason) => { note.textContent = reason; });
+  const exported = downloadLink({ download: 'measurements.csv' }, t('parts.csv'), (reason) => { said.textContent = reason; });
+  const certificate = new CertificateForm((reason) => { said.textContent = reason; });
   const replaced = new Set();
   // The list goes on by itself where its end comes into sight.
   const end = new IntersectionObserver(([{ isIntersecting }]) => isIntersecting && !reading && read(), { rootMargin: '400px' });
@@ -41,7 +42,7 @@ export function mount(main, route) {
       FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict),
       h('label.choice', corrected, h('span', t('parts.history'))),
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
-    h('p.actions', exported), certificate.element, note, table, h('p.actions', more)));
+    h('p.actions', exported), certificate.element, said, table, h('p.actions', more)));
 
   const filter = () => ({
     ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
@@ -61,17 +62,17 @@ export function mount(main, route) {
   async function read() {
     reading = true;
     try {
-      const page = await latest.run((signal) => getJson(url(['measurements'], { ...filter(), sort: 'newest', limit: PAGE, after }), { signal }));
+      const page = await latest.run((signal) => getJson(url(['measurements'], { ...filter(), sort: 'newest', limit: PAGE, notes: 'shown', after }), { signal }));
       if (!page) return;
       // A correction is newer than what it corrects, so it was read before.
       for (const { correction_of: old } of page.measurements) if (old) replaced.add(old);
-      rows.append(...page.measurements.map((record) => row(record, replaced.has(record.id), () => change(record))));
+      rows.append(...page.measurements.map((record) => row(record, replaced.has(record.id), { onCorrect: () => change(record), onNote: () => addNote(record) })));
       after = page.next ?? '';
       more.hidden = !after;
-      note.textContent = rows.children.length ? '' : t('parts.none');
+      said.textContent = rows.children.length ? '' : t('parts.none');
       table.hidden = !rows.children.length;
     } catch (problem) {
-      note.textContent = explain(problem);
+      said.textContent = explain(problem);
     } finally {
       reading = false;
     }
@@ -84,6 +85,10 @@ export function mount(main, route) {
     if (await correct(record)) search();
   }
 
+  async function addNote(record) {
+    if (await note(record)) search();
+  }
+
   search();
   return () => {
     leaving.abort();
@@ -91,17 +96,19 @@ export function mount(main, route) {
   };
 }
 
-function row(record, isReplaced, onCorrect) {
+function row(record, isReplaced, { onCorrect, onNote }) {
   const { part_id: part } = record;
+  const act = (name, onclick) => h('button.quiet', {
+    type: 'button', onclick, 'aria-label': t(`${name}_this`, { mm: measuredText(record), part: part ?? t('part.none') }),
+  }, t(name));
   return h('tr', { class: isReplaced && 'corrected' },
     h('td', part ? h('a', { href: fragment({ view: 'parts', options: { part_id: part, history: 'all' } }) }, part) : '–'),
     h('td', record.characteristic ?? '', h('span.aside', record.designation ? `Ø ${number(record.designation)}` : '')),
     h('td', verdictMark(record.verdict), (isReplaced || record.correction_of)
-      && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · '))),
+      && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · ')),
+    (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), one.operator, dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),
     h('td.number', measuredText(record)), h('td.number', `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
     h('td', [record.operator, record.machine, record.gauge].filter(Boolean).join(' · ')),
     h('td', dateTime(new Date(record.measured_at))),
-    h('td', !isReplaced && h('button.quiet', {
-      type: 'button', onclick: onCorrect, 'aria-label': t('parts.correct_this', { mm: measuredText(record), part: part ?? t('part.none') }),
-    }, t('parts.correct'))));
+    h('td', !isReplaced && act('parts.correct', onCorrect), act('note.add', onNote)));
 }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "api/measurements/measurement_codec.hpp"
+#include "api/measurements/notes_resource.hpp"
 #include "api/wire/request_facts.hpp"
 #include "app/measurements/record.hpp"
 #include "app/runs/run_service.hpp"
@@ -38,9 +39,23 @@ std::string media_type(Form form) {
   return "application/json";
 }
 
+/// Shows the notes behind the members of a record that was written.
+void append_notes(std::string& out, std::span<const app::Note> notes) {
+  out.pop_back();
+  char separator = '[';
+  out += ",\"notes\":";
+  for (const app::Note& note : notes) {
+    out += separator;
+    append_note_json(out, note);
+    separator = ',';
+  }
+  out += "]}";
+}
+
 void append_row(std::string& out, Form form, const app::Measurement& measurement) {
   if (form == Form::Csv) return append_measurement_csv(out, measurement);
   app::append_record(out, measurement);
+  if (!measurement.notes.empty()) append_notes(out, measurement.notes);
   if (form == Form::Ndjson) out += '\n';
 }
 
@@ -152,6 +167,7 @@ std::vector<http::Parameter> measurement_filter_parameters() {
       {.name = "to", .type = http::Time{}, .description = "measured_at before then"},
       {.name = "received_from", .type = http::Time{}, .description = "received_at from then on"},
       {.name = "received_to", .type = http::Time{}, .description = "received_at before then"},
+      {.name = "cause", .description = "With a note that names exactly this cause"},
       {.name = "history",
        .type = http::Words{{"current", "all"}},
        .description = "all shows corrected rows too"},
@@ -186,6 +202,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
   query.to = request.time("to");
   query.received_from = request.time("received_from");
   query.received_to = request.time("received_to");
+  if (const auto cause = request.text("cause")) query.cause.emplace(*cause);
   query.history = request.text("history") == "all";
   return query;
 }
@@ -200,6 +217,9 @@ void list_measurements(const Services& services, const http::Request& request,
   if (!query) return responder.fail(query.error());
   query->as_of = cursor->as_of;
   query->after = cursor->record;
+  const auto notes = request.text("notes");
+  query->shows_notes = notes.has_value();
+  query->has_notes = notes == "only";
   query->newest_first = request.text("sort") == "newest";
   if (const auto last = request.integer("last")) {
     if (limit || request.text("after")) {

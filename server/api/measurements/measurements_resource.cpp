@@ -42,9 +42,7 @@ void summarise(const Services& services, const http::Request& request, http::Res
 }
 
 std::vector<http::Parameter> posting_parameters(std::vector<http::Parameter> parameters = {}) {
-  parameters.push_back({.name = "Idempotency-Key",
-                        .place = http::ParameterPlace::Header,
-                        .description = "Makes a repeat answer what the first was answered"});
+  parameters.push_back(idempotency_parameter());
   parameters.push_back({.name = "Prefer",
                         .place = http::ParameterPlace::Header,
                         .description = "return=representation or return=minimal"});
@@ -61,6 +59,10 @@ std::vector<http::Parameter> list_parameters() {
       {.name = "sort",
        .type = http::Words{{"oldest", "newest"}},
        .description = "Which come first by the time of storing; oldest when absent"});
+  parameters.push_back({.name = "notes",
+                        .type = http::Words{{"shown", "only"}},
+                        .description = "shown puts its `notes` into each record of JSON and "
+                                       "NDJSON that has some; only lists these alone"});
   parameters.push_back({.name = "last",
                         .type = http::Integer{.min = 1, .max = 1000},
                         .description = "Only so many of the newest; not beside limit or after"});

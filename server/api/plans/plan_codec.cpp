@@ -46,6 +46,7 @@ void read_own_fields(FieldReader& reader, std::set<std::string>& names) {
   read_text(reader, "frequency", kLongestText);
   read_text(reader, "picture", kLongestText);
   read_text(reader, "reaction", kLongestReaction);
+  read_text(reader, "catalogue", kLongestText);
 }
 
 /// Judges some value as a measurement of the characteristic would be.

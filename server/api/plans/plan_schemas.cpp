@@ -29,6 +29,8 @@ Fields characteristic_fields() {
              {"frequency", schema::text(200), "How often, in the shop's words"},
              {"picture", schema::text(200), "A file of /v1/files"},
              {"reaction", schema::text(2000), "What to do when it is not good"},
+             {"catalogue", schema::text(200),
+              "A value that is not good waits for a cause and a measure of this catalogue"},
          });
 }
 

@@ -32,7 +32,8 @@ void add_events_routes(std::vector<http::Route>& routes, const Services& service
       .summary = "What happens, as Server-Sent Events",
       .description =
           "measurement.recorded and verdict.reject carry the record, run.finished the run, "
-          "table.changed the column and the revision in force from then on. A reader that names "
+          "table.changed the column and the revision in force from then on, note.added the note. A "
+          "reader that names "
           "the id of the last event it had goes on with the next; `resync` says "
           "that some are gone.",
       .parameters = {{.name = "source",

@@ -229,6 +229,7 @@ Schemas make_schemas() {
   add_statistics_schemas(schemas);
   add_table_schemas(schemas);
   add_measurement_schemas(schemas);
+  add_note_schemas(schemas);
   add_plan_schemas(schemas);
   add_file_schemas(schemas);
   add_setup_schemas(schemas);

@@ -45,8 +45,9 @@ void add_service_schemas(Schemas& schemas) {
                                      {"tolerance_class", schema::text(), "The column that changed"},
                                      {"table_revision", schema::text(), "In force from now on"}})});
   schemas.push_back(
-      {"Event", schema::any_of({schema::ref("Measurement"), schema::ref("RunFinished"),
-                                schema::ref("TableChanged"), schema::ref("Resync")})});
+      {"Event",
+       schema::any_of({schema::ref("Measurement"), schema::ref("RunFinished"), schema::ref("Note"),
+                       schema::ref("TableChanged"), schema::ref("Resync")})});
   schemas.push_back({"Live", schema::object({{"status", schema::words({"live"}), ""}},
                                             Others::Allowed, R"({"status":"live"})")});
   schemas.push_back({"Ready", schema::object({

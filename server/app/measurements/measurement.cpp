@@ -61,6 +61,7 @@ std::optional<Source> source_from_word(std::string_view text) {
 }
 
 KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(measurement) {
+  measurement_.notes = {};
   const auto keep = [this](std::optional<std::string_view>& text) {
     if (text) text = texts_.emplace_back(*text);
   };

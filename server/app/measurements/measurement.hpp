@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "app/measurements/note.hpp"
 #include "base/clock.hpp"
 #include "gauging/conformance.hpp"
 #include "gauging/gauge.hpp"
@@ -124,6 +126,7 @@ struct Measurement {
   /// Another correction of the same record was made apart from this one. Known as corrected_by, and
   /// in lists.
   bool conflict = false;
+  std::span<const Note> notes{};  ///< known where a list was asked to show them
 
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }

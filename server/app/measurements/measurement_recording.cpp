@@ -5,6 +5,7 @@
 #include "app/log/origins.hpp"
 #include "app/measurements/mapping.hpp"
 #include "app/measurements/measurement_feed.hpp"
+#include "app/measurements/measurement_notes.hpp"
 #include "app/measurements/measurement_queue.hpp"
 #include "app/measurements/measurement_service.hpp"
 #include "app/measurements/measurement_storage.hpp"
@@ -19,6 +20,8 @@ namespace {
 /// Long requests that are read at once. Only one of them can be stored at a time: the other is
 /// there to have its first measurements ready.
 constexpr unsigned kLongRequests = 2;
+
+constexpr std::string_view kNoteEvent = "note.added";
 
 /// Stores the pieces of a long request, from the thread that reads it.
 Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed) {
@@ -98,6 +101,21 @@ void MeasurementService::record(std::vector<Measurement> measurements,
     const auto first = append(stores, measurements, revision, origin, rendering.get());
     if (!first) return first.error();
     return rendering->finish();
+  };
+  submit(scope, std::move(work), std::move(done));
+}
+
+void MeasurementService::add_note(const RecordName& name, Note note,
+                                  const std::optional<IdempotencyScope>& scope, NoteForm form,
+                                  Done<Answer> done) {
+  auto work = [this, name, note = std::move(note),
+               form = std::move(form)](store::Stores& stores) mutable -> Result<Answer> {
+    const auto row = existing_row_of(stores, name, origins_);
+    if (!row) return row.error();
+    note.measurement = measurement_id_text(name.number, origins_.digits(name.origin));
+    append_note(stores, *row, origins_.own(), note);
+    stores.events.append(kNoteEvent, form.event(note), note.received_at.nanoseconds);
+    return form.answer(note);
   };
   submit(scope, std::move(work), std::move(done));
 }

@@ -6,6 +6,7 @@
 
 #include "app/log/origins.hpp"
 #include "app/measurements/mapping.hpp"
+#include "app/measurements/measurement_notes.hpp"
 #include "app/measurements/measurement_storage.hpp"
 #include "app/tables/table_catalog.hpp"
 #include "store/database.hpp"
@@ -30,6 +31,8 @@ store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
   if (query.to) filter.to_ns = query.to->nanoseconds;
   if (query.received_from) filter.received_from_ns = query.received_from->nanoseconds;
   if (query.received_to) filter.received_to_ns = query.received_to->nanoseconds;
+  filter.cause = query.cause;
+  filter.has_notes = query.has_notes;
   filter.history = query.history;
   filter.as_of_id = query.as_of;
   return filter;
@@ -98,9 +101,19 @@ void MeasurementService::find(const RecordName& name, Visitor visit, Done<std::i
               visit(measurement);
             });
         if (found) return *row;
-        return Error{ErrorCode::MeasurementUnknown,
-                     "there is no measurement '" +
-                         measurement_id_text(name.number, origins_.digits(name.origin)) + "'"};
+        return unknown_measurement(name, origins_);
+      },
+      std::move(done));
+}
+
+void MeasurementService::list_notes(const RecordName& name, Done<std::vector<Note>> done) {
+  database_.readers().submit(
+      [this, name](const store::Stores& stores) -> Result<std::vector<Note>> {
+        const auto row = existing_row_of(stores, name, origins_);
+        if (!row) return row.error();
+        return notes_of(stores, *row,
+                        measurement_id_text(name.number, origins_.digits(name.origin)),
+                        origins_.own());
       },
       std::move(done));
 }
@@ -109,7 +122,7 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
                               Visitor visit, Done<ListPage> done) {
   database_.readers().submit(
       [this, filter = measurement_filter(query), after, limit, last = query.last,
-       behind = query.after,
+       behind = query.after, shows_notes = query.shows_notes,
        order = query.newest_first ? store::ListOrder::NewestFirst : store::ListOrder::OldestFirst,
        visit = std::move(visit)](const store::Stores& stores) mutable -> Result<ListPage> {
         if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
@@ -130,6 +143,13 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
             [&](const store::MeasurementRow& row) {
               Measurement measurement = from_store(row, names);
               measurement.conflict = is_in_conflict(stores, row);
+              std::vector<Note> notes;
+              if (shows_notes) {
+                notes = notes_of(stores, row.id,
+                                 measurement_id_text(measurement.id, measurement.origin),
+                                 origins_.own());
+              }
+              measurement.notes = notes;
               visit(measurement);
             },
             order);

@@ -59,11 +59,14 @@ struct MeasurementQuery {
   std::optional<Timestamp> to;                   ///< measured_at < to
   std::optional<Timestamp> received_from;        ///< from <= received_at
   std::optional<Timestamp> received_to;          ///< received_at < to
+  std::optional<std::string> cause;              ///< named by a note
+  bool has_notes = false;                        ///< only rows with a note
   bool history = false;                          ///< corrected rows too
   std::optional<std::int64_t> as_of;             ///< the state when this id was the newest
 
   // Of lists.
   bool newest_first = false;
+  bool shows_notes = false;
   std::optional<std::size_t> last;  ///< only so many of the newest that match, on one page
   std::optional<RecordName> after;  ///< begins behind this one, instead of a cursor
 };
@@ -169,6 +172,20 @@ class MeasurementService {
   /// Visits one measurement; `corrected_by` is set if it was. @returns where it stands in this
   /// folder. @errors MeasurementUnknown.
   void find(const RecordName& name, Visitor visit, Done<std::int64_t> done);
+
+  /// Makes the answer to a note that is stored, and what the event `note.added` says of it; called
+  /// on the writer thread.
+  struct NoteForm {
+    std::function<Answer(const Note&)> answer;
+    std::function<std::string(const Note&)> event;
+  };
+  /// Keeps a note beside a measurement. @param note has its time
+  /// @errors MeasurementUnknown, and those of record().
+  void add_note(const RecordName& name, Note note, const std::optional<IdempotencyScope>& scope,
+                NoteForm form, Done<Answer> done);
+
+  /// The notes beside a measurement, oldest first. @errors MeasurementUnknown.
+  void list_notes(const RecordName& name, Done<std::vector<Note>> done);
 
   /// Visits up to `limit` matching measurements that come after the cursor `after`, in storage
   /// order or the other way round. A query without `as_of` is read in the newest state; the pages

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/log/origins.hpp"
 #include "app/measurements/mapping.hpp"
 #include "app/measurements/measurement_service.hpp"
 #include "app/tables/table_catalog.hpp"
@@ -81,6 +82,19 @@ Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measur
 std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name) {
   if (name.origin == 0) return name.number;
   return stores.measurements.find_forwarded(name.origin, name.number);
+}
+
+Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordName& name,
+                                     const Origins& origins) {
+  const auto row = row_of(stores, name);
+  if (row && stores.measurements.find(*row, [](const store::MeasurementRow&) {})) return *row;
+  return unknown_measurement(name, origins);
+}
+
+Error unknown_measurement(const RecordName& name, const Origins& origins) {
+  return {ErrorCode::MeasurementUnknown,
+          "there is no measurement '" +
+              measurement_id_text(name.number, origins.digits(name.origin)) + "'"};
 }
 
 Error too_much_work() {

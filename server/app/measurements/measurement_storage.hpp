@@ -13,6 +13,7 @@
 
 namespace fitgauge::app {
 
+class Origins;
 class Rendering;
 class TableCatalog;
 
@@ -42,6 +43,12 @@ Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measur
 
 /// The row of a measurement in this folder, none where there is no such.
 std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name);
+
+/// The same of one that is there. @errors MeasurementUnknown.
+Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordName& name,
+                                     const Origins& origins);
+
+Error unknown_measurement(const RecordName& name, const Origins& origins);
 
 /// More waits to be stored than may.
 Error too_much_work();

@@ -15,9 +15,16 @@
 namespace fitgauge::app {
 
 /// As the store has them.
-enum class RevisionKind : std::uint8_t { Tables = 1, Key = 2, Setup = 3, Plan = 4, Correction = 5 };
+enum class RevisionKind : std::uint8_t {
+  Tables = 1,
+  Key = 2,
+  Setup = 3,
+  Plan = 4,
+  Correction = 5,
+  Catalogue = 7
+};
 
-/// `tables`, `key`, `setup`, `plan`, `correction`.
+/// `tables`, `key`, `setup`, `plan`, `correction`, `catalogue`.
 std::string_view word(RevisionKind kind);
 std::optional<RevisionKind> revision_kind_from_word(std::string_view text);
 
@@ -25,9 +32,9 @@ std::optional<RevisionKind> revision_kind_from_word(std::string_view text);
 struct Revision {
   std::int64_t number = 0;
   RevisionKind kind = RevisionKind::Tables;
-  std::string name{};       ///< of the key, setup or plan
+  std::string name{};       ///< of the key or document
   bool is_removed = false;  ///< or revoked
-  std::string text{};       ///< of the setup, the plan, or the correction's record
+  std::string text{};       ///< of the document, or the correction's record
 
   std::string id{};  ///< of the tables, as records name them
   std::vector<iso286::CustomColumn> columns{};

@@ -35,9 +35,9 @@ void fill_key(const store::Stores& stores, Revision& revision) {
 }
 
 void fill_document(const store::Stores& stores, Revision& revision) {
-  const auto kind =
-      revision.kind == RevisionKind::Setup ? store::DocumentKind::Setup : store::DocumentKind::Plan;
-  auto document = stores.documents.find(kind, revision.name);
+  // Documents have the same codes as revisions of them.
+  auto document =
+      stores.documents.find(static_cast<store::DocumentKind>(revision.kind), revision.name);
   revision.is_removed = !document;
   if (document) revision.text = std::move(document->text);
 }
@@ -50,14 +50,16 @@ std::string_view word(RevisionKind kind) {
     case RevisionKind::Key: return "key";
     case RevisionKind::Setup: return "setup";
     case RevisionKind::Plan: return "plan";
+    case RevisionKind::Catalogue: return "catalogue";
     case RevisionKind::Correction: break;
   }
   return "correction";
 }
 
 std::optional<RevisionKind> revision_kind_from_word(std::string_view text) {
-  for (const RevisionKind kind : {RevisionKind::Tables, RevisionKind::Key, RevisionKind::Setup,
-                                  RevisionKind::Plan, RevisionKind::Correction}) {
+  for (const RevisionKind kind :
+       {RevisionKind::Tables, RevisionKind::Key, RevisionKind::Setup, RevisionKind::Plan,
+        RevisionKind::Correction, RevisionKind::Catalogue}) {
     if (text == word(kind)) return kind;
   }
   return std::nullopt;

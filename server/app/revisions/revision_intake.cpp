@@ -59,8 +59,10 @@ struct RevisionIntake::Job {
     switch (revision.kind) {
       case RevisionKind::Tables: return take_tables(revision);
       case RevisionKind::Key: return take_key(revision);
-      case RevisionKind::Setup: return take_document(revision, store::DocumentKind::Setup);
-      case RevisionKind::Plan: return take_document(revision, store::DocumentKind::Plan);
+      case RevisionKind::Setup:
+      case RevisionKind::Plan:
+      case RevisionKind::Catalogue:
+        return take_document(revision, static_cast<store::DocumentKind>(revision.kind));
       case RevisionKind::Correction: break;
     }
     take_correction(revision);

@@ -29,6 +29,8 @@ Facts facts_of(DocumentKind kind) {
       return {Stored::Connection, "connection", ErrorCode::ConnectionUnknown};
     case DocumentKind::ConnectionProgress:
       return {Stored::ConnectionProgress, "progress of a connection", ErrorCode::ConnectionUnknown};
+    case DocumentKind::Catalogue:
+      return {Stored::Catalogue, "catalogue", ErrorCode::CatalogueUnknown};
     case DocumentKind::Plan: break;
   }
   return {Stored::Plan, "plan", ErrorCode::PlanUnknown};
@@ -58,9 +60,11 @@ Result<void> check_change(const DocumentService::Precondition& precondition, Doc
 
 /// What a centre has given is changed there. @errors Forbidden
 Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const std::string& name) {
-  if (kind != DocumentKind::Setup && kind != DocumentKind::Plan) return {};
-  const auto as =
-      kind == DocumentKind::Setup ? store::RevisionKind::Setup : store::RevisionKind::Plan;
+  if (kind != DocumentKind::Setup && kind != DocumentKind::Plan &&
+      kind != DocumentKind::Catalogue) {
+    return {};
+  }
+  const auto as = static_cast<store::RevisionKind>(stored_kind(kind));
   if (!stores.revisions.received(as, name)) return {};
   return centre_decides(called(kind, name));
 }

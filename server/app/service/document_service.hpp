@@ -23,6 +23,7 @@ enum class DocumentKind : std::uint8_t {
   Setup,
   Plan,
   Connection,
+  Catalogue,
   ConnectionProgress,  ///< how far the connection of that name has come
 };
 
@@ -33,11 +34,10 @@ struct NamedDocument {
   Timestamp modified_at;
 };
 
-/// Uncertainty budgets, gauges in use, machine setups, plans and connections. Nothing blocks but
-/// what says so;
-/// `done` comes exactly once, on a storage thread or, when refused at once, on the caller's.
-/// Thread-safe. A name that is not there is UncertaintyUnknown, GaugeUnknown, SetupUnknown,
-/// PlanUnknown or ConnectionUnknown.
+/// Uncertainty budgets, gauges in use, machine setups, plans, connections and catalogues. Nothing
+/// blocks but what says so; `done` comes exactly once, on a storage thread or, when refused at
+/// once, on the caller's. Thread-safe. A name that is not there is UncertaintyUnknown,
+/// GaugeUnknown, SetupUnknown, PlanUnknown, ConnectionUnknown or CatalogueUnknown.
 class DocumentService {
  public:
   template <class T>
@@ -56,7 +56,8 @@ class DocumentService {
     Precondition precondition{};
   };
 
-  /// @param has_centre whether setups and plans that came from a centre are changed there alone.
+  /// @param has_centre whether setups, plans and catalogues that came from a centre are changed
+  /// there alone.
   DocumentService(store::Database& database, const Clock& clock, bool has_centre = false)
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 

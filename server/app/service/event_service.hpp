@@ -35,7 +35,8 @@ std::optional<EventPosition> parse_event_id(std::string_view text);
 
 /// One event, with a measurement or a payload; views, valid during the visitor's call.
 struct Event {
-  /// `measurement.recorded`, `verdict.reject`, `run.finished`, `table.changed`
+  /// `measurement.recorded`, `verdict.reject`, `run.finished`, `table.changed`,
+  /// `note.added`
   std::string_view type;
   EventPosition id;
   const Measurement* measurement = nullptr;

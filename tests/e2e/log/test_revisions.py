@@ -52,9 +52,10 @@ class Revisions(Centre):
         self.put(self.centre, "/v1/tables/hole/classes/Q7", COLUMN)
         self.put(self.centre, "/v1/setups/bench", SETUP)
         self.put(self.centre, "/v1/plans/A%2F1", {"characteristics": [{"name": "bore", "designation": "25 Q7"}]})
+        self.put(self.centre, "/v1/catalogues/turning", {"causes": ["worn"], "measures": []})
         given = self.revision(self.centre)
         wait_until(lambda: self.revision(station) == given, "the centre's tables")
-        for path in ("/v1/setups/bench", "/v1/plans/A%2F1"):
+        for path in ("/v1/setups/bench", "/v1/plans/A%2F1", "/v1/catalogues/turning"):
             self.wait_for(station, path, self.centre.get(path).text)
         record = station.measure({"designation": "25 Q7", "measured_mm": 25.0151}).json
         self.assertEqual((record["verdict"], record["table_revision"]), ("reject", given), "it names the centre's")

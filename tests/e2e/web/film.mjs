@@ -1,6 +1,6 @@
 /**
  * tests/e2e/web/run tests/e2e/web/film.mjs: takes the pictures of docs/guide/gauging-station.md anew, from a
- * service of its own: scan, measure, reject with its reaction, outage, certificate.
+ * service of its own: scan, measure, reject with its cause, outage, certificate.
  */
 
 import path from 'node:path';
@@ -12,14 +12,19 @@ import { scan } from './support/scanner.mjs';
 const FOLDER = path.resolve('docs/images');
 const SCREEN = { viewport: { width: 1024, height: 768 }, deviceScaleFactor: 0.75, serviceWorkers: 'allow' };
 const PLAN = { name: 'Bearing housing', characteristics: [
-  { name: 'bore-A', designation: '25 H7', gauge: 'G-07', reaction: 'Stop, tell the setter' },
+  { name: 'bore-A', designation: '25 H7', gauge: 'G-07', reaction: 'Stop, tell the setter', catalogue: 'turning' },
   { name: 'slot', nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0 },
 ] };
+
+const CATALOGUE = {
+  causes: ['Insert worn', 'Part clamped askew', 'Wrong offset', 'Part too warm'], measures: ['Insert changed', 'Offset corrected', 'Part scrapped'],
+};
 
 const browser = await launch();
 const daemon = await new Daemon().start();
 try {
   await daemon.send('PUT', '/v1/plans/4711-A', PLAN);
+  await daemon.send('PUT', '/v1/catalogues/turning', CATALOGUE);
   const page = await open(browser, daemon, '#/gauge?order=WO-4711', SCREEN);
   const take = (name) => page.screenshot({ path: path.join(FOLDER, `station-${name}.png`) });
   const verdict = (state) => page.waitForSelector(`.verdict[data-verdict="${state}"]`);
@@ -40,7 +45,8 @@ try {
   await measure('bore-A', '25.0302');
   await verdict('reject');
   await take('reject');
-  await page.click('.reactions button');
+  await page.click('text=Insert worn');
+  await page.click('text=Insert changed');
   await daemon.stop();
   await measure('slot', '8.017');
   await page.waitForSelector('.verdict[data-provisional]');

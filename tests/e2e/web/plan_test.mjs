@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, describe, it } from 'node:test';
 
-import { close, launch, open, picture } from './support/browser.mjs';
+import { close, findings, launch, open, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { scan } from './support/scanner.mjs';
 
@@ -120,6 +120,75 @@ describe('a plan', () => {
     assert.deepEqual((await daemon.stored()).slice(before).map((record) => record.measured_mm), [25.03, 25.01]);
     assert.ok(await page.isHidden('.reactions')); // a good value demands nothing
     page.errors.length = 0;
+    await close(page);
+  });
+
+  it('demands a cause and a measure of its catalogue, which become a note beside the record', async () => {
+    await daemon.send('PUT', '/v1/catalogues/turning', { causes: ['Insert worn', 'Clamped askew'], measures: ['Insert changed', 'Scrapped'] });
+    await daemon.send('PUT', '/v1/plans/SHAFT', { characteristics: [{ name: 'seat', designation: '25 H7', catalogue: 'turning' }] });
+    page = await open(browser, daemon, '#/gauge?plan=SHAFT&operator=Kim');
+    await progress('1 of 1');
+    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
+    await line('25.03');
+    await verdict('reject');
+    const buttons = () => page.$$eval('.choices-of button', (all) => all.map((one) => [one.textContent, one.getBoundingClientRect().height >= 64]));
+    assert.deepEqual(await buttons(), [['Insert worn', true], ['Clamped askew', true]]);
+    await picture(page, 'gauge-cause');
+    assert.deepEqual(await findings(page), []);
+    await line('25.01');
+    assert.match(await page.textContent('#entry-note'), /cause and the measure.*Nothing is stored/);
+    await page.click('text=Insert worn');
+    assert.deepEqual(await buttons(), [['Insert changed', true], ['Scrapped', true]]);
+    await page.reload(); // and what was said already stands
+    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
+    await page.click('text=Insert changed');
+    assert.ok(await page.isHidden('.reactions'));
+    await page.waitForSelector('.recent .noted');
+    assert.equal(await page.textContent('.recent .noted'), 'Insert worn → Insert changed');
+    await page.waitForSelector('.link[data-state="up"]');
+
+    await daemon.stop(); // the notes wait with their values, in order, also over a reload
+    await line('25.04');
+    await page.click('text=Clamped askew');
+    await page.fill('[name="measure"]', 'Turned anew');
+    await page.press('[name="measure"]', 'Enter');
+    await line('25.05');
+    await page.click('text=Insert worn');
+    await page.click('text=Scrapped');
+    await daemon.start();
+    await page.waitForSelector('.link[data-state="up"]');
+    const noted = (await daemon.stored('characteristic=seat&notes=only')).map((record) => [record.measured_mm, ...record.notes.map((one) => [one.cause, one.measure, one.operator])]);
+    assert.deepEqual(noted, [[25.03, ['Insert worn', 'Insert changed', 'Kim']], [25.04, ['Clamped askew', 'Turned anew', 'Kim']], [25.05, ['Insert worn', 'Scrapped', 'Kim']]]);
+    assert.ok(await page.isVisible('.arrived'));
+
+    await page.goto(`${daemon.url}/#/parts?cause=Insert+worn`);
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 2);
+    assert.match(await page.textContent('.records tbody tr'), /Insert worn → Scrapped · Kim/);
+    await page.click('.records tbody tr:last-child >> text=Note');
+    await page.click('dialog button.primary');
+    assert.match(await page.textContent('dialog .note'), /a cause, a measure or a text/);
+    await page.fill('dialog [name="text"]', 'the whole batch was looked through');
+    assert.deepEqual(await findings(page), []);
+    await page.click('dialog button.primary');
+    await page.waitForFunction(() => /the whole batch was looked through/.test(document.querySelector('.records tbody tr:last-child').textContent));
+    page.errors.length = 0;
+    await close(page);
+  });
+
+  it('takes a cause in words of one\'s own where its catalogue is not there', async () => {
+    await daemon.send('PUT', '/v1/plans/ODD', { characteristics: [{ name: 'odd', designation: '25 H7', catalogue: 'nowhere' }] });
+    page = await open(browser, daemon, '#/gauge?plan=ODD');
+    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
+    await line('25.03');
+    await verdict('reject');
+    for (const [name, text] of [['cause', 'Insert worn'], ['measure', 'None']]) {
+      await page.fill(`.reactions [name="${name}"]`, text);
+      await page.press(`.reactions [name="${name}"]`, 'Enter');
+    }
+    await page.waitForSelector('.reactions', { state: 'hidden' });
+    await page.waitForSelector('.link[data-state="up"]');
+    const [record] = await daemon.stored('characteristic=odd&notes=shown');
+    assert.deepEqual([record.notes[0].cause, record.notes[0].measure], ['Insert worn', 'None']);
     await close(page);
   });
 
