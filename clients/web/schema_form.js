@@ -55,8 +55,8 @@ function choices(words) {
 }
 
 /** A few numbers, such as X, Y and Z. */
-function tuple({ maxItems }, name) {
-  const inputs = Array.from({ length: maxItems }, (_, i) => input({ inputmode: 'decimal', 'aria-label': `${labelText(name)} ${'XYZ'[i]}` }));
+function tuple({ maxItems }, label) {
+  const inputs = Array.from({ length: maxItems }, (_, i) => input({ inputmode: 'decimal', 'aria-label': `${label} ${'XYZ'[i]}` }));
   return {
     element: h('span.tuple', inputs),
     read: () => (inputs.some(({ value }) => value.trim()) ? inputs.map(({ value }) => numberOf(value.trim())) : undefined),
@@ -72,9 +72,9 @@ const json = () => texts(area(3), (text) => {
   }
 }, (value) => JSON.stringify(value));
 
-function listOf(schema, items, name) {
+function listOf(schema, items, label) {
   if (items.enum) return choices(items.enum);
-  if (isNumber(items) && schema.maxItems <= 3) return tuple(schema, name);
+  if (isNumber(items) && schema.maxItems <= 3) return tuple(schema, label);
   if (items.type === 'array') {
     return texts(area(5), (text) => linesOf(text).map((line) => wordsOf(line).map(numberOf)), (rows) => rows.map((row) => row.join(' ')).join('\n'));
   }
@@ -95,10 +95,10 @@ function nested(schema, all) {
   };
 }
 
-function controlOf(schema, name, all) {
+function controlOf(schema, { name, label, all }) {
   if (schema.enum) return choice(schema.enum);
   if (schema.type === 'boolean') return choice([true, false], (value) => t(value ? 'schema.yes' : 'schema.no'));
-  if (schema.type === 'array') return listOf(schema, resolved(schema.items, all), name);
+  if (schema.type === 'array') return listOf(schema, resolved(schema.items, all), label);
   if (schema.properties) return nested(schema, all);
   if (schema.type === 'object') return map();
   const placeholder = schema['x-default'] ?? '';
@@ -106,11 +106,13 @@ function controlOf(schema, name, all) {
   return texts(input({ type: name === 'password' ? 'password' : 'text', maxlength: schema.maxLength, placeholder }), (text) => text);
 }
 
-const labelText = (name) => (has(`schema.${name}`) ? t(`schema.${name}`) : name);
-
 export class SchemaForm {
-  /** @param schema of an object, resolved; members that allow one value have no field */
-  constructor(schema, all) {
+  /**
+   * @param schema of an object, resolved; members that allow one value have no field
+   * @param texts what the texts of its members are called, `schema`; without one the schema's own stand there
+   */
+  constructor(schema, all, texts = '') {
+    this.texts = texts;
     this.fixed = {};
     this.rest = {};
     this.fields = new Map();
@@ -124,14 +126,16 @@ export class SchemaForm {
   }
 
   #field(name, schema, required, all) {
-    const control = controlOf(schema, name, all);
+    const text = `${this.texts}.${name}`;
+    const known = has(text);
+    const named = known ? t(text) : name;
+    const control = controlOf(schema, { name, label: named, all });
     const note = h('span.note', { role: 'alert' });
-    const known = has(`schema.${name}`);
-    const label = h('span.label', known ? t(`schema.${name}`) : h('code', { lang: 'en' }, name), required && ' *');
+    const label = h('span.label', known ? named : h('code', { lang: 'en' }, name), required && ' *');
     const hint = !known && schema.description && h('span.hint', { lang: 'en' }, schema.description);
     // A group of controls is no label's: each has a name of its own.
     const single = ['INPUT', 'SELECT', 'TEXTAREA'].includes(control.element.tagName);
-    const place = single ? h('label.field', label, control.element, hint, note) : h('div.field', { role: 'group', 'aria-label': labelText(name) }, label, control.element, hint, note);
+    const place = single ? h('label.field', label, control.element, hint, note) : h('div.field', { role: 'group', 'aria-label': named }, label, control.element, hint, note);
     return { ...control, place, note };
   }
 

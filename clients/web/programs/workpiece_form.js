@@ -39,7 +39,7 @@ export class WorkpieceForm {
   /** A feature of a kind that is not known stays as it is. */
   #form(feature) {
     const schema = this.kinds.get(feature?.type);
-    return schema ? new SchemaForm(schema, this.all).fill(feature) : { value: feature, element: h('p.aside', t('feature.unknown')) };
+    return schema ? new SchemaForm(schema, this.all, 'schema').fill(feature) : { value: feature, element: h('p.aside', t('feature.unknown')) };
   }
 
   #add() {

@@ -1,4 +1,5 @@
 #include "api/runs/runs_resource.hpp"
+#include "api/posting.hpp"
 
 #include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
@@ -303,9 +304,7 @@ void add_runs_routes(std::vector<http::Route>& routes, const Services& services)
       .summary = "Run a program on a simulated machine",
       .description = "201 with the run when it is over, or 202 at once with "
                      "`Prefer: respond-async`. A program with errors is refused with all of them.",
-      .parameters = {{.name = "Idempotency-Key",
-                      .place = http::ParameterPlace::Header,
-                      .description = "Makes a repeat answer what the first was answered"},
+      .parameters = {idempotency_parameter(),
                      {.name = "Prefer",
                       .place = http::ParameterPlace::Header,
                       .description = "respond-async"}},

@@ -4,14 +4,28 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import http from 'node:http';
 import net from 'node:net';
+import os from 'node:os';
 import path from 'node:path';
-import { afterEach, describe, it } from 'node:test';
+import { after, afterEach, before, describe, it } from 'node:test';
 
-import { close, findings, open, picture } from './support/browser.mjs';
-import { browser, daemon } from './support/stage.mjs';
+import { close, findings, launch, open, picture } from './support/browser.mjs';
+import { Daemon } from './support/daemon.mjs';
 
+const FOLDER = fs.mkdtempSync(path.join(os.tmpdir(), 'fitgauge-folders-'));
+
+let browser;
+let daemon;
 let page;
 
+before(async () => {
+  browser = await launch();
+  daemon = await new Daemon('--connection-folders', FOLDER, '--allow-private-addresses').start();
+});
+after(async () => {
+  await browser.close();
+  await daemon.cleanup();
+  fs.rmSync(FOLDER, { recursive: true });
+});
 afterEach(() => close(page));
 
 const field = (name) => page.locator('.schema-fields > .field').filter({ has: page.locator(`code:text-is("${name}")`) });
@@ -59,7 +73,7 @@ describe('the connections', () => {
   });
 
   it('of folders bring values in and take them out, seen in the list', async () => {
-    const folders = ['in', 'out'].map((name) => path.join(daemon.folder, name));
+    const folders = ['in', 'out'].map((name) => path.join(FOLDER, name));
     for (const folder of folders) fs.mkdirSync(folder);
     page = await open(browser, daemon, '#/connections');
     await page.waitForSelector('.schema-fields');

@@ -51,6 +51,17 @@ describe('the fit', () => {
     await picture(page, 'fit-found', { fullPage: true });
   });
 
+  it('leaves nothing of the last fit below one that cannot be read', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.limits');
+    await page.fill('.fit .designation', '25 H7/');
+    await page.press('.fit .designation', 'Enter');
+    await page.waitForFunction(() => document.querySelector('.fit .note').textContent !== '');
+    assert.equal(await page.$('.fit .limits'), null);
+    assert.equal(await page.$('.fit .zones'), null);
+    assert.equal(await page.$('.fit .headline'), null);
+  });
+
   it('draws a zone where the deviations say, to scale', async () => {
     page = await open(browser, daemon, '#/fit/25H7/k6');
     await page.waitForSelector('.zones .shaft rect');
@@ -155,6 +166,9 @@ describe('the tables', () => {
     await page.fill('.own textarea', '18; 30; -3,5; -10\n30\t50\t-4\t-12');
     await page.click('.own button[type="submit"]');
     await page.waitForSelector('.own-list >> text=press1');
+    // What went well is not said in the colour of errors.
+    assert.match(await page.textContent('.own .note[role="status"]'), /press1 is stored/);
+    assert.equal(await page.$eval('.own .note', (note) => getComputedStyle(note).color), await page.$eval('.own h2', (title) => getComputedStyle(title).color));
     const limits = await daemon.json('/v1/limits/25press1');
     assert.deepEqual([limits.upper_deviation_um, limits.lower_deviation_um, limits.basis], [-3.5, -10, 'custom']);
     await page.click('.own-list [aria-label]');

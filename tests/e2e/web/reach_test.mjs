@@ -63,6 +63,19 @@ describe('the reach of the page', () => {
     });
   }
 
+  it('gives the fit’s figure the wide column where there are two, in lettering one can read', async () => {
+    const page = await openView('fit', {});
+    for (const width of [768, 1023, 1024, 1025, 1366]) {
+      await page.setViewportSize({ width, height: 768 });
+      await page.waitForTimeout(200);
+      const [figure, side] = await page.$$eval('.fit figure, .fit .side', (all) => all.map((each) => each.getBoundingClientRect()).map((box) => ({ left: box.left, top: box.top, width: box.width })));
+      if (Math.abs(figure.left - side.left) > 100) assert.ok(figure.width > side.width, `${width}: figure ${figure.width}, form ${side.width}`);
+      const least = await page.$$eval('.fit figure svg text', (texts) => Math.min(...texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a)));
+      assert.ok(least >= SMALLEST_LETTERING - 0.05, `${width}: ${least}`);
+    }
+    await close(page);
+  });
+
   it('has its views in one line on tablets and desks, in every language', async () => {
     for (const locale of ['en-GB', 'de-DE', 'nl-NL', 'it-IT']) {
       const page = await openView('tables', { locale });

@@ -134,6 +134,39 @@ describe('the trend', () => {
     assert.ok(asked >= 2);
   });
 
+  it('stays at the size that was shown first, whatever another station measures', async () => {
+    await daemon.send('POST', '/v1/measurements', ['25.01', '25.011'].map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'hops' })));
+    page = await open(browser, daemon, '#/trend?characteristic=hops');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 2);
+    for (const [designation, measured] of [['40 H7', '40.01'], ['25 H7', '25.012'], ['40 H7', '40.011'], ['25 H7', '25.013']]) {
+      await daemon.send('POST', '/v1/measurements', { designation, measured_mm: measured, characteristic: 'hops' });
+    }
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 4);
+    assert.equal(await page.inputValue('#trend-designation'), '25 H7');
+    assert.deepEqual(await page.$$eval('#trend-designation option', (all) => all.map(({ value }) => value)), ['25 H7', '40 H7']);
+  });
+
+  it('offers limits of a drawing and what is measured for the first time, and takes back its note when the service is back', async () => {
+    const groove = (measured_mm, upper_um) => ({ nominal_mm: 12, feature: 'hole', upper_um, lower_um: 0, measured_mm, characteristic: 'groove' });
+    await daemon.send('POST', '/v1/measurements', [groove('12.01', 30), groove('12.02', 30), groove('12.03', 50)]);
+    page = await open(browser, daemon, '#/trend?characteristic=groove');
+    const offered = (name) => page.$$eval(`#trend-${name} option`, (all) => all.map(({ value }) => value));
+    const points = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.point').length === wanted, count);
+    await points(1);
+    assert.deepEqual(await offered('designation'), ['12 +30/0 µm', '12 +50/0 µm']);
+    await page.selectOption('#trend-designation', '12 +30/0 µm');
+    await points(2);
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', characteristic: 'first-time' });
+    await page.waitForSelector('#trend-characteristic option[value="first-time"]', { state: 'attached' });
+    await page.route('**/v1/measurements?*', (route) => route.abort());
+    await page.selectOption('#trend-count', '200');
+    await page.waitForFunction(() => document.querySelector('.trend .note').textContent !== '');
+    await page.unroute('**/v1/measurements?*');
+    await daemon.send('POST', '/v1/measurements', groove('12.015', 30));
+    await page.waitForFunction(() => document.querySelector('.trend .note').textContent === '');
+    page.errors.length = 0;
+  });
+
   it('is a control chart: limits, broken rules by number, indices that are grey while they mean nothing', async () => {
     // Montgomery, Introduction to Statistical Quality Control, the individuals of example 6.5 (viscosity of
     // primer paint), as micrometres above 33 mm; the book has centre 33.52, MR 0.48, limits 34.80 and 32.24.

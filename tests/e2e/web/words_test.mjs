@@ -98,6 +98,8 @@ describe('the words', () => {
       await page.waitForSelector('.cm-line');
       await page.waitForSelector('.finding');
     }],
+    'the connections': ['#/connections', (page) => page.waitForSelector('.schema-fields')],
+    'the examples': ['#/programs', (page) => page.waitForSelector('.empty button')],
     'the tables': ['#/tables/hole?find=25+H+PRESS9', (page) => page.waitForSelector('.grid td')],
   };
   for (const [name, [fragment, ready]] of Object.entries(VISITS)) {
