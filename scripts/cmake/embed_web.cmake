@@ -12,7 +12,7 @@ set(type_txt "text/plain; charset=utf-8")
 set(type_h "${type_txt}")
 set(type_a "${type_txt}")
 set(type_tab "${type_txt}")
-set(type_json "application/json")
+set(type_json "${type_txt}")
 
 # Where the bytes of a file of the page are.
 function(source_of name variable)

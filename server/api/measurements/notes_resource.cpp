@@ -89,7 +89,7 @@ void add_note(const SharedPosting& posting, const app::RecordName& measurement) 
        .event = note_json},
       [posting](Result<app::Answer> answer) {
         if (!answer) return posting->responder.fail(answer.error());
-        posting->responder.answer(response_of(*std::move(answer)));
+        posting->responder.answer(api::response_of(*std::move(answer)));
       });
 }
 

@@ -102,7 +102,7 @@ void add_page_routes(std::vector<http::Route>& routes) {
       .tag = "service",
       .outcomes = {{.meaning = "Its bytes",
                     .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml",
-                                    "text/plain", "application/json"}}},
+                                    "text/plain"}}},
       .refusals = {404},
   });
 }

@@ -9,7 +9,7 @@ import unittest
 from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 
-COMMANDS = ("limits", "fit", "gauge", "measure", "list", "export", "summary", "capability", "chart", "correct", "nc", "setups", "runs",
+COMMANDS = ("limits", "fit", "gauge", "measure", "list", "export", "summary", "capability", "chart", "correct", "note", "nc", "setups", "runs",
             "control", "replay", "tables", "watch", "version", "completion")
 SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables", "setups", "runs", "control")] + [
     ("control", name) for name in ("ls", "get", "put", "run", "state")] + [

@@ -170,7 +170,7 @@ describe('a plan', () => {
     await page.fill('dialog [name="text"]', 'the whole batch was looked through');
     assert.deepEqual(await findings(page), []);
     await page.click('dialog button.primary');
-    await page.waitForFunction(() => /the whole batch was looked through/.test(document.querySelector('.records tbody tr:last-child').textContent));
+    await page.waitForFunction(() => /the whole batch was looked through/.test(document.querySelector('.records tbody tr:last-child')?.textContent ?? ''));
     page.errors.length = 0;
     await close(page);
   });
