@@ -72,6 +72,13 @@ struct Everything : Fixture {
                           .text = "{}",
                           .modified_at_ns = 1,
                           .caller = "press-3"});
+    stores.notes.append({.measurement = 1,
+                         .cause = "worn",
+                         .measure = "changed",
+                         .text = "seen twice",
+                         .operator_id = "Kim",
+                         .caller = "press-3",
+                         .received_at_ns = 1});
     stores.events.append("table_changed", "{}", 1);
     const std::int64_t run = stores.runs.create(
         {.program = "TNC:\\a.h", .request = "{}", .created_at_ns = 1, .caller = "press-3"});
@@ -103,6 +110,7 @@ const std::map<std::string, std::string> kFree = {
     {"idempotent_answers.id", "in no answer"},
     {"events.id", "rises: the file's check finds one that does not"},
     {"runs.id", "rises: the file's check finds one that does not"},
+    {"notes.id", "rises: the file's check finds one that does not"},
     {"log_keys.number", "in no answer"},
     {"log_nodes.level", "made from the leaves: the application compares them"},
     {"log_nodes.node", "as above"},
@@ -139,7 +147,8 @@ std::vector<Column> columns_of(sqlite::Connection& connection) {
 /// Changes the newest row's value as a bit that flips would.
 std::string flip(const Column& column) {
   return fmt::format(
-      "DROP TRIGGER measurements_are_not_updated; PRAGMA foreign_keys = OFF; "
+      "DROP TRIGGER measurements_are_not_updated; DROP TRIGGER notes_are_not_updated; PRAGMA "
+      "foreign_keys = OFF; "
       "PRAGMA ignore_check_constraints = ON; UPDATE {0} SET {1} = CASE typeof({1}) "
       "WHEN 'integer' THEN {1} + 1 WHEN 'null' THEN 1 "
       "WHEN 'text' THEN char(unicode({1}) + 1) || substr({1}, 2) "
@@ -147,7 +156,9 @@ std::string flip(const Column& column) {
       "substr({1}, 2) AS BLOB) END "
       "WHERE {1} IS (SELECT max({1}) FROM {0}); "
       "CREATE TRIGGER measurements_are_not_updated BEFORE UPDATE ON measurements\nBEGIN "
-      "SELECT RAISE(ABORT, 'a measurement is never changed: store a correction'); END",
+      "SELECT RAISE(ABORT, 'a measurement is never changed: store a correction'); END; "
+      "CREATE TRIGGER notes_are_not_updated BEFORE UPDATE ON notes\nBEGIN "
+      "SELECT RAISE(ABORT, 'a note is never changed: add another'); END",
       column.first, column.second);
 }
 
@@ -176,9 +187,13 @@ TEST_CASE("a changed value is found in every column of every table") {
 
 TEST_CASE("a changed row is not told to a reader") {
   Everything sample;
-  const Column changed[] = {{"idempotent_answers", "body"}, {"runs", "result"},
-                            {"run_traces", "trace"},        {"run_files", "content"},
-                            {"file_revisions", "content"},  {"documents", "text"}};
+  const Column changed[] = {{"idempotent_answers", "body"},
+                            {"runs", "result"},
+                            {"run_traces", "trace"},
+                            {"run_files", "content"},
+                            {"file_revisions", "content"},
+                            {"documents", "text"},
+                            {"notes", "cause"}};
   {
     sqlite::Connection connection(sample.directory.file(), sqlite::Mode::Write);
     for (const Column& column : changed) connection.execute(flip(column));
@@ -201,6 +216,7 @@ TEST_CASE("a changed row is not told to a reader") {
   CHECK(refused([](const Stores& stores) { stores.files.find("A.H"); }));
   CHECK(refused(
       [](const Stores& stores) { stores.documents.find(DocumentKind::GaugeInUse, "G-07"); }));
+  CHECK(refused([](const Stores& stores) { static_cast<void>(stores.notes.list(1)); }));
   CHECK_FALSE(refused([](const Stores& stores) { stores.keys.list(); }));
   CHECK(sample.database->health().state == HealthState::Damaged);
 }
