@@ -17,7 +17,7 @@ struct LogStore::Statements {
       : state(c, fmt::format("SELECT origin, name, chained, size, {} FROM log WHERE id = 1",
                              kLog.is_sound(c))),
         set_name(c, "UPDATE log SET name = ?"),
-        set_size(c, "UPDATE log SET size = ?"),
+        set_size(c, "UPDATE log SET size = ?1 WHERE size < ?1"),
         seal(c, kLog),
         keys(c, "SELECT vkey FROM log_keys ORDER BY number DESC"),
         add_key(c, kLogKeys.insert(c)),

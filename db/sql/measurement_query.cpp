@@ -236,7 +236,8 @@ RowSet MeasurementQuery::rows_in_block(const Posting& posting, std::int64_t bloc
   return rows.next() ? RowSet::decode(rows.get<Blob>(0).bytes) : RowSet();
 }
 
-/// Reads the rows of a block, those that follow each other at once.
+/// Reads the rows of a block, those that follow each other at once; what the index would leave out
+/// between them does not match either, and is cheaper to pass over than to ask a server anew.
 bool MeasurementQuery::run_block(Statement& matching, const IdSpan& ids, const RowSet& rows,
                                  std::int64_t block, ListOrder order, const Visitor& visit) {
   std::vector<IdSpan> runs;
@@ -244,7 +245,7 @@ bool MeasurementQuery::run_block(Statement& matching, const IdSpan& ids, const R
   const IdSpan looked_at = intersection(ids, whole);
   for (std::int64_t id = looked_at.first; id <= looked_at.last; ++id) {
     if (!rows.contains(id - whole.first)) continue;
-    if (!runs.empty() && runs.back().last == id - 1) {
+    if (!runs.empty() && (runs.back().last == id - 1 || !connection_.dialect().streams)) {
       runs.back().last = id;
     } else {
       runs.push_back({id, id});

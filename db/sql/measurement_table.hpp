@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "store/measurement_row.hpp"
@@ -19,6 +20,9 @@ class MeasurementTable {
   virtual void append(std::span<const MeasurementRow> rows) = 0;
   /// 0 when there is none.
   virtual std::int64_t last_id() = 0;
+  /// How many rows of this folder's own there are, where the engine counts them and numbers them in
+  /// their log; else none.
+  virtual std::optional<std::int64_t> own_rows() { return std::nullopt; }
 };
 
 }  // namespace fitgauge::store::sql

@@ -114,6 +114,7 @@ struct MeasurementsStore::Statements {
 
   /// Of an older copy of a folder the centre has more: those would get the same places again.
   Result<void> require_newest_copy() {
+    if (connection.dialect().is_shared) return {};  // no folder, and nothing is forwarded from it
     std::int64_t there = 0;
     if (Rows rows = forwarded.query(); rows.next()) there = rows.get<std::int64_t>(0);
     if (there == 0) return {};
@@ -127,6 +128,7 @@ struct MeasurementsStore::Statements {
   }
 
   std::int64_t log_size() {
+    if (const auto counted = table.own_rows()) return *counted;
     const std::int64_t others = alone();
     if (others != kLastId) return own_rows(others);
     return table.last_id();
@@ -152,9 +154,10 @@ struct MeasurementsStore::Statements {
     return newest_of_own.returning<std::optional<std::int64_t>>().value_or(first_others);
   }
 
-  /// Whether rows of others stand here, once they do or others may bring some; else it was seen.
-  void look_for_others() {
+  /// Whether rows of others stand here: for good, once others cannot bring the first.
+  bool holds_others() {
     if (may_hold_others || connection.dialect().is_shared) may_hold_others = alone() != kLastId;
+    return may_hold_others;
   }
 
   /// Numbers rows of this folder in its own log, where others have come between.
@@ -224,8 +227,7 @@ Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
     }
     if (row.table_revision) statements_->require_revision(*row.table_revision);
   }
-  statements_->look_for_others();
-  if (statements_->may_hold_others) {
+  if (!statements_->table.own_rows() && statements_->holds_others()) {
     statements_->table.append(statements_->numbered(rows));
   } else {
     statements_->table.append(rows);
@@ -233,7 +235,7 @@ Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
   for (const MeasurementRow& row : rows) {
     if (!row.correction_of) continue;
     statements_->indexer.corrected(*row.correction_of);
-    if (statements_->may_hold_others) statements_->hand_on.run(row.id);
+    if (statements_->holds_others()) statements_->hand_on.run(row.id);
   }
   return {};
 }

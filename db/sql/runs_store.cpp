@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "sql/connection.hpp"
 #include "sql/sealed_table.hpp"
 #include "sql/statement.hpp"
 
@@ -34,6 +35,11 @@ std::string_view name_of(std::string_view path) {
   return path.substr(path.find_last_of("\\/:") + 1);
 }
 
+/// One daemon alone has ended where another process asks.
+std::string_view of_the_dead(const sql::Connection& c) {
+  return c.dialect().is_shared ? " AND daemon NOT IN (SELECT daemon FROM living_daemons)" : "";
+}
+
 }  // namespace
 
 struct RunsStore::Statements {
@@ -55,6 +61,13 @@ struct RunsStore::Statements {
                             "AND (?2 IS NULL OR program_key = ?2) AND id < ?3 "
                             "ORDER BY id DESC LIMIT ?4",
                             kRun, kRuns.is_sound(c))),
+        abandoned(c, fmt::format("SELECT {}, {} FROM runs WHERE finished_at IS NULL{} ORDER BY id "
+                                 "LIMIT ?",
+                                 kRun, kRuns.is_sound(c), of_the_dead(c))),
+        take_over(c,
+                  fmt::format("UPDATE runs SET status = 1{} WHERE id = ? AND finished_at IS "
+                              "NULL{} RETURNING 1",
+                              c.dialect().is_shared ? ", daemon = DEFAULT" : "", of_the_dead(c))),
         purge(c,
               "DELETE FROM runs WHERE id IN "
               "(SELECT id FROM runs WHERE finished_at < ? LIMIT ?) RETURNING 1") {}
@@ -79,6 +92,8 @@ struct RunsStore::Statements {
   sql::Statement trace;
   sql::Statement file;
   sql::Statement page;
+  sql::Statement abandoned;
+  sql::Statement take_over;
   sql::Statement purge;
 };
 
@@ -148,6 +163,20 @@ RunsStore::Page RunsStore::list(const RunFilter& filter, std::optional<std::int6
     page.runs.push_back(read_run(rows));
   }
   return page;
+}
+
+std::vector<Run> RunsStore::abandoned(std::size_t limit) const {
+  std::vector<Run> runs;
+  for (Rows rows = statements_->abandoned.query(limit); rows.next();) {
+    runs.push_back(read_run(rows));
+  }
+  return runs;
+}
+
+bool RunsStore::take_over(std::int64_t id) {
+  if (statements_->take_over.run_counting(id) == 0) return false;
+  statements_->seal.renew(id);
+  return true;
 }
 
 std::int64_t RunsStore::purge(std::int64_t before_ns, std::int64_t limit) {

@@ -30,6 +30,8 @@ class Session {
   /// Around each job of a transaction: undo() takes back what it has changed.
   virtual void savepoint() = 0;
   virtual void undo() = 0;
+  /// Fails where something failed that the job has left to be done behind it.
+  virtual void settle() = 0;
   virtual void release() = 0;
 
   /// Writes something, to find out whether commits work again after one has failed.

@@ -122,7 +122,9 @@ std::optional<Error> Writer::Engine::run_in_savepoint(WriteJob& job) {
   std::optional<Error> bug;
   bool keep = false;
   try {
-    keep = job.run(session.stores());
+    const bool done = job.run(session.stores());
+    if (done) session.settle();
+    keep = done;
   } catch (const StorageFailure&) {
     throw;
   } catch (const std::exception& thrown) {

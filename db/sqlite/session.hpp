@@ -29,6 +29,7 @@ class Session : public sql::Session {
   void rollback() noexcept override { connection.rollback(); }
   void savepoint() override { savepoint_.run(); }
   void undo() override { undo_.run(); }
+  void settle() override {}
   void release() override { release_.run(); }
   void probe() override {
     connection.execute("UPDATE storage_probe SET probed_at = probed_at + 1");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "base/error.hpp"
 #include "store/health.hpp"
@@ -22,8 +23,11 @@ enum class Access {
            ///< upgraded
 };
 
+struct Stores;
+
 struct OpenOptions {
   std::filesystem::path directory;
+  std::string address{};  ///< of a server, `postgresql://…`; empty: the file in the directory
   Access access = Access::Serve;
   Synchronous synchronous =
       Synchronous::Full;  ///< less than Full only as a test's negative control
@@ -55,8 +59,13 @@ struct OpenOptions {
   /// Called for each job that threw, which is a bug and answered with Internal. As above.
   std::function<void(const Error&)> job_threw{};
 
-  /// Called on the writer thread after each commit, when its jobs have their outcomes; must not
-  /// block. Lives as long as the database.
+  /// Others have added what the application keeps in memory: table revisions, origins, keys of the
+  /// log. Called inside a transaction, before a job sees rows that need them. @returns whether it
+  /// is known now.
+  std::function<bool(const Stores&)> names_changed{};
+
+  /// Called on the writer thread after each commit, when its jobs have their outcomes, and on
+  /// another one where others have committed; must not block. Lives as long as the database.
   std::function<void()> committed{};
 };
 

@@ -86,6 +86,13 @@ class RunsStore {
   /// Newest first, those before the cursor.
   Page list(const RunFilter& filter, std::optional<std::int64_t> after, std::size_t limit) const;
 
+  /// Up to `limit` runs that are not over and whose daemon has ended: all that are not over, where
+  /// one daemon alone has the database.
+  std::vector<Run> abandoned(std::size_t limit) const;
+
+  /// Makes an abandoned run this daemon's, queued again. @returns whether it was abandoned still.
+  bool take_over(std::int64_t id);
+
   /// Deletes up to `limit` runs that finished before `before_ns`, with files and traces.
   /// @returns how many.
   std::int64_t purge(std::int64_t before_ns, std::int64_t limit);

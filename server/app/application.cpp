@@ -5,6 +5,8 @@
 #include "app/log/log_check.hpp"
 #include "app/log/log_keys.hpp"
 #include "app/measurements/mapping.hpp"
+#include "postgres/database.hpp"
+#include "sqlite/data_directory.hpp"
 #include "sqlite/database.hpp"
 #include "store/database.hpp"
 #include "tlog/tile.hpp"
@@ -17,6 +19,7 @@ constexpr std::int64_t kForEverDays = 100'000;
 store::OpenOptions options_of_store(const ApplicationOptions& options) {
   store::OpenOptions open;
   open.directory = options.directory;
+  open.address = options.address;
   open.access = options.attach ? store::Access::Attach : store::Access::Serve;
   open.synchronous = options.durable ? store::Synchronous::Full : store::Synchronous::Off;
   open.commit_each = options.commit_each;
@@ -146,7 +149,16 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     };
   }
   app->directory_ = options.directory;
-  auto database = store::sqlite::open_database(open_options, clock);
+  open_options.names_changed = [app = app.get()](const store::Stores& stores) {
+    return app->stage_ == Stage::Open && app->take_names(stores);
+  };
+  if (!options.address.empty() && !options.attach) {
+    auto held = store::DirectoryLock::acquire(options.directory);
+    if (!held) return held.error();
+    app->folder_ = std::make_unique<store::DirectoryLock>(*std::move(held));
+  }
+  auto database = options.address.empty() ? store::sqlite::open_database(open_options, clock)
+                                          : store::postgres::open_database(open_options, clock);
   if (!database) return database.error();
   app->database_ = *std::move(database);
   auto tables = TableCatalog::open(*app->database_, clock, options.has_centre);
@@ -155,6 +167,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   auto log = LogService::open(*app->database_, *app->tables_, clock,
                               {.directory = options.directory,
                                .name = options.origin_name,
+                               .shares = !options.address.empty(),
                                .attach = options.attach,
                                .tell = options.log_told});
   if (!log) return log.error();
@@ -180,6 +193,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     app->runs_ =
         std::make_unique<RunService>(*app->database_, *app->tables_, clock, origins.own(),
                                      RunServiceOptions{.workers = options.run_workers,
+                                                       .shares = !options.address.empty(),
                                                        .keeps_newest = options.keeps_newest_run});
   }
   app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origins,
@@ -190,6 +204,13 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   app->stage_ = Stage::Open;
   app->stage_.notify_all();
   return app;
+}
+
+/// What other daemons have added.
+bool Application::take_names(const store::Stores& stores) {
+  tables_->take(stores);
+  log_->take_names(stores);
+  return true;
 }
 
 std::optional<tlog::Hash> Application::kept_node(std::int64_t origin,

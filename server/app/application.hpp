@@ -30,14 +30,17 @@
 
 namespace fitgauge::store {
 class Database;
+class DirectoryLock;
 struct MeasurementRow;
+struct Stores;
 struct VerifyReport;
 }  // namespace fitgauge::store
 
 namespace fitgauge::app {
 
 struct ApplicationOptions {
-  std::filesystem::path directory;  ///< of the database
+  std::filesystem::path directory;  ///< of the database; on a server, of the log's key alone
+  std::string address{};            ///< `postgresql://…`: a server that several daemons share
   bool attach = false;              ///< beside a running daemon: nothing is created or upgraded
   bool durable = true;              ///< false only as a test's negative control
   bool commit_each = false;         ///< every write its own commit: the benchmark's peer
@@ -111,6 +114,7 @@ class Application {
  private:
   Application();
   Result<Verification> verification_of(Result<store::VerifyReport> report) const;
+  bool take_names(const store::Stores& stores);
   std::optional<std::string> check_leaf(const store::MeasurementRow& row) const;
   std::optional<tlog::Hash> kept_node(std::int64_t origin, const tlog::Node& node) const;
   struct LogChecks;
@@ -120,6 +124,7 @@ class Application {
   CommitSignal committed_;
   enum class Stage { Opening, Open, Closing };
   std::atomic<Stage> stage_ = Stage::Opening;
+  std::unique_ptr<store::DirectoryLock> folder_;  ///< of a daemon whose database is on a server
   std::unique_ptr<store::Database> database_;
   std::unique_ptr<TableCatalog> tables_;
   std::unique_ptr<LogService> log_;

@@ -9,6 +9,7 @@ namespace fitgauge::daemon {
 inline app::ApplicationOptions application_options(const Config& config) {
   app::ApplicationOptions options;
   options.directory = config.data;
+  options.address = config.database;
   options.durable = config.durability != "off";
   options.commit_each = config.durability == "each";
   options.write_queue = static_cast<std::size_t>(config.write_queue);

@@ -114,6 +114,10 @@ const std::vector<Setting>& settings() {
        .help = "Addresses to listen on, as host:port; port 0 takes a free one",
        .texts = &Config::listen},
       {.name = "data", .help = "Folder of the database", .text = &Config::data},
+      {.name = "database",
+       .help = "PostgreSQL that several daemons share, as postgresql://host/name; empty: a file in "
+               "data",
+       .text = &Config::database},
       {.name = "origin-name",
        .help = "What the log of a new data folder is called, as in plant-3/press-7",
        .text = &Config::origin_name},
@@ -297,6 +301,30 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
   return {};
 }
 
+namespace {
+
+/// What daemons that share a database cannot have.
+Result<void> check_database(const Config& config) {
+  if (config.database.empty()) return {};
+  if (!config.database.starts_with("postgresql://") &&
+      !config.database.starts_with("postgres://")) {
+    return invalid("database takes an address as postgresql://user@host:5432/name");
+  }
+  if (!config.forward_to.empty()) {
+    return invalid(
+        "forward-to is for a station with a data folder of its own: a daemon with database "
+        "is a centre, and its copy elsewhere is a standby of PostgreSQL");
+  }
+  if (!config.connections.empty()) {
+    return invalid(
+        "connections are for a station with a data folder of its own: each daemon that "
+        "shares a database would do their work again");
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<void> check(const Config& config) {
   if (config.listen.empty())
     return invalid("listen needs at least one address such as 127.0.0.1:8286");
@@ -313,6 +341,7 @@ Result<void> check(const Config& config) {
   if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
     return invalid("tls-client-ca needs tls-cert and tls-key");
   }
+  if (const auto database = check_database(config); !database) return database;
   return check_forwarding(config);
 }
 

@@ -14,6 +14,7 @@ namespace fitgauge::daemon {
 struct Config {
   std::vector<std::string> listen{"127.0.0.1:8286"};
   std::string data = "data";
+  std::string database;
   std::string auth = "default";
   std::string admin_key_file;
   std::string tls_cert;

@@ -143,6 +143,18 @@ void log_health(std::string_view state, const std::string& reason) {
   well ? log_info("storage_health", detail) : log_error("storage_health", detail);
 }
 
+/// Daemons that share a database would each do what a connection does.
+app::ConnectionCalls connection_calls(const Config& config, connections::Connections& outside) {
+  app::ConnectionCalls calls = outside.calls();
+  if (config.database.empty()) return calls;
+  calls.put = [](const app::ConnectionCalls::Put&) -> Result<bool> {
+    return Error{ErrorCode::ConnectionReadOnly,
+                 "this daemon shares its database and keeps no connections: give them to a station "
+                 "with a data folder of its own, which forwards to here"};
+  };
+  return calls;
+}
+
 /// A commit has answers for many requests.
 void answer_together(const std::function<void()>& answer) {
   const http::AnswerBatch batch;
@@ -221,7 +233,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .verdicts = verdicts,
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); },
-                               .connections = outside.calls()};
+                               .connections = connection_calls(config, outside)};
   // Beyond these a client gets 503 rather than no answer.
   const std::int64_t most_clients = allow_connections(config.max_connections);
   auto started = http::Server::start(

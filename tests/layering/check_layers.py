@@ -13,7 +13,7 @@ from pathlib import Path
 
 FOLDERS = {
     "base": "tables/base", "iso286": "tables/iso286", "tabfile": "tables/tabfile",
-    "store": "db/store", "sql": "db/sql", "sqlite": "db/sqlite", "gauging": "server/gauging", "metrology": "server/metrology", "klartext": "server/klartext",
+    "store": "db/store", "sql": "db/sql", "sqlite": "db/sqlite", "postgres": "db/postgres", "gauging": "server/gauging", "metrology": "server/metrology", "klartext": "server/klartext",
     "machine": "server/machine", "probing": "server/probing",
     "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http", "http_client": "server/http_client", "tlog": "server/tlog",
     "control_link": "server/control_link", "log_reader": "server/log_reader", "certificate": "server/certificate", "sheet": "server/sheet", "aqdef": "server/aqdef",
@@ -43,6 +43,7 @@ def allowed_edges(architecture: str) -> dict[str, set[str]]:
 # A library of others, and the only layers that may include it.
 BORDERS = {
     r"(sqlite3\.h|SQLiteCpp/)": {"sqlite"},
+    r"postgresql/": {"postgres"},
     r"boost/(beast|asio)": {"http", "clients"},
     r"nlohmann/": {"base"},
     r"simdjson": {"api"},

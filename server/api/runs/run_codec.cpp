@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "api/runs/run_order_codec.hpp"
 #include "api/runs/trace_codec.hpp"
 #include "app/measurements/measurement.hpp"
 
@@ -209,10 +210,26 @@ std::string unfinished_json(std::string_view id, app::RunState state, std::strin
   return out;
 }
 
+/// Its setup stands in it, so that no setup is asked for by its name.
+Result<app::RunOrder> stored_order(const std::string& request, const app::ControlTables& tables) {
+  auto body = parse_stored_json(request, "order of a run");
+  if (!body) return body.error();
+  return decode_run_order(
+      *std::move(body),
+      [](const std::string& name) -> Result<app::NamedDocument> {
+        return Error{ErrorCode::SetupUnknown, "there is no setup " + name};
+      },
+      tables);
+}
+
 }  // namespace
 
 app::RunFormat run_format() {
-  return {.report = report_json, .trace = trace_json(), .seed = seed_of, .event = event_json};
+  return {.report = report_json,
+          .trace = trace_json(),
+          .seed = seed_of,
+          .order = stored_order,
+          .event = event_json};
 }
 
 std::string unfinished_run_json(const app::ActiveRun& run) {

@@ -145,6 +145,12 @@ Error finished(const std::string& id) {
   return {ErrorCode::RunFinished, "run '" + id + "' is over and can no longer be cancelled"};
 }
 
+/// Of daemons that share a database, the one that runs it ends it.
+Error elsewhere(const std::string& id) {
+  return {ErrorCode::RunUnfinished,
+          "run '" + id + "' is under way at another daemon of this database: cancel it there"};
+}
+
 /// Answers when the run has ended, so that its status tells whether it was in time. A run that has
 /// ended may still be active until it is stored.
 void cancel_run(const Services& services, const http::Request& request, http::Responder responder) {
@@ -160,7 +166,8 @@ void cancel_run(const Services& services, const http::Request& request, http::Re
     return services.runs.cancel(active);
   }
   services.runs.find(*id, [shared](const Result<app::StoredRun>& run) {
-    shared->fail(run ? finished(run->id_text()) : run.error());
+    if (!run) return shared->fail(run.error());
+    shared->fail(run->report.empty() ? elsewhere(run->id_text()) : finished(run->id_text()));
   });
 }
 

@@ -101,7 +101,8 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   if (keys->empty()) {
     keys->push_back(tlog::SigningKey::make(name_));
     if (const auto written = write_log_keys(options_.directory, *keys); !written) return written;
-    if (!known.empty()) {
+    // Of daemons that share a database each has a key of its own.
+    if (!known.empty() && !options_.shares) {
       tell("log_key_lost",
            fmt::format("{} is not there: a new key signs from now on, and nothing but a kept "
                        "checkpoint joins it to the old one",
@@ -189,6 +190,15 @@ void LogService::committed() {
   const std::lock_guard lock(mutex_);
   if (std::exchange(dirty_, true)) return;
   wake_.notify_one();
+}
+
+void LogService::take_names(const store::Stores& stores) {
+  for (const auto& origin : stores.origins.list()) {
+    origins_.remember(origin.number, origin.digits);
+  }
+  std::string lines;
+  for (const std::string& key : stores.log.keys()) lines += key + "\n";
+  verifier_keys_.set(std::make_shared<const std::string>(std::move(lines)));
 }
 
 std::string LogService::verifier_keys() const { return *verifier_keys_.get(); }

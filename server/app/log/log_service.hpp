@@ -36,6 +36,7 @@ struct LogOptions {
   std::filesystem::path
       directory;                 ///< of the database; the key and the newest checkpoint lie there
   std::string name = "station";  ///< of the log, if this is its first start
+  bool shares = false;           ///< one of several daemons that sign the same log
   bool attach = false;           ///< beside a running daemon: nothing is signed and nothing written
   /// The event's name and a sentence, for the log of the service; called on any thread.
   std::function<void(std::string_view event, const std::string& detail)> tell{};
@@ -78,6 +79,9 @@ class LogService {
   /// finding from then on.
   void set_behind(std::int64_t size_at_centre);
   std::optional<Error> behind() const;
+
+  /// Takes note of origins and keys that other daemons have added. Used inside a job.
+  void take_names(const store::Stores& stores);
 
   /// The public keys, one a line, the newest first.
   std::string verifier_keys() const;

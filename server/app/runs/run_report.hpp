@@ -11,12 +11,15 @@
 
 #include "app/measurements/measurement.hpp"
 #include "base/clock.hpp"
+#include "base/result.hpp"
 #include "machine/machine_setup.hpp"
 #include "machine/scripted_machine.hpp"
 #include "machine/tracing_machine.hpp"
 #include "run/interpreter.hpp"
 
 namespace fitgauge::app {
+
+struct ControlTables;
 
 /// A run as it is ordered.
 struct RunOrder {
@@ -85,6 +88,8 @@ struct RunFormat {
   TraceFormat trace;
   /// The seed of the setup in an order as it was stored.
   std::function<std::uint64_t(const std::string& request)> seed;
+  /// An order as it was stored, which names nothing outside but the control's disk.
+  std::function<Result<RunOrder>(const std::string& request, const ControlTables&)> order{};
   /// The payload of the event run.finished.
   std::function<std::string(const RunReport&)> event;
 };

@@ -38,14 +38,15 @@ RunService::~RunService() { stop(); }
 
 Result<void> RunService::open(RunFormat format) {
   format_ = std::move(format);
-  for (const RunState state : {RunState::Queued, RunState::Running}) {
-    if (auto closed = close_interrupted(state); !closed) return closed;
-  }
+  if (!options_.shares) return close_interrupted();
+  looking_ = std::jthread([this](const std::stop_token& stop) { look_for_abandoned(stop); });
   return {};
 }
 
 void RunService::stop() {
   stopping_.request_stop();
+  looking_.request_stop();
+  if (looking_.joinable()) looking_.join();
   preparing_.stop();
   {
     const std::lock_guard lock(mutex_);
@@ -95,6 +96,10 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
     return Error{ErrorCode::IdempotencyInProgress,
                  "another request with this Idempotency-Key came first; try again"};
   }
+  return queue(std::move(active));
+}
+
+Result<std::shared_ptr<ActiveRun>> RunService::queue(std::shared_ptr<ActiveRun> active) {
   bool is_queued = false;
   {
     const std::lock_guard lock(mutex_);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/files/stored_disk.hpp"
@@ -22,11 +23,16 @@
 #include "app/tables/live_tables.hpp"
 #include "klartext/diagnostic.hpp"
 
+namespace fitgauge::store {
+struct Run;
+}
+
 namespace fitgauge::app {
 
 struct RunServiceOptions {
   unsigned workers = 2;       ///< runs at the same time
   std::size_t queue = 64;     ///< runs that wait for a worker
+  bool shares = false;        ///< other daemons have runs in the same database
   bool keeps_newest = false;  ///< for a control that shows what its machine does
 };
 
@@ -65,6 +71,8 @@ class RunService {
   ~RunService();
 
   /// Marks as failed what an earlier process left queued or running, and from then on takes orders.
+  /// Where daemons share the database, the runs of one that ended are run again by another: the
+  /// seed of each makes it the same.
   /// @errors StorageUnavailable.
   Result<void> open(RunFormat format);
 
@@ -159,7 +167,10 @@ class RunService {
   ExecutedRun without_moves(interpreter::RunResult result) const;
   Result<FinishedRun> keep(const RunReport& report, std::string_view trace,
                            const std::optional<std::string>& caller);
-  Result<void> close_interrupted(RunState state);
+  Result<void> close_interrupted();
+  void look_for_abandoned(const std::stop_token& stop);
+  void take_over(const store::Run& run);
+  Result<std::shared_ptr<ActiveRun>> queue(std::shared_ptr<ActiveRun> active);
 
   store::Database& database_;
   const Clock& clock_;
@@ -183,6 +194,7 @@ class RunService {
   // The workers end before what they use.
   WorkerPool preparing_;
   WorkerPool running_;
+  std::jthread looking_;  ///< for abandoned runs
 };
 
 }  // namespace fitgauge::app

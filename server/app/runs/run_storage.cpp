@@ -1,6 +1,9 @@
 // Runs on their way to the store and back.
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <set>
 #include <thread>
 
 #include "app/measurements/measurement_storage.hpp"
@@ -63,14 +66,15 @@ Error unknown_run(const std::string& id) {
 
 }  // namespace
 
-Result<void> RunService::close_interrupted(RunState state) {
+Result<void> RunService::close_interrupted() {
   while (true) {
-    const auto page = database_.readers().wait(
-        [state](const store::Stores& stores) -> Result<store::RunsStore::Page> {
-          return stores.runs.list({.status = run_status(state)}, {}, kPage);
+    const auto runs = database_.readers().wait(
+        [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
+          return stores.runs.abandoned(kPage);
         });
-    if (!page) return page.error();
-    for (const store::Run& run : page->runs) {
+    if (!runs) return runs.error();
+    if (runs->empty()) return {};
+    for (const store::Run& run : *runs) {
       const RunReport report{.id = run.id,
                              .origin = origin_,
                              .program = run.program,
@@ -82,10 +86,76 @@ Result<void> RunService::close_interrupted(RunState state) {
                              .created_at = {run.created_at_ns},
                              .finished_at = clock_.now()};
       const auto kept = keep(report, empty_trace(format_.trace), run.caller);
-      if (!kept) return kept.error();
+      // Another daemon may have been first.
+      if (!kept && kept.error().code != ErrorCode::RunFinished) return kept.error();
     }
-    if (!page->next) return {};
   }
+}
+
+/// A daemon that lost its connection for a moment looks dead: its runs are taken over only when it
+/// has looked so twice.
+void RunService::look_for_abandoned(const std::stop_token& stop) {
+  constexpr std::chrono::seconds kBetween{5};
+  std::mutex mutex;
+  std::condition_variable_any ended;
+  std::set<std::int64_t> seen;
+  while (!stop.stop_requested()) {
+    {
+      std::unique_lock lock(mutex);
+      ended.wait_for(lock, stop, kBetween, [] { return false; });
+    }
+    if (stop.stop_requested()) return;
+    const auto runs = database_.readers().wait(
+        [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
+          return stores.runs.abandoned(kPage);
+        });
+    if (!runs) continue;
+    std::set<std::int64_t> still;
+    for (const store::Run& run : *runs) {
+      still.insert(run.id);
+      if (!seen.contains(run.id)) continue;
+      prepare([this, run] { take_over(run); }, [](const Error&) {});
+    }
+    seen = std::move(still);
+  }
+}
+
+/// On the preparing thread.
+void RunService::take_over(const store::Run& run) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (active_.size() >= options_.workers + options_.queue) return;  // there will be another look
+  }
+  const auto tables = control_tables();
+  if (!tables) return;
+  auto order = format_.order(run.request, **tables);
+  if (order) {
+    order->caller = run.caller;
+    if (auto loaded = load_meshes(order->setup, "/setup", MissingFiles::Refused); !loaded) {
+      order = loaded.error();
+    }
+  }
+  const auto taken = database_.writer().wait(
+      [id = run.id](store::Stores& stores) -> Result<bool> { return stores.runs.take_over(id); });
+  if (!taken || !*taken) return;
+  if (order) {
+    static_cast<void>(queue(std::make_shared<ActiveRun>(
+        run.id, origin_, std::make_shared<const RunOrder>(*std::move(order)),
+        Timestamp{run.created_at_ns})));
+    return;
+  }
+  const RunReport report{.id = run.id,
+                         .origin = origin_,
+                         .program = run.program,
+                         .result = unstarted(RunStatus::Failed, MessageKind::Error,
+                                             "the service ended before the run did, and it cannot "
+                                             "be repeated: " +
+                                                 order.error().message,
+                                             run.program),
+                         .seed = format_.seed(run.request),
+                         .created_at = {run.created_at_ns},
+                         .finished_at = clock_.now()};
+  static_cast<void>(keep(report, empty_trace(format_.trace), run.caller));
 }
 
 /// One transaction for all that a run leaves.

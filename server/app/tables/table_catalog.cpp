@@ -204,7 +204,7 @@ void TableCatalog::change(ColumnName column, Edit edit,
         if (!changed) return done(changed.error());
         const store::TableRevision& revision = changed->revision;
         remember(revision.number, revision.id);
-        state_.set(std::move(changed->state));
+        put_in_force(std::move(changed->state));
         done(ColumnStored{changed->created, revision.id});
       });
 }
@@ -249,7 +249,25 @@ Result<TableCatalog::Received> TableCatalog::receive(
 
 void TableCatalog::put_in_force(const Received& received) {
   remember(received.number, received.id);
-  state_.set(received.state);
+  put_in_force(received.state);
+}
+
+/// Unless a newer one is: another daemon's may have come first.
+void TableCatalog::put_in_force(std::shared_ptr<const TableState> state) {
+  const std::lock_guard lock(state_mutex_);
+  if (const auto current = state_.get(); current && current->number > state->number) return;
+  state_.set(std::move(state));
+}
+
+void TableCatalog::take(const store::Stores& stores) {
+  std::int64_t newest = 0;
+  for (const auto& revision : stores.tables.list()) {
+    remember(revision.number, revision.id);
+    newest = revision.number;
+  }
+  for (const auto& revision : stores.origins.revisions()) remember(-revision.number, revision.id);
+  if (newest <= state()->number) return;
+  put_in_force(std::make_shared<const TableState>(audit(stores.tables.load(newest).value())));
 }
 
 void TableCatalog::remember(std::int64_t number, std::string_view id) {

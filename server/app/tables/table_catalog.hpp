@@ -92,6 +92,10 @@ class TableCatalog {
   /// After the commit: every reader sees them.
   void put_in_force(const Received& received);
 
+  /// Takes note of revisions that other daemons have stored; the newest is in force. Used inside a
+  /// job.
+  void take(const store::Stores& stores);
+
   /// The id of a revision by its number, for reading stored rows; valid as long as the catalog.
   /// Empty for a number that was never given.
   std::string_view revision_id(std::int64_t number) const;
@@ -110,6 +114,8 @@ class TableCatalog {
   TableCatalog(store::Database& database, const Clock& clock, bool has_centre)
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 
+  void put_in_force(std::shared_ptr<const TableState> state);
+
   using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
   void change(ColumnName column, Edit edit, std::optional<std::vector<std::string>> condition,
               Callback<ColumnStored> done);
@@ -118,6 +124,7 @@ class TableCatalog {
   const Clock& clock_;
   const bool has_centre_;
   Snapshot<TableState> state_;
+  std::mutex state_mutex_;
   mutable std::mutex ids_mutex_;
   std::map<std::int64_t, std::string> ids_;  // never erased: views of the texts are given out
 };

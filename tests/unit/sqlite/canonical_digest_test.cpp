@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+using namespace fitgauge;
 using namespace fitgauge::store;
 
 namespace {

@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "sqlite/database.hpp"
+#include "engine.hpp"
+#include "store/database.hpp"
 #include "store/measurement_hash.hpp"
 
 namespace fitgauge::store::test {
@@ -99,11 +100,14 @@ inline Result<IdRange> append_numbered(Stores& stores, std::span<const Measureme
 
 /// An open database in a directory of its own.
 struct Fixture {
-  Fixture() { open(); }
+  Fixture() {
+    options.directory = directory.path();
+    prepare_engine(options);
+    open();
+  }
 
   void open() {
-    options.directory = directory.path();
-    auto opened = sqlite::open_database(options, clock);
+    auto opened = open_database(options, clock);
     REQUIRE_MESSAGE(opened.has_value(), (opened ? "" : opened.error().message));
     database = *std::move(opened);
   }
@@ -139,6 +143,12 @@ struct Fixture {
       });
     }
     return ids;
+  }
+
+  /// Past the stores.
+  void execute(const std::string& sql) const { test::execute(options, sql); }
+  std::int64_t query_integer(const std::string& sql) const {
+    return test::query_integer(options, sql);
   }
 
   TempDirectory directory;

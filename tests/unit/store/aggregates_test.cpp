@@ -60,16 +60,6 @@ TEST_CASE("API keys are created, found by token, listed and revoked") {
   });
 }
 
-TEST_CASE("the token itself is nowhere in the file") {
-  Fixture fixture;
-  const std::string token = new_token();
-  with_stores(fixture, [&](Stores& stores) {
-    REQUIRE(stores.keys.create("press-3", Role::Operator, token, 5).has_value());
-  });
-  fixture.database.reset();
-  CHECK(content_of(fixture.directory.file()).find(token.substr(3)) == std::string::npos);
-}
-
 TEST_CASE("control files keep their case, compare without it, and keep every revision") {
   Fixture fixture;
   with_stores(fixture, [](Stores& stores) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "fixture.hpp"
-#include "sqlite/connection.hpp"
 #include "store/measurement_index.hpp"
 
 using namespace fitgauge;
@@ -331,8 +330,8 @@ TEST_CASE("summaries add nodes of every level, and mend those with a corrected r
   while (index_step(fixture)) {
   }
   const auto nodes = [&](const char* condition) {
-    return sqlite::Connection(fixture.directory.file(), sqlite::Mode::Read)
-        .query_integer(fmt::format("SELECT count(*) FROM measurement_nodes WHERE {}", condition));
+    return fixture.query_integer(
+        fmt::format("SELECT count(*) FROM measurement_nodes WHERE {}", condition));
   };
   CHECK(nodes("level = 1") == 1);
   CHECK(nodes("level = 0") == 35);
@@ -366,8 +365,8 @@ TEST_CASE("a field with many values has groups of its own where a summary can sh
   while (index_step(fixture)) {
   }
   const auto count = [&](const char* where) {
-    return sqlite::Connection(fixture.directory.file(), sqlite::Mode::Read)
-        .query_integer(fmt::format("SELECT count(*) FROM measurement_aggregates WHERE {}", where));
+    return fixture.query_integer(
+        fmt::format("SELECT count(*) FROM measurement_aggregates WHERE {}", where));
   };
   CHECK(count("level = 0 AND field = 2") == 0);
   CHECK(count("level = 1 AND field = 2") == 1'000);
@@ -397,8 +396,7 @@ TEST_CASE("the writer indexes whole blocks when it is idle") {
   Fixture fixture;
   REQUIRE(fixture.append(std::vector<MeasurementRow>(2500, sample_row())).has_value());
   const auto blocks = [&] {
-    return sqlite::Connection(fixture.directory.file(), sqlite::Mode::Read)
-        .query_integer("SELECT count(*) FROM measurement_nodes");
+    return fixture.query_integer("SELECT count(*) FROM measurement_nodes");
   };
   while (blocks() < 2) std::this_thread::yield();
   CHECK_FALSE(*fixture.write(

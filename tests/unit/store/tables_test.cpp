@@ -1,7 +1,6 @@
 #include "store/tables_store.hpp"
 
 #include "fixture.hpp"
-#include "sqlite/connection.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -88,8 +87,7 @@ TEST_CASE("a custom column is a revision of its own on the same cells") {
   CHECK(*fixture.read([](const Stores& stores) -> Result<std::size_t> {
     return stores.tables.list().size();
   }) == 2);
-  sqlite::Connection connection(fixture.directory.file(), sqlite::Mode::Read);
-  CHECK(connection.query_integer("SELECT count(*) FROM table_cells") == 3);
+  CHECK(fixture.query_integer("SELECT count(*) FROM table_cells") == 3);
 }
 
 TEST_CASE("an import on top of an outdated revision is refused") {
@@ -114,8 +112,7 @@ TEST_CASE("cells that are not a table are refused with their place") {
 TEST_CASE("a changed cell shows in the computed digest") {
   Fixture fixture;
   REQUIRE(import(fixture, iso_cells(), std::nullopt).has_value());
-  sqlite::Connection(fixture.directory.file(), sqlite::Mode::Write)
-      .execute("UPDATE table_cells SET value_nm = 53000 WHERE column_name = 'IT7'");
+  fixture.execute("UPDATE table_cells SET value_nm = 53000 WHERE column_name = 'IT7'");
   const auto loaded = latest(fixture);
   CHECK(loaded->computed != loaded->revision.digest);
 }

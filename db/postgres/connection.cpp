@@ -1,0 +1,200 @@
+#include "postgres/connection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "postgres/failure.hpp"
+#include "postgres/measurement_table.hpp"
+#include "postgres/prepared.hpp"
+#include "postgres/wire.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store::postgres {
+namespace {
+
+constexpr sql::Dialect kDialect{.is_shared = true, .keys_may_be_null = true};
+
+// Their numbers in pg_type, which never change.
+constexpr Oid kInt8 = 20;
+constexpr Oid kText = 25;
+constexpr Oid kBytes = 17;
+
+Oid oid_of(sql::Kind kind) {
+  switch (kind) {
+    case sql::Kind::Integer: return kInt8;
+    case sql::Kind::Text: return kText;
+    case sql::Kind::Bytes: return kBytes;
+  }
+  return kText;
+}
+
+/// What holds for each session: bounds, so that nobody waits for ever for a server, a row or a
+/// client that is gone.
+constexpr const char* kSettings =
+    "SET search_path TO fitgauge; SET statement_timeout = '60s'; SET lock_timeout = '30s';"
+    "SET idle_in_transaction_session_timeout = '60s'; SET client_min_messages = warning;"
+    "SET jit = off; SET bytea_output = hex; SET plan_cache_mode = auto";
+
+PGconn* open(const std::string& address) {
+  // What stands before the address can be set in it.
+  const std::array<const char*, 8> keys = {
+      "target_session_attrs", "connect_timeout", "application_name", "keepalives_idle",
+      "tcp_user_timeout",     "dbname",          "client_encoding",  nullptr};
+  const std::array<const char*, 8> values = {"read-write",    "3",    "fitgauged", "10", "15000",
+                                             address.c_str(), "UTF8", nullptr};
+  return PQconnectdbParams(keys.data(), values.data(), 1);
+}
+
+}  // namespace
+
+Connection::Connection(const std::string& address)
+    : sql::Connection(kDialect), connection_(open(address)) {
+  if (PQstatus(handle()) != CONNECTION_OK) throw_failure(handle(), nullptr);
+  execute(kSettings);
+  if (PQenterPipelineMode(handle()) != 1) throw_failure(handle(), nullptr);
+}
+
+Connection::~Connection() { measurements_.reset(); }
+
+std::unique_ptr<sql::Prepared> Connection::prepare(const std::string& sql) {
+  return std::make_unique<Prepared>(*this, sql);
+}
+
+sql::MeasurementTable& Connection::measurements() {
+  if (!measurements_) measurements_ = std::make_unique<MeasurementTable>(*this);
+  return *measurements_;
+}
+
+void Connection::lost() { throw_failure(handle(), nullptr); }
+
+void Connection::require_sent(int sent) {
+  if (sent != 1) lost();
+}
+
+void Connection::send(const std::string& sql) {
+  require_sent(PQsendQueryParams(handle(), sql.c_str(), 0, nullptr, nullptr, nullptr, nullptr, 1));
+  sent_.emplace_back();
+}
+
+void Connection::send(const std::string& name, const std::string& sql,
+                      std::span<const Parameter> values) {
+  while (!unused_.empty()) {
+    send("DEALLOCATE " + unused_.back());
+    unused_.pop_back();
+  }
+  if (!prepared_.contains(name)) {
+    std::vector<Oid> types;
+    for (const Parameter& value : values) types.push_back(oid_of(value.kind));
+    require_sent(PQsendPrepare(handle(), name.c_str(), sql.c_str(), static_cast<int>(types.size()),
+                               types.data()));
+    sent_.push_back(name);
+    prepared_.insert(name);
+  }
+  std::vector<const char*> data;
+  std::vector<int> sizes;
+  const std::vector<int> formats(values.size(), 1);
+  std::vector<std::string> numbers(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Parameter& value = values[i];
+    if (value.is_null) {
+      data.push_back(nullptr);
+      sizes.push_back(0);
+    } else if (value.kind == sql::Kind::Integer) {
+      append_number(numbers[i], value.integer);
+      data.push_back(numbers[i].data());
+      sizes.push_back(sizeof(std::int64_t));
+    } else {
+      data.push_back(value.bytes.data() == nullptr ? "" : value.bytes.data());
+      sizes.push_back(static_cast<int>(value.bytes.size()));
+    }
+  }
+  require_sent(PQsendQueryPrepared(handle(), name.c_str(), static_cast<int>(values.size()),
+                                   data.data(), sizes.data(), formats.data(), 1));
+  sent_.emplace_back();
+}
+
+ResultPtr Connection::next_result() { return ResultPtr(PQgetResult(handle())); }
+
+void Connection::check(const PGresult* result) {
+  const ExecStatusType status = PQresultStatus(result);
+  if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return;
+  throw_failure(handle(), result);
+}
+
+ResultPtr Connection::wait() {
+  if (PQpipelineSync(handle()) != 1) lost();
+  std::vector<std::string> sent = std::exchange(sent_, {});
+  ResultPtr failed;
+  ResultPtr last;
+  for (const std::string& prepares : sent) {
+    ResultPtr result = next_result();
+    if (!result || PQstatus(handle()) != CONNECTION_OK) {
+      if (result && !failed) failed = std::move(result);
+      if (failed) throw_failure(handle(), failed.get());
+      lost();
+    }
+    const ExecStatusType status = PQresultStatus(result.get());
+    const bool ok = status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK;
+    if (!ok && !prepares.empty()) prepared_.erase(prepares);
+    if (!ok && !failed) {
+      failed = std::move(result);
+    } else {
+      last = std::move(result);
+    }
+    while (next_result()) {
+    }
+  }
+  const ResultPtr sync = next_result();
+  if (!sync || PQresultStatus(sync.get()) != PGRES_PIPELINE_SYNC) lost();
+  if (failed) throw_failure(handle(), failed.get());
+  return last;
+}
+
+ResultPtr Connection::execute(const std::string& sql) {
+  ResultPtr result(PQexec(handle(), sql.c_str()));
+  if (!result) lost();
+  check(result.get());
+  return result;
+}
+
+void Connection::run_script(const std::string& sql) {
+  if (is_waiting()) wait();
+  if (PQexitPipelineMode(handle()) != 1) lost();
+  execute(sql);
+  if (PQenterPipelineMode(handle()) != 1) lost();
+}
+
+void Connection::copy(const std::string& sql, std::string_view bytes) {
+  if (is_waiting()) wait();
+  if (PQexitPipelineMode(handle()) != 1) lost();
+  const ResultPtr begun(PQexec(handle(), sql.c_str()));
+  if (PQresultStatus(begun.get()) == PGRES_COPY_IN) {
+    constexpr std::size_t kPiece = std::size_t{256} << 10;
+    for (std::string_view rest = bytes; !rest.empty();) {
+      const std::string_view piece = rest.substr(0, kPiece);
+      if (PQputCopyData(handle(), piece.data(), static_cast<int>(piece.size())) != 1) lost();
+      rest.remove_prefix(piece.size());
+    }
+    if (PQputCopyEnd(handle(), nullptr) != 1) lost();
+  }
+  const bool was_copy = PQresultStatus(begun.get()) == PGRES_COPY_IN;
+  ResultPtr outcome;
+  while (ResultPtr result = next_result()) {
+    if (!outcome) outcome = std::move(result);
+  }
+  if (PQstatus(handle()) != CONNECTION_OK) lost();
+  if (PQenterPipelineMode(handle()) != 1) lost();
+  check(was_copy ? outcome.get() : begun.get());
+}
+
+void Connection::forget(const std::string& name) noexcept {
+  if (prepared_.erase(name) == 0) return;
+  try {
+    unused_.push_back(name);
+  } catch (const std::bad_alloc&) {  // the server keeps one statement more
+  }
+}
+
+}  // namespace fitgauge::store::postgres

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <postgresql/libpq-fe.h>
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sql/connection.hpp"
+
+namespace fitgauge::store::postgres {
+
+struct ClearResult {
+  void operator()(PGresult* result) const { PQclear(result); }
+};
+using ResultPtr = std::unique_ptr<PGresult, ClearResult>;
+
+/// A parameter in the binary format.
+struct Parameter {
+  sql::Kind kind = sql::Kind::Integer;
+  bool is_null = true;
+  std::int64_t integer = 0;
+  std::string_view bytes{};
+};
+
+/// What a transaction holds of the row `head`.
+struct Head {
+  std::int64_t last_id = 0;
+  std::int64_t own_rows = 0;
+  std::int64_t names = 0;
+};
+
+/// A connection to the server that takes writes. What gives no rows is sent and not waited for:
+/// what fails there is thrown by the next call that waits. Used by one thread at a time. After a
+/// StorageFailure it is closed and another is opened.
+class Connection final : public sql::Connection {
+ public:
+  /// @param address `postgresql://…`, as libpq reads it; of several hosts the one that writes.
+  /// @throws StorageFailure
+  explicit Connection(const std::string& address);
+  ~Connection() override;
+
+  std::unique_ptr<sql::Prepared> prepare(const std::string& sql) override;
+  sql::MeasurementTable& measurements() override;
+
+  /// Sends a statement without parameters and does not wait.
+  void send(const std::string& sql);
+  /// Sends a prepared statement; the first time under this name it is prepared with these types.
+  void send(const std::string& name, const std::string& sql, std::span<const Parameter> values);
+  /// Waits for all that was sent. @returns the result of the last statement.
+  /// @throws StorageFailure, std::logic_error of the first that failed.
+  ResultPtr wait();
+  /// Whether something was sent and not waited for.
+  bool is_waiting() const { return !sent_.empty(); }
+  /// Runs statements without parameters, outside of all transactions.
+  ResultPtr execute(const std::string& sql);
+
+  /// Runs statements without parameters in the open transaction.
+  void run_script(const std::string& sql);
+
+  /// Sends rows in COPY's binary format.
+  void copy(const std::string& sql, std::string_view bytes);
+
+  /// The name of a new statement.
+  std::string new_name() { return "s" + std::to_string(++names_); }
+  /// A statement that nobody uses any more.
+  void forget(const std::string& name) noexcept;
+
+  PGconn* handle() const { return connection_.get(); }
+
+  Head head;                         ///< in a transaction
+  bool parts_may_be_undone = false;  ///< set by an undo: parts made since may not be there
+
+ private:
+  struct Finish {
+    void operator()(PGconn* connection) const { PQfinish(connection); }
+  };
+
+  void require_sent(int sent);
+  void check(const PGresult* result);
+  ResultPtr next_result();
+  [[noreturn]] void lost();
+
+  std::unique_ptr<PGconn, Finish> connection_;
+  std::vector<std::string> sent_;    ///< of each the name it prepares, or nothing
+  std::set<std::string> prepared_;   ///< names the server knows
+  std::vector<std::string> unused_;  ///< names it need not know any more
+  std::uint64_t names_ = 0;
+  std::unique_ptr<sql::MeasurementTable> measurements_;
+};
+
+}  // namespace fitgauge::store::postgres

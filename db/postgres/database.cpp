@@ -1,0 +1,145 @@
+#include "postgres/database.hpp"
+
+#include <optional>
+
+#include "postgres/listener.hpp"
+#include "postgres/migrator.hpp"
+#include "postgres/session.hpp"
+#include "sql/read_pool_engine.hpp"
+#include "sql/writer_engine.hpp"
+#include "store/storage_failure.hpp"
+
+namespace fitgauge::store::postgres {
+namespace {
+
+Error not_here(std::string_view command, std::string_view instead) {
+  return {
+      ErrorCode::StorageUnavailable,
+      std::string(command) + " is for a data folder; on PostgreSQL use " + std::string(instead)};
+}
+
+/// Destroyed from the last member to the first.
+class SharedDatabase final : public Database {
+ public:
+  SharedDatabase(const OpenOptions& chosen, const Clock& time, std::int64_t daemon)
+      : options_(chosen),
+        clock_(time),
+        names_(chosen.names_changed),
+        monitor_(chosen.health_changed),
+        writer_engine_(chosen, time, monitor_, [this, daemon] { return session(daemon); }),
+        reader_engine_(chosen, monitor_, [this, daemon] { return session(daemon); }),
+        writer_(writer_engine_),
+        readers_(reader_engine_) {
+    if (chosen.access != Access::Serve) return;
+    listener_.emplace(chosen.address, daemon, [this] { heard(); });
+  }
+
+  Writer& writer() override { return writer_; }
+  ReadPool& readers() override { return readers_; }
+
+  void drain() override {
+    listener_.reset();
+    reader_engine_.stop();
+    writer_engine_.stop();
+  }
+
+  Health health() const override { return monitor_.health(); }
+  const WriterCounters& writer_counters() const override { return writer_engine_.counters(); }
+  std::size_t writer_queue() const override { return writer_engine_.queued(); }
+
+  Result<void> backup(const std::filesystem::path& /*file*/) const override {
+    return not_here("backup", "pg_basebackup with archived WAL, or pg_dump --schema=fitgauge");
+  }
+
+  /// What PostgreSQL checks itself (pages, keys, references) is left to pg_amcheck.
+  Result<VerifyReport> verify(const MeasurementCheck& check) const override;
+
+ private:
+  std::unique_ptr<sql::Session> session(std::int64_t daemon) {
+    return std::make_unique<Session>(options_, clock_, daemon, names_);
+  }
+
+  /// What is new is looked at in a transaction, which tells of changed names.
+  void heard() {
+    readers_.submit([](const Stores&) -> Result<bool> { return true; }, [](const Result<bool>&) {});
+    if (options_.committed) options_.committed();
+  }
+
+  const OpenOptions options_;
+  const Clock& clock_;
+  Names names_;
+  HealthMonitor monitor_;
+  Writer::Engine writer_engine_;
+  ReadPool::Engine reader_engine_;
+  Writer writer_;
+  ReadPool readers_;
+  std::optional<Listener> listener_;
+};
+
+constexpr std::size_t kPage = 10'000;
+constexpr std::size_t kMostFindings = 100;
+
+Result<VerifyReport> SharedDatabase::verify(const MeasurementCheck& check) const {
+  try {
+    VerifyReport report;
+    Names names({});
+    Session session(options_, clock_, 0, names);
+    const auto note = [&](std::string finding) {
+      if (report.findings.size() < kMostFindings) report.findings.push_back(std::move(finding));
+    };
+    session.begin_reading();
+    for (const TableRevision& revision : session.stores().tables.list()) {
+      const auto loaded = session.stores().tables.load(revision.number);
+      if (!loaded || loaded->computed != loaded->revision.digest) {
+        note("table revision " + revision.id + " is not what was imported");
+      }
+    }
+    MeasurementFilter all;
+    all.source = std::nullopt;
+    all.history = true;
+    std::int64_t expected = 1;
+    std::optional<std::int64_t> after = 0;
+    while (after) {
+      after =
+          session.stores().measurements.list(all, *after, kPage, [&](const MeasurementRow& row) {
+            ++report.measurements;
+            if (row.id != expected) {
+              note("measurement m" + std::to_string(expected) + " is missing");
+            }
+            expected = row.id + 1;
+            if (auto wrong = check ? check(row) : std::nullopt) {
+              note("measurement m" + std::to_string(row.id) + " " + *wrong);
+            }
+          });
+    }
+    if (expected != session.stores().measurements.last_id() + 1) {
+      note("the newest measurements are missing");
+    }
+    session.stores().measurements.verify_index(note);
+    session.commit();
+    return report;
+  } catch (const StorageFailure& failure) {
+    return failure.error();
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock) {
+  try {
+    const bool serves = options.access == Access::Serve;
+    const auto prepared = prepare_schema(options.address, serves, clock.now().nanoseconds);
+    if (!prepared) return prepared.error();
+    std::int64_t daemon = 0;
+    if (serves) {
+      Connection connection(options.address);
+      sql::Statement next(connection, "SELECT nextval('daemons') % 2000000000");
+      daemon = next.returning<std::int64_t>();
+    }
+    return std::unique_ptr<Database>(std::make_unique<SharedDatabase>(options, clock, daemon));
+  } catch (const StorageFailure& failure) {
+    return failure.error();
+  }
+}
+
+}  // namespace fitgauge::store::postgres

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "base/clock.hpp"
+#include "postgres/connection.hpp"
+#include "postgres/names.hpp"
+#include "sql/session.hpp"
+#include "sql/statement.hpp"
+#include "store/open_options.hpp"
+
+namespace fitgauge::store::postgres {
+
+/// A connection with its stores. Transactions that write hold the row `head` from their first
+/// statement to their commit, so that they follow each other, whoever makes them.
+class Session final : public sql::Session {
+ public:
+  /// @param daemon what open runs are marked with. @param names outlive the session.
+  Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names);
+
+  Stores& stores() override { return stores_; }
+  void begin_reading() override;
+  void begin_writing() override;
+  void commit() override;
+  void rollback() noexcept override;
+  void savepoint() override;
+  void undo() override;
+  void settle() override;
+  void release() override;
+  void probe() override;
+  void tidy_up(WriterCounters& /*counters*/) override {}
+
+ private:
+  void read_head(sql::Statement& head);
+
+  Connection connection_;
+  Stores stores_;
+  Names& names_;
+  sql::Statement head_;
+  sql::Statement locked_head_;
+  sql::Statement set_head_;
+  bool writes_ = false;
+  Head begun_;  ///< as the transaction found it
+  Head before_job_;
+};
+
+}  // namespace fitgauge::store::postgres

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace fitgauge::store::postgres {
+
+/// Adds a number as PostgreSQL's binary formats write it: the highest byte first.
+template <class Integer>
+void append_number(std::string& bytes, Integer value) {
+  for (int shift = 8 * (static_cast<int>(sizeof(Integer)) - 1); shift >= 0; shift -= 8) {
+    bytes += static_cast<char>(static_cast<std::uint64_t>(value) >> shift);
+  }
+}
+
+/// A signed number of one to eight bytes.
+inline std::int64_t read_number(std::string_view bytes) {
+  if (bytes.empty()) return 0;
+  auto value =
+      static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<signed char>(bytes[0])));
+  for (const char byte : bytes.substr(1)) value = value << 8U | static_cast<unsigned char>(byte);
+  return static_cast<std::int64_t>(value);
+}
+
+}  // namespace fitgauge::store::postgres

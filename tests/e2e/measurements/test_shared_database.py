@@ -1,0 +1,237 @@
+"""Three daemons behind nginx share a PostgreSQL: one of them is killed every two seconds, the database is ended at
+once and comes back. Every acknowledged value is there exactly once, and whoever follows the list or the events sees
+each record exactly once and in order.
+
+$SHARED_SECONDS sets how long, 12 when absent and 60 in the long form; $SEED repeats whom the kills meet.
+"""
+
+import http.client
+import json
+import os
+import random
+import subprocess
+import threading
+import time
+import unittest
+
+from support.daemon import Daemon, command
+from support.postgres import Cluster, FrontDoor
+from support.writers import Writers, compare
+
+SECONDS = float(os.environ.get("SHARED_SECONDS", "60" if os.environ.get("FITGAUGE_DEEP") else "12"))
+SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
+
+
+def daemons_on(cluster, count, *flags):
+    """Started daemons, each to be started again on the same port."""
+    made = [Daemon("--database", cluster.address(), *flags) for _ in range(count)]
+    for daemon in made:
+        daemon.start()
+        daemon.listen = f"127.0.0.1:{daemon.port}"
+    return made
+
+
+class Follower(threading.Thread):
+    """Reads on from where it came to, by whichever daemon answers."""
+
+    def __init__(self, front):
+        super().__init__(daemon=True)
+        self.front = front
+        self.seen = []
+        self.problems = []
+        self.ending = threading.Event()
+
+    def run(self):
+        while not self.ending.is_set():
+            try:
+                self.read()
+            except (OSError, http.client.HTTPException):
+                time.sleep(0.05)
+
+    def end(self, expected, patience=30):
+        deadline = time.monotonic() + patience
+        while len(self.seen) < expected and time.monotonic() < deadline:
+            time.sleep(0.05)
+        self.ending.set()
+        self.join(10)
+
+
+class ListFollower(Follower):
+    def read(self):
+        after = f"&after={self.seen[-1]}" if self.seen else ""
+        answer = self.front.get(f"/v1/measurements?source=all&history=all&limit=500{after}")
+        if answer.status == 200:
+            self.seen += [record["id"] for record in answer.json["measurements"]]
+        elif answer.status != 503 and answer.status != 502:
+            self.problems.append(answer)
+        time.sleep(0.01)
+
+
+class EventFollower(Follower):
+    def __init__(self, front):
+        super().__init__(front)
+        self.last = None
+
+    def read(self):
+        connection = self.front.connect(timeout=2)
+        try:
+            connection.request("GET", "/v1/events?source=all", headers={"Last-Event-ID": self.last} if self.last else {})
+            answer = connection.getresponse()
+            if answer.status != 200:
+                if answer.status not in (502, 503):
+                    self.problems.append(answer.status)
+                time.sleep(0.05)
+                return
+            fields = {}
+            while not self.ending.is_set():
+                line = answer.readline().decode()
+                if not line:
+                    return
+                name, _, value = line.rstrip("\n").partition(": ")
+                if name:
+                    fields[name] = value
+                    continue
+                if fields.get("event") == "measurement.recorded":
+                    self.seen.append(json.loads(fields["data"])["id"])
+                elif fields.get("event") == "resync":
+                    self.problems.append(fields)
+                self.last = fields.get("id", self.last)
+                fields = {}
+        finally:
+            connection.close()
+
+
+class Shared(unittest.TestCase):
+    def setUp(self):
+        self.cluster = Cluster().start()
+        self.addCleanup(self.cluster.cleanup)
+
+    def daemons(self, count, *flags):
+        made = daemons_on(self.cluster, count, *flags)
+        for daemon in made:
+            self.addCleanup(daemon.cleanup)
+        return made
+
+    def test_nothing_is_lost_doubled_or_passed_over(self):
+        print(f"seed {SEED}, {SECONDS} s")
+        generator = random.Random(SEED)
+        daemons = self.daemons(3)
+        front = FrontDoor(daemons).start()
+        self.addCleanup(front.cleanup)
+        front.measure({"designation": "25 H7", "measured_mm": "25.013", "part_id": "first"})
+        followers = [ListFollower(front), EventFollower(front)]
+        followers[1].last = "m0.e0"
+        for follower in followers:
+            follower.start()
+        begin = time.monotonic()
+        restarted = False
+        with Writers(front, count=16) as writers:
+            while time.monotonic() - begin < SECONDS:
+                time.sleep(2)
+                victim = generator.choice(daemons)
+                victim.kill()
+                if not restarted and time.monotonic() - begin > SECONDS / 2:
+                    restarted = True
+                    self.cluster.stop("immediate")
+                    ready = [daemon.get("/readyz") for daemon in daemons if daemon is not victim]
+                    self.assertNotIn(500, [answer.status for answer in ready])
+                    self.cluster.start()
+                victim.start()
+        self.assertEqual(writers.refused, [])
+        stored = daemons[0].stored()
+        lost, doubled = compare(writers.acknowledged, stored)
+        self.assertEqual((lost, doubled), ([], []))
+        ids = [record["id"] for record in stored]
+        for follower in followers:
+            follower.end(len(ids))
+            self.assertEqual(follower.problems, [])
+            self.assertEqual(follower.seen, ids, type(follower).__name__)
+        for daemon in daemons:
+            self.assertIsNone(daemon.process.poll(), "a daemon has ended")
+        verified = command("verify", "--database", self.cluster.address(), "--data", daemons[0].data)
+        self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
+        print(f"{len(writers.acknowledged)} acknowledged values in {SECONDS} s, all there once and seen once")
+
+    def test_an_acknowledgement_before_the_commit_is_caught(self):
+        """The same comparison finds what a server loses that does not wait for its disk."""
+        self.cluster.cleanup()
+        self.cluster = Cluster("wal_writer_delay=10s", "wal_writer_flush_after=1GB", "autovacuum=off").start()
+        self.addCleanup(self.cluster.cleanup)
+        daemon, = self.daemons(1, "--durability", "off")
+        with Writers(daemon, count=4) as writers:
+            time.sleep(2)
+            self.cluster.stop("immediate")
+            self.cluster.start()
+            early = dict(writers.acknowledged)
+        lost, _ = compare(early, daemon.stored())
+        self.assertNotEqual(lost, [])
+
+    def test_a_cursor_over_numbers_given_out_early_is_caught(self):
+        """Follows a bigserial with four writers: rows whose commit comes late are passed over."""
+        self.cluster.query("CREATE TABLE numbered (id bigserial PRIMARY KEY)")
+        script = self.cluster.folder / "write.sql"
+        script.write_text("BEGIN; INSERT INTO numbered DEFAULT VALUES; SELECT pg_sleep(random() * 0.01); COMMIT;\n")
+        writing = subprocess.Popen(
+            ["pgbench", "-n", "-c", "4", "-T", "4", "-f", script, self.cluster.address()],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        seen = []
+        while writing.poll() is None:
+            last = seen[-1] if seen else 0
+            seen += [int(row[0]) for row in self.cluster.query(f"SELECT id FROM numbered WHERE id > {last} ORDER BY id")]
+        there = [int(row[0]) for row in self.cluster.query("SELECT id FROM numbered ORDER BY id")]
+        self.assertNotEqual(seen, there)
+
+
+class Together(unittest.TestCase):
+    """What one daemon does, the other knows."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.cluster = Cluster("fsync=off").start()
+        cls.addClassCleanup(cls.cluster.cleanup)
+        cls.one, cls.other = daemons_on(cls.cluster, 2)
+        cls.addClassCleanup(cls.one.cleanup)
+        cls.addClassCleanup(cls.other.cleanup)
+
+    def test_tables_files_and_keys_of_one_are_those_of_the_other(self):
+        column = {"rows": [{"over_mm": 0, "up_to_mm": 50, "upper_um": 30, "lower_um": 0}]}
+        put = self.one.request("PUT", "/v1/tables/hole/classes/X9", column)
+        self.assertIn(put.status, (200, 201), put)
+        judged = self.other.measure({"designation": "25 X9", "measured_mm": "25.013"})
+        self.assertEqual(judged.status, 201, judged)
+        shown = self.one.get(f"/v1/measurements/{judged.json['id']}")
+        self.assertEqual(shown.json["table_revision"], judged.json["table_revision"], shown)
+        self.assertEqual(self.one.request("PUT", "/v1/files/nc_prog/A.H", "BEGIN PGM A MM\nEND PGM A MM\n",
+                                          {"Content-Type": "text/plain"}).status, 201)
+        self.assertEqual(self.other.get("/v1/files/nc_prog/A.H").text, "BEGIN PGM A MM\nEND PGM A MM\n")
+
+    def test_a_key_is_answered_once_by_both(self):
+        body = {"designation": "25 H7", "measured_mm": "25.013", "part_id": "once"}
+        first = self.one.measure(body, {"Idempotency-Key": "k1"})
+        again = self.other.measure(body, {"Idempotency-Key": "k1"})
+        self.assertEqual((again.status, again.body), (first.status, first.body))
+        self.assertEqual(len(self.other.stored("part_id=once")), 1)
+
+    def test_the_log_is_one(self):
+        record = self.one.measure({"designation": "25 H7", "measured_mm": "25.013"}).json
+        self.assertEqual(self.other.get(f"/v1/measurements/{record['id']}/proof").status, 200)
+        self.assertEqual(self.one.get("/v1/log/key").text.count("\n"), 2)
+
+    def test_a_run_of_one_is_known_to_the_other_and_outlives_a_third(self):
+        self.one.request("PUT", "/v1/files/nc_prog/R.H", "BEGIN PGM R MM\nFN 0: Q1 = +7\nEND PGM R MM\n",
+                         {"Content-Type": "text/plain"})
+        run = self.one.post("/v1/runs", {"program": "TNC:\\nc_prog\\R.H"})
+        self.assertEqual(run.status, 201, run)
+        self.assertEqual(self.other.get(f"/v1/runs/{run.json['id']}").json["status"], "completed")
+
+    def test_what_is_for_a_data_folder_says_what_to_use(self):
+        backup = command("backup", "copy", "--database", self.cluster.address(), "--data", self.one.data)
+        self.assertEqual(backup.returncode != 0 and "pg_basebackup" in backup.stderr, True, backup)
+        forwarding = command("--database", self.cluster.address(), "--forward-to", "http://127.0.0.1:1")
+        self.assertIn("forward-to", forwarding.stderr)
+        put = self.one.request("PUT", "/v1/connections/x", {"kind": "webhook", "url": "http://127.0.0.1:1"})
+        self.assertEqual(put.status, 409, put)
+
+
+if __name__ == "__main__":
+    unittest.main()

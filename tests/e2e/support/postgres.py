@@ -1,0 +1,90 @@
+"""A PostgreSQL 15 of one's own, and nginx before daemons that share it."""
+
+import os
+import pathlib
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+
+from support.daemon import ROOT, Daemon
+
+SCRIPT = ROOT / "tests" / "support" / "postgres_cluster"
+
+
+class Cluster:
+    """A server in a new folder, which commits to the disk; `settings` are lines of its configuration."""
+
+    def __init__(self, *settings):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-pg-"))
+        self.settings = settings
+
+    def start(self):
+        subprocess.run([SCRIPT, "start", self.folder, *self.settings], check=True, timeout=90)
+        return self
+
+    def stop(self, how="immediate"):
+        subprocess.run([SCRIPT, "stop", self.folder, how], check=True, timeout=90)
+
+    def address(self, database="postgres"):
+        return f"postgresql:///{database}?host={self.folder}&user=postgres"
+
+    def query(self, sql, database="postgres"):
+        """Rows as lists of texts."""
+        printed = subprocess.run(["psql", "-qAtX", "-v", "ON_ERROR_STOP=1", "-d", self.address(database), "-c", sql],
+                                 check=True, capture_output=True, text=True, timeout=60).stdout
+        return [line.split("|") for line in printed.splitlines()]
+
+    def cleanup(self):
+        subprocess.run([SCRIPT, "stop", self.folder, "immediate"], check=False, stderr=subprocess.DEVNULL)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+NGINX = """
+daemon off; worker_processes 1; pid {folder}/nginx.pid; error_log {folder}/error.log warn;
+events {{ worker_connections 512; }}
+http {{
+  access_log off; client_body_temp_path {folder}/body; proxy_temp_path {folder}/proxy;
+  fastcgi_temp_path {folder}/f; uwsgi_temp_path {folder}/u; scgi_temp_path {folder}/s;
+  client_max_body_size 100m;
+  upstream daemons {{ {servers} keepalive 32; }}
+  server {{
+    listen 127.0.0.1:{port};
+    location / {{
+      proxy_pass http://daemons; proxy_http_version 1.1; proxy_set_header Connection "";
+      proxy_buffering off; proxy_read_timeout 120s;
+      # A request with an Idempotency-Key may go to the next daemon: it is stored once.
+      proxy_next_upstream error timeout http_503 non_idempotent;
+    }}
+  }}
+}}
+"""
+
+
+class FrontDoor(Daemon):
+    """nginx in place of one daemon: whoever has a Daemon's address and clients has this one's."""
+
+    def __init__(self, daemons):
+        super().__init__()
+        self.daemons = daemons
+
+    def start(self, timeout=30):
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            self.port = free.getsockname()[1]
+        servers = " ".join(f"server 127.0.0.1:{daemon.port} max_fails=1 fail_timeout=1s;" for daemon in self.daemons)
+        configuration = self.folder / "nginx.conf"
+        configuration.write_text(NGINX.format(folder=self.folder, servers=servers, port=self.port))
+        # Its worker reads and writes in the folder: as root it would be another user's.
+        user = ["-g", "user root;"] if os.getuid() == 0 else []
+        self.process = subprocess.Popen(["nginx", "-c", configuration, "-p", self.folder, *user],
+                                        stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + timeout
+        while True:
+            try:
+                self.get("/livez")
+                return self
+            except OSError:
+                if time.monotonic() > deadline:
+                    raise
+                time.sleep(0.05)
