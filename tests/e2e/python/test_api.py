@@ -107,6 +107,8 @@ class EveryRoute(ControlTest):
         record = client.measure({**PART, "measured_at": datetime(2026, 11, 20, 8, tzinfo=timezone(timedelta(hours=1)))})
         self.assertEqual((record["verdict"], record["excess_um"]), ("reject", Decimal("0.5")))
         self.assertEqual(record["measured_at"], "2026-11-20T07:00:00Z")
+        note = client.note(record["id"], cause="Insert worn", measure="Insert changed", operator="Kim")
+        self.assertEqual((note["measurement_id"], client.notes(record["id"])), (record["id"], [note]))
         new = client.correct(record["id"], {"measured_mm": "25.0185", "reason": "gauge was not zeroed"})
         self.assertEqual(client.measurement(record["id"])["corrected_by"], new["id"])
         self.assertEqual(list(client.measurements(part_id="SN-1")), [new])
@@ -171,6 +173,11 @@ class EveryRoute(ControlTest):
         self.assertEqual(client.plan("4711/A"), {"part": "4711/A", **plan})
         self.assertEqual([(each["part"], each["characteristics"]) for each in client.plans()], [("4711/A", 1)])
         client.delete_plan("4711/A")
+        catalogue = {"causes": ["Insert worn"], "measures": []}
+        self.assertTrue(client.put_catalogue("turning", **catalogue))
+        self.assertEqual(client.catalogue("turning"), catalogue)
+        self.assertEqual([each["name"] for each in client.catalogues()], ["turning"])
+        client.delete_catalogue("turning")
         client.delete_file("some/file 1.h")
         with self.assertRaises(fitgauge.NotFound):
             client.file("some/file 1.h")
