@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 
 #include "metrology/distributions.hpp"
 
@@ -22,17 +23,43 @@ Integer scatter_of(std::span<const Wide> counts) {
   return Integer(counts.size()) * squares.value() - total * total;
 }
 
+/// The same in 128 bits, where no sum of a group is longer; else none.
+std::optional<Wide> short_scatter_of(std::span<const Wide> counts) {
+  constexpr std::size_t kFew = std::size_t{1} << 10;
+  constexpr Wide kShort = Wide{1} << 40;
+  if (counts.size() > kFew) return std::nullopt;
+  Wide sum = 0;
+  Wide squares = 0;
+  for (const Wide count : counts) {
+    const Wide deviation = count - counts.front();
+    if (deviation <= -kShort || deviation >= kShort) return std::nullopt;
+    sum += deviation;
+    squares += deviation * deviation;
+  }
+  return static_cast<Wide>(counts.size()) * squares - sum * sum;
+}
+
 /// The sum of squared deviations from the means of the groups. Those of one size are added as whole
 /// numbers: a fraction for each of many groups would take most of the time.
 Exact sum_within(const Groups& groups) {
-  std::map<std::size_t, Integer> scatter_by_size;
+  struct Scatter {
+    ExactSum of_short;
+    Integer of_others = 0;
+  };
+  std::map<std::size_t, Scatter> scatter_by_size;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    scatter_by_size[groups[i].size()] += scatter_of(groups[i]);
+    const auto group = groups[i];
+    Scatter& scatter = scatter_by_size[group.size()];
+    if (const auto found = short_scatter_of(group)) {
+      scatter.of_short.add(*found);
+    } else {
+      scatter.of_others += scatter_of(group);
+    }
   }
   const Integer unit = power_of_ten(groups.values.scale());
   Exact within = 0;
   for (const auto& [size, scatter] : scatter_by_size) {
-    within += Exact(scatter, Integer(size) * unit * unit);
+    within += Exact(scatter.of_short.value() + scatter.of_others, Integer(size) * unit * unit);
   }
   return within;
 }

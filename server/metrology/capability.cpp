@@ -115,25 +115,32 @@ PercentileCapability by_percentiles(std::span<const Wide> sorted, int scale,
   return result;
 }
 
-void describe_distribution(Capability& capability, const Subgroups& data,
-                           const SpecificationLimits& limits) {
-  std::vector<Wide> sorted(data.values.counts().begin(), data.values.counts().end());
-  std::sort(sorted.begin(), sorted.end());
-  const int scale = data.values.scale();
-  if (sorted.size() >= kFewestForPercentiles) {
-    capability.percentile = by_percentiles(sorted, scale, limits);
-  }
-  if (sorted.size() < kFewestForNormality) return;
+/// @param rising is no more needed: a million values are not kept twice
+NormalityTest normality_of(std::vector<Wide> rising, int scale, const Exact& mean,
+                           double standard_deviation) {
   // Differences from the smallest value, so that leading digits all share cost nothing.
   const long double unit = nearest(Exact(power_of_ten(scale)));
-  std::vector<double> rising;
-  rising.reserve(sorted.size());
-  for (const Wide value : sorted) {
-    rising.push_back(static_cast<double>(static_cast<long double>(value - sorted.front()) / unit));
+  const Wide least = rising.front();
+  std::vector<double> differences;
+  differences.reserve(rising.size());
+  for (const Wide value : rising) {
+    differences.push_back(static_cast<double>(static_cast<long double>(value - least) / unit));
   }
-  const Exact least = data.values.exact(Integer(sorted.front()));
-  const auto mean = static_cast<double>(nearest(moments(data.values).mean - least));
-  capability.normality = test_normality(rising, mean, static_cast<double>(capability.overall));
+  rising = {};
+  const Exact from_least = mean - Exact(Integer(least), power_of_ten(scale));
+  return test_normality(differences, static_cast<double>(nearest(from_least)), standard_deviation);
+}
+
+void describe_distribution(Capability& capability, const Subgroups& data, const Exact& mean,
+                           const SpecificationLimits& limits) {
+  std::vector<Wide> rising = sorted(data.values.counts());
+  const int scale = data.values.scale();
+  if (rising.size() >= kFewestForPercentiles) {
+    capability.percentile = by_percentiles(rising, scale, limits);
+  }
+  if (rising.size() < kFewestForNormality) return;
+  capability.normality =
+      normality_of(std::move(rising), scale, mean, static_cast<double>(capability.overall));
   capability.model = choose_model(data, *capability.normality);
 }
 
@@ -152,9 +159,10 @@ Result<void> check(const SpecificationLimits& limits) {
 Result<Capability> assess_capability(const Subgroups& data, const SpecificationLimits& limits,
                                      long double confidence) {
   if (const auto checked = check(limits); !checked) return checked.error();
-  const auto charts = make_charts(
+  auto charts = make_charts(
       data, {.kind = data.size > 1 ? ChartKind::XbarR : ChartKind::IMr, .rules = ZoneRules::all()});
   if (!charts) return charts.error();
+  charts->charts = {};  // their points are not wanted
   const Moments all = moments(data.values);
   if (all.squares == 0) {
     return Error{ErrorCode::StatisticsZeroSpread,
@@ -165,12 +173,12 @@ Result<Capability> assess_capability(const Subgroups& data, const SpecificationL
   capability.mean = nearest(all.mean);
   capability.within = charts->standard_deviation;
   capability.overall = all.standard_deviation();
-  capability.violations = charts->violations;
-  capability.stable = charts->violations.empty();
+  capability.violations = std::move(charts->violations);
+  capability.stable = capability.violations.empty();
   const Intervals intervals(all.count, confidence);
   set_indices(capability, distances_of(limits, all.mean), intervals);
   set_cpm(capability, limits, all.mean, intervals);
-  describe_distribution(capability, data, limits);
+  describe_distribution(capability, data, all.mean, limits);
   return capability;
 }
 

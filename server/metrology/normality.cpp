@@ -29,12 +29,17 @@ NormalityTest test_normality(const std::vector<double>& sorted, double mean,
                              double standard_deviation) {
   const std::size_t count = sorted.size();
   const auto n = static_cast<double>(count);
+  const auto square = [](std::size_t value) {
+    return static_cast<double>(value) * static_cast<double>(value);
+  };
   double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double z = (sorted[i] - mean) / standard_deviation;
-    // ln F(x_i) has the weight 2i + 1, ln(1 - F(x_i)) that of its place from the other end.
-    sum += static_cast<double>(2 * i + 1) * log_below(z) +
-           static_cast<double>(2 * (count - 1 - i) + 1) * log_below(-z);
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    while (end < count && sorted[end] == sorted[begin]) ++end;
+    const double z = (sorted[begin] - mean) / standard_deviation;
+    // ln F(x_i) has the weight 2i + 1, ln(1 - F(x_i)) that of its place from the other end: of
+    // equal values, of which measured ones are full, these are differences of squares.
+    sum += (square(end) - square(begin)) * log_below(z) +
+           (square(count - begin) - square(count - end)) * log_below(-z);
   }
   NormalityTest test;
   test.statistic = -n - sum / n;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace fitgauge::metrology {
 namespace {
 
 constexpr int kHundredThousand = 100'000;
+constexpr std::size_t kManyToSort = 4'096;
+constexpr Wide kNarrow = Wide{1} << 20;  ///< a table of so many counts is worth its 4 MiB
 
 }  // namespace
 
@@ -63,6 +66,28 @@ long double autocorrelation_lag_1(const Decimals& values, const Moments& of) {
   return nearest(sum / (of.squares * unit * unit));
 }
 
+std::vector<Wide> sorted(std::span<const Wide> counts) {
+  std::vector<Wide> result(counts.begin(), counts.end());
+  if (counts.size() < kManyToSort) {
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+  const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+  const Wide first = *least;
+  if (*most - first >= kNarrow) {
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+  // Measured sizes lie close together: how often each of them occurs is soon counted.
+  std::vector<std::uint32_t> times(static_cast<std::size_t>(*most - first) + 1);
+  for (const Wide count : counts) ++times[static_cast<std::size_t>(count - first)];
+  auto next = result.begin();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    next = std::fill_n(next, times[i], first + static_cast<Wide>(i));
+  }
+  return result;
+}
+
 Exact quantile(std::span<const Wide> sorted, int scale, const Exact& p) {
   const Exact place = p * whole(sorted.size() - 1);
   const Integer below = numerator(place) / denominator(place);
@@ -77,13 +102,12 @@ Summary summarise(const Decimals& values) {
   Summary summary;
   summary.moments = moments(values);
   summary.autocorrelation_lag_1 = autocorrelation_lag_1(values, summary.moments);
-  std::vector<Wide> sorted(values.counts().begin(), values.counts().end());
-  std::sort(sorted.begin(), sorted.end());
-  summary.min = values.exact(Integer(sorted.front()));
-  summary.max = values.exact(Integer(sorted.back()));
+  const std::vector<Wide> rising = sorted(values.counts());
+  summary.min = values.exact(Integer(rising.front()));
+  summary.max = values.exact(Integer(rising.back()));
   for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
     const Exact p{Integer(kQuantiles[i]), Integer(kHundredThousand)};
-    summary.quantiles[i] = {.p = nearest(p), .value = nearest(quantile(sorted, values.scale(), p))};
+    summary.quantiles[i] = {.p = nearest(p), .value = nearest(quantile(rising, values.scale(), p))};
   }
   return summary;
 }

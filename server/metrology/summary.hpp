@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "metrology/decimals.hpp"
 
@@ -31,6 +32,9 @@ long double square_root(const Exact& value);
 /// r(1): the sum of products of neighbouring deviations over the sum of squared ones; kUndefined
 /// without spread.
 long double autocorrelation_lag_1(const Decimals& values, const Moments& of);
+
+/// The same values, ascending.
+std::vector<Wide> sorted(std::span<const Wide> counts);
 
 struct Quantile {
   long double p = 0;

@@ -27,9 +27,23 @@ void write_figure(JsonWriter& json, std::string_view name,
   json.key(name).figure(value.value_or(metrology::kUndefined));
 }
 
+/// A point of a measured value is a decimal of nanometres. Up to 15 digits that decimal is the
+/// shortest that reads back as the same double, and is found sooner.
+void write_point(JsonWriter& json, double point) {
+  constexpr double kNanometresOfOne = 1e6;
+  constexpr double kMost = 1e15;
+  constexpr int kDecimals = 6;
+  const double nanometres = std::nearbyint(point * kNanometresOfOne);
+  if (std::abs(nanometres) < kMost && nanometres / kNanometresOfOne == point) {
+    json.decimal(static_cast<std::int64_t>(nanometres), kDecimals);
+  } else {
+    json.value(point);
+  }
+}
+
 void write_points(JsonWriter& json, std::string_view name, const std::vector<double>& points) {
   json.key(name).begin_array();
-  for (const double point : points) json.value(point);
+  for (const double point : points) write_point(json, point);
   json.end_array();
 }
 

@@ -57,8 +57,8 @@ void write_selection(JsonWriter& json, const SelectedValues& selected, const std
       .begin_object()
       .member("count", std::uint64_t{selected.count})
       .member("subgroups", std::uint64_t{selected.subgroups.size()})
-      .member("first_id", selected.first_id.text())
-      .member("last_id", selected.last_id.text())
+      .member("first_id", std::string_view(selected.first_id))
+      .member("last_id", std::string_view(selected.last_id))
       .member("as_of", as_of);
   limit("lower_limit_mm", selected.lower_limit);
   limit("upper_limit_mm", selected.upper_limit);
@@ -72,7 +72,7 @@ PointName name_in(const SelectedValues& selected) {
       json.member("subgroup", selected.subgroups[violation.index]);
     } else {
       const std::size_t later = violation.chart == "mr" ? 1 : 0;
-      json.member("id", selected.ids[violation.index + later].text());
+      json.member("id", selected.ids.text(violation.index + later));
     }
   };
 }
@@ -171,6 +171,8 @@ void find_chart(const Services& services, const http::Request& request, http::Re
                 if (!made) return made.error();
                 selected->data = {};
                 std::string out;
+                constexpr std::size_t kOfAPoint = 12;  // what is not written to is no memory
+                out.reserve(2 * kOfAPoint * selected->count);
                 JsonWriter json(out);
                 json.begin_object();
                 write_selection(json, *selected, as_of);

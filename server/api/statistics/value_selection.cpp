@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace fitgauge::api {
 namespace {
 
@@ -28,6 +30,12 @@ metrology::Exact exact_mm(Length length) {
   return {metrology::Integer(length.count()), metrology::power_of_ten(kDecimals)};
 }
 
+std::string MeasurementIds::text(std::size_t index) const {
+  const auto later = [](std::size_t at, const auto& origin) { return at < origin.first; };
+  const auto next = std::upper_bound(origins_.begin(), origins_.end(), index, later);
+  return app::measurement_id_text(numbers_.at(index), std::prev(next)->second);
+}
+
 std::string ValueSelection::text_of(const Limits& limits) {
   if (!limits.lower) return fmt::format("up to {} mm", format_mm(*limits.upper));
   if (!limits.upper) return fmt::format("{} mm or more", format_mm(*limits.lower));
@@ -37,25 +45,26 @@ std::string ValueSelection::text_of(const Limits& limits) {
 Result<void> ValueSelection::add(const app::MeasuredValue& value) {
   const Limits limits{value.lower_limit, value.upper_limit};
   if (!limits_) limits_ = limits;
-  const SelectedValues::Id id{.number = value.id, .origin = value.origin};
   if (limits != *limits_) {
     return Error{ErrorCode::LimitsMixed,
                  fmt::format("{} has the limits {}, {} has {}: select values of one size by "
                              "characteristic or designation",
-                             ids_.front().text(), text_of(*limits_), id.text(), text_of(limits))};
+                             ids_.text(0), text_of(*limits_),
+                             app::measurement_id_text(value.id, value.origin), text_of(limits))};
   }
-  bytes_ += sizeof(Wide) + sizeof(id);
   names_subgroups_ = names_subgroups_ || value.subgroup.has_value();
-  if (!value.subgroup && !ungrouped_) ungrouped_ = id;
+  if (!value.subgroup && !ungrouped_) {
+    ungrouped_ = app::measurement_id_text(value.id, value.origin);
+  }
   if (!ungrouped_) join(*value.subgroup);
-  if (bytes_ > most_bytes_) {
+  if (bytes_ + ids_.bytes() + counts_.size() * sizeof(Wide) > most_bytes_) {
     return Error{ErrorCode::StatisticsTooMany,
                  fmt::format("more than {} values match, which is what one figure takes: narrow "
                              "the selection, by from and to for instance",
                              counts_.size())};
   }
   counts_.push_back(value.measured.count());
-  ids_.push_back(id);
+  ids_.add(value.id, value.origin);
   return {};
 }
 
@@ -85,8 +94,8 @@ Result<SelectedValues> ValueSelection::selected() {
                         .lower_limit = limits_->lower,
                         .upper_limit = limits_->upper,
                         .count = counts_.size(),
-                        .first_id = ids_.front(),
-                        .last_id = ids_.back()};
+                        .first_id = ids_.text(0),
+                        .last_id = ids_.text(ids_.size() - 1)};
 }
 
 Result<SelectedValues> ValueSelection::one_by_one() && {
@@ -101,7 +110,7 @@ Result<SelectedValues> ValueSelection::by_subgroup() && {
   auto made = selected();
   if (!made) return made;
   if (ungrouped_) {
-    return unbalanced(fmt::format("measurement {} names no subgroup", ungrouped_->text()));
+    return unbalanced(fmt::format("measurement {} names no subgroup", *ungrouped_));
   }
   std::vector<std::size_t> sizes(names_.size());
   for (const std::uint32_t group : groups_) ++sizes[group];

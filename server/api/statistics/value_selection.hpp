@@ -15,28 +15,40 @@ namespace fitgauge::api {
 
 metrology::Exact exact_mm(Length length);
 
+/// The ids of measurements, in eight bytes each: those that follow each other are of one folder.
+class MeasurementIds {
+ public:
+  void add(std::int64_t number, std::string_view origin) {
+    if (origins_.empty() || origins_.back().second != origin) {
+      origins_.emplace_back(numbers_.size(), origin);
+    }
+    numbers_.push_back(number);
+  }
+  std::size_t size() const { return numbers_.size(); }
+  std::size_t bytes() const {
+    return numbers_.size() * sizeof(std::int64_t) + origins_.size() * sizeof(origins_.front());
+  }
+  std::string text(std::size_t index) const;
+
+ private:
+  std::vector<std::int64_t> numbers_;
+  std::vector<std::pair<std::size_t, std::string_view>> origins_;  ///< from which index on
+};
+
 /// The stored values a figure is computed from, in mm, with the limits all of them have.
 struct SelectedValues {
-  /// Of a measurement, as measurement_id_text() takes it.
-  struct Id {
-    std::int64_t number = 0;
-    std::string_view origin{};
-
-    std::string text() const { return app::measurement_id_text(number, origin); }
-  };
-
   metrology::Subgroups data;
   metrology::SpecificationLimits limits{};
   std::optional<Length> lower_limit;
   std::optional<Length> upper_limit;
-  std::vector<Id> ids{};                 ///< of the values, where they come one by one
+  MeasurementIds ids{};                  ///< of the values, where they come one by one
   std::vector<std::string> subgroups{};  ///< the names of the subgroups, else
   std::size_t count = 0;
-  Id first_id{};  ///< in storage order
-  Id last_id{};
+  std::string first_id{};  ///< in storage order
+  std::string last_id{};
 };
 
-/// Collects values as they are read. Its memory is bounded: 40 bytes a value, and the names of the
+/// Collects values as they are read. Its memory is bounded: 24 bytes a value, and the names of the
 /// subgroups.
 class ValueSelection {
  public:
@@ -74,9 +86,9 @@ class ValueSelection {
   std::size_t bytes_ = 0;
   std::optional<Limits> limits_;
   std::vector<metrology::Wide> counts_;  ///< in nm
-  std::vector<SelectedValues::Id> ids_;
+  MeasurementIds ids_;
   bool names_subgroups_ = false;
-  std::optional<SelectedValues::Id> ungrouped_;  ///< the first value without a subgroup
+  std::optional<std::string> ungrouped_;  ///< the id of the first value without a subgroup
   // While every value has one:
   std::vector<std::uint32_t> groups_;  ///< the number of the subgroup of each value
   std::unordered_map<std::string, std::uint32_t> numbers_;

@@ -39,11 +39,23 @@ TEST_CASE("values one by one keep the order they are stored in, whatever subgrou
   const SelectedValues selected = std::move(selection).one_by_one().value();
   CHECK(nanometres_of(selected) == std::vector<std::int64_t>{3, 1});
   REQUIRE(selected.ids.size() == 2);
-  CHECK(selected.ids[0].number == 7);
-  CHECK(selected.ids[1].number == 9);
+  CHECK(selected.ids.text(0) == "m7-");
+  CHECK(selected.ids.text(1) == "m9-");
   CHECK(selected.data.size == 1);
   CHECK(*selected.limits.upper - *selected.limits.lower ==
         metrology::Exact(metrology::Integer(21), metrology::Integer(1000)));
+}
+
+TEST_CASE("ids keep the folder each was stored in") {
+  MeasurementIds ids;
+  ids.add(1, "aaaaaaaaaaaaaaaa");
+  ids.add(2, "aaaaaaaaaaaaaaaa");
+  ids.add(1, "bbbbbbbbbbbbbbbb");
+  ids.add(3, "aaaaaaaaaaaaaaaa");
+  CHECK(ids.text(0) == "m1-aaaaaaaaaaaaaaaa");
+  CHECK(ids.text(1) == "m2-aaaaaaaaaaaaaaaa");
+  CHECK(ids.text(2) == "m1-bbbbbbbbbbbbbbbb");
+  CHECK(ids.text(3) == "m3-aaaaaaaaaaaaaaaa");
 }
 
 TEST_CASE("subgroups stand in the order they begin in, their values in that of storing") {
@@ -56,8 +68,8 @@ TEST_CASE("subgroups stand in the order they begin in, their values in that of s
   CHECK(nanometres_of(selected) == std::vector<std::int64_t>{10, 11, 12, 20, 21, 22});
   CHECK(selected.data.size == 3);
   CHECK(selected.subgroups == std::vector<std::string>{"b", "a"});
-  CHECK(selected.first_id.number == 1);
-  CHECK(selected.last_id.number == 6);
+  CHECK(selected.first_id == "m1-");
+  CHECK(selected.last_id == "m6-");
 }
 
 TEST_CASE("subgroups that make no chart are refused") {
@@ -81,7 +93,7 @@ TEST_CASE("values with other limits are not of one selection") {
 }
 
 TEST_CASE("a selection is bounded in bytes, the names of its subgroups among them") {
-  constexpr std::size_t kBytes = 40'000;
+  constexpr std::size_t kBytes = 24'000;  // 24 of each value
   ValueSelection values(kBytes);
   for (int i = 0; i < 1000; ++i) REQUIRE(values.add(value(i, i)).has_value());
   CHECK(values.add(value(1000, 0)).error().code == ErrorCode::StatisticsTooMany);
