@@ -1,5 +1,7 @@
 #include "cli/commands.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -13,6 +15,7 @@
 #include "cli/nc_commands.hpp"
 #include "cli/record_commands.hpp"
 #include "cli/replay_command.hpp"
+#include "cli/statistics_command.hpp"
 #include "cli/stored_commands.hpp"
 #include "cli/watch_command.hpp"
 
@@ -42,6 +45,45 @@ void add_limits(CLI::App& app, Action& chosen) {
                            run_fit)
       ->add_option("fit", *fit, "Size, class of the hole, class of the shaft")
       ->required();
+}
+
+void add_tools(CLI::App& app, Action& chosen) {
+  const auto designation = std::make_shared<std::string>();
+  add_command<std::string>(app, "limit-gauge", "GO and NO-GO sizes: fitgauge limit-gauge 25H7",
+                           chosen, designation, run_limit_gauge)
+      ->add_option("designation", *designation, "Size and class")
+      ->required();
+  const auto search = std::make_shared<FitSearch>();
+  CLI::App* fits = add_command(app, "fits", "Fits whose clearances lie between two bounds", chosen,
+                               search, run_fits);
+  fits->add_option("nominal", search->nominal_mm, "Nominal size in mm")->required();
+  fits->add_option("--min-um", search->min_clearance_um, "Least clearance; interference is below 0")
+      ->required();
+  fits->add_option("--max-um", search->max_clearance_um, "Greatest clearance")->required();
+  fits->add_option("--limit", search->limit, "Most fits, else 20")->check(CLI::Range(1, 1000));
+  const auto standard = std::make_shared<StandardQuery>();
+  CLI::App* standards = add_command(app, "standards", "Numbers of other standards than ISO 286",
+                                    chosen, standard, run_standards);
+  standards->add_option("name", standard->name, "iso2768-1, iso965-1, din6885-1 or iso492");
+  standards->add_option("--size-mm", standard->size_mm, "Only what holds for this size");
+}
+
+void add_statistics(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<StatisticsOptions>();
+  CLI::App* statistics = add_command(app, "statistics", "Figures of values in a file", chosen,
+                                     options, run_statistics);
+  statistics
+      ->add_option("figure", options->figure,
+                   "summary, anova, capability, chart, type1, grr, pairing or uncertainty")
+      ->required()
+      ->check(CLI::IsMember(
+          {"summary", "anova", "capability", "chart", "type1", "grr", "pairing", "uncertainty"}));
+  statistics->add_option("file", options->file, "JSON as the HTTP API takes it, or a value a line")
+      ->required();
+  statistics->add_option("--lower", options->lower, "Lower limit of capability");
+  statistics->add_option("--upper", options->upper, "Upper limit of capability");
+  statistics->add_option("--reference", options->reference, "Size of the master of type1");
+  statistics->add_option("--tolerance", options->tolerance, "Of what the gauge of type1 is for");
 }
 
 void add_gauge(CLI::App& app, Action& chosen) {
@@ -263,22 +305,23 @@ CLI::App* add_words(CLI::App& parent, const std::string& name, const std::string
 
 using Words = std::vector<std::string>;
 
-void add_setups(CLI::App& app, Action& chosen) {
-  CLI::App* setups = app.add_subcommand("setups", "Machines with what lies on their tables");
-  setups->require_subcommand(1);
-  add_words(*setups, "ls", "List the stored setups", chosen, {}, 0,
-            [](const Context& context, const Words&) { return run_setups_ls(context); });
-  add_words(*setups, "put", "Store a setup: setups put m3 m3.json", chosen, {"name", "file"}, 2,
-            [](const Context& context, const Words& words) {
-              return run_setups_put(context, words[0], words[1]);
+void add_stored(CLI::App& app, Action& chosen, const StoredKind& kind) {
+  CLI::App* stored = app.add_subcommand(std::string(kind.command), std::string(kind.help));
+  stored->require_subcommand(1);
+  add_words(*stored, "ls", "List their names", chosen, {}, 0,
+            [&kind](const Context& context, const Words&) { return run_stored_ls(context, kind); });
+  add_words(*stored, "put", fmt::format("Store {}: {} put m3 m3.json", kind.what, kind.command),
+            chosen, {"name", "file"}, 2, [&kind](const Context& context, const Words& words) {
+              return run_stored_put(context, kind, words[0], words[1]);
             });
-  add_words(*setups, "get", "Print a setup, or write it into a file", chosen, {"name", "file"}, 1,
-            [](const Context& context, const Words& words) {
-              return run_setups_get(context, words[0], words[1]);
+  add_words(*stored, "get", fmt::format("Print {}, or write it into a file", kind.what), chosen,
+            {"name", "file"}, 1, [&kind](const Context& context, const Words& words) {
+              return run_stored_get(context, kind, words[0], words[1]);
             });
-  add_words(
-      *setups, "rm", "Delete a setup", chosen, {"name"}, 1,
-      [](const Context& context, const Words& words) { return run_setups_rm(context, words[0]); });
+  add_words(*stored, "rm", fmt::format("Delete {}", kind.what), chosen, {"name"}, 1,
+            [&kind](const Context& context, const Words& words) {
+              return run_stored_rm(context, kind, words[0]);
+            });
 }
 
 void add_control(CLI::App& app, Action& chosen) {
@@ -384,6 +427,7 @@ void add_about(CLI::App& app, Action& chosen) {
 
 void add_commands(CLI::App& app, Action& chosen) {
   add_limits(app, chosen);
+  add_tools(app, chosen);
   add_gauge(app, chosen);
   add_measure(app, chosen);
   CLI::App* nc = app.add_subcommand("nc", "NC programs and the control's files");
@@ -392,7 +436,8 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_nc_files(*nc, chosen);
   add_records(app, chosen);
   add_figures(app, chosen);
-  add_setups(app, chosen);
+  add_statistics(app, chosen);
+  for (const StoredKind& kind : kStoredKinds) add_stored(app, chosen, kind);
   add_runs(app, chosen);
   add_control(app, chosen);
   add_replay(app, chosen);

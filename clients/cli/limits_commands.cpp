@@ -47,6 +47,57 @@ Outcome<Answer> get(const Context& context, const std::string& target) {
   return expect_ok(context.client.send({.target = target}), context.client.url());
 }
 
+std::string format_limit_gauge(const JsonValue& gauge, const Terminal& /*terminal*/) {
+  const JsonValue& go = gauge.member("go");
+  const JsonValue& no_go = gauge.member("no_go");
+  return fmt::format(
+      "{}  {} gauge, {}\nGO     {} to {} mm new, worn out at {} mm\nNO-GO  {} to {} mm\n",
+      gauge.text_of("designation"), gauge.text_of("kind"), gauge.text_of("scheme"),
+      go.text_of("lower_mm"), go.text_of("upper_mm"), go.text_of("wear_limit_mm"),
+      no_go.text_of("lower_mm"), no_go.text_of("upper_mm"));
+}
+
+std::string format_fits(const JsonValue& found, const Terminal& terminal) {
+  std::string text;
+  for (const JsonValue& fit : found.member("fits").items) {
+    text += fmt::format("{:<14} {}{}\n", fit.text_of("designation"),
+                        clearances(fit, terminal.micrometre()),
+                        fit.text_of("preferred") == "true" ? "  preferred" : "");
+  }
+  return text +
+         fmt::format("{} of {} fits\n", found.member("fits").items.size(), found.text_of("total"));
+}
+
+std::string format_standards(const JsonValue& found, const Terminal& /*terminal*/) {
+  std::string text;
+  for (const JsonValue& standard : found.member("standards").items) {
+    text += fmt::format("{:<10} {}: {}\n", standard.text_of("name"), standard.text_of("edition"),
+                        standard.text_of("title"));
+  }
+  return text;
+}
+
+/// `linear  over 6 up to 30 mm  m upper 200 lower -200`
+std::string format_standard(const JsonValue& standard, const Terminal& /*terminal*/) {
+  std::string text =
+      fmt::format("{}: {}\n", standard.text_of("edition"), standard.text_of("title"));
+  for (const JsonValue& row : standard.member("rows").items) {
+    text += row.text_of("table");
+    for (const auto& [name, value] : row.members) {
+      if (value.is(JsonValue::Kind::Number)) text += fmt::format("  {} {}", name, value.text);
+    }
+    text += '\n';
+    for (const auto& [item, numbers] : row.member("limits").members) {
+      text += fmt::format("    {:<12}", item);
+      for (const auto& [name, number] : numbers.members) {
+        text += fmt::format("  {} {}", name, number.text);
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
 /// Asks for a document and prints it, or what `format` makes of it.
 template <class Format>
 Outcome<ExitCode> show(const Context& context, const std::string& target, const Format& format) {
@@ -100,8 +151,10 @@ std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
                       signed_text(limits.text_of("upper_deviation_um")), unit);
   text += fmt::format("lower limit  {:{}}  {} {} {}\n", sizes[1], width, zone.lower_name,
                       signed_text(limits.text_of("lower_deviation_um")), unit);
-  text += fmt::format("tolerance    {:{}}  sizes over {} up to {} mm\n", sizes[2], width,
-                      range.text_of("over"), range.text_of("up_to"));
+  text += fmt::format("tolerance    {:{}}  ", sizes[2], width);
+  text += range.members.empty() ? fmt::format("{}\n", limits.text_of("table_revision"))
+                                : fmt::format("sizes over {} up to {} mm\n", range.text_of("over"),
+                                              range.text_of("up_to"));
   return text;
 }
 
@@ -126,6 +179,26 @@ Outcome<ExitCode> run_limits(const Context& context, const std::string& designat
 
 Outcome<ExitCode> run_fit(const Context& context, const std::string& designation) {
   return show(context, "/v1/fits/" + percent_encoded(designation), format_fit);
+}
+
+Outcome<ExitCode> run_limit_gauge(const Context& context, const std::string& designation) {
+  return show(context, "/v1/gauges/" + percent_encoded(designation), format_limit_gauge);
+}
+
+Outcome<ExitCode> run_fits(const Context& context, const FitSearch& search) {
+  return show(
+      context,
+      fmt::format("/v1/fits?nominal_mm={}&min_clearance_um={}&max_clearance_um={}&limit={}",
+                  percent_encoded(search.nominal_mm), percent_encoded(search.min_clearance_um),
+                  percent_encoded(search.max_clearance_um), search.limit),
+      format_fits);
+}
+
+Outcome<ExitCode> run_standards(const Context& context, const StandardQuery& query) {
+  if (query.name.empty()) return show(context, "/v1/standards", format_standards);
+  std::string target = "/v1/standards/" + percent_encoded(query.name);
+  if (!query.size_mm.empty()) target += "?size_mm=" + percent_encoded(query.size_mm);
+  return show(context, target, format_standard);
 }
 
 Outcome<ExitCode> run_tables_export(const Context& context, const TableOptions& options) {

@@ -13,6 +13,25 @@ Outcome<ExitCode> run_limits(const Context& context, const std::string& designat
 /// `fitgauge fit 25H7/g6`, with the tolerance zones drawn.
 Outcome<ExitCode> run_fit(const Context& context, const std::string& designation);
 
+/// `fitgauge limit-gauge 25H7`: the sizes of its limit gauges.
+Outcome<ExitCode> run_limit_gauge(const Context& context, const std::string& designation);
+
+struct FitSearch {
+  std::string nominal_mm;
+  std::string min_clearance_um{};
+  std::string max_clearance_um{};
+  int limit = 20;
+};
+/// `fitgauge fits 25 --min-um 5 --max-um 45`: the fits whose clearances lie between the two.
+Outcome<ExitCode> run_fits(const Context& context, const FitSearch& search);
+
+struct StandardQuery {
+  std::string name{};
+  std::string size_mm{};
+};
+/// `fitgauge standards`: which there are; with a name, its numbers.
+Outcome<ExitCode> run_standards(const Context& context, const StandardQuery& query);
+
 struct TableOptions {
   std::string feature;   ///< hole or shaft
   std::string format{};  ///< json, csv, tab

@@ -49,35 +49,38 @@ Outcome<ExitCode> fetch(const Context& context, const std::string& target,
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 
-std::string setup_target(const std::string& name) { return "/v1/setups/" + percent_encoded(name); }
+std::string document_target(const StoredKind& kind, const std::string& name) {
+  return fmt::format("{}/{}", kind.path, percent_encoded(name));
+}
 
 std::string run_target(const std::string& id) { return "/v1/runs/" + percent_encoded(id); }
 
 }  // namespace
 
-Outcome<ExitCode> run_setups_ls(const Context& context) {
-  return list(context, "/v1/setups", "setups", [](const JsonValue& setup) {
-    return fmt::format("{}  {}", setup.text_of("modified_at"), setup.text_of("name"));
+Outcome<ExitCode> run_stored_ls(const Context& context, const StoredKind& kind) {
+  return list(context, std::string(kind.path), kind.member, [](const JsonValue& stored) {
+    return fmt::format("{}  {}", stored.text_of("modified_at"), stored.text_of("name"));
   });
 }
 
-Outcome<ExitCode> run_setups_put(const Context& context, const std::string& name,
-                                 const std::string& file) {
+Outcome<ExitCode> run_stored_put(const Context& context, const StoredKind& kind,
+                                 const std::string& name, const std::string& file) {
   const auto text = read_file(file);
   if (!text) return text.error();
   return done(send(context, {.method = "PUT",
-                             .target = setup_target(name),
+                             .target = document_target(kind, name),
                              .content_type = "application/json",
                              .body = *text}));
 }
 
-Outcome<ExitCode> run_setups_get(const Context& context, const std::string& name,
-                                 const std::string& file) {
-  return fetch(context, setup_target(name), file);
+Outcome<ExitCode> run_stored_get(const Context& context, const StoredKind& kind,
+                                 const std::string& name, const std::string& file) {
+  return fetch(context, document_target(kind, name), file);
 }
 
-Outcome<ExitCode> run_setups_rm(const Context& context, const std::string& name) {
-  return done(send(context, {.method = "DELETE", .target = setup_target(name)}));
+Outcome<ExitCode> run_stored_rm(const Context& context, const StoredKind& kind,
+                                const std::string& name) {
+  return done(send(context, {.method = "DELETE", .target = document_target(kind, name)}));
 }
 
 Outcome<ExitCode> run_runs_ls(const Context& context, const RunsQuery& query) {

@@ -1,26 +1,46 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "cli/context.hpp"
 
 namespace fitgauge::cli {
 
-// `fitgauge setups …` and `fitgauge runs …`: what lies in the service beside the control's files.
+// `fitgauge setups …`, `budgets …`, `gauges …` and `runs …`: what lies in the service beside the
+// control's files.
+
+/// Documents that are stored under a name.
+struct StoredKind {
+  std::string_view command;  ///< `setups`
+  std::string_view what;     ///< for its help: `a setup`
+  std::string_view help;
+  std::string_view path;    ///< of the list; each is below it
+  std::string_view member;  ///< of the list's answer
+};
+inline constexpr std::array<StoredKind, 3> kStoredKinds = {{
+    {"setups", "a setup", "Machines with what lies on their tables", "/v1/setups", "setups"},
+    {"budgets", "an uncertainty budget", "Uncertainty budgets", "/v1/uncertainties",
+     "uncertainties"},
+    {"gauges", "a gauge in use", "Gauges in use: their uncertainty and calibration",
+     "/v1/gauges-in-use", "gauges"},
+}};
 
 /// `setups ls`
-Outcome<ExitCode> run_setups_ls(const Context& context);
+Outcome<ExitCode> run_stored_ls(const Context& context, const StoredKind& kind);
 
 /// `setups put NAME FILE`, `-` being standard input.
-Outcome<ExitCode> run_setups_put(const Context& context, const std::string& name,
-                                 const std::string& file);
+Outcome<ExitCode> run_stored_put(const Context& context, const StoredKind& kind,
+                                 const std::string& name, const std::string& file);
 
 /// `setups get NAME [FILE]`: to standard output, or into a file.
-Outcome<ExitCode> run_setups_get(const Context& context, const std::string& name,
-                                 const std::string& file);
+Outcome<ExitCode> run_stored_get(const Context& context, const StoredKind& kind,
+                                 const std::string& name, const std::string& file);
 
 /// `setups rm NAME`
-Outcome<ExitCode> run_setups_rm(const Context& context, const std::string& name);
+Outcome<ExitCode> run_stored_rm(const Context& context, const StoredKind& kind,
+                                const std::string& name);
 
 struct RunsQuery {
   std::string status{};

@@ -4,7 +4,8 @@
 _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
-  local commands='limits fit gauge measure list export summary capability chart correct note nc setups runs control replay tables watch version completion'
+  local commands='limits fit fits limit-gauge standards gauge measure list export summary capability chart statistics
+    correct note nc setups budgets gauges runs control replay tables watch version completion'
   COMPREPLY=()
 
   # What the option before takes.
@@ -15,6 +16,7 @@ _fitgauge() {
     --probability | --part-material | --part-expansion | --scale-temperature-c) return ;;
     --scale-material | --scale-expansion) return ;;
     --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --group-by) return ;;
+    --min-um | --max-um | --size-mm | --lower | --upper | --reference | --tolerance) return ;;
     --designation | --subgroup | --target-mm | --confidence | --rules) return ;;
     --kind) _fitgauge_words 'i_mr xbar_r xbar_s ewma cusum'; return ;;
     --subgroups) _fitgauge_words 'use ignore'; return ;;
@@ -24,7 +26,7 @@ _fitgauge() {
     --history) _fitgauge_words 'current all'; return ;;
     --feature) _fitgauge_words 'hole shaft'; return ;;
     --status) _fitgauge_words 'queued running completed stopped failed limit_exceeded cancelled'; return ;;
-    --rule) _fitgauge_words 'simple guard_band'; return ;;
+    --rule) _fitgauge_words 'simple guard_band conformance'; return ;;
     --format)
       case " ${COMP_WORDS[*]} " in
         *' tables '*) _fitgauge_words 'csv json tab' ;;
@@ -67,7 +69,14 @@ _fitgauge() {
     chart) options="$filters --kind --rules --subgroups" ;;
     correct) options='--reason' ;;
     note) options='--cause --measure --text --operator' ;;
-    setups) ((${#words[@]} > 1)) || options='ls put get rm' ;;
+    fits) options='--min-um --max-um --limit' ;;
+    standards)
+      options=--size-mm
+      ((${#words[@]} > 1)) || options+=' iso2768-1 iso965-1 din6885-1 iso492' ;;
+    statistics)
+      options='--lower --upper --reference --tolerance'
+      ((${#words[@]} > 1)) || options+=' summary anova capability chart type1 grr pairing uncertainty' ;;
+    setups | budgets | gauges) ((${#words[@]} > 1)) || options='ls put get rm' ;;
     runs)
       case ${words[1]-} in
         '') options='ls show get cancel' ;;
@@ -96,7 +105,7 @@ _fitgauge() {
       esac ;;
   esac
   case ${words[*]} in
-    measure | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    measure | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

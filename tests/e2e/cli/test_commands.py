@@ -260,6 +260,40 @@ class Records(ClientTest):
         self.assert_runs(2, "gauge", "8", "7.99", *limits)
         self.assertIn("--feature", self.assert_fails(4, "gauge", "8", "8", "--upper-um", "0"))
 
+    def test_tools_of_a_quality_engineer(self):
+        self.assertIn("GO     25.001 to 25.005 mm new, worn out at 24.997 mm", self.assert_runs(0, "limit-gauge", "25H7"))
+        self.assertIn("25 H7/g6       clearance 7 to 41 µm  preferred",
+                      self.assert_runs(0, "fits", "25", "--min-um", "5", "--max-um", "45"))
+        self.assertIn("ISO 965-1:2013", self.assert_runs(0, "standards"))
+        self.assertIn("nominal_mm 3.3  upper_um 200", self.assert_runs(0, "standards", "din6885-1", "--size-mm", "25"))
+        self.assertIn("upper limit  9.206 mm", self.assert_runs(0, "limits", "M10-6H"))
+        self.assertIn("GOOD  9.1 mm  M10-6H", self.assert_runs(0, "gauge", "M10-6H", "9.1"))
+        self.client.write("budget.json", '{"contributions":[{"name":"a","standard_uncertainty":1}]}')
+        self.client.write("gauge.json", '{"uncertainty":"bore","calibration_due":"2030-01-01"}')
+        self.assert_runs(0, "budgets", "put", "bore", "budget.json")
+        self.assertIn("bore", self.assert_runs(0, "budgets", "ls"))
+        self.assert_runs(0, "gauges", "put", "G-07", "gauge.json")
+        self.assertIn("G-07", self.assert_runs(0, "gauges", "ls"))
+        self.assertEqual(self.assert_runs(0, "gauges", "get", "G-07"),
+                         '{"uncertainty":"bore","calibration_due":"2030-01-01"}')
+        self.assert_runs(0, "gauges", "rm", "G-07")
+        self.assert_runs(0, "budgets", "rm", "bore")
+
+    def test_figures_of_a_file(self):
+        self.client.write("values.txt", "25.010\n25.012\n\n25.009\n25.011\n25.013\n")
+        self.assertIn("count 5\nmean 25.011\n", self.assert_runs(0, "statistics", "summary", "values.txt"))
+        self.assertIn("cpk.value 1.67", self.assert_runs(0, "statistics", "capability", "values.txt", "--lower", "25",
+                                                       "--upper", "25.021"))
+        self.client.write("groups.txt", "1;2;3\n4 5 6\n7,8,10\n")
+        anova = json.loads(self.assert_runs(0, "--json", "statistics", "anova", "groups.txt"))
+        self.assertEqual(anova["between"]["degrees_of_freedom"], 2)
+        self.client.write("body.json", '{"kind":"xbar_r","subgroups":[[1,2],[2,3],[3,4]]}')
+        self.assertIn("kind", self.assert_runs(0, "--json", "statistics", "chart", "body.json"))
+        self.client.write("budget.json", '{"contributions":[{"name":"a","standard_uncertainty":1}]}')
+        self.assertIn("combined_standard_uncertainty 1\n", self.assert_runs(0, "statistics", "uncertainty", "budget.json"))
+        self.assertIn("JSON", self.assert_fails(4, "statistics", "grr", "groups.txt"))
+        self.assertIn("/values/1", self.assert_fails(7, "statistics", "summary", self.client.write("x.txt", "1\nx\n")))
+
     def test_setups_and_runs(self):
         self.client.write("m3.json", '{"seed":7}')
         self.assert_runs(0, "setups", "put", "m3", "m3.json")

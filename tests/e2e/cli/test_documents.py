@@ -9,11 +9,12 @@ import unittest
 from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 
-COMMANDS = ("limits", "fit", "gauge", "measure", "list", "export", "summary", "capability", "chart", "correct", "note", "nc", "setups", "runs",
-            "control", "replay", "tables", "watch", "version", "completion")
-SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables", "setups", "runs", "control")] + [
+COMMANDS = ("limits", "fit", "fits", "limit-gauge", "standards", "gauge", "measure", "list", "export", "summary",
+            "capability", "chart", "statistics", "correct", "note", "nc", "setups", "budgets", "gauges", "runs", "control", "replay",
+            "tables", "watch", "version", "completion")
+SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "tables", "setups", "budgets", "gauges", "runs", "control")] + [
     ("control", name) for name in ("ls", "get", "put", "run", "state")] + [
-    ("setups", name) for name in ("ls", "put", "get", "rm")] + [
+    (kind, name) for kind in ("setups", "budgets", "gauges") for name in ("ls", "put", "get", "rm")] + [
     ("runs", name) for name in ("ls", "show", "get", "cancel")] + [
     ("nc", name) for name in ("ls", "put", "get", "check", "run")] + [("tables", "export")]
 

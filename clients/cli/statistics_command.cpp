@@ -1,0 +1,123 @@
+#include "cli/statistics_command.hpp"
+
+#include <vector>
+
+#include "base/text.hpp"
+#include "cli/input_file.hpp"
+#include "cli/json_object.hpp"
+#include "cli/problem.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+/// The values of a line.
+std::vector<std::string_view> values_of(std::string_view line) {
+  constexpr std::string_view kBetween = " \t\r,;";
+  std::vector<std::string_view> values;
+  while (true) {
+    const std::size_t begin = line.find_first_not_of(kBetween);
+    if (begin == std::string_view::npos) return values;
+    line.remove_prefix(begin);
+    const std::size_t end = std::min(line.find_first_of(kBetween), line.size());
+    values.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+/// Lines as arrays of strings, which keep their digits; empty lines are left out.
+/// @param flat whether every line had one value: then they are one array.
+std::string arrays_of(std::string_view text, bool& flat) {
+  std::string single;
+  std::string nested;
+  flat = true;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const auto values = values_of(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (values.empty()) continue;
+    flat = flat && values.size() == 1;
+    nested += nested.empty() ? "[" : ",[";
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      nested += fmt::format("{}{}", i == 0 ? "" : ",", json_quoted(values[i]));
+    }
+    nested += ']';
+    if (flat) single += fmt::format("{}{}", single.empty() ? "" : ",", json_quoted(values.front()));
+  }
+  return fmt::format("[{}]", flat ? single : nested);
+}
+
+Outcome<std::string> body_of(const StatisticsOptions& options) {
+  auto text = read_file(options.file);
+  if (!text) return text.error();
+  if (trim(*text).starts_with('{')) return *text;
+  if (options.figure == "grr" || options.figure == "pairing" || options.figure == "uncertainty") {
+    return Failure{ExitCode::Usage,
+                   fmt::format("{} takes a JSON file: docs/reference/api.md says its members",
+                               options.figure)};
+  }
+  bool flat = true;
+  const std::string arrays = arrays_of(*text, flat);
+  const std::string_view name = options.figure == "anova" ? "groups"
+                                : flat                    ? "values"
+                                                          : "subgroups";
+  return JsonObject()
+      .add_raw(name, arrays)
+      .add_given("lower", options.lower)
+      .add_given("upper", options.upper)
+      .add_given("reference", options.reference)
+      .add_given("tolerance", options.tolerance)
+      .text();
+}
+
+/// `cp.value 1.70` for every number, text and truth of the document; of long lists how many there
+/// are.
+void print_members(const Context& context, const std::string& name, const JsonValue& value) {
+  constexpr std::size_t kShown = 10;
+  const std::string prefix = name.empty() ? "" : name + ".";
+  switch (value.kind) {
+    case JsonValue::Kind::Object:
+      for (const auto& [member, inner] : value.members) {
+        print_members(context, prefix + member, inner);
+      }
+      break;
+    case JsonValue::Kind::Array:
+      if (value.items.size() > kShown) {
+        context.print("{} {} items: --json shows them\n", name, value.items.size());
+        break;
+      }
+      for (std::size_t i = 0; i < value.items.size(); ++i) {
+        print_members(context, prefix + std::to_string(i), value.items[i]);
+      }
+      break;
+    case JsonValue::Kind::Boolean:
+      context.print("{} {}\n", name, value.boolean ? "true" : "false");
+      break;
+    case JsonValue::Kind::Null: context.print("{} -\n", name); break;
+    case JsonValue::Kind::Number:
+    case JsonValue::Kind::String: context.print("{} {}\n", name, value.text); break;
+  }
+}
+
+}  // namespace
+
+Outcome<ExitCode> run_statistics(const Context& context, const StatisticsOptions& options) {
+  const auto body = body_of(options);
+  if (!body) return body.error();
+  const std::string target = options.figure == "uncertainty" ? std::string("/v1/uncertainty")
+                                                             : "/v1/statistics/" + options.figure;
+  const auto answer = expect_ok(
+      context.client.send(
+          {.method = "POST", .target = target, .content_type = "application/json", .body = *body}),
+      context.client.url());
+  if (!answer) return answer.error();
+  if (context.json) {
+    context.print_document(answer->body);
+    return ExitCode::Good;
+  }
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  print_members(context, "", *document);
+  return ExitCode::Good;
+}
+
+}  // namespace fitgauge::cli
