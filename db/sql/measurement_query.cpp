@@ -105,10 +105,24 @@ MeasurementQuery::MeasurementQuery(sql::Connection& connection, std::string colu
       last_block_(last_block_statement(connection)),
       block_rows_(connection,
                   "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND "
-                  "block = ?") {}
+                  "block = ?"),
+      corrected_(connection,
+                 "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of IS NOT NULL "
+                 "AND id <= ? LIMIT 1) AS found") {}
 
 bool MeasurementQuery::run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
                            const Visitor& visit) {
+  const std::int64_t last = filter.as_of_id.value_or(kLastId);
+  if (filter.history || corrected_.returning<std::int64_t>(last) != 0) {
+    return run_current(filter, ids, order, visit);
+  }
+  MeasurementFilter all = filter;
+  all.history = true;
+  return run_current(all, ids, order, visit);
+}
+
+bool MeasurementQuery::run_current(const MeasurementFilter& filter, const IdSpan& ids,
+                                   ListOrder order, const Visitor& visit) {
   if (statements_.size() > kMostKept) statements_.clear();
   const std::int64_t indexed = indexed_to(last_block_);
   const IdSpan all = intersection(ids, {.first = 1, .last = filter.as_of_id.value_or(kLastId)});

@@ -48,6 +48,7 @@ class MeasurementQuery {
   using Visitor = std::function<bool(const sql::Rows&)>;
 
   /// Visits the matching rows among `ids`. @returns false when the visitor ended the query.
+  /// Where nothing was corrected yet, no row is asked whether it was.
   bool run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
            const Visitor& visit);
 
@@ -60,6 +61,8 @@ class MeasurementQuery {
   static std::vector<Posting> postings_of(const MeasurementFilter& filter);
 
   sql::Statement& matching_rows(const MeasurementFilter& filter, ListOrder order);
+  bool run_current(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
+                   const Visitor& visit);
   bool scan(sql::Statement& matching, const IdSpan& ids, ListOrder order, const Visitor& visit);
   bool run_indexed(const MeasurementFilter& filter, sql::Statement& matching, const IdSpan& ids,
                    ListOrder order, const Visitor& visit);
@@ -73,6 +76,7 @@ class MeasurementQuery {
   const std::int64_t most_at_once_;
   sql::Statement last_block_;
   sql::Statement block_rows_;
+  sql::Statement corrected_;
   std::map<std::string, sql::Statement> statements_;  ///< by their text
 };
 

@@ -32,8 +32,11 @@ MeasurementRow read_row(const Rows& rows) {
 
 constexpr std::string_view kValueColumns =
     "m.id, coalesce(m.corrected_nm, m.measured_nm), m.nominal_nm + m.lower_deviation_nm, "
-    "m.nominal_nm + m.upper_deviation_nm, m.subgroup, coalesce(m.origin, 0), "
-    "CASE WHEN m.origin > 0 THEN coalesce(m.number, m.seq) ELSE m.id END";
+    "m.nominal_nm + m.upper_deviation_nm, m.subgroup, ";
+constexpr std::string_view kPlaceColumns =
+    "coalesce(m.origin, 0), CASE WHEN m.origin > 0 THEN coalesce(m.number, m.seq) ELSE m.id END";
+/// The same where every row is of this folder: the columns at the far end are dear to reach.
+constexpr std::string_view kOwnPlaceColumns = "0, m.id";
 
 MeasuredValue read_value(const Rows& rows) {
   return {.id = rows.get<std::int64_t>(0),
@@ -96,7 +99,11 @@ struct MeasurementsStore::Statements {
         log_hashes(c, "hash"),
         indexer(c),
         whole_rows(c, measurement_columns()),
-        values(c, std::string(kValueColumns)),
+        values(c, fmt::format("{}{}", kValueColumns, kPlaceColumns)),
+        own_values(c, fmt::format("{}{}", kValueColumns, kOwnPlaceColumns)),
+        forwarded_rows(c,
+                       "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE origin IS NOT NULL "
+                       "LIMIT 1) AS found"),
         ids(c, "m.id") {}
 
   /// @errors as append
@@ -207,6 +214,8 @@ struct MeasurementsStore::Statements {
   MeasurementIndexer indexer;
   MeasurementQuery whole_rows;
   MeasurementQuery values;
+  MeasurementQuery own_values;
+  Statement forwarded_rows;
   MeasurementQuery ids;
   std::map<TextField, MeasurementSummary> summaries;
   std::optional<std::int64_t> seen_revision;
@@ -309,12 +318,13 @@ std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilt
                                                            const ValueVisitor& visit) const {
   if (after == kLastId) return std::nullopt;
   const IdSpan ids{.first = after + 1, .last = kLastId};
-  return read_page(statements_->values, filter, ids, limit, ListOrder::OldestFirst,
-                   [&](const Rows& rows) {
-                     const MeasuredValue value = read_value(rows);
-                     visit(value);
-                     return value.id;
-                   });
+  const bool all_own = statements_->forwarded_rows.returning<std::int64_t>() == 0;
+  MeasurementQuery& values = all_own ? statements_->own_values : statements_->values;
+  return read_page(values, filter, ids, limit, ListOrder::OldestFirst, [&](const Rows& rows) {
+    const MeasuredValue value = read_value(rows);
+    visit(value);
+    return value.id;
+  });
 }
 
 std::optional<std::int64_t> MeasurementsStore::first_of_newest(const MeasurementFilter& filter,
