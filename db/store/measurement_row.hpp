@@ -11,7 +11,7 @@ namespace fitgauge::store {
 // The codes are stored: never change one, never use one again.
 enum class Source : std::uint8_t { Gauge = 1, Simulation = 2 };
 enum class Feature : std::uint8_t { Hole = 1, Shaft = 2 };
-enum class Basis : std::uint8_t { Iso286 = 1, Custom = 2, Explicit = 3 };
+enum class Basis : std::uint8_t { Iso286 = 1, Custom = 2, Explicit = 3, Standard = 4 };
 enum class Verdict : std::uint8_t { Good = 1, Rework = 2, Reject = 3, Indeterminate = 4 };
 enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2, Conformance = 3 };
 

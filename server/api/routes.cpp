@@ -5,6 +5,7 @@
 #include "api/limits/fits_resource.hpp"
 #include "api/limits/gauges_resource.hpp"
 #include "api/limits/limits_resource.hpp"
+#include "api/limits/standards_resource.hpp"
 #include "api/limits/verdicts_resource.hpp"
 #include "api/log/intake_resource.hpp"
 #include "api/log/log_resource.hpp"
@@ -35,6 +36,7 @@ http::RouteTable make_routes(const Services& services) {
   add_limits_routes(routes, cache);
   add_fits_routes(routes, cache);
   add_gauges_routes(routes, cache);
+  add_standards_routes(routes, cache);
   add_press_fits_routes(routes, services);
   add_tables_routes(routes, services, cache);
   add_verdicts_routes(routes, services);

@@ -41,9 +41,28 @@ store::OpenOptions options_of_store(const ApplicationOptions& options) {
   return open;
 }
 
+/// Whether the limits of a designation of another standard are those that it gives, where this
+/// build has that edition.
+bool has_limits_of_its_standard(const Measurement& m) {
+  if (m.basis != LimitsBasis::Standard) return true;
+  std::string designation;
+  standards::append_designation(designation, m.nominal_size, *m.class_name);
+  const auto limits = standards::limits_of(designation);
+  const auto is_of = [&](const standards::Standard& standard) {
+    return standard.revision == m.table_revision;
+  };
+  const auto editions = standards::all();
+  if (std::none_of(editions.begin(), editions.end(), is_of)) return true;
+  return limits && limits->deviations == m.deviations && limits->nominal == m.nominal_size;
+}
+
 /// Judges a stored measurement again by the limits and the rule stored with it.
 std::optional<std::string> check_verdict(const store::MeasurementRow& row, const RowNames& names) {
   Measurement again = from_store(row, names);
+  if (!has_limits_of_its_standard(again)) {
+    return fmt::format("m{} has limits that {} does not give by {}", row.id, *again.class_name,
+                       again.table_revision);
+  }
   const gauging::Verdict stored = again.result.verdict;
   judge(again);
   if (again.result.verdict == stored) return std::nullopt;
@@ -164,6 +183,9 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   auto tables = TableCatalog::open(*app->database_, clock, options.has_centre);
   if (!tables) return tables.error();
   app->tables_ = *std::move(tables);
+  if (!options.attach) {
+    if (const auto numbered = app->tables_->number_standards(); !numbered) return numbered.error();
+  }
   auto log = LogService::open(*app->database_, *app->tables_, clock,
                               {.directory = options.directory,
                                .name = options.origin_name,

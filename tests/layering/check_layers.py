@@ -12,14 +12,14 @@ import sys
 from pathlib import Path
 
 FOLDERS = {
-    "base": "tables/base", "iso286": "tables/iso286", "tabfile": "tables/tabfile",
+    "base": "tables/base", "iso286": "tables/iso286", "standards": "tables/standards", "tabfile": "tables/tabfile",
     "store": "db/store", "sql": "db/sql", "sqlite": "db/sqlite", "postgres": "db/postgres", "gauging": "server/gauging", "metrology": "server/metrology", "klartext": "server/klartext",
     "machine": "server/machine", "probing": "server/probing",
     "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http", "http_client": "server/http_client", "tlog": "server/tlog",
     "control_link": "server/control_link", "log_reader": "server/log_reader", "certificate": "server/certificate", "sheet": "server/sheet", "aqdef": "server/aqdef",
     "api": "server/api", "virtual_control": "server/virtual_control", "collector": "server/collector", "forwarder": "server/forwarder", "connections": "server/connections", "daemon": "server/daemon", "clients": "clients",
 }
-DOMAIN = {"iso286", "tabfile", "gauging", "metrology", "klartext", "machine", "probing", "program", "run"}
+DOMAIN = {"iso286", "standards", "tabfile", "gauging", "metrology", "klartext", "machine", "probing", "program", "run"}
 
 
 def allowed_edges(architecture: str) -> dict[str, set[str]]:

@@ -17,7 +17,7 @@ class LimitsCalls(Transport):
     """The standard, and verdicts that are not stored."""
 
     def limits(self, designation: str) -> Limits:
-        """Limits of size of `25 H7`, `Ø25H7`, `132,5 a13`."""
+        """Limits of size of `25 H7`, `Ø25H7`, `132,5 a13`; of `M10-6H`, `25 ISO 2768-m`."""
         return self._get(path_of("limits", designation))
 
     def limits_of(self, nominal_mm: Size, tolerance_class: str) -> Limits:
@@ -37,6 +37,14 @@ class LimitsCalls(Transport):
     def limit_gauges(self, designation: str) -> dict[str, Any]:
         """The sizes of the GO and the NO-GO gauge of `25 H7`."""
         return self._get(path_of("gauges", designation))
+
+    def standards(self) -> list[dict[str, Any]]:
+        """The standards beside ISO 286 that there are numbers of."""
+        return self._get("/v1/standards")["standards"]
+
+    def standard(self, name: str, *, size_mm: Size | None = None, table: str | None = None) -> dict[str, Any]:
+        """The numbers of `iso2768-1`, `iso965-1`, `din6885-1` or `iso492`, all or those that hold for a size."""
+        return self._get(path_of("standards", name), {"size_mm": size_mm, "table": table})
 
     def verdict(self, designation: str, measured_mm: Size, *, rule: RuleWord | None = None,
                 uncertainty_um: Size | None = None, coverage_factor: Size | None = None,

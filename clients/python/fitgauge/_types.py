@@ -23,7 +23,7 @@ class _Sizes(TypedDict):
     upper_limit_mm: Decimal
     lower_limit_mm: Decimal
     tolerance_um: Decimal
-    basis: Literal["iso286", "custom", "explicit"]
+    basis: Literal["iso286", "custom", "explicit", "standard"]
 
 
 class Limits(_Sizes, total=False):

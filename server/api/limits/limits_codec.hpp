@@ -3,14 +3,22 @@
 #include <string_view>
 
 #include "api/wire/json_writer.hpp"
+#include "app/measurements/measurement_service.hpp"
 #include "iso286/tolerance_tables.hpp"
+#include "standards/designated_limits.hpp"
 
 namespace fitgauge::api {
+
+/// Reads a designation of ISO 286, or of another standard that there are numbers of.
+/// @errors those of iso286::parse_designation and standards::limits_of.
+Result<app::DesignationQuery> parse_designation(std::string_view text);
 
 /// Writes the members of the limits object, without its braces, so that a verdict can go on after
 /// them.
 void write_limits_members(JsonWriter& json, const iso286::LimitsOfSize& limits,
                           const iso286::ToleranceTables& tables);
+
+void write_limits_members(JsonWriter& json, const standards::DesignatedLimits& limits);
 
 /// The limits object.
 void write_limits(JsonWriter& json, const iso286::LimitsOfSize& limits,
@@ -21,5 +29,6 @@ std::string designation_text(Length nominal_size, std::string_view class_name);
 
 /// The entity tag of what is derived from the tables: it changes with their revision.
 std::string etag_of(const iso286::ToleranceTables& tables);
+std::string etag_of(const standards::Standard& standard);
 
 }  // namespace fitgauge::api

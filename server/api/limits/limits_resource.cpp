@@ -20,8 +20,22 @@ Result<http::Response> limits_response(iso286::NominalSize size, std::string_vie
   return response;
 }
 
+Result<http::Response> limits_response(const Result<standards::DesignatedLimits>& limits) {
+  if (!limits) return limits.error();
+  std::string body;
+  JsonWriter json(body);
+  json.begin_object();
+  write_limits_members(json, *limits);
+  json.end_object();
+  http::Response response(200, "application/json", std::move(body));
+  response.etag = etag_of(*limits->standard);
+  return response;
+}
+
 Result<http::Response> limits_of_designation(const http::Request& request,
                                              const ToleranceTables& tables) {
+  const std::string_view text = *request.text("designation");
+  if (standards::is_designation(text)) return limits_response(standards::limits_of(text));
   const auto designation = iso286::parse_designation(*request.text("designation"));
   if (!designation) return designation.error();
   return limits_response(designation->nominal_size, designation->class_name, tables);
@@ -29,6 +43,9 @@ Result<http::Response> limits_of_designation(const http::Request& request,
 
 Result<http::Response> limits_of_query(const http::Request& request,
                                        const ToleranceTables& tables) {
+  if (const auto name = *request.text("tolerance_class"); standards::is_class(name)) {
+    return limits_response(standards::limits_of(*request.length("nominal_mm"), name));
+  }
   const auto size = iso286::NominalSize::make(*request.length("nominal_mm"));
   if (!size) return size.error();
   return limits_response(*size, *request.text("tolerance_class"), tables);
@@ -42,11 +59,13 @@ void add_limits_routes(std::vector<http::Route>& routes,
       .pattern = "/v1/limits/{designation}",
       .handler = ResponseCache::cached(cache, limits_of_designation),
       .summary = "Limits of size of a designation",
-      .description = "Deviations and limits of a nominal size and tolerance class (ISO 286-1).",
+      .description = "Deviations and limits of a nominal size and tolerance class (ISO 286-1), of "
+                     "the pitch diameter of a thread (ISO 965-1), of a general tolerance "
+                     "(ISO 2768-1).",
       .parameters = {{.name = "designation",
                       .place = http::ParameterPlace::Path,
-                      .description =
-                          "Size and class: 25H7, 25 H7, Ø25H7; a comma may mark decimals"}},
+                      .description = "25H7, 25 H7, Ø25H7; M10-6H, M10x1.25-6g; 25 ISO 2768-m, "
+                                     "R2 ISO 2768-m; a comma may mark decimals"}},
       .access = "open",
       .operation = "getLimits",
       .tag = "limits",
@@ -63,7 +82,7 @@ void add_limits_routes(std::vector<http::Route>& routes,
                       .description = "Nominal size, 0 < D <= 3150"},
                      {.name = "tolerance_class",
                       .required = true,
-                      .description = "H7, g6 or a column of the shop's own"}},
+                      .description = "H7, g6, ISO 2768-m or a column of the shop's own"}},
       .access = "open",
       .operation = "findLimits",
       .tag = "limits",

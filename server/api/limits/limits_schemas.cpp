@@ -19,8 +19,8 @@ schema::Fields limits_fields() {
       {"lower_limit_mm", schema::number(), "Smallest good size, inclusive"},
       {"tolerance_um", schema::number(), "Upper minus lower limit"},
       {"size_range_mm", range, "Step of the standard tolerance", false},
-      {"basis", schema::words({"iso286", "custom", "explicit"}),
-       "The standard, a column of the shop's own, or a drawing"},
+      {"basis", schema::words({"iso286", "custom", "explicit", "standard"}),
+       "ISO 286, a column of the shop's own, a drawing, or a designation of another standard"},
       {"table_revision", schema::text(), "The tables the limits were taken from", false},
   };
 }
@@ -63,6 +63,40 @@ void add_limit_gauge(Schemas& schemas) {
                                        {"go", schema::object(sizes + wear), ""},
                                        {"no_go", schema::object(sizes), ""},
                                    })});
+}
+
+void add_standards(Schemas& schemas) {
+  const schema::Fields identity = {
+      {"name", schema::text(), "iso2768-1"},
+      {"edition", schema::text(), "ISO 2768-1:1989"},
+      {"title", schema::text(), ""},
+      {"revision", schema::text(), "The table_revision of what is judged by it"},
+      {"designation", schema::text(), "An example; absent where it has none for limits", false}};
+  const std::string standard =
+      schema::object(identity + schema::Fields{
+                                    {"tables", schema::array(schema::text()), ""},
+                                    {"sources", schema::array(schema::text()), "Compared with"},
+                                });
+  schemas.push_back({"Standards", schema::object({{"standards", schema::array(standard), ""}})});
+  const std::string item = schema::object(schema::optional({
+      {"designation", schema::text(), "Of ISO 286, of the width of a keyway"},
+      {"nominal_mm", schema::number(), ""},
+      {"upper_um", schema::number(), "Upper deviation"},
+      {"lower_um", schema::number(), "Lower deviation"},
+      {"tolerance_um", schema::number(), ""},
+      {"deviation_um", schema::number(),
+       "Of the position of a thread, the one next to its profile"},
+      {"upper_arcmin", schema::number(), "In minutes"},
+      {"lower_arcmin", schema::number(), "In minutes"},
+  }));
+  const std::string row = schema::object(
+      schema::Fields{{"table", schema::text(), ""}, {"limits", schema::map(item), "By item"}} +
+      schema::optional({{"over_mm", schema::number(), "Exclusive"},
+                        {"up_to_mm", schema::number(), "Inclusive; absent: without end"},
+                        {"pitch_mm", schema::number(), ""},
+                        {"diameter_mm", schema::number(), ""}}));
+  schemas.push_back(
+      {"Standard", schema::object(identity + schema::Fields{{"rows", schema::array(row), ""}})});
 }
 
 void add_press_fit(Schemas& schemas) {
@@ -134,6 +168,7 @@ void add_limits_schemas(Schemas& schemas) {
   schemas.push_back({"Fit", schema::object(fit)});
   add_found_fits(schemas, fit);
   add_limit_gauge(schemas);
+  add_standards(schemas);
   add_press_fit(schemas);
   const schema::Fields rule = schema::optional({
       {"corrected_mm", schema::number(),

@@ -24,6 +24,12 @@ Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
     if (!given) return given.error();
     probability = *given;
   }
+  if (words.probability_millionths && words.kind != Kind::Conformance) {
+    return Error{ErrorCode::RuleInvalid,
+                 "rule " + std::string(word(words.kind)) +
+                     " has no probability: say rule conformance, or leave probability out",
+                 "probability"};
+  }
   if (words.kind == Kind::Simple) return gauging::DecisionRule();
   if (!words.standard_uncertainty) {
     return Error{ErrorCode::RuleInvalid, "rule " + std::string(word(words.kind)) +

@@ -1,5 +1,9 @@
 #include "api/limits/verdicts_resource.hpp"
 
+#include <fmt/format.h>
+
+#include <functional>
+
 #include "api/limits/limits_codec.hpp"
 #include "api/limits/thermal_codec.hpp"
 #include "api/limits/verdict_codec.hpp"
@@ -23,12 +27,54 @@ Result<std::optional<ThermalCorrection>> correction_of(const http::Request& requ
   return made;
 }
 
-Result<http::Response> verdict(const http::Request& request,
-                               const iso286::ToleranceTables& tables) {
-  const auto designation = iso286::parse_designation(*request.text("designation"));
+/// The limits of a designation, of whatever standard.
+struct Limits {
+  iso286::Feature feature = iso286::Feature::Hole;
+  Length nominal;
+  gauging::ConformanceLimits of;
+  std::string etag;
+  std::function<void(JsonWriter&)> write_members;
+};
+
+Result<Limits> limits_of(const http::Request& request, const iso286::ToleranceTables& tables) {
+  const std::string_view text = *request.text("designation");
+  if (standards::is_designation(text)) {
+    auto limits = standards::limits_of(text);
+    if (!limits) return limits.error();
+    if (const auto feature = request.text("feature"); feature && limits->feature_is_open) {
+      limits->feature = *iso286::feature_from_word(*feature);
+    }
+    return Limits{.feature = limits->feature,
+                  .nominal = limits->nominal,
+                  .of = {limits->upper_limit(), limits->lower_limit()},
+                  .etag = etag_of(*limits->standard),
+                  .write_members = [limits = *limits](JsonWriter& json) {
+                    write_limits_members(json, limits);
+                  }};
+  }
+  const auto designation = iso286::parse_designation(text);
   if (!designation) return designation.error();
   const auto limits = tables.limits_of_size(designation->nominal_size, designation->class_name);
   if (!limits) return limits.error();
+  return Limits{.feature = limits->feature,
+                .nominal = limits->nominal_size.length(),
+                .of = {limits->upper_limit(), limits->lower_limit()},
+                .etag = etag_of(tables),
+                .write_members = [limits = *limits, &tables](JsonWriter& json) {
+                  write_limits_members(json, limits, tables);
+                }};
+}
+
+Result<http::Response> verdict(const http::Request& request,
+                               const iso286::ToleranceTables& tables) {
+  const auto limits = limits_of(request, tables);
+  if (!limits) return limits.error();
+  if (const auto feature = request.text("feature"); feature && *feature != word(limits->feature)) {
+    return Error{ErrorCode::QueryInvalid,
+                 fmt::format("{} is of a {}: leave feature out", *request.text("designation"),
+                             word(limits->feature)),
+                 "feature"};
+  }
   MeasuredSize measured{.reading = *request.length("measured_mm")};
   if (const auto checked = check_measured(measured.reading); !checked) return checked.error();
   const auto correction = correction_of(request);
@@ -40,20 +86,19 @@ Result<http::Response> verdict(const http::Request& request,
                                .coverage_millionths = request.integer("coverage_factor"),
                                .probability_millionths = request.integer("probability")});
   if (!rule) return rule.error();
-  const gauging::ConformanceLimits of{limits->upper_limit(), limits->lower_limit()};
-  if (const auto checked = check_acceptance(*rule, of); !checked) return checked.error();
+  if (const auto checked = check_acceptance(*rule, limits->of); !checked) return checked.error();
 
-  const auto result = gauging::gauge(limits->feature, limits->upper_limit(), limits->lower_limit(),
+  const auto result = gauging::gauge(limits->feature, limits->of.upper, limits->of.lower,
                                      measured.decisive(), *rule);
   std::string body;
   JsonWriter json(body);
   json.begin_object();
-  write_limits_members(json, *limits, tables);
-  write_verdict_members(json, limits->nominal_size.length(), measured, result);
-  write_rule_members(json, *rule, of, measured.decisive());
+  limits->write_members(json);
+  write_verdict_members(json, limits->nominal, measured, result);
+  write_rule_members(json, *rule, limits->of, measured.decisive());
   json.end_object();
   http::Response response(200, "application/json", std::move(body));
-  response.etag = etag_of(tables);
+  response.etag = limits->etag;
   return response;
 }
 
@@ -92,7 +137,11 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
           "small); limits are inclusive. Nothing is stored.",
       .parameters = {{.name = "designation",
                       .place = http::ParameterPlace::Path,
-                      .description = "Size and class: 25H7"},
+                      .description = "25H7, M10-6H, 25 ISO 2768-m"},
+                     {.name = "feature",
+                      .type = http::Words{{"hole", "shaft"}},
+                      .description = "Of a general tolerance, which does not say it: shaft, an "
+                                     "outside dimension, when absent"},
                      {.name = "measured_mm",
                       .type = http::LengthIn{.round_to_nearest = true},
                       .required = true,

@@ -124,6 +124,8 @@ void read_limits(Record& record, const JsonValue& json, Measurement& m) {
     m.basis = app::LimitsBasis::Custom;
   } else if (basis == word(app::LimitsBasis::Explicit)) {
     m.basis = app::LimitsBasis::Explicit;
+  } else if (basis == word(app::LimitsBasis::Standard)) {
+    m.basis = app::LimitsBasis::Standard;
   } else if (basis != word(app::LimitsBasis::Iso286)) {
     record.wrong("basis");
   }

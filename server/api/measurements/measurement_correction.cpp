@@ -51,6 +51,7 @@ void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
   if (body.find("tolerance_class") != nullptr) return;
   const bool by_drawing = names_any(body, std::span(kLimitsFields).last(3));
   if (!by_drawing && original.class_name) {
+    if (standards::is_class(*original.class_name)) offer(reader, "feature", word(original.feature));
     return offer(reader, "tolerance_class", original.class_name);
   }
   offer(reader, "feature", word(original.feature));
@@ -74,7 +75,11 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
   if (original.coverage_factor) {
     offer(reader, "coverage_factor", format(*original.coverage_factor));
   }
-  if (original.conformance) offer(reader, "probability", format(original.rule.probability()));
+  const JsonValue* rule = body.find("rule");
+  const bool conforms = rule == nullptr || rule->text == word(original.rule.kind());
+  if (original.conformance && conforms) {
+    offer(reader, "probability", format(original.rule.probability()));
+  }
   const auto offer_millionths = [&](std::string_view name,
                                     const std::optional<std::int64_t>& value) {
     if (value) offer(reader, name, format_decimal(*value, app::kTemperatureDecimals));

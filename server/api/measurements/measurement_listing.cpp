@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "api/limits/limits_codec.hpp"
 #include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/notes_resource.hpp"
 #include "api/wire/request_facts.hpp"
@@ -155,7 +156,7 @@ std::vector<http::Parameter> measurement_filter_parameters() {
         {.name = std::string(name), .description = fmt::format("Exactly this {}", name)});
   }
   const std::vector<http::Parameter> others = {
-      {.name = "designation", .description = "Nominal size and class, as in `25 H7`"},
+      {.name = "designation", .description = "`25 H7`, `M10-6H`, `25 ISO 2768-m`"},
       {.name = "run_id", .description = "Of this run, whatever the source where source is absent"},
       {.name = "verdict",
        .type = http::Words{{"good", "rework", "reject", "indeterminate"}},
@@ -183,7 +184,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
     if (const auto text = request.text(app::kTextFilters[i])) query.texts[i].emplace(*text);
   }
   if (const auto text = request.text("designation")) {
-    auto designation = iso286::parse_designation(*text);
+    auto designation = parse_designation(*text);
     if (!designation) return designation.error();
     query.designation = *std::move(designation);
   }

@@ -4,6 +4,7 @@
 #include "api/measurements/measurement_row_fields.hpp"
 #include "api/measurements/measurement_row_reader.hpp"
 #include "iso286/designation.hpp"
+#include "standards/designated_limits.hpp"
 
 // How a row says its limits: a designation, a class with its nominal size, or those of a drawing.
 
@@ -17,8 +18,10 @@ void MeasurementRowReader::take_limits(const app::Measurement& other) {
 void MeasurementRowReader::resolve_limits() {
   const bool by_designation = given(RowField::Designation);
   const bool by_class = given(RowField::Class);
-  const bool by_drawing =
-      given(RowField::Upper) || given(RowField::Lower) || given(RowField::Feature);
+  // A general tolerance does not say whether its dimension is inside or outside.
+  const bool open_feature = is_open_designation() || is_open_class();
+  const bool by_drawing = given(RowField::Upper) || given(RowField::Lower) ||
+                          (given(RowField::Feature) && !open_feature);
   const int ways = int{by_designation} + int{by_class} + int{by_drawing};
   if (ways > 1 || (by_designation && given(RowField::Nominal))) {
     const std::size_t second = by_designation ? (given(RowField::Nominal) ? RowField::Nominal
@@ -41,6 +44,20 @@ void MeasurementRowReader::resolve_limits() {
          "tolerance_class is required, or feature with upper_um, lower_um or both");
 }
 
+bool MeasurementRowReader::is_open_designation() const {
+  return draft_.designation && standards::is_class(*draft_.designation);
+}
+bool MeasurementRowReader::is_open_class() const {
+  return draft_.class_name && standards::is_class(*draft_.class_name);
+}
+
+void MeasurementRowReader::take_limits(Result<standards::DesignatedLimits> limits,
+                                       std::string_view field) {
+  if (!limits) return report(limits.error().code, field, limits.error().message);
+  if (limits->feature_is_open && draft_.feature) limits->feature = *draft_.feature;
+  app::apply_limits(draft_.measurement, *limits);
+}
+
 Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) {
   if (last_class_id_ && name == last_class_) return *last_class_id_;
   const auto found = tables_.find_class(name);
@@ -60,6 +77,11 @@ void MeasurementRowReader::take_limits(const Result<iso286::LimitsOfSize>& limit
 }
 
 void MeasurementRowReader::resolve_class() {
+  if (is_open_class()) {
+    if (!draft_.nominal) return;
+    return take_limits(standards::limits_of(*draft_.nominal, *draft_.class_name),
+                       kRowFields[RowField::Class].name);
+  }
   std::optional<iso286::NominalSize> size;
   if (draft_.nominal) {
     const auto made = iso286::NominalSize::make(*draft_.nominal);
@@ -81,6 +103,9 @@ void MeasurementRowReader::resolve_class() {
 void MeasurementRowReader::resolve_designation() {
   if (!draft_.designation) return;
   const std::string_view field = kRowFields[RowField::Designation].name;
+  if (standards::is_designation(*draft_.designation)) {
+    return take_limits(standards::limits_of(*draft_.designation), field);
+  }
   const auto designation = iso286::parse_designation(*draft_.designation);
   if (!designation) return report(designation.error().code, field, designation.error().message);
   const auto id = find_class(designation->class_name);

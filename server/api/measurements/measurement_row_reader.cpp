@@ -263,7 +263,9 @@ void MeasurementRowReader::apply_rule() {
   draft_.rule.standard_uncertainty = m.standard_uncertainty;
   const auto rule = make_rule(draft_.rule);
   if (!rule) {
-    return report(rule.error().code, kRowFields[RowField::Uncertainty].name, rule.error().message);
+    const std::string_view field = kRowFields[RowField::Uncertainty].name;
+    return report(rule.error().code, rule.error().where.empty() ? field : rule.error().where,
+                  rule.error().message);
   }
   const auto checked =
       check_acceptance(*rule, {.upper = m.upper_limit(), .lower = m.lower_limit()});

@@ -96,6 +96,9 @@ class MeasurementRowReader {
   void resolve_designation();
   void resolve_explicit();
   void take_limits(const Result<iso286::LimitsOfSize>& limits, std::string_view field);
+  void take_limits(Result<standards::DesignatedLimits> limits, std::string_view field);
+  bool is_open_designation() const;
+  bool is_open_class() const;
   Result<iso286::ClassId> find_class(std::string_view name);
   void report(ErrorCode code, std::string_view field, std::string message);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
+
 namespace fitgauge::api {
 namespace {
 
@@ -34,6 +36,13 @@ Decimals read_items(const JsonValue& array, const std::string& pointer, FieldErr
 void add_exact(const JsonValue& value, const std::string& pointer, Decimals& to,
                FieldErrors& errors) {
   if (!is_decimal(value)) return report_type(value, pointer, errors);
+  if (value.is(Kind::String) && value.text.find_first_of("eE") != std::string::npos) {
+    errors.add(ErrorCode::NumberMalformed, pointer,
+               fmt::format("'{}' has an exponent: a string holds a plain decimal, as in 25.013; an "
+                           "exponent stands in a JSON number alone",
+                           first_characters(value.text, 40)));
+    return;
+  }
   if (const auto added = to.add(value.text); !added) {
     errors.add(added.error().code, pointer, added.error().message);
   }

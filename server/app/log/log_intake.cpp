@@ -298,8 +298,8 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
   for (std::size_t i = 0; i < batch.rows.size(); ++i) {
     const Measurement& m = batch.rows[i].measurement;
     const std::int64_t place = batch.from + static_cast<std::int64_t>(i);
-    store::MeasurementRow& row =
-        rows.emplace_back(app::to_store(m, tables_.revision_number(m.table_revision)));
+    store::MeasurementRow& row = rows.emplace_back(app::to_store(m));
+    if (!m.table_revision.empty()) row.table_revision = tables_.revision_number(m.table_revision);
     row.id = first + static_cast<std::int64_t>(i);
     row.origin = known.number;
     row.seq = place;

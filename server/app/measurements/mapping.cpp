@@ -174,7 +174,7 @@ RowNames row_names(const TableCatalog& tables, const Origins& origins) {
           .origin = [&origins](std::int64_t number) { return origins.digits(number); }};
 }
 
-store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t> revision) {
+store::MeasurementRow to_store(const Measurement& m) {
   store::MeasurementRow row;
   row.id = m.id;
   row.source = to_store(m.source);
@@ -193,8 +193,9 @@ store::MeasurementRow to_store(const Measurement& m, std::optional<std::int64_t>
     case LimitsBasis::Iso286: row.basis = store::Basis::Iso286; break;
     case LimitsBasis::Custom: row.basis = store::Basis::Custom; break;
     case LimitsBasis::Explicit: row.basis = store::Basis::Explicit; break;
+    case LimitsBasis::Standard: row.basis = store::Basis::Standard; break;
   }
-  row.table_revision = revision;
+  row.table_revision = m.revision_number;
   row.measured_nm = m.measured.count();
   row.verdict = to_store(m.result.verdict);
   row.rule = code_of(m.rule.kind());
@@ -249,7 +250,9 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
     case store::Basis::Iso286: m.basis = LimitsBasis::Iso286; break;
     case store::Basis::Custom: m.basis = LimitsBasis::Custom; break;
     case store::Basis::Explicit: m.basis = LimitsBasis::Explicit; break;
+    case store::Basis::Standard: m.basis = LimitsBasis::Standard; break;
   }
+  m.revision_number = row.table_revision;
   if (row.table_revision) m.table_revision = names.revision_id(*row.table_revision);
   m.measured = Length::nanometres(row.measured_nm);
   m.standard_uncertainty = length_of(row.uncertainty_nm);

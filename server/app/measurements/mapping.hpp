@@ -17,9 +17,8 @@ store::TableContent to_store(const iso286::TableData& data);
 /// @errors TablesInconsistent for a table or column the standard does not know.
 Result<iso286::TableData> from_store(const store::TableContent& content);
 
-/// @param revision the number of the table revision the limits were taken from; none for Explicit.
-store::MeasurementRow to_store(const Measurement& measurement,
-                               std::optional<std::int64_t> revision);
+/// @pre it has the number of its revision, if it names one
+store::MeasurementRow to_store(const Measurement& measurement);
 
 /// What the numbers in a row are called outside; valid as long as the catalog and the origins.
 struct RowNames {

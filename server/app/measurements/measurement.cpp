@@ -50,6 +50,7 @@ std::string_view word(LimitsBasis basis) {
     case LimitsBasis::Iso286: return "iso286";
     case LimitsBasis::Custom: return "custom";
     case LimitsBasis::Explicit: return "explicit";
+    case LimitsBasis::Standard: return "standard";
   }
   return "";
 }
@@ -87,6 +88,16 @@ void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
   measurement.table_revision = tables.revision().id;
 }
 
+void apply_limits(Measurement& measurement, const standards::DesignatedLimits& limits) {
+  measurement.nominal_size = limits.nominal;
+  measurement.class_name = limits.tolerance_class;
+  measurement.feature = limits.feature;
+  measurement.deviations = limits.deviations;
+  measurement.size_range = limits.size_range;
+  measurement.basis = LimitsBasis::Standard;
+  measurement.table_revision = limits.standard->revision;
+}
+
 void apply_limits(Measurement& measurement, const Measurement& other) {
   measurement.nominal_size = other.nominal_size;
   measurement.class_name = other.class_name;
@@ -95,6 +106,7 @@ void apply_limits(Measurement& measurement, const Measurement& other) {
   measurement.size_range = other.size_range;
   measurement.basis = other.basis;
   measurement.table_revision = other.table_revision;
+  measurement.revision_number = other.revision_number;
 }
 
 void judge(Measurement& measurement) {

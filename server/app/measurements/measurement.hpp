@@ -15,6 +15,7 @@
 #include "gauging/gauge.hpp"
 #include "iso286/nominal_size.hpp"
 #include "iso286/tolerance_tables.hpp"
+#include "standards/designated_limits.hpp"
 
 namespace fitgauge::app {
 
@@ -22,8 +23,9 @@ class Origins;
 
 /// Who measured: a gauge at a part, or the simulated machine.
 enum class Source : std::uint8_t { Gauge, Simulation };
-/// Where the limits come from: a class of the tables, a column of the shop's own, or the drawing.
-enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit };
+/// Where the limits come from: a class of the tables, a column of the shop's own, the drawing, or a
+/// designation of another standard.
+enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard };
 
 std::string_view word(Source source);
 std::string_view word(LimitsBasis basis);
@@ -98,7 +100,8 @@ struct Measurement {
   iso286::LimitDeviations deviations;
   std::optional<iso286::NominalSizeRange> size_range;
   LimitsBasis basis = LimitsBasis::Iso286;
-  std::string_view table_revision;  ///< empty when the basis is Explicit
+  std::string_view table_revision;  ///< of the standard's numbers; empty when the basis is Explicit
+  std::optional<std::int64_t> revision_number;  ///< of table_revision, once number_revisions has it
 
   Length measured;
   gauging::GaugingResult result;
@@ -154,6 +157,9 @@ class KeptMeasurement {
 /// Takes the limits of a class of the tables.
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
                   const iso286::ToleranceTables& tables);
+
+/// Takes the limits of a designation of another standard.
+void apply_limits(Measurement& measurement, const standards::DesignatedLimits& limits);
 
 /// Takes the limits that stand in another measurement, as they were applied there.
 void apply_limits(Measurement& measurement, const Measurement& other);

@@ -16,7 +16,7 @@ Result<bool> store_all(store::Stores& stores, std::string_view origin, LeafMaker
   std::int64_t id = stores.measurements.last_id() + 1;
   for (auto& request : requests) {
     id = number_from(id, origin, request.measurements);
-    append_rows(rows, request.measurements, request.revision, leaves);
+    append_rows(rows, request.measurements, leaves);
     const auto rendering = request.render();
     rendering->add(request.measurements, leaves.records());
     request.answer = rendering->finish();

@@ -30,7 +30,6 @@ class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
 
   struct Request {
     std::vector<Measurement> measurements;
-    std::optional<std::int64_t> revision;  ///< of the tables that have judged them
     MeasurementService::Render render;
     MeasurementService::Done<Answer> done;
     Answer answer{};

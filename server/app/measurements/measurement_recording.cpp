@@ -87,18 +87,17 @@ void MeasurementService::submit(const std::optional<IdempotencyScope>& scope, Wo
 void MeasurementService::record(std::vector<Measurement> measurements,
                                 const std::optional<IdempotencyScope>& scope, Render render,
                                 Done<Answer> done) {
-  const auto revision = revision_of(measurements, tables_);
+  number_revisions(measurements, tables_);
   const bool is_small = measurements.size() <= kRowsAtATime;
   if (is_small && !scope && !measurements.front().correction_of) {
     return queue_->record({.measurements = std::move(measurements),
-                           .revision = revision,
                            .render = std::move(render),
                            .done = std::move(done)});
   }
-  auto work = [measurements = std::move(measurements), revision, origin = origins_.own(),
+  auto work = [measurements = std::move(measurements), origin = origins_.own(),
                render = std::move(render)](store::Stores& stores) mutable -> Result<Answer> {
     const auto rendering = render();
-    const auto first = append(stores, measurements, revision, origin, rendering.get());
+    const auto first = append(stores, measurements, origin, rendering.get());
     if (!first) return first.error();
     return rendering->finish();
   };
@@ -135,10 +134,11 @@ Result<Answer> MeasurementService::record_while_reading(
   const auto take = [&](std::vector<Measurement> measurements) {
     if (!std::exchange(begun, true)) begin();
     if (!next_id) return;  // refused before a row was stored
+    number_revisions(measurements, tables_);
     next_id = number_from(*next_id, origins_.own(), measurements);
     MeasurementFeed::Piece piece;
     piece.reserve(measurements.size());
-    append_rows(piece, measurements, revision_of(measurements, tables_), leaves);
+    append_rows(piece, measurements, leaves);
     feed->put(std::move(piece));
     rendering.add(measurements, leaves.records());
   };

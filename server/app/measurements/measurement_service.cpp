@@ -18,8 +18,8 @@ store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
   store::MeasurementFilter filter;
   filter.texts = query.texts;
   if (query.designation) {
-    filter.designation = {.nominal_nm = query.designation->nominal_size.length().count(),
-                          .tolerance_class = query.designation->class_name};
+    filter.designation = {.nominal_nm = query.designation->nominal.count(),
+                          .tolerance_class = query.designation->tolerance_class};
   }
   if (query.run_id) {
     filter.run_id = query.run_id->number;

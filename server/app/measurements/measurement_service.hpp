@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "app/measurements/measurement.hpp"
-#include "iso286/designation.hpp"
 
 namespace fitgauge::store {
 class Database;
@@ -48,10 +47,16 @@ inline constexpr std::array<std::string_view, 11> kTextFilters = {
     "part_id", "order", "characteristic",  "machine", "operation", "operator",
     "gauge",   "unit",  "tolerance_class", "caller",  "subgroup"};
 
+/// A nominal size and the class of one standard or another.
+struct DesignationQuery {
+  Length nominal;
+  std::string tolerance_class;
+};
+
 /// Which measurements a list shows.
 struct MeasurementQuery {
   std::array<std::optional<std::string>, kTextFilters.size()> texts;
-  std::optional<iso286::Designation> designation;
+  std::optional<DesignationQuery> designation;
   std::optional<RecordName> run_id;
   std::optional<gauging::Verdict> verdict;
   std::optional<Source> source = Source::Gauge;  ///< none: all

@@ -12,8 +12,6 @@
 namespace fitgauge::app {
 namespace {
 
-bool is_by_tables(const Measurement& m) { return m.basis != LimitsBasis::Explicit; }
-
 /// The store knows ids as numbers: this error names them as the outside does.
 Error corrected_before(const store::Stores& stores, const Measurement& correction,
                        std::int64_t row) {
@@ -30,11 +28,17 @@ Error corrected_before(const store::Stores& stores, const Measurement& correctio
 
 }  // namespace
 
-std::optional<std::int64_t> revision_of(std::span<const Measurement> measurements,
-                                        const TableCatalog& tables) {
-  const auto judged = std::find_if(measurements.begin(), measurements.end(), is_by_tables);
-  if (judged == measurements.end()) return std::nullopt;
-  return tables.revision_number(judged->table_revision);
+void number_revisions(std::span<Measurement> measurements, const TableCatalog& tables) {
+  std::string_view last;
+  std::optional<std::int64_t> number;
+  for (Measurement& m : measurements) {
+    if (m.table_revision.empty()) continue;
+    if (m.table_revision != last) {
+      last = m.table_revision;
+      number = tables.revision_number(last);
+    }
+    m.revision_number = number;
+  }
 }
 
 std::int64_t number_from(std::int64_t first, std::string_view origin,
@@ -47,19 +51,16 @@ std::int64_t number_from(std::int64_t first, std::string_view origin,
 }
 
 void append_rows(std::vector<store::MeasurementRow>& rows,
-                 std::span<const Measurement> measurements, std::optional<std::int64_t> revision,
-                 LeafMaker& leaves) {
+                 std::span<const Measurement> measurements, LeafMaker& leaves) {
   const auto made = leaves(measurements);
   for (std::size_t i = 0; i < measurements.size(); ++i) {
-    const Measurement& m = measurements[i];
-    rows.push_back(to_store(m, is_by_tables(m) ? revision : std::nullopt));
+    rows.push_back(to_store(measurements[i]));
     rows.back().hash = made[i];
   }
 }
 
 Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
-                            std::optional<std::int64_t> revision, std::string_view origin,
-                            Rendering* rendering) {
+                            std::string_view origin, Rendering* rendering) {
   const std::int64_t first = stores.measurements.last_id() + 1;
   number_from(first, origin, measurements);
   LeafMaker leaves;
@@ -67,7 +68,7 @@ Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measur
   while (!measurements.empty()) {
     const std::size_t count = std::min(measurements.size(), kRowsAtATime);
     rows.clear();
-    append_rows(rows, measurements.first(count), revision, leaves);
+    append_rows(rows, measurements.first(count), leaves);
     const auto appended = stores.measurements.append(rows);
     if (!appended && appended.error().code == ErrorCode::MeasurementCorrected) {
       return corrected_before(stores, measurements.front(), *rows.front().correction_of);

@@ -20,10 +20,8 @@ class TableCatalog;
 /// So many that their rows stay in the cache.
 inline constexpr std::size_t kRowsAtATime = 128;
 
-/// The number of the revision that has judged measurements of one request, which is the same for
-/// all; none when all have explicit limits.
-std::optional<std::int64_t> revision_of(std::span<const Measurement> measurements,
-                                        const TableCatalog& tables);
+/// Gives measurements the numbers of the revisions that have judged them, before they are stored.
+void number_revisions(std::span<Measurement> measurements, const TableCatalog& tables);
 
 /// Gives the measurements their ids. @returns the next id.
 std::int64_t number_from(std::int64_t first, std::string_view origin,
@@ -31,15 +29,13 @@ std::int64_t number_from(std::int64_t first, std::string_view origin,
 
 /// Adds the rows that store the measurements, which have their ids; the rows' texts are theirs.
 void append_rows(std::vector<store::MeasurementRow>& rows,
-                 std::span<const Measurement> measurements, std::optional<std::int64_t> revision,
-                 LeafMaker& leaves);
+                 std::span<const Measurement> measurements, LeafMaker& leaves);
 
 /// Numbers and stores measurements.
 /// @param rendering takes them, if there is one. @returns the id of the first.
 /// @errors MeasurementUnknown and MeasurementCorrected of a correction.
 Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
-                            std::optional<std::int64_t> revision, std::string_view origin,
-                            Rendering* rendering = nullptr);
+                            std::string_view origin, Rendering* rendering = nullptr);
 
 /// The row of a measurement in this folder, none where there is no such.
 std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name);

@@ -28,7 +28,7 @@ bool same_times(const Measurement& a, const Measurement& b) {
 
 bool same_limits(const Measurement& a, const Measurement& b) {
   const auto limits = [](const Measurement& m) {
-    return std::tie(m.nominal_size, m.class_name, m.deviations, m.size_range);
+    return std::tie(m.nominal_size, m.class_name, m.deviations, m.size_range, m.basis);
   };
   return limits(a) == limits(b);
 }
@@ -83,6 +83,12 @@ void RecordWriter::append(const Measurement& m) {
   if (m.cycle) text.raw(R"(,"cycle":)").decimal(*m.cycle, 0);
   write_or_copy(text, Designation, limits, [&] {
     if (!m.class_name) return;
+    if (m.basis == LimitsBasis::Standard) {
+      std::string designation;
+      standards::append_designation(designation, m.nominal_size, *m.class_name);
+      text.raw(R"(,"designation":)").quoted(designation);
+      return;
+    }
     text.raw(R"(,"designation":")").mm(m.nominal_size).raw(" ").escaped(*m.class_name).raw("\"");
   });
   text.raw(R"(,"deviation_um":)").um(m.decisive() - m.nominal_size);

@@ -158,7 +158,8 @@ struct RevisionIntake::Job {
       return refuse(fmt::format("the centre's correction {}: what it corrects is not here",
                                 measurement_id_text(m.id, page.origin)));
     }
-    store::MeasurementRow row = to_store(m, tables.revision_number(m.table_revision));
+    store::MeasurementRow row = to_store(m);
+    if (!m.table_revision.empty()) row.table_revision = tables.revision_number(m.table_revision);
     row.id = stores.measurements.last_id() + 1;
     row.origin = centre;
     row.seq = revision.place;

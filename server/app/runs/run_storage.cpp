@@ -178,7 +178,7 @@ Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view t
                                             .files = files},
                                            now);
     if (!closed) return closed.error();
-    if (const auto first = append(stores, measurements, std::nullopt, origin_); !first) {
+    if (const auto first = append(stores, measurements, origin_); !first) {
       return first.error();
     }
     stores.events.append(kFinishedEvent, event, now);

@@ -7,6 +7,7 @@
 #include "app/measurements/mapping.hpp"
 #include "app/revisions/centre_decides.hpp"
 #include "iso286/table_rules.hpp"
+#include "standards/standard.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -279,6 +280,22 @@ std::string_view TableCatalog::revision_id(std::int64_t number) const {
   const std::lock_guard lock(ids_mutex_);
   const auto found = ids_.find(number);
   return found == ids_.end() ? std::string_view() : found->second;
+}
+
+Result<void> TableCatalog::number_standards() {
+  std::vector<std::string_view> unknown;
+  for (const standards::Standard& standard : standards::all()) {
+    if (!standard.designation.empty() && !revision_number(standard.revision)) {
+      unknown.push_back(standard.revision);
+    }
+  }
+  if (unknown.empty()) return {};
+  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    for (const std::string_view id : unknown) remember(-stores.origins.add_revision(id), id);
+    return true;
+  });
+  if (!stored) return stored.error();
+  return {};
 }
 
 std::optional<std::int64_t> TableCatalog::revision_number(std::string_view id) const {

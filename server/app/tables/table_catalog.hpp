@@ -102,6 +102,10 @@ class TableCatalog {
   /// Takes note of a revision of another folder, under a number below 0.
   void remember(std::int64_t number, std::string_view id);
 
+  /// Numbers the editions of the other standards that measurements are judged by, where they have
+  /// no number yet. @errors StorageUnavailable.
+  Result<void> number_standards();
+
   /// The number of a revision that revision_id knows.
   std::optional<std::int64_t> revision_number(std::string_view id) const;
 

@@ -29,6 +29,13 @@ class Statistics(DaemonTest):
         self.assertIsNone(one["standard_deviation"])
         self.assertIsNone(one["autocorrelation_lag_1"])
 
+    def test_a_string_holds_a_plain_decimal(self):
+        self.assertEqual(self.compute("summary", b'{"values":[1e3,"1000"]}')["standard_deviation"], 0)
+        answer = self.send("summary", {"values": [1, "1e3"]})
+        self.assertEqual(answer.status, 422, answer)
+        self.assertEqual([(e["pointer"], e["code"]) for e in answer.json["errors"]], [("/values/1", "number.malformed")])
+        self.assertIn("JSON number", answer.json["errors"][0]["detail"])
+
     def test_the_analysis_of_variance(self):
         anova = self.compute("anova", {"groups": [[1, 2, 3], [2, 3, 4], [6, 7, 8]]})
         self.assertEqual(anova["between"], {"degrees_of_freedom": 2, "sum_of_squares": 42, "mean_square": 21})

@@ -54,6 +54,9 @@ class EveryRoute(ControlTest):
         found = client.fits(25, min_clearance_um=5, max_clearance_um=45, limit=3)
         self.assertEqual(len(found["fits"]), 3)
         self.assertEqual(client.limit_gauges("25 H7")["scheme"], "ISO/R 1938:1971")
+        self.assertEqual(client.limits("M10-6H")["upper_limit_mm"], Decimal("9.206"))
+        self.assertIn("iso492", [standard["name"] for standard in client.standards()])
+        self.assertEqual(client.standard("iso492", size_mm=25, table="bores")["rows"][0]["limits"]["P5"]["lower_um"], -6)
         # Worked out by hand: 1, 2, 3 have the mean 2, and groups 1, 2 and 3, 4 an F of 8.
         self.assertEqual(client.statistics("summary", {"values": [1, 2, 3]})["mean"], 2)
         self.assertEqual(client.statistics("anova", {"groups": [[1, 2], [3, 4]]})["f"], 8)

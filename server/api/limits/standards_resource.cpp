@@ -1,0 +1,185 @@
+#include "api/limits/standards_resource.hpp"
+
+#include <fmt/format.h>
+
+#include "api/limits/limits_codec.hpp"
+#include "api/wire/json_writer.hpp"
+#include "base/text.hpp"
+#include "standards/standard.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using standards::Cell;
+using standards::Member;
+using standards::Row;
+using standards::Standard;
+
+void write_identity(JsonWriter& json, const Standard& standard) {
+  json.member("name", standard.name)
+      .member("edition", standard.edition)
+      .member("title", standard.title)
+      .member("revision", std::string_view(standard.revision));
+  if (!standard.designation.empty()) json.member("designation", standard.designation);
+}
+
+http::Response response_of(std::string body, std::string etag) {
+  http::Response response(200, "application/json", std::move(body));
+  response.etag = std::move(etag);
+  return response;
+}
+
+Result<http::Response> list(const http::Request& /*request*/,
+                            const iso286::ToleranceTables& /*tables*/) {
+  std::string body;
+  std::string etag = "\"";
+  JsonWriter json(body);
+  json.begin_object().key("standards").begin_array();
+  for (const Standard& standard : standards::all()) {
+    json.begin_object();
+    write_identity(json, standard);
+    json.key("tables").begin_array();
+    for (const standards::Table& table : standard.tables) json.value(table.name);
+    json.end_array().key("sources").begin_array();
+    for (const std::string_view source : standard.sources) json.value(source);
+    json.end_array().end_object();
+    etag += standard.revision.substr(standard.revision.size() - 8);
+  }
+  json.end_array().end_object();
+  return response_of(std::move(body), etag + '"');
+}
+
+void write_cell(JsonWriter& json, const Cell& cell) {
+  const Length length = Length::nanometres(cell.count);
+  switch (cell.member) {
+    case Member::Nominal: json.member_mm("nominal_mm", length); break;
+    case Member::Upper: json.member_um("upper_um", length); break;
+    case Member::Lower: json.member_um("lower_um", length); break;
+    case Member::Tolerance: json.member_um("tolerance_um", length); break;
+    case Member::Deviation: json.member_um("deviation_um", length); break;
+    case Member::UpperAngle: json.member("upper_arcmin", cell.count); break;
+    case Member::LowerAngle: json.member("lower_arcmin", cell.count); break;
+  }
+}
+
+/// The width of a keyway in the classes of its fits: tight, light, sliding (DIN 6885-1, table 1).
+void write_widths(JsonWriter& json, Length width, const iso286::ToleranceTables& tables) {
+  const auto size = iso286::NominalSize::make(width);
+  for (const std::string_view name : {"P9", "N9", "JS9", "H8", "D10"}) {
+    const auto limits = tables.limits_of_size(*size, name);
+    if (!limits) continue;
+    json.key(fmt::format("width_{}", name))
+        .begin_object()
+        .member("designation", designation_text(width, name))
+        .member_mm("nominal_mm", width)
+        .member_um("upper_um", limits->deviations.upper)
+        .member_um("lower_um", limits->deviations.lower)
+        .end_object();
+  }
+}
+
+void write_row(JsonWriter& json, std::string_view table, const Row& row,
+               const iso286::ToleranceTables& tables) {
+  json.begin_object().member("table", table);
+  const auto key = [&json](std::string_view name, const std::optional<Length>& value) {
+    if (value) json.member_mm(name, *value);
+  };
+  key("over_mm", row.over);
+  key("up_to_mm", row.up_to);
+  key("pitch_mm", row.pitch);
+  key("diameter_mm", row.diameter);
+  json.key("limits").begin_object();
+  std::string_view item;
+  for (const Cell& cell : row.cells) {
+    if (cell.item != item) {
+      if (!item.empty()) json.end_object();
+      item = cell.item;
+      json.key(item).begin_object();
+    }
+    write_cell(json, cell);
+  }
+  if (!item.empty()) json.end_object();
+  if (table == "keyways") {
+    write_widths(json, *row.length("width", Member::Nominal), tables);
+  }
+  json.end_object().end_object();
+}
+
+Result<http::Response> rows(const http::Request& request, const iso286::ToleranceTables& tables) {
+  const std::string_view name = *request.text("name");
+  const Standard* standard = standards::find(name);
+  if (standard == nullptr) {
+    std::string known;
+    for (const Standard& other : standards::all()) {
+      known += fmt::format("{}{}", known.empty() ? "" : ", ", other.name);
+    }
+    return Error{ErrorCode::NotFound,
+                 fmt::format("there are no numbers of '{}': there are those of {}",
+                             first_characters(name, 40), known)};
+  }
+  const auto size = request.length("size_mm");
+  const auto only = request.text("table");
+  std::string body;
+  JsonWriter json(body);
+  json.begin_object();
+  write_identity(json, *standard);
+  json.key("rows").begin_array();
+  bool has_table = false;
+  for (const standards::Table& table : standard->tables) {
+    if (only && *only != table.name) continue;
+    has_table = true;
+    for (const Row& row : table.rows) {
+      if (!size || row.holds(*size)) write_row(json, table.name, row, tables);
+    }
+  }
+  json.end_array().end_object();
+  if (!has_table) {
+    return Error{ErrorCode::QueryInvalid,
+                 fmt::format("{} has no table '{}': GET /v1/standards names them", name,
+                             first_characters(*only, 40)),
+                 "table"};
+  }
+  // A shop's own columns may stand for the widths of a keyway.
+  const std::string own = etag_of(tables);
+  return response_of(std::move(body),
+                     etag_of(*standard).insert(1, own.substr(1, own.size() - 2) + '.'));
+}
+
+}  // namespace
+
+void add_standards_routes(std::vector<http::Route>& routes,
+                          const std::shared_ptr<ResponseCache>& cache) {
+  routes.push_back({
+      .pattern = "/v1/standards",
+      .handler = ResponseCache::cached(cache, list),
+      .summary = "The standards beside ISO 286 that there are numbers of",
+      .description = "Their editions, tables and what the numbers were compared with.",
+      .access = "open",
+      .operation = "listStandards",
+      .tag = "limits",
+      .outcomes = {{.meaning = "The standards", .schema = "Standards"}},
+  });
+  routes.push_back({
+      .pattern = "/v1/standards/{name}",
+      .handler = ResponseCache::cached(cache, rows),
+      .summary = "The numbers of a standard: general tolerances, threads, keyways, bearings",
+      .description = "Deviations in µm, nominal sizes in mm, angles in minutes; what the standard "
+                     "has no number for is absent.",
+      .parameters = {{.name = "name",
+                      .place = http::ParameterPlace::Path,
+                      .description = "iso2768-1, iso965-1, din6885-1 or iso492"},
+                     {.name = "size_mm",
+                      .type = http::LengthIn{},
+                      .description =
+                          "Only rows that hold for this size: of a keyway the diameter of "
+                          "its shaft"},
+                     {.name = "table", .description = "Only this table"}},
+      .access = "open",
+      .operation = "getStandard",
+      .tag = "limits",
+      .outcomes = {{.meaning = "Its rows", .schema = "Standard"}},
+      .refusals = {404},
+  });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/length.hpp"
+#include "base/result.hpp"
+#include "iso286/feature.hpp"
+#include "iso286/limit_deviations.hpp"
+#include "iso286/nominal_size.hpp"
+#include "standards/standard.hpp"
+
+namespace fitgauge::standards {
+
+/// The limits that a designation of another standard than ISO 286 stands for. All lengths are
+/// exact.
+struct DesignatedLimits {
+  const Standard* standard = nullptr;  ///< never null
+  /// What the designation says beside the nominal size: `ISO 2768-m`, `R ISO 2768-m` of a broken
+  /// edge. Of a thread, whose nominal size here is the basic pitch diameter, all of it: `M10-6H`.
+  /// Stays as long as the program runs.
+  std::string_view tolerance_class;
+  iso286::Feature feature = iso286::Feature::Shaft;
+  bool feature_is_open = false;  ///< it also stands for an inside dimension
+  Length nominal;
+  iso286::LimitDeviations deviations;
+  std::optional<iso286::NominalSizeRange> size_range;  ///< of general tolerances
+
+  Length upper_limit() const { return nominal + deviations.upper; }
+  Length lower_limit() const { return nominal + deviations.lower; }
+  std::string designation() const;
+};
+
+/// Whether a designation is meant to be one of these: it begins with M, R or C and a digit, or
+/// names ISO 2768. None of them is one of ISO 286.
+bool is_designation(std::string_view text);
+/// Whether a class is one that stands beside a nominal size: `ISO 2768-m`.
+bool is_class(std::string_view text);
+
+/// Reads `M10-6H`, `M10x1.25-6g`, `M10×1,25-5g6g` (the first class is that of the pitch diameter;
+/// diameters of ISO 261; without a pitch the coarse one), `25 ISO 2768-m`, and `R2 ISO 2768-m` or
+/// `C2 ISO 2768-m` of a broken edge.
+/// @errors DesignationMalformed; LengthTooFine; ClassUnknown: a position or grade that the standard
+///   does not have; ClassUndefinedForSize: a diameter or pitch that it has no number for;
+///   SizeOutOfRange.
+Result<DesignatedLimits> limits_of(std::string_view designation);
+/// The same of a class beside its size. @pre is_class
+Result<DesignatedLimits> limits_of(Length nominal, std::string_view tolerance_class);
+
+/// `25 H7`, `M10-6H`, `R2 ISO 2768-m`: a nominal size and a class, of whatever standard.
+void append_designation(std::string& out, Length nominal, std::string_view tolerance_class);
+
+}  // namespace fitgauge::standards

@@ -1,0 +1,121 @@
+"""Limits and verdicts by the designations of other standards: threads and general tolerances; the tables of all."""
+
+import sqlite3
+
+from support.daemon import DaemonTest
+
+
+class Standards(DaemonTest):
+    def limits(self, path):
+        answer = self.daemon.get(path)
+        self.assertEqual(answer.status, 200, answer)
+        return answer.json
+
+    def test_a_thread_has_the_limits_of_its_pitch_diameter(self):
+        # ISO 965-2 prints 9.026 to 9.206 for M10-6H.
+        nut = self.limits("/v1/limits/M10-6H")
+        self.assertEqual((nut["nominal_mm"], nut["lower_limit_mm"], nut["upper_limit_mm"]), (9.026, 9.026, 9.206))
+        self.assertEqual((nut["designation"], nut["feature"], nut["basis"]), ("M10-6H", "hole", "standard"))
+        self.assertRegex(nut["table_revision"], r"^ISO 965-1:2013-[0-9a-f]{8}$")
+        bolt = self.limits("/v1/limits/M10%C3%971,25-6g")
+        self.assertEqual((bolt["designation"], bolt["lower_limit_mm"], bolt["upper_limit_mm"]),
+                         ("M10x1.25-6g", 9.042, 9.16))
+        for path, status, code in (("M10-6X", 404, "class.unknown"), ("M10-6", 400, "designation.malformed"),
+                                   ("M15-6H", 422, "class.undefined_for_size")):
+            answer = self.daemon.get(f"/v1/limits/{path}")
+            self.assertEqual((answer.status, answer.json["code"]), (status, code), path)
+
+    def test_a_general_tolerance_is_outside_unless_said(self):
+        by_designation = self.limits("/v1/limits/25%20ISO%202768-m")
+        self.assertEqual(by_designation, self.limits("/v1/limits?nominal_mm=25&tolerance_class=ISO%202768-m"))
+        self.assertEqual((by_designation["lower_limit_mm"], by_designation["upper_limit_mm"]), (24.8, 25.2))
+        self.assertEqual(by_designation["size_range_mm"], {"over": 6, "up_to": 30})
+        path = "/v1/verdicts/25%20ISO%202768-m?measured_mm=25.3"
+        self.assertEqual(self.limits(path)["verdict"], "rework")
+        self.assertEqual(self.limits(path + "&feature=hole")["verdict"], "reject")
+        self.assertEqual(self.daemon.get("/v1/verdicts/25H7?measured_mm=25&feature=shaft").status, 400)
+
+    def test_stored_verdicts_name_their_edition_and_are_verified(self):
+        rows = [{"designation": "M10-6H", "measured_mm": 9.1}, {"designation": "M10x1.5-6H", "measured_mm": 9.3},
+                {"designation": "25 ISO 2768-m", "measured_mm": 25.3, "feature": "hole"},
+                {"nominal_mm": 25, "tolerance_class": "ISO 2768-m", "measured_mm": 25.1},
+                {"designation": "R5 ISO 2768-m", "measured_mm": 5.2}, {"designation": "25 H7", "measured_mm": 25.01}]
+        answer = self.daemon.post("/v1/measurements", rows, {"Prefer": "return=representation"})
+        self.assertEqual(answer.status, 201, answer)
+        records = answer.json["measurements"]
+        self.assertEqual([r["verdict"] for r in records], ["good", "reject", "reject", "good", "good", "good"])
+        self.assertEqual([r["designation"] for r in records],
+                         ["M10-6H", "M10-6H", "25 ISO 2768-m", "25 ISO 2768-m", "R5 ISO 2768-m", "25 H7"])
+        for record in records:
+            self.assertEqual(self.daemon.get(f"/v1/measurements/{record['id']}").json, record)
+        self.assertEqual({r["table_revision"].rsplit("-", 1)[0] for r in records[:5]},
+                         {"ISO 965-1:2013", "ISO 2768-1:1989"})
+        listed = self.limits("/v1/measurements?designation=M10x1.5-6H")["measurements"]
+        self.assertEqual([r["id"] for r in listed], [r["id"] for r in records[:2]])
+        listed = self.limits("/v1/measurements?designation=25%20ISO%202768-m")["measurements"]
+        self.assertEqual(len(listed), 2)
+        correction = self.daemon.post(f"/v1/measurements/{records[0]['id']}/corrections",
+                                      {"measured_mm": 9.21, "reason": "read wrong"})
+        self.assertEqual((correction.status, correction.json["designation"], correction.json["verdict"]),
+                         (201, "M10-6H", "reject"))
+        self.daemon.stop()
+        self.daemon.start()  # the editions keep their numbers
+        self.assertEqual(self.daemon.get(f"/v1/measurements/{records[4]['id']}").json, records[4])
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+    def test_bad_rows_say_which_field(self):
+        for row, pointer, code in (
+                ({"designation": "M10-6k", "measured_mm": 9}, "/designation", "class.unknown"),
+                ({"designation": "M10-6H", "measured_mm": 9, "feature": "hole"}, "/feature", "field.conflict"),
+                ({"designation": "25 ISO 2768-mK", "measured_mm": 25}, "/designation", "class.unknown"),
+                ({"nominal_mm": 5000, "tolerance_class": "ISO 2768-m", "measured_mm": 25}, "/tolerance_class",
+                 "class.undefined_for_size"),
+                ({"designation": "25 H7", "measured_mm": 25, "probability": 0.9}, "/probability", "rule.invalid"),
+                ({"designation": "25 H7", "measured_mm": 25, "rule": "guard_band", "uncertainty_um": 1,
+                  "probability": 0.9}, "/probability", "rule.invalid")):
+            with self.subTest(row):
+                answer = self.daemon.measure(row)
+                self.assertEqual(answer.status, 422, answer)
+                self.assertEqual([(e["pointer"], e["code"]) for e in answer.json["errors"]], [(pointer, code)])
+        answer = self.daemon.get("/v1/verdicts/25H7?measured_mm=25&probability=0.9")
+        self.assertEqual((answer.status, answer.json["code"]), (422, "rule.invalid"))
+
+    def test_tables_answer_by_size(self):
+        names = {s["name"]: s for s in self.limits("/v1/standards")["standards"]}
+        self.assertEqual(set(names), {"iso2768-1", "iso965-1", "din6885-1", "iso492"})
+        self.assertTrue(all(len(s["sources"]) >= 2 for s in names.values()))
+        keyway, = self.limits("/v1/standards/din6885-1?size_mm=25")["rows"]
+        self.assertEqual(keyway["limits"]["hub_depth"], {"nominal_mm": 3.3, "upper_um": 200, "lower_um": 0})
+        # 8 P9 is -15/-51 by ISO 286-2.
+        self.assertEqual(keyway["limits"]["width_P9"],
+                         {"designation": "8 P9", "nominal_mm": 8, "upper_um": -15, "lower_um": -51})
+        bearing, = self.limits("/v1/standards/iso492?size_mm=25&table=bores")["rows"]
+        self.assertEqual(bearing["limits"]["P6"], {"upper_um": 0, "lower_um": -8})
+        linear, edges, angles = self.limits("/v1/standards/iso2768-1?size_mm=25")["rows"]
+        self.assertEqual(linear["limits"]["m"], {"upper_um": 200, "lower_um": -200})
+        self.assertEqual(edges["limits"]["c"], {"upper_um": 2000, "lower_um": -2000})
+        self.assertEqual(angles["limits"]["v"], {"upper_arcmin": 120, "lower_arcmin": -120})
+        self.assertNotIn("up_to_mm", edges)
+        threads = self.limits("/v1/standards/iso965-1?size_mm=10&table=pitch_diameters")["rows"]
+        coarse = next(r for r in threads if r["pitch_mm"] == 1.5)
+        self.assertEqual(coarse["limits"]["internal_6"], {"tolerance_um": 180})
+        answer = self.daemon.get("/v1/standards/iso1")
+        self.assertEqual((answer.status, answer.json["code"]), (404, "resource.not_found"))
+        self.assertEqual(self.daemon.get("/v1/standards/iso492?table=x").status, 400)
+        first = self.daemon.get("/v1/standards/iso492")
+        again = self.daemon.get("/v1/standards/iso492", If_None_Match=first.headers["etag"])
+        self.assertEqual(again.status, 304)
+
+
+class AlteredLimits(DaemonTest):
+    def test_verify_judges_by_the_edition(self):
+        self.daemon.measure({"designation": "M10-6H", "measured_mm": 9.1})
+        self.daemon.stop()
+        database = sqlite3.connect(self.daemon.database)
+        database.execute("DROP TRIGGER measurements_are_not_updated")
+        database.execute("UPDATE measurements SET upper_deviation_nm = 190000")
+        database.commit()
+        database.close()
+        found = self.daemon.command("verify")
+        self.assertEqual(found.returncode, 1)
+        self.assertIn("has limits that M10-6H does not give by ISO 965-1:2013", found.stdout + found.stderr)
