@@ -259,8 +259,10 @@ void add_records(CLI::App& app, Action& chosen) {
   CLI::App* out = add_command(app, "export", "Write all stored measurements that match", chosen,
                               query, run_export);
   add_filters(*out, query);
-  out->add_option("--format", query->format, "csv or ndjson")
-      ->check(CLI::IsMember({"csv", "ndjson"}));
+  out->add_option("--format", query->format, "csv, ndjson, dfq of Q-DAS, qif or xlsx")
+      ->check(CLI::IsMember({"csv", "ndjson", "dfq", "qif", "xlsx"}));
+  out->add_option("--time-zone", query->time_zone,
+                  "Of the times of dfq and xlsx: Europe/Berlin; else UTC");
   out->add_option("--output,-o", query->output, "File, else standard output");
 
   query = std::make_shared<RecordQuery>();

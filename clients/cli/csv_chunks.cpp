@@ -28,7 +28,7 @@ std::size_t skip_quoted(std::string_view text, std::size_t begin) {
 
 std::optional<CsvRecord> first_record(std::string_view text, char separator, bool ended) {
   std::size_t lines = 0;
-  bool cell_begins = true;
+  bool cell_begins = separator != kNoCells;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
     if (c == '"' && cell_begins) {
@@ -86,6 +86,11 @@ Outcome<void> CsvChunks::read_header() {
   pass(header->size);
   position_ = {.bytes = header->size, .lines = header_lines_, .sha256 = digest_.digest()};
   return {};
+}
+
+void CsvChunks::begin_with_rows() {
+  separator_ = kNoCells;
+  position_.sha256 = digest_.digest();
 }
 
 void CsvChunks::pass(std::size_t size) {

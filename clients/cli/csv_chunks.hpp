@@ -13,6 +13,8 @@
 
 namespace fitgauge::cli {
 
+inline constexpr char kNoCells = '\n';
+
 /// One record of a CSV text (RFC 4180), measured only.
 struct CsvRecord {
   std::size_t size = 0;   ///< bytes, with the line end
@@ -21,6 +23,7 @@ struct CsvRecord {
 };
 
 /// The record `text` begins with, ended by LF, CRLF or CR outside quotes, as the service reads it.
+/// @param separator kNoCells: a quote is a character like any other.
 /// @param ended whether the input ends with `text`
 /// @returns nothing when more has to be read, or when there is nothing.
 std::optional<CsvRecord> first_record(std::string_view text, char separator, bool ended);
@@ -65,6 +68,9 @@ class CsvChunks {
 
   /// To be called first. @errors LocalFile when the input is empty or cannot be read.
   Outcome<void> read_header();
+
+  /// Instead, where each line is a record and none a header: NDJSON.
+  void begin_with_rows();
 
   /// Behind what was taken last: the header at first.
   const CsvPosition& position() const { return position_; }

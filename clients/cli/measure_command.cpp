@@ -7,9 +7,11 @@
 
 #include "cli/input_file.hpp"
 #include "cli/measure_dfq.hpp"
+#include "cli/measure_ndjson.hpp"
 #include "cli/measure_table.hpp"
 #include "cli/progress.hpp"
 #include "cli/retry.hpp"
+#include "sheet/exported_record.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -77,6 +79,8 @@ class Upload {
  private:
   Outcome<CsvChunks> open_input() {
     if (is_dfq(options_.input)) return open_dfq();
+    if (qif::is_qif(options_.input)) return open_qif();
+    if (sheet::is_ndjson(options_.input)) return open_ndjson();
     if (is_converted(options_)) return open_converted();
     auto opened = InputFile::open(options_.input);
     if (!opened) return opened.error();
@@ -93,7 +97,11 @@ class Upload {
     auto text = converted_table(*bytes, options_);
     if (!text)
       return Failure{text.error().exit_code, fmt::format("{}: {}", name_, text.error().message)};
-    const auto whole = std::make_shared<std::string>(*std::move(text));
+    return open_text(*std::move(text));
+  }
+
+  Outcome<CsvChunks> open_text(std::string text) {
+    const auto whole = std::make_shared<std::string>(std::move(text));
     const auto taken = std::make_shared<std::size_t>(0);
     progress_.bytes_in_all = whole->size();
     return begin_chunks([whole, taken](std::span<char> into) -> Outcome<std::size_t> {
@@ -103,12 +111,34 @@ class Upload {
     });
   }
 
+  Outcome<CsvChunks> open_qif() {
+    auto read = read_qif_input(context_, options_);
+    if (!read) return read.error();
+    lines_ = std::move(read->lines);
+    return open_text(std::move(read->csv));
+  }
+
   /// The values as rows, however large the file is.
   Outcome<CsvChunks> open_dfq() {
     auto opened = DfqInput::open(context_, options_);
     if (!opened) return opened.error();
     const auto input = std::make_shared<DfqInput>(*std::move(opened));
     return begin_chunks([input](std::span<char> into) { return input->read(into); });
+  }
+
+  Outcome<CsvChunks> open_ndjson() {
+    if (is_converted(options_)) {
+      return Failure{ExitCode::Usage,
+                     "--map, --set, --encoding, --time-zone and --leave-out-others are of tables: "
+                     "a line of NDJSON has the names of the service"};
+    }
+    auto opened = NdjsonInput::open(options_.input);
+    if (!opened) return opened.error();
+    const auto input = std::make_shared<NdjsonInput>(*std::move(opened));
+    CsvChunks chunks([input](std::span<char> into) { return input->read(into); },
+                     {.rows = options_.chunk_rows});
+    chunks.begin_with_rows();
+    return chunks;
   }
 
   Outcome<CsvChunks> begin_chunks(CsvChunks::Read read) {
@@ -187,7 +217,7 @@ class Upload {
         {.method = "POST",
          .target = "/v1/measurements",
          .headers = {"Idempotency-Key: " + chunk_key(state_, chunk.end)},
-         .content_type = "text/csv",
+         .content_type = sheet::is_ndjson(options_.input) ? "application/x-ndjson" : "text/csv",
          .body = chunk.body},
         Backoff(context_.retry_budget),
         [this](const Failure& failure, std::chrono::milliseconds wait) { notice(failure, wait); });
@@ -226,8 +256,7 @@ class Upload {
     if (const auto kept = journal_.append(state_); !kept) return kept.error();
     line_.clear();
     fmt::print(stderr, "{}", explain_rows(*problem, name_, [&](std::uint64_t body_line) {
-                 const std::uint64_t line = chunks.input_line(chunk, body_line);
-                 return is_dfq(options_.input) ? DfqInput::line_of(context_, options_, line) : line;
+                 return line_in_file(chunks.input_line(chunk, body_line));
                }));
     const bool explained = problem->fields.empty() && !problem->where.empty();
     return Failure{
@@ -238,21 +267,25 @@ class Upload {
                     last_line(chunk), grouped(state_.counts.sum()))};
   }
 
+  /// Of a line of the text that is sent.
+  std::uint64_t line_in_file(std::uint64_t line) const {
+    if (is_dfq(options_.input)) return DfqInput::line_of(context_, options_, line);
+    if (lines_.empty()) return line;
+    return lines_.at(std::clamp<std::uint64_t>(line, 2, lines_.size() + 1) - 2);
+  }
   std::uint64_t first_line(const CsvChunk& chunk) const {
-    const std::uint64_t line = chunk.begin.lines + 1;
-    return is_dfq(options_.input) ? DfqInput::line_of(context_, options_, line) : line;
+    return line_in_file(chunk.begin.lines + 1);
   }
-  std::uint64_t last_line(const CsvChunk& chunk) const {
-    return is_dfq(options_.input) ? DfqInput::line_of(context_, options_, chunk.end.lines)
-                                  : chunk.end.lines;
-  }
+  std::uint64_t last_line(const CsvChunk& chunk) const { return line_in_file(chunk.end.lines); }
 
   Outcome<ExitCode> finish() {
     state_.complete = true;
     if (const auto kept = journal_.append(state_); !kept) return kept.error();
     line_.clear();
     if (state_.counts.sum() == 0) {
-      return Failure{ExitCode::LocalFile, name_ + ": there is no row below the header"};
+      return Failure{ExitCode::LocalFile, name_ + (sheet::is_ndjson(options_.input)
+                                                       ? ": there is no record"
+                                                       : ": there is no row below the header")};
     }
     if (rows_sent_ == 0) {
       context_.note(name_ + ": every row was stored before; --again stores them once more");
@@ -280,6 +313,7 @@ class Upload {
   const std::string name_;  // of the input
   MeasureJournal journal_;
   MeasureState state_;
+  std::vector<std::uint32_t> lines_;  // of a QIF, for each row
   std::uint64_t rows_sent_ = 0;
   Progress progress_;
   Clock::time_point began_ = Clock::now();

@@ -45,6 +45,20 @@ struct DfqInput::State {
 
 bool is_dfq(const std::string& path) { return ascii_lower(path).ends_with(".dfq"); }
 
+Outcome<qif::QifText> read_qif_input(const Context& context, const MeasureOptions& options) {
+  auto table = table_options(options);
+  if (!table) return table.error();
+  const auto text = read_file(options.input);
+  if (!text) return text.error();
+  auto read = qif::read_qif(*text, {.constants = table->constants,
+                                    .zone = table->zone,
+                                    .length_unit = aqdef::length_unit(options.length_unit),
+                                    .leaves_out_others = table->leaves_out_others,
+                                    .limits_of = limits_by(context)});
+  if (read) return *std::move(read);
+  return Failure{ExitCode::LocalFile, fmt::format("{}: {}", options.input, read.error().message)};
+}
+
 Outcome<DfqInput> DfqInput::open(const Context& context, const MeasureOptions& options) {
   auto table = table_options(options);
   if (!table) return table.error();

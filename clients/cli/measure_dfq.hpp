@@ -8,11 +8,15 @@
 #include "cli/context.hpp"
 #include "cli/measure_command.hpp"
 #include "cli/outcome.hpp"
+#include "qif/qif_csv.hpp"
 
 namespace fitgauge::cli {
 
 /// Whether a file is a DFQ of Q-DAS, by its name.
 bool is_dfq(const std::string& path);
+
+/// A QIF as rows, with the line of the document for each. @errors Usage, LocalFile
+Outcome<qif::QifText> read_qif_input(const Context& context, const MeasureOptions& options);
 
 /// A DFQ as the CSV that the service takes, read from front to back in a bounded piece of memory.
 class DfqInput {

@@ -110,11 +110,12 @@ Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
 }
 
 Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
-  const bool ndjson = query.format == "ndjson" || (query.format.empty() && context.json);
-  const std::string type = ndjson ? "application/x-ndjson" : "text/csv";
+  const std::string usual = context.json ? "ndjson" : "csv";
+  const std::string& format = query.format.empty() ? usual : query.format;
   Output output(query.output);
   const auto answer = context.client.stream(
-      {.target = record_target("/v1/measurements", query), .headers = {"Accept: " + type}},
+      {.target = record_target("/v1/measurements", query,
+                               {{"format", format}, {"time_zone", query.time_zone}})},
       [&output](std::string_view piece) { return output.write(piece); });
   const auto good = expect_ok(answer, context.client.url());
   return good ? output.finish() : good.error();

@@ -39,7 +39,8 @@ struct RecordQuery {
   std::array<std::string, kRecordFilters.size()> filters{};
   std::uint64_t limit = 100;  ///< of list
   std::string after{};        ///< of list: where the page before ended
-  std::string format{};       ///< of export: csv or ndjson
+  std::string format{};       ///< of export: csv, ndjson, dfq, qif or xlsx
+  std::string time_zone{};    ///< of export: of the times of dfq and xlsx
   std::string output{};       ///< of export: a file; - or empty is standard output
   std::string group_by{};     ///< of summary
 };

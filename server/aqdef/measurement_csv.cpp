@@ -9,6 +9,7 @@
 #include "aqdef/measurement_places.hpp"
 #include "base/clock.hpp"
 #include "base/text.hpp"
+#include "sheet/csv_cell.hpp"
 
 namespace fitgauge::aqdef {
 namespace {
@@ -26,28 +27,6 @@ constexpr std::array<std::size_t, 3> kCarriedCells = {3, 5, 8};
 bool is_ascii(std::string_view text) {
   return std::all_of(text.begin(), text.end(),
                      [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-}
-
-/// An apostrophe guards a text that a spreadsheet would run, and the reader takes it away.
-bool wants_guard(std::string_view text) {
-  const std::size_t first = text.find_first_not_of('\'');
-  return first != std::string_view::npos &&
-         std::string_view("=+-@\t").find(text[first]) != std::string_view::npos;
-}
-
-void append_cell(std::string& out, std::string_view text, bool is_chosen) {
-  const bool guard = is_chosen && wants_guard(text);
-  if (text.find_first_of(";\"\r") == std::string_view::npos) {
-    if (guard) out += '\'';
-    out += text;
-    return;
-  }
-  out += guard ? "\"'" : "\"";
-  for (const char c : text) {
-    if (c == '"') out += c;
-    out += c;
-  }
-  out += '"';
 }
 
 }  // namespace
@@ -234,7 +213,9 @@ Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& v
   take_comment(set_of, value, prepared);
   for (std::size_t place = 0; place < row_.size(); ++place) {
     if (place > 0) rows += ';';
-    append_cell(rows, row_[place], place >= kPartId && place <= kSubgroup);
+    const auto append =
+        place >= kPartId && place <= kSubgroup ? sheet::append_csv_text : sheet::append_csv_cell;
+    append(rows, row_[place], sheet::CsvSeparator::Semicolon);
   }
   rows += '\n';
   return {};

@@ -7,6 +7,7 @@
 #include "api/measurements/measurement_batch.hpp"
 #include "aqdef/measurement_csv.hpp"
 #include "base/text.hpp"
+#include "qif/qif_csv.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -32,20 +33,6 @@ Result<void> append_all(aqdef::MeasurementCsv& csv, DfqText& text) {
           fmt::format("it has more than {} values: cut it into several files", api::kMostRows)};
     }
   }
-}
-
-/// How a record is judged, as far as that is not by its limits alone.
-std::string rule_of(const app::Measurement& m) {
-  std::string rule;
-  const auto say = [&rule](std::string_view name, std::string_view text) {
-    if (!rule.empty()) rule += ';';
-    rule += fmt::format("{}={}", name, text);
-  };
-  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
-  if (m.standard_uncertainty) say("uncertainty_um", format_um(*m.standard_uncertainty));
-  if (m.coverage_factor) say("coverage_factor", format(*m.coverage_factor));
-  if (m.conformance) say("probability", format(m.rule.probability()));
-  return rule;
 }
 
 }  // namespace
@@ -85,6 +72,18 @@ Result<DfqText> read_dfq(const FolderInOptions& options, const iso286::Tolerance
   return text;
 }
 
+Result<DfqText> read_qif_file(const FolderInOptions& options, const iso286::ToleranceTables& tables,
+                              std::string_view text) {
+  auto read = qif::read_qif(text, {.constants = options.csv.constants,
+                                   .zone = options.csv.zone,
+                                   .length_unit = options.length_unit,
+                                   .leaves_out_others = options.csv.leaves_out_others,
+                                   .limits_of = limits_by(tables),
+                                   .most_rows = api::kMostRows});
+  if (!read) return read.error();
+  return DfqText{.csv = std::move(read->csv), .lines = std::move(read->lines)};
+}
+
 Error at_lines_of(const DfqText& text, Error error) {
   for (Error& field : error.details) {
     for (Error& place : field.details) {
@@ -96,32 +95,6 @@ Error at_lines_of(const DfqText& text, Error error) {
     }
   }
   return error;
-}
-
-Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
-  if (m.source != app::Source::Gauge) {
-    return Error{ErrorCode::FieldInvalid, "it is of a simulation, which a DFQ cannot say"};
-  }
-  const std::string rule = rule_of(m);
-  aqdef::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
-  value.measured = m.decisive();
-  value.nominal = m.nominal_size;
-  if (m.has_upper_limit()) value.limits.upper = m.upper_limit();
-  if (m.has_lower_limit()) value.limits.lower = m.lower_limit();
-  value.class_name = m.class_name.value_or("");
-  value.is_hole = m.feature == iso286::Feature::Hole;
-  value.rule = rule;
-  value.part_id = m.texts.part_id.value_or("");
-  value.characteristic = m.texts.characteristic.value_or("");
-  value.order = m.texts.order.value_or("");
-  value.operation = m.texts.operation.value_or("");
-  value.machine = m.texts.machine.value_or("");
-  value.operator_name = m.texts.operator_id.value_or("");
-  value.gauge = m.texts.gauge.value_or("");
-  value.unit = m.texts.unit.value_or("");
-  value.comment = m.texts.comment.value_or("");
-  value.subgroup = m.texts.subgroup.value_or("");
-  return writer.add(value);
 }
 
 }  // namespace fitgauge::connections

@@ -20,7 +20,7 @@ bool is_values_alone(std::string_view file_name);
 /// Whether it is the description of such a file: a DFD.
 bool is_description(std::string_view file_name);
 
-/// A DFQ as CSV that /v1/measurements takes.
+/// A DFQ or QIF as CSV that /v1/measurements takes.
 struct DfqText {
   std::string csv{};
   std::vector<std::uint32_t> lines{};  ///< of the file, for each row
@@ -30,10 +30,11 @@ struct DfqText {
 Result<DfqText> read_dfq(const FolderInOptions& options, const iso286::ToleranceTables& tables,
                          std::string_view description, std::string_view values);
 
+/// The same of a QIF. @errors those of qif::read_qif
+Result<DfqText> read_qif_file(const FolderInOptions& options, const iso286::ToleranceTables& tables,
+                              std::string_view text);
+
 /// An error of the rows with the lines of the file instead of those of the CSV.
 Error at_lines_of(const DfqText& text, Error error);
-
-/// Adds a measurement. @errors those of aqdef::DfqWriter::add; FieldInvalid: it is of a simulation.
-Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& measurement);
 
 }  // namespace fitgauge::connections

@@ -8,9 +8,10 @@
 #include "api/measurements/measurement_batch.hpp"
 #include "api/measurements/measurement_row_fields.hpp"
 #include "base/digest.hpp"
-#include "base/text.hpp"
 #include "connections/dfq_file.hpp"
 #include "http/request.hpp"
+#include "qif/qif_csv.hpp"
+#include "sheet/exported_record.hpp"
 #include "sheet/measurement_fields.hpp"
 
 namespace fitgauge::connections {
@@ -38,16 +39,15 @@ static_assert(std::equal(sheet::kMeasurementFields.begin(), sheet::kMeasurementF
                            return name == field.name;
                          }));
 
-bool is_ndjson(std::string_view file_name) {
-  const std::string name = ascii_lower(file_name);
-  return name.ends_with(".ndjson") || name.ends_with(".jsonl");
-}
-
 /// A table or NDJSON as /v1/measurements takes it.
 Result<std::string> readable(const FolderInOptions& options, std::string_view file_name,
                              const std::string& bytes) {
-  return is_ndjson(file_name) ? sheet::to_utf8(bytes, options.csv.encoding)
-                              : sheet::shop_csv(bytes, options.csv, sheet::kMeasurementFields);
+  if (!sheet::is_ndjson(file_name)) {
+    return sheet::shop_csv(bytes, options.csv, sheet::kMeasurementFields);
+  }
+  const auto text = sheet::to_utf8(bytes, options.csv.encoding);
+  if (!text) return text.error();
+  return sheet::ndjson_as_given(*text);
 }
 
 }  // namespace
@@ -79,6 +79,11 @@ Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& 
     if (!read) return read.error();
     dfq = *std::move(read);
     text = std::move(dfq.csv);
+  } else if (qif::is_qif(file_name)) {
+    auto read = read_qif_file(options, **tables, bytes);
+    if (!read) return read.error();
+    dfq = *std::move(read);
+    text = std::move(dfq.csv);
   } else {
     auto read = readable(options, file_name, bytes);
     if (!read) return read.error();
@@ -87,13 +92,13 @@ Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& 
   text.reserve(text.size() + http::Request::kBodyPadding);
   const auto gauges = around.gauges.book();
   api::MeasurementBatch batch;
-  const auto decoded =
-      api::decode_measurements(text, is_ndjson(file_name) ? "application/x-ndjson" : "text/csv",
-                               {.tables = **tables,
-                                .received_at = around.clock.now(),
-                                .caller = options.name,
-                                .gauges = gauges.get()},
-                               batch);
+  const auto decoded = api::decode_measurements(
+      text, sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv",
+      {.tables = **tables,
+       .received_at = around.clock.now(),
+       .caller = options.name,
+       .gauges = gauges.get()},
+      batch);
   if (!decoded) return at_lines_of(dfq, decoded.error());
   const std::size_t rows = batch.rows.size();
   const app::IdempotencyScope scope{.caller = options.name,

@@ -21,9 +21,9 @@ struct FolderInOptions {
   std::string name{};  ///< of the connection
   std::filesystem::path folder{};
   std::vector<std::string> names{"*.csv", "*.txt", "*.ndjson", "*.jsonl",
-                                 "*.dfq", "*.dfd", "*.dfx"};  ///< in either case
-  sheet::ShopCsvOptions csv{};                                ///< of what is no NDJSON by its name
-  std::optional<aqdef::LengthUnit> length_unit{};             ///< of a DFQ that says none
+                                 "*.dfq", "*.dfd", "*.dfx",    "*.qif"};  ///< in either case
+  sheet::ShopCsvOptions csv{};                     ///< of what is no NDJSON by its name
+  std::optional<aqdef::LengthUnit> length_unit{};  ///< of a DFQ or QIF that says none
   std::chrono::seconds interval{10};  ///< between two looks; the kernel tells changes at once
   std::chrono::seconds rest{2};       ///< size and time must have been the same for so long
   std::size_t most_file_bytes = std::size_t{32} << 20;

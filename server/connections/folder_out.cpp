@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "api/measurements/measurement_codec.hpp"
+#include "api/measurements/measurement_dfq.hpp"
+#include "api/measurements/measurement_qif.hpp"
 #include "app/measurements/record.hpp"
 #include "base/text.hpp"
-#include "connections/dfq_file.hpp"
 #include "connections/whole_file.hpp"
 
 namespace fitgauge::connections {
@@ -30,6 +31,7 @@ struct File {
   std::int64_t last = 0;
   std::string text{};
   std::optional<aqdef::DfqWriter> dfq{};
+  std::optional<qif::QifWriter> qif{};
 };
 
 std::string_view key_of(const app::Measurement& measurement, Split split) {
@@ -57,7 +59,7 @@ class FolderOut final : public Outlet {
  private:
   std::vector<File> files_of(std::span<const Outgoing> measurements,
                              std::vector<app::DeadLetter>& refused) const;
-  /// @errors a DFQ cannot hold it.
+  /// @errors a DFQ or a QIF cannot hold it.
   Result<void> add(File& file, const app::Measurement& measurement) const;
   fs::path path_of(const File& file) const;
 
@@ -77,7 +79,10 @@ Result<void> FolderOut::add(File& file, const app::Measurement& measurement) con
       break;
     case Format::Dfq:
       if (!file.dfq) file.dfq.emplace(options_.dfq);
-      return add_to_dfq(*file.dfq, measurement);
+      return api::add_to_dfq(*file.dfq, measurement);
+    case Format::Qif:
+      if (!file.qif) file.qif.emplace();
+      return api::add_to_qif(*file.qif, measurement);
   }
   return {};
 }
@@ -104,6 +109,7 @@ std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements,
   }
   for (File& file : files) {
     if (file.dfq && !file.dfq->is_empty()) file.text = file.dfq->text();
+    if (file.qif && !file.qif->is_empty()) file.text = file.qif->text();
   }
   return files;
 }
@@ -111,7 +117,7 @@ std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements,
 fs::path FolderOut::path_of(const File& file) const {
   std::string name = fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
   if (!file.key.empty()) name += "-" + plain(file.key);
-  constexpr std::array<std::string_view, 3> kEndings = {".csv", ".ndjson", ".dfq"};
+  constexpr std::array<std::string_view, 4> kEndings = {".csv", ".ndjson", ".dfq", ".qif"};
   name += kEndings.at(static_cast<std::size_t>(options_.format));
   return options_.folder / name;
 }
@@ -178,10 +184,12 @@ FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions&
   FolderOutOptions options;
   options.follower.name = name;
   options.folder = read_path("folder", allowed, fields);
-  options.format =
-      read_word("format", fields, Format::Csv,
-                {{"csv", Format::Csv}, {"ndjson", Format::Ndjson}, {"dfq", Format::Dfq}},
-                "format is csv, ndjson or dfq");
+  options.format = read_word("format", fields, Format::Csv,
+                             {{"csv", Format::Csv},
+                              {"ndjson", Format::Ndjson},
+                              {"dfq", Format::Dfq},
+                              {"qif", Format::Qif}},
+                             "format is csv, ndjson, dfq or qif");
   read_dfq_options(fields, options.dfq);
   options.split =
       read_word("split", fields, Split::None,

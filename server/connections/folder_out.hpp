@@ -14,7 +14,7 @@ namespace fitgauge::connections {
 struct FolderOutOptions {
   FollowerOptions follower{};
   std::filesystem::path folder{};
-  enum class Format { Csv, Ndjson, Dfq } format = Format::Csv;
+  enum class Format { Csv, Ndjson, Dfq, Qif } format = Format::Csv;
   enum class Split { None, Part, Order } split = Split::None;  ///< a file has one of these alone
   aqdef::DfqOptions dfq{};
 };

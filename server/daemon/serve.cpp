@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "api/mtconnect/mtconnect_resource.hpp"
 #include "api/routes.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/service/guard.hpp"
@@ -85,11 +86,14 @@ http::Response answer_error(api::Metrics& metrics, const Error& error, std::opti
       request);
 }
 
-http::ServerHooks hooks(const api::Guard& guard, api::Metrics& metrics) {
+http::ServerHooks hooks(const api::Services& services, const api::Guard& guard,
+                        api::Metrics& metrics) {
   http::ServerHooks hooks;
-  hooks.format_error = [&metrics](const Error& error, std::optional<int> status,
-                                  const http::Request& request) {
-    return answer_error(metrics, error, status, request);
+  hooks.format_error = [&services, &metrics](const Error& error, std::optional<int> status,
+                                             const http::Request& request) {
+    auto response = answer_error(metrics, error, status, request);
+    if (!api::is_of_mtconnect(request)) return response;
+    return api::mtconnect_error(services, error, std::move(response));
   };
   hooks.guard = guard;
   hooks.finished = [&metrics](const http::FinishedRequest& finished) {
@@ -238,7 +242,8 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   const std::int64_t most_clients = allow_connections(config.max_connections);
   auto started = http::Server::start(
       server_options(config, *addresses, most_clients), api::make_routes(services),
-      hooks(api::Guard(app.keys(), mode,
+      hooks(services,
+            api::Guard(app.keys(), mode,
                        [](std::string_view what) { log_warning("proxy_suspected", what); }),
             metrics));
   if (!started) return started.error();

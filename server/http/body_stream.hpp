@@ -44,6 +44,10 @@ class BodyStream {
   /// thread. Pieces of 16 to 64 KiB serve best.
   virtual void next(ChunkSink sink) = 0;
 
+  /// Called on the I/O thread after each StreamedBody::heartbeat_interval in which the sink of
+  /// next() was kept: must not block.
+  virtual void idle() {}
+
   /// Called on the I/O thread when the connection has gone: next() is not called again and what a
   /// kept sink receives is dropped. A stream that keeps its sink drops it here.
   virtual void cancelled() {}

@@ -6,6 +6,8 @@
 #include <array>
 
 #include "base/text.hpp"
+#include "sheet/csv_cell.hpp"
+#include "sheet/exported_record.hpp"
 
 namespace fitgauge::sheet {
 namespace {
@@ -18,11 +20,6 @@ constexpr std::string_view kMeasuredAt = "measured_at";
 /// Columns that a list of /v1/measurements has as CSV, and no other table has all of.
 constexpr std::array<std::string_view, 5> kOfExport = {"id", "source", "basis", "verdict",
                                                        "upper_deviation_um"};
-/// What an export calls the fields of a drawing's limits; a class of the tables says them as well.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kLimitsOfExport = {
-    {{"feature", "feature"},
-     {"upper_deviation_um", "upper_um"},
-     {"lower_deviation_um", "lower_um"}}};
 
 Error at_line(ErrorCode code, std::size_t line, std::string_view what) {
   return {code, fmt::format("line {} {}", line, what), fmt::format("line {}", line)};
@@ -139,19 +136,6 @@ char separator_of(std::string_view header) {
   return ',';
 }
 
-void append_cell(std::string& out, std::string_view text) {
-  if (text.find_first_of(";\"\r\n") == std::string_view::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  out += '"';
-}
-
 class Converter {
  public:
   Converter(const ShopCsvOptions& options, std::span<const std::string_view> fields)
@@ -204,8 +188,7 @@ Result<void> Converter::check_export(const Record& record) {
   if (!basis_) return {};
   has_drawn_limits_ = record.cells[*basis_] == "explicit";
   if (record.cells[*source_] == "gauge") return {};
-  return at_line(ErrorCode::CsvMalformed, record.line,
-                 "is of a simulation, and would come in as measured: export with source=gauge");
+  return at_line(ErrorCode::CsvMalformed, record.line, kOfSimulation);
 }
 
 void Converter::read_header(const Record& record) {
@@ -228,7 +211,7 @@ void Converter::read_header(const Record& record) {
   const auto append = [&](std::string_view name) {
     if (!is_first) out_ += ';';
     is_first = false;
-    append_cell(out_, name);
+    append_csv_cell(out_, name, CsvSeparator::Semicolon);
   };
   for (const std::string& name : header_) {
     if (name.empty() || name == kDate || name == kTime) continue;
@@ -283,7 +266,7 @@ Result<void> Converter::convert_row(const Record& record) {
     if (!is_first) out_ += ';';
     is_first = false;
     inside += static_cast<std::size_t>(std::count(value.begin(), value.end(), '\n'));
-    append_cell(out_, value);
+    append_csv_cell(out_, value, CsvSeparator::Semicolon);
   };
   for (std::size_t i = 0; i < header_.size(); ++i) {
     const std::string& field = header_[i];

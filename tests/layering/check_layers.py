@@ -16,7 +16,7 @@ FOLDERS = {
     "store": "db/store", "sql": "db/sql", "sqlite": "db/sqlite", "postgres": "db/postgres", "gauging": "server/gauging", "metrology": "server/metrology", "klartext": "server/klartext",
     "machine": "server/machine", "probing": "server/probing",
     "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http", "http_client": "server/http_client", "tlog": "server/tlog",
-    "control_link": "server/control_link", "log_reader": "server/log_reader", "certificate": "server/certificate", "sheet": "server/sheet", "aqdef": "server/aqdef",
+    "control_link": "server/control_link", "log_reader": "server/log_reader", "certificate": "server/certificate", "sheet": "server/sheet", "aqdef": "server/aqdef", "qif": "server/qif", "workbook": "server/workbook",
     "api": "server/api", "virtual_control": "server/virtual_control", "collector": "server/collector", "forwarder": "server/forwarder", "connections": "server/connections", "daemon": "server/daemon", "clients": "clients",
 }
 DOMAIN = {"iso286", "standards", "tabfile", "gauging", "metrology", "klartext", "machine", "probing", "program", "run"}

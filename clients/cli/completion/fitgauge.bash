@@ -30,7 +30,7 @@ _fitgauge() {
     --format)
       case " ${COMP_WORDS[*]} " in
         *' tables '*) _fitgauge_words 'csv json tab' ;;
-        *) _fitgauge_words 'csv ndjson' ;;
+        *) _fitgauge_words 'csv ndjson dfq qif xlsx' ;;
       esac
       return ;;
     --source) _fitgauge_words 'gauge simulation all'; return ;;
@@ -63,7 +63,7 @@ _fitgauge() {
                --serial --baud --pattern' ;;
     measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;
-    export) options="$filters --format --output" ;;
+    export) options="$filters --format --time-zone --output" ;;
     summary) options="$filters --group-by" ;;
     capability) options="$filters --target-mm --confidence --subgroups" ;;
     chart) options="$filters --kind --rules --subgroups" ;;

@@ -77,9 +77,9 @@ class MeasurementCalls(Transport):
         return self._pages("/v1/measurements", "measurements", {**filters, "limit": page})
 
     def export(self, form: str = "csv", **filters: Parameter) -> Iterator[bytes]:
-        """All records that match as `csv` or `ndjson`, in pieces of one answer. Close it to stop early."""
-        kind = {"csv": "text/csv", "ndjson": "application/x-ndjson"}[form]
-        return self._stream(Request("GET", "/v1/measurements" + query_of(filters), headers={"Accept": kind}))
+        """All records that match as `csv`, `ndjson`, `qif`, `dfq` of Q-DAS or `xlsx` (these take `time_zone`, a dfq
+        `part_number` and `part_description`), in pieces of one answer. Close it to stop early."""
+        return self._stream(Request("GET", "/v1/measurements" + query_of({"format": form, **filters})))
 
     def summary(self, group_by: str = "characteristic", **filters: Parameter) -> list[dict[str, Any]]:
         """Count, verdicts, `mean_mm`, `standard_deviation_mm`, `min_mm` and `max_mm` of each group."""

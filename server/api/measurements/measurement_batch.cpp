@@ -8,6 +8,7 @@
 #include "api/measurements/measurement_simdjson.hpp"
 #include "api/wire/csv_reader.hpp"
 #include "base/json_value.hpp"
+#include "sheet/csv_cell.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -148,7 +149,7 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
       // An empty cell is a field that is not given; unknown names were reported once.
       if (cell.text.empty() || !MeasurementRowReader::knows(csv->header()[i])) continue;
       reader.field(csv->header()[i], {.kind = RawValue::Kind::String,
-                                      .text = without_formula_guard(cell.text),
+                                      .text = sheet::without_formula_guard(cell.text),
                                       .decimal_comma = semicolon || cell.quoted});
     }
     if (const app::Measurement* m = reader.end()) batch.rows.push_back(*m);

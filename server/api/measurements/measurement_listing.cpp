@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "api/limits/limits_codec.hpp"
 #include "api/measurements/measurement_codec.hpp"
+#include "api/measurements/measurement_download.hpp"
 #include "api/measurements/notes_resource.hpp"
 #include "api/wire/request_facts.hpp"
 #include "app/measurements/record.hpp"
@@ -20,24 +22,31 @@ namespace {
 constexpr std::int64_t kDefaultLimit = 100;
 constexpr std::size_t kRowsAPiece = 200;
 
-enum class Form { Json, Ndjson, Csv };
+enum class Form { Json, Ndjson, Csv, Dfq, Qif, Xlsx };
+
+/// Their words in `format` and their media types, by Form.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kForms = {{
+    {"json", "application/json"},
+    {"ndjson", "application/x-ndjson"},
+    {"csv", "text/csv"},
+    {"dfq", kDfqType},
+    {"qif", kQifType},
+    {"xlsx", kXlsxType},
+}};
+
+bool is_file(Form form) { return form == Form::Dfq || form == Form::Qif || form == Form::Xlsx; }
 
 Form form_of(const http::Request& request) {
-  if (const auto format = request.text("format")) {
-    return format == "csv" ? Form::Csv : format == "ndjson" ? Form::Ndjson : Form::Json;
-  }
-  if (request.response_type() == "text/csv") return Form::Csv;
-  if (request.response_type() == "application/x-ndjson") return Form::Ndjson;
-  return Form::Json;
+  const auto format = request.text("format");
+  const auto found = std::find_if(kForms.begin(), kForms.end(), [&](const auto& form) {
+    return format ? form.first == *format : form.second == request.response_type();
+  });
+  return found == kForms.end() ? Form::Json : static_cast<Form>(found - kForms.begin());
 }
 
 std::string media_type(Form form) {
-  switch (form) {
-    case Form::Csv: return "text/csv; charset=utf-8; header=present";
-    case Form::Ndjson: return "application/x-ndjson";
-    case Form::Json: break;
-  }
-  return "application/json";
+  if (form == Form::Csv) return "text/csv; charset=utf-8; header=present";
+  return std::string(kForms.at(static_cast<std::size_t>(form)).second);
 }
 
 /// Shows the notes behind the members of a record that was written.
@@ -228,6 +237,11 @@ void list_measurements(const Services& services, const http::Request& request,
                              "last is a list of one page: leave limit and after out", "last"});
     }
     query->last = static_cast<std::size_t>(*last);
+  }
+  if (is_file(form)) {
+    return send_file(services, request, std::move(responder),
+                     kForms.at(static_cast<std::size_t>(form)).second, *std::move(query),
+                     cursor->after, limit);
   }
   if (!limit && !query->last && form != Form::Json) {
     http::Response response(

@@ -17,7 +17,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
                                                 const http::Request& request);
 
 /// GET /v1/measurements: a page with its cursor, or, as CSV or NDJSON without `limit`, all that
-/// match as a stream in constant memory.
+/// match as a stream in constant memory; DFQ and XLSX are files made whole.
 void list_measurements(const Services& services, const http::Request& request,
                        http::Responder responder);
 

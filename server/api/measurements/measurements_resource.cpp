@@ -5,6 +5,7 @@
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/measurement_correction.hpp"
+#include "api/measurements/measurement_download.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/measurements/measurement_posting.hpp"
 #include "app/measurements/measurement_service.hpp"
@@ -67,8 +68,10 @@ std::vector<http::Parameter> list_parameters() {
                         .type = http::Integer{.min = 1, .max = 1000},
                         .description = "Only so many of the newest; not beside limit or after"});
   parameters.push_back({.name = "format",
-                        .type = http::Words{{"json", "csv", "ndjson"}},
+                        .type = http::Words{{"json", "csv", "ndjson", "dfq", "qif", "xlsx"}},
                         .description = "Instead of Accept"});
+  const auto others = download_parameters();
+  parameters.insert(parameters.end(), others.begin(), others.end());
   return parameters;
 }
 
@@ -128,9 +131,10 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .handler = with(services, list_measurements),
       .summary = "List measurements in storage order",
       .description = "All pages show the state at the first one. CSV and NDJSON without `limit` "
-                     "stream all that match.",
+                     "stream all that match. DFQ, QIF and XLSX are files of up to 100,000.",
       .parameters = list_parameters(),
-      .response_types = {"application/json", "application/x-ndjson", "text/csv"},
+      .response_types = {"application/json", "application/x-ndjson", "text/csv",
+                         std::string(kDfqType), std::string(kQifType), std::string(kXlsxType)},
       .access = "viewer",
       .operation = "listMeasurements",
       .tag = "measurements",

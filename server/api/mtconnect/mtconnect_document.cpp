@@ -7,6 +7,7 @@
 
 #include "base/length.hpp"
 #include "base/text.hpp"
+#include "base/xml_text.hpp"
 
 namespace fitgauge::api::mtconnect {
 namespace {
@@ -15,20 +16,6 @@ using gauging::Verdict;
 
 /// Nothing is ever dropped, since the log is kept for ever: the largest number the schema takes.
 constexpr std::string_view kBufferSize = "4294967294";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < ' ' || c == '\x7F' ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 /// A key is an NMTOKEN.
 std::string key_of(std::string_view characteristic) {
@@ -76,24 +63,37 @@ std::string head(const Agent& agent, std::string_view kind, std::string_view mor
 
 }  // namespace
 
-void Streams::add_availability() {
-  ++count_;
-  events_ += fmt::format(
-      R"(<Availability dataItemId="avail" sequence="1" timestamp="{0}">AVAILABLE</Availability>
-)",
-      format_rfc3339(agent_.began));
+bool Streams::shows(std::string_view id) const {
+  const auto found = std::find_if(kDataItems.begin(), kDataItems.end(),
+                                  [id](const DataItem& item) { return item.id == id; });
+  return selection_.test(static_cast<std::size_t>(found - kDataItems.begin()));
 }
 
-void Streams::add(const app::Measurement& measurement, std::uint64_t from) {
-  const std::string at = format_rfc3339(measurement.received_at);
-  if (part_sequence(measurement.row) >= from) {
-    ++count_;
-    const std::string part = escaped(measurement.texts.part_id.value_or(""));
-    events_ += fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>
-)",
-                           part_sequence(measurement.row), at, part.empty() ? "UNAVAILABLE" : part);
-  }
+void Streams::append(std::string observation) {
   ++count_;
+  events_ += std::move(observation);
+  events_ += '\n';
+}
+
+void Streams::add_availability() {
+  if (!shows("avail")) return;
+  append(fmt::format(
+      R"(<Availability dataItemId="avail" sequence="1" timestamp="{0}">AVAILABLE</Availability>)",
+      format_rfc3339(agent_.began)));
+}
+
+std::uint64_t Streams::add(const app::Measurement& measurement, std::uint64_t from,
+                           std::size_t most) {
+  const std::string at = format_rfc3339(measurement.received_at);
+  const std::uint64_t part_at = part_sequence(measurement.row);
+  if (part_at >= from && shows("part")) {
+    if (count_ == most) return part_at;
+    const std::string part = xml_text(measurement.texts.part_id.value_or(""));
+    append(fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>)",
+                       part_at, at, part.empty() ? "UNAVAILABLE" : part));
+  }
+  if (!shows("feature")) return 0;
+  if (count_ == most) return feature_sequence(measurement.row);
   std::string cells = fmt::format(
       R"(<Cell key="MEASUREMENT_TYPE">DIAMETER</Cell><Cell key="MEASUREMENT_UNITS">MILLIMETER</Cell><Cell key="MEASUREMENT_VALUE">{}</Cell><Cell key="CHARACTERISTIC_STATUS">{}</Cell>)",
       format_mm(measurement.measured), status_of(measurement.result.verdict));
@@ -102,48 +102,75 @@ void Streams::add(const app::Measurement& measurement, std::uint64_t from) {
         R"(<Cell key="UNCERTAINTY">{}</Cell><Cell key="UNCERTAINTY_TYPE">COMBINED</Cell>)",
         format_mm(*measurement.standard_uncertainty));
   }
-  events_ += fmt::format(
-      R"(<FeatureMeasurementTable dataItemId="feature" sequence="{}" timestamp="{}" count="1"><Entry key="{}">{}</Entry></FeatureMeasurementTable>
-)",
+  append(fmt::format(
+      R"(<FeatureMeasurementTable dataItemId="feature" sequence="{}" timestamp="{}" count="1"><Entry key="{}">{}</Entry></FeatureMeasurementTable>)",
       feature_sequence(measurement.row), at, key_of(measurement.texts.characteristic.value_or("")),
-      cells);
+      cells));
+  return 0;
 }
 
 void Streams::add_counts(const Counts& counts, Timestamp at) {
   const std::pair<std::string_view, std::int64_t> each[] = {
-      {"ALL", counts.good + counts.rework + counts.reject + counts.indeterminate},
-      {"GOOD", counts.good},
-      {"BAD", counts.reject},
-      {"x:REWORK", counts.rework},
-      {"x:INDETERMINATE", counts.indeterminate}};
-  std::size_t number = 0;
-  for (const auto& [type, count] : each) {
-    ++count_;
-    events_ += fmt::format(
-        R"(<PartCount dataItemId="count{}" subType="{}" sequence="{}" timestamp="{}">{}</PartCount>
-)",
-        ++number, type, std::max<std::uint64_t>(1, feature_sequence(agent_.newest)),
-        format_rfc3339(at), count);
+      {"count1", counts.good + counts.rework + counts.reject + counts.indeterminate},
+      {"count2", counts.good},
+      {"count3", counts.reject},
+      {"count4", counts.rework},
+      {"count5", counts.indeterminate}};
+  for (const auto& [id, count] : each) {
+    if (!shows(id)) continue;
+    const auto item = std::find_if(kDataItems.begin(), kDataItems.end(),
+                                   [&](const DataItem& other) { return other.id == id; });
+    append(fmt::format(
+        R"(<PartCount dataItemId="{}" subType="{}" sequence="{}" timestamp="{}">{}</PartCount>)",
+        id, item->sub_type, std::max<std::uint64_t>(1, feature_sequence(agent_.newest)),
+        format_rfc3339(at), count));
   }
 }
 
 void Streams::add_unavailable() {
-  count_ += 2;
-  events_ += fmt::format(
-      R"(<PartId dataItemId="part" sequence="1" timestamp="{0}">UNAVAILABLE</PartId>
-<FeatureMeasurementTable dataItemId="feature" sequence="1" timestamp="{0}" count="0">UNAVAILABLE</FeatureMeasurementTable>
-)",
-      format_rfc3339(agent_.began));
+  const std::string began = format_rfc3339(agent_.began);
+  if (shows("part")) {
+    append(fmt::format(
+        R"(<PartId dataItemId="part" sequence="1" timestamp="{}">UNAVAILABLE</PartId>)", began));
+  }
+  if (shows("feature")) {
+    append(fmt::format(
+        R"(<FeatureMeasurementTable dataItemId="feature" sequence="1" timestamp="{}" count="0">UNAVAILABLE</FeatureMeasurementTable>)",
+        began));
+  }
 }
 
-void Streams::add_assets() {
-  count_ += 2;
-  for (const std::string_view kind : {"Changed", "Removed"}) {
-    events_ += fmt::format(
-        R"(<Asset{0} dataItemId="asset_{1}" sequence="1" timestamp="{2}" assetType="">UNAVAILABLE</Asset{0}>
-)",
-        kind, ascii_lower(kind), format_rfc3339(agent_.began));
+void Streams::add_assets(Timestamp at) {
+  if (shows("asset_changed")) {
+    append(fmt::format(
+        R"(<AssetChanged dataItemId="asset_changed" sequence="{}" timestamp="{}" assetType="{}">{}</AssetChanged>)",
+        agent_.has_asset ? feature_sequence(agent_.newest) : 1, format_rfc3339(at),
+        agent_.has_asset ? "QIFDocumentWrapper" : "",
+        agent_.has_asset ? asset_id(agent_) : "UNAVAILABLE"));
   }
+  if (shows("asset_removed")) {
+    append(fmt::format(
+        R"(<AssetRemoved dataItemId="asset_removed" sequence="1" timestamp="{}" assetType="">UNAVAILABLE</AssetRemoved>)",
+        format_rfc3339(agent_.began)));
+  }
+}
+
+std::string asset_id(const Agent& agent) {
+  return fmt::format("fitgauge-{}-results", agent.origin);
+}
+
+std::string assets_document(const Agent& agent, std::string_view qif, Timestamp at) {
+  std::string asset;
+  if (!qif.empty()) {
+    asset = fmt::format(
+        R"(<QIFDocumentWrapper assetId="{}" deviceUuid="fitgauge-{}" timestamp="{}" qifDocumentType="RESULTS"><QIFDocument>
+{}</QIFDocument></QIFDocumentWrapper>)",
+        asset_id(agent), agent.origin, format_rfc3339(at), qif);
+  }
+  return head(agent, "Assets",
+              fmt::format(R"({} assetBufferSize="1" assetCount="{}")", model_change(agent),
+                          qif.empty() ? 0 : 1)) +
+         fmt::format("<Assets>{}</Assets>\n</MTConnectAssets>\n", asset);
 }
 
 std::string Streams::document(std::uint64_t next) const {
@@ -161,23 +188,24 @@ std::string Streams::document(std::uint64_t next) const {
 }
 
 std::string devices_document(const Agent& agent) {
+  std::string items;
+  for (const DataItem& item : kDataItems) {
+    const bool is_table = item.id == "feature";
+    items +=
+        fmt::format(R"(<DataItem category="EVENT" id="{}" type="{}"{}{}{}>
+)",
+                    item.id, item.type,
+                    item.sub_type.empty() ? "" : fmt::format(R"( subType="{}")", item.sub_type),
+                    item.is_discrete ? R"( discrete="true")" : "",
+                    is_table ? R"( representation="TABLE")" : "/");
+  }
   return head(agent, "Devices",
-              fmt::format(R"({} bufferSize="{}" assetBufferSize="1" assetCount="0")",
-                          model_change(agent), kBufferSize)) +
+              fmt::format(R"({} bufferSize="{}" assetBufferSize="1" assetCount="{}")",
+                          model_change(agent), kBufferSize, agent.has_asset ? 1 : 0)) +
          fmt::format(R"(<Devices><Device id="gauge" name="Gauge" uuid="fitgauge-{}">
 <Description manufacturer="fitgauge">Measured sizes with their verdicts</Description>
 <DataItems>
-<DataItem category="EVENT" id="avail" type="AVAILABILITY"/>
-<DataItem category="EVENT" id="asset_changed" type="ASSET_CHANGED" discrete="true"/>
-<DataItem category="EVENT" id="asset_removed" type="ASSET_REMOVED"/>
-<DataItem category="EVENT" id="part" type="PART_ID"/>
-<DataItem category="EVENT" id="count1" type="PART_COUNT" subType="ALL"/>
-<DataItem category="EVENT" id="count2" type="PART_COUNT" subType="GOOD"/>
-<DataItem category="EVENT" id="count3" type="PART_COUNT" subType="BAD"/>
-<DataItem category="EVENT" id="count4" type="PART_COUNT" subType="x:REWORK"/>
-<DataItem category="EVENT" id="count5" type="PART_COUNT" subType="x:INDETERMINATE"/>
-<DataItem category="EVENT" id="feature" type="FEATURE_MEASUREMENT" representation="TABLE">
-<Definition><CellDefinitions>
+{}<Definition><CellDefinitions>
 <CellDefinition key="MEASUREMENT_TYPE" type="MEASUREMENT_TYPE"/>
 <CellDefinition key="MEASUREMENT_UNITS" type="MEASUREMENT_UNITS"/>
 <CellDefinition key="MEASUREMENT_VALUE" type="MEASUREMENT_VALUE"/>
@@ -190,7 +218,7 @@ std::string devices_document(const Agent& agent) {
 </Device></Devices>
 </MTConnectDevices>
 )",
-                     agent.origin);
+                     agent.origin, items);
 }
 
 std::string error_document(const Agent& agent, std::string_view code, std::string_view message) {
@@ -198,7 +226,7 @@ std::string error_document(const Agent& agent, std::string_view code, std::strin
          fmt::format(R"(<Errors><Error errorCode="{}">{}</Error></Errors>
 </MTConnectError>
 )",
-                     code, escaped(message));
+                     code, xml_text(message));
 }
 
 }  // namespace fitgauge::api::mtconnect

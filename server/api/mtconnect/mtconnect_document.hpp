@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/mtconnect/mtconnect_path.hpp"
 #include "app/measurements/measurement.hpp"
 
 // MTConnect 2.4: a device `Gauge` whose observations are the measurements of the log.
@@ -29,6 +30,7 @@ struct Agent {
   Timestamp now;
   Timestamp began;          ///< since when the gauge is there
   std::int64_t newest = 0;  ///< measurements in the log
+  bool has_asset = false;
 };
 
 /// How many values were judged so, in all; counted for PART_COUNT.
@@ -42,26 +44,39 @@ struct Counts {
 /// Gathers the observations of a document.
 class Streams {
  public:
-  explicit Streams(const Agent& agent) : agent_(agent) {}
+  explicit Streams(const Agent& agent, const Selection& selection = kEverything)
+      : agent_(agent), selection_(selection) {}
 
   void add_availability();
-  /// @param from observations before this sequence are left out.
-  void add(const app::Measurement& measurement, std::uint64_t from = 0);
+  /// Its observations from the sequence `from` on, until there are `most` in the document.
+  /// @returns the sequence of the first that found no room; 0: all did.
+  std::uint64_t add(const app::Measurement& measurement, std::uint64_t from = 0,
+                    std::size_t most = SIZE_MAX);
   void add_counts(const Counts& counts, Timestamp at);
   /// No measurement is known yet.
   void add_unavailable();
-  /// There are none.
-  void add_assets();
+  /// Which asset has changed.
+  void add_assets(Timestamp at);
   std::size_t count() const { return count_; }
 
   /// @param next the sequence to ask from next.
   std::string document(std::uint64_t next) const;
 
  private:
+  /// Whether the data item of that id is shown.
+  bool shows(std::string_view id) const;
+  void append(std::string observation);
+
   const Agent agent_;
+  const Selection selection_;
   std::string events_;
   std::size_t count_ = 0;
 };
+
+/// The id of the one asset: QIF results of the newest measurements.
+std::string asset_id(const Agent& agent);
+/// @param qif the element QIFDocument; empty: there is no asset.
+std::string assets_document(const Agent& agent, std::string_view qif, Timestamp at);
 
 std::string devices_document(const Agent& agent);
 /// @param code OUT_OF_RANGE and such.

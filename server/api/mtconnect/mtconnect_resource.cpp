@@ -2,130 +2,156 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "api/handlers.hpp"
+#include "api/measurements/measurement_qif.hpp"
 #include "api/mtconnect/mtconnect_document.hpp"
-#include "app/log/log_service.hpp"
+#include "api/mtconnect/mtconnect_sample.hpp"
 #include "app/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
 
 using mtconnect::Agent;
+using mtconnect::Selection;
 using mtconnect::Streams;
 
-constexpr std::int64_t kMostObservations = 10'000;
-constexpr std::int64_t kMostSequence = std::int64_t{1} << 53;
 constexpr std::string_view kXml = "text/xml";
-
-Agent agent_of(const Services& services) {
-  // The gauge is there as long as its log is: since before the first measurement.
-  return {.origin = services.log.origin(), .now = services.clock.now(), .began = Timestamp{}};
-}
-
-http::Response document(int status, std::string text) {
-  return http::Response(status, std::string(kXml), std::move(text))
-      .with("Cache-Control", "no-store");
-}
-
-http::Response probe(const Services& services) {
-  return document(200, mtconnect::devices_document(agent_of(services)));
-}
+constexpr std::size_t kResultsOfAsset = 100;
 
 /// What a document of one request is made of.
-struct Gathering {
+struct Gathered {
   SharedResponder responder;
   Agent agent;
-  std::vector<std::unique_ptr<app::KeptMeasurement>> measurements{};
+  Selection selection = mtconnect::kEverything;
+  std::vector<std::unique_ptr<app::KeptMeasurement>> newest{};  ///< the newest first
 };
+using SharedGathered = std::shared_ptr<Gathered>;
 
-void answer_current(const Gathering& gathering, const std::vector<app::MeasurementGroup>& groups) {
-  Streams streams(gathering.agent);
-  streams.add_availability();
-  streams.add_assets();
-  if (gathering.measurements.empty()) {
-    streams.add_unavailable();
-    streams.add_counts({}, gathering.agent.began);
-  } else {
-    const app::Measurement& newest = **gathering.measurements.front();
-    streams.add(newest);
-    mtconnect::Counts counts;
-    for (const app::MeasurementGroup& group : groups) {
-      counts.good += group.good;
-      counts.rework += group.rework;
-      counts.reject += group.reject;
-      counts.indeterminate += group.indeterminate;
-    }
-    streams.add_counts(counts, newest.received_at);
-  }
-  const std::uint64_t next = mtconnect::feature_sequence(gathering.agent.newest) + 1;
-  gathering.responder->answer(document(200, streams.document(next)));
-}
-
-void current(const Services& services, const http::Request&, http::Responder responder) {
-  const auto gathering = std::make_shared<Gathering>(
-      Gathering{.responder = share(std::move(responder)), .agent = agent_of(services)});
+/// Reads the newest measurements, then goes on with `done`.
+void gather_newest(const Services& services, const SharedGathered& gathered, std::size_t count,
+                   std::function<void()> done) {
   app::MeasurementQuery query;
   query.newest_first = true;
   services.measurements.list(
-      query, 0, 1,
-      [gathering](const app::Measurement& measurement) {
-        gathering->measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
+      query, 0, count,
+      [gathered](const app::Measurement& measurement) {
+        gathered->newest.push_back(std::make_unique<app::KeptMeasurement>(measurement));
       },
-      [gathering, &services](Result<app::ListPage> page) {
-        if (!page) return gathering->responder->fail(page.error());
-        gathering->agent.newest = page->as_of;
-        app::MeasurementQuery counted;
-        counted.as_of = page->as_of;
-        services.measurements.summary(
-            counted, "tolerance_class",
-            [gathering](const Result<std::vector<app::MeasurementGroup>>& groups) {
-              if (!groups) return gathering->responder->fail(groups.error());
-              answer_current(*gathering, *groups);
-            });
+      [gathered, done = std::move(done)](const Result<app::ListPage>& page) {
+        if (!page) return gathered->responder->fail(page.error());
+        gathered->agent.newest = page->as_of;
+        gathered->agent.has_asset = !gathered->newest.empty();
+        done();
       });
 }
 
-void answer_sample(const Gathering& gathering, std::uint64_t from, std::size_t count,
-                   const app::ListPage& page) {
-  const std::uint64_t end = mtconnect::feature_sequence(page.as_of) + 1;
-  if (from > end) {
-    return gathering.responder->answer(
-        document(404, mtconnect::error_document(gathering.agent, "OUT_OF_RANGE",
-                                                fmt::format("from goes from 1 to {}", end))));
-  }
-  Streams streams(gathering.agent);
-  if (from == 1) streams.add_availability();
-  std::uint64_t next = page.next ? mtconnect::part_sequence(*page.next) + 2 : end;
-  for (const auto& measurement : gathering.measurements) {
-    if (streams.count() >= count) {
-      next = mtconnect::part_sequence((*measurement)->row);
-      break;
-    }
-    streams.add(**measurement, from);
-  }
-  gathering.responder->answer(document(200, streams.document(next)));
+SharedGathered gathered_for(const Services& services, http::Responder responder) {
+  return std::make_shared<Gathered>(
+      Gathered{.responder = share(std::move(responder)), .agent = mtconnect_agent(services)});
 }
 
-void sample(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto from = static_cast<std::uint64_t>(request.integer("from").value_or(1));
-  const auto count = static_cast<std::size_t>(request.integer("count").value_or(100));
-  const auto gathering = std::make_shared<Gathering>(
-      Gathering{.responder = share(std::move(responder)), .agent = agent_of(services)});
-  app::MeasurementQuery query;
-  query.history = true;
-  const std::int64_t first = std::max<std::int64_t>(mtconnect::measurement_at(from), 1);
-  services.measurements.list(
-      query, first - 1, count / 2 + 1,
-      [gathering](const app::Measurement& measurement) {
-        gathering->measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
-      },
-      [gathering, from, count](Result<app::ListPage> page) {
-        if (!page) return gathering->responder->fail(page.error());
-        gathering->agent.newest = page->as_of;
-        answer_sample(*gathering, from, count, *page);
-      });
+void probe(const Services& services, const http::Request&, http::Responder responder) {
+  const auto gathered = gathered_for(services, std::move(responder));
+  gather_newest(services, gathered, 1, [gathered] {
+    gathered->responder->answer(
+        mtconnect_response(200, mtconnect::devices_document(gathered->agent)));
+  });
+}
+
+void answer_current(const Gathered& gathered, const std::vector<app::MeasurementGroup>& groups) {
+  Streams streams(gathered.agent, gathered.selection);
+  streams.add_availability();
+  const Timestamp at =
+      gathered.newest.empty() ? gathered.agent.began : (*gathered.newest.front())->received_at;
+  streams.add_assets(at);
+  if (gathered.newest.empty()) {
+    streams.add_unavailable();
+  } else {
+    streams.add(**gathered.newest.front());
+  }
+  mtconnect::Counts counts;
+  for (const app::MeasurementGroup& group : groups) {
+    counts.good += group.good;
+    counts.rework += group.rework;
+    counts.reject += group.reject;
+    counts.indeterminate += group.indeterminate;
+  }
+  streams.add_counts(counts, at);
+  const std::uint64_t next = mtconnect::feature_sequence(gathered.agent.newest) + 1;
+  gathered.responder->answer(mtconnect_response(200, streams.document(next)));
+}
+
+void current(const Services& services, const http::Request& request, http::Responder responder) {
+  Selection selection = mtconnect::kEverything;
+  if (const auto path = request.text("path")) {
+    const auto chosen = mtconnect::select(*path);
+    if (!chosen) return responder.fail(chosen.error());
+    selection = *chosen;
+  }
+  const auto gathered = gathered_for(services, std::move(responder));
+  gathered->selection = selection;
+  gather_newest(services, gathered, 1, [gathered, &services] {
+    app::MeasurementQuery counted;
+    counted.as_of = gathered->agent.newest;
+    services.measurements.summary(
+        counted, "tolerance_class",
+        [gathered](const Result<std::vector<app::MeasurementGroup>>& groups) {
+          if (!groups) return gathered->responder->fail(groups.error());
+          answer_current(*gathered, *groups);
+        });
+  });
+}
+
+void answer_assets(const Gathered& gathered) {
+  qif::QifWriter writer;
+  std::for_each(gathered.newest.rbegin(), gathered.newest.rend(), [&writer](const auto& kept) {
+    // What XML cannot hold is left out, as there is nobody to tell.
+    [[maybe_unused]] const auto added = add_to_qif(writer, **kept);
+  });
+  const Timestamp at =
+      gathered.newest.empty() ? gathered.agent.began : (*gathered.newest.front())->received_at;
+  gathered.responder->answer(mtconnect_response(
+      200, mtconnect::assets_document(gathered.agent,
+                                      writer.is_empty() ? std::string() : writer.element(), at)));
+}
+
+void assets(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto type = request.text("type");
+  const bool is_wanted = !type || *type == "QIFDocumentWrapper";
+  const auto gathered = gathered_for(services, std::move(responder));
+  gather_newest(services, gathered, is_wanted ? kResultsOfAsset : 1, [gathered, is_wanted] {
+    if (!is_wanted) gathered->newest.clear();
+    answer_assets(*gathered);
+  });
+}
+
+void asset(const Services& services, const http::Request& request, http::Responder responder) {
+  const std::string wanted(*request.text("id"));
+  const auto gathered = gathered_for(services, std::move(responder));
+  gather_newest(services, gathered, kResultsOfAsset, [gathered, wanted] {
+    const bool is_there =
+        gathered->agent.has_asset && wanted == mtconnect::asset_id(gathered->agent);
+    if (is_there) return answer_assets(*gathered);
+    gathered->responder->fail(
+        {ErrorCode::NotFound, "there is no asset of that id: see /mtconnect/assets", "id"});
+  });
+}
+
+/// As the standard has them.
+std::string_view code_of(const Error& error, int status) {
+  if (status == 401 || status == 403) return "UNAUTHORIZED";
+  if (error.code == ErrorCode::Overloaded) return "TOO_MANY";
+  if (status >= 500) return "INTERNAL_ERROR";
+  if (error.where == "path") return "INVALID_PATH";
+  if (error.where == "id") return "ASSET_NOT_FOUND";
+  for (const std::string_view name : {"from", "count", "interval", "heartbeat"}) {
+    if (error.where == name) return "OUT_OF_RANGE";
+  }
+  if (status == 404) return "INVALID_URI";
+  return status == 405 || status == 406 ? "UNSUPPORTED" : "INVALID_REQUEST";
 }
 
 http::Route route(std::string_view name, std::string_view operation, http::Handler handler,
@@ -134,7 +160,7 @@ http::Route route(std::string_view name, std::string_view operation, http::Handl
       .pattern = fmt::format("/mtconnect/{}", name),
       .handler = std::move(handler),
       .summary = std::string(summary),
-      .response_types = {std::string(kXml)},
+      .response_types = {std::string(kXml), "application/xml"},
       .access = "viewer",
       .operation = std::string(operation),
       .tag = "connections",
@@ -145,27 +171,58 @@ http::Route route(std::string_view name, std::string_view operation, http::Handl
 }  // namespace
 
 void add_mtconnect_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back(route(
-      "probe", "probeMtconnect",
-      [&services](const http::Request&) -> Result<http::Response> { return probe(services); },
-      "MTConnectDevices 2.4: the device Gauge and what it observes"));
+  routes.push_back(route("probe", "probeMtconnect", with(services, probe),
+                         "MTConnectDevices 2.4: the device Gauge and what it observes"));
   routes.push_back(route("current", "currentMtconnect", with(services, current),
                          "MTConnectStreams 2.4: the newest measurement, and counts by verdict"));
-  routes.push_back(route("sample", "sampleMtconnect", with(services, sample),
+  routes.back().parameters = {
+      {.name = "path", .description = "Only what it names: `//DataItem[@type=\"PART_COUNT\"]`"}};
+  const auto open = std::make_shared<std::atomic<int>>(0);
+  routes.push_back(route("sample", "sampleMtconnect",
+                         http::AsyncHandler([&services, open](const http::Request& request,
+                                                              http::Responder responder) {
+                           sample_mtconnect(services, open, request, std::move(responder));
+                         }),
                          "MTConnectStreams 2.4: measurements of the log, from a sequence on"));
-  routes.back().parameters = {{.name = "from",
-                               .type = http::Integer{.min = 1, .max = kMostSequence},
-                               .description = "The first sequence; 1 when absent"},
-                              {.name = "count",
-                               .type = http::Integer{.min = 2, .max = kMostObservations},
-                               .description = "About how many observations; 100 when absent"}};
+  routes.back().response_types.push_back("multipart/x-mixed-replace");
+  routes.back().outcomes.front().media_types.push_back("multipart/x-mixed-replace");
+  routes.back().parameters = sample_parameters();
   routes.back().description =
-      "Measurement n has the sequences 2n (its part) and 2n + 1. A `from` beyond the log is 404 "
-      "with an "
-      "MTConnectError document.";
+      "Measurement n has the sequences 2n (its part) and 2n + 1. With `interval` the answer is a "
+      "stream of documents; 32 may be open. Errors are MTConnectError documents.";
   routes.back().outcomes.push_back({.status = 404,
                                     .meaning = "MTConnectError: `from` is beyond the log",
                                     .media_types = {std::string(kXml)}});
+  for (const std::string_view name : {"assets", "asset"}) {
+    routes.push_back(route(name, name == "asset" ? "listMtconnectAsset" : "listMtconnectAssets",
+                           with(services, assets),
+                           "MTConnectAssets 2.4: QIF results of the newest 100 measurements"));
+    routes.back().parameters = {
+        {.name = "type", .description = "Of the assets: QIFDocumentWrapper is the one there is"}};
+  }
+  routes.push_back(route("asset/{id}", "getMtconnectAsset", with(services, asset),
+                         "MTConnectAssets 2.4: the asset of that id"));
+  routes.back().parameters = {{.name = "id",
+                               .place = http::ParameterPlace::Path,
+                               .description = "As `AssetChanged` of current says it"}};
+  routes.back().outcomes.push_back({.status = 404,
+                                    .meaning = "MTConnectError: there is no such asset",
+                                    .media_types = {std::string(kXml)}});
+}
+
+bool is_of_mtconnect(const http::Request& request) {
+  return request.path().starts_with("/mtconnect/");
+}
+
+http::Response mtconnect_error(const Services& services, const Error& error,
+                               http::Response problem) {
+  const std::string_view said = error.code == ErrorCode::Internal
+                                    ? "the request failed: see the log"
+                                    : std::string_view(error.message);
+  problem.content_type = kXml;
+  problem.body =
+      mtconnect::error_document(mtconnect_agent(services), code_of(error, problem.status), said);
+  return problem;
 }
 
 }  // namespace fitgauge::api

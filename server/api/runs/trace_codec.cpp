@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "api/wire/csv_reader.hpp"
 #include "api/wire/json_writer.hpp"
 #include "base/json_value.hpp"
 #include "base/text.hpp"
+#include "sheet/csv_cell.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -153,7 +153,7 @@ Result<void> TraceCsv::append_line(std::string& out, std::string_view line) {
   append_row([&](const Column& column) {
     const JsonValue* value = move->find(column.member);
     if (value != nullptr && !column.axis.empty()) value = value->find(column.axis);
-    if (value != nullptr) append_csv_cell(out, value->text);
+    if (value != nullptr) sheet::append_csv_cell(out, value->text);
   });
   return {};
 }

@@ -72,7 +72,7 @@ Fields webhook_fields() {
 
 Fields folder_out_own_fields() {
   return schema::optional(
-      {{"format", schema::words({"csv", "ndjson", "dfq"}), "csv when absent"},
+      {{"format", schema::words({"csv", "ndjson", "dfq", "qif"}), "csv when absent"},
        {"part_number", schema::text(30), "K1001 of a DFQ; - when absent"},
        {"part_description", schema::text(80), "K1002 of a DFQ; - when absent"},
        {"split", schema::words({"none", "part_id", "order"}),

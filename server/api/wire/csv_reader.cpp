@@ -112,37 +112,4 @@ Error CsvReader::malformed(std::string_view what) const {
           fmt::format("line {}", record_line_)};
 }
 
-namespace {
-
-/// Also of a text that is guarded already, so that the way back is unambiguous.
-bool begins_formula(std::string_view text) {
-  const std::size_t first = text.find_first_not_of('\'');
-  return first != std::string_view::npos &&
-         std::string_view("=+-@\t\r\n").find(text[first]) != std::string_view::npos;
-}
-
-}  // namespace
-
-void append_csv_text(std::string& out, std::string_view text) {
-  if (!begins_formula(text)) return append_csv_cell(out, text);
-  append_csv_cell(out, fmt::format("'{}", text));
-}
-
-std::string_view without_formula_guard(std::string_view text) {
-  return text.starts_with('\'') && begins_formula(text) ? text.substr(1) : text;
-}
-
-void append_csv_cell(std::string& out, std::string_view text) {
-  if (text.find_first_of(",;\"\r\n") == std::string_view::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  out += '"';
-}
-
 }  // namespace fitgauge::api

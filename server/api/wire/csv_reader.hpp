@@ -54,13 +54,4 @@ class CsvReader {
   std::deque<std::string> unescaped_;  // cells whose doubled quotes were undone, of every record
 };
 
-/// Appends `text` as a CSV cell, quoted where it has to be and otherwise as it is.
-void append_csv_cell(std::string& out, std::string_view text);
-
-/// The same of a text that somebody chose: an apostrophe stands before one that a spreadsheet would
-/// run as a formula (it begins with `=`, `+`, `-`, `@`, a tab or a line end).
-void append_csv_text(std::string& out, std::string_view text);
-/// What append_csv_text was given.
-std::string_view without_formula_guard(std::string_view text);
-
 }  // namespace fitgauge::api

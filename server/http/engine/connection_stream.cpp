@@ -84,8 +84,10 @@ void Connection::take_piece(std::string_view bytes, bool is_last) {
 }
 
 void Connection::beat(Tick now) {
-  if (now < deadline_ || stream_->heartbeat.empty()) return;
+  if (now < deadline_) return;
   deadline_ = now + stream_->heartbeat_interval;
+  stream_->source->idle();
+  if (stream_->heartbeat.empty()) return;
   append_piece(stream_->heartbeat);
   advance();
 }

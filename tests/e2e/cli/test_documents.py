@@ -92,7 +92,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(completions("tables", "export", ""), {"hole", "shaft"})
         self.assertEqual(completions("tables", "export", "hole", ""), set())
         self.assertEqual(completions("tables", "export", "hole", "--format", ""), {"csv", "json", "tab"})
-        self.assertEqual(completions("export", "--format", ""), {"csv", "ndjson"})
+        self.assertEqual(completions("export", "--format", ""), {"csv", "ndjson", "dfq", "qif", "xlsx"})
         self.assertEqual(completions("watch", "--source", "s"), {"simulation"})
         self.assertEqual(completions("completion", ""), {"bash", "fish", "zsh"})
         self.assertEqual(completions("gauge", "25H7", "--part-id", ""), set())

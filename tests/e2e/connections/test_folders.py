@@ -160,6 +160,8 @@ class Taking(Folders):
                     {"designation": "25 H7", "measured_mm": "25.01", "rule": "conformance", "uncertainty_um": 1, "probability": "0.9",
                      "temperature_c": 23, "part_material": "steel", "scale_temperature_c": "21.5", "scale_expansion_um_per_m_k": 8}):
             self.assertEqual(first.measure(row).status, 201, row)
+        # Judged by a gauge in use: the record says its uncertainty.
+        self.assertEqual(first.measure({"designation": "25 H7", "measured_mm": "25.02", "part_id": "é \t\\", "order": ""}).status, 201)
         self.connect(second)
         self.drop("export.csv", first.get("/v1/measurements", Accept="text/csv").body)
         self.wait(lambda: "export.csv" in self.files("done") + self.files("failed"))
@@ -168,7 +170,31 @@ class Taking(Folders):
         def plain(daemon):
             return [{name: value for name, value in row.items() if name not in ("id", "received_at", "caller")}
                     for row in daemon.stored()]
-        self.assertEqual(plain(second), plain(first))
+        without_empty = lambda rows: [{name: value for name, value in row.items() if value != ""} for row in rows]
+        self.assertEqual(plain(second), without_empty(plain(first)))
+        third, fourth = self.daemon().start(), self.daemon().start()
+        self.connect(third)
+        records = first.get("/v1/measurements", Accept="application/x-ndjson").body
+        self.drop("export.ndjson", records)
+        self.wait(lambda: "export.ndjson" in self.files("done") + self.files("failed"))
+        self.assertEqual(self.files("failed"), [])
+        self.assertEqual(plain(third), plain(first))
+        path = self.root / "all.jsonl"
+        path.write_bytes(records)
+        measure = lambda *more: subprocess.run([FITGAUGE, "measure", path, "--server", f"http://127.0.0.1:{fourth.port}", "--state",
+                                                self.root / "state", *more], capture_output=True, text=True, check=False)
+        done = measure("--chunk", "2")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(plain(fourth), plain(first))
+        path.write_bytes(records + b'{"designation":"25 H7","measured_mm":25.01}\n{"measured_mm":"\n')
+        self.assertIn("all.jsonl:8:", (done := measure()).stderr + done.stdout)
+        self.assertEqual(len(fourth.stored()), 6)
+        path.write_bytes(records.replace(b'"source":"gauge"', b'"source":"simulation"', 1))
+        self.assertIn("line 1 is of a simulation", measure("--again").stderr)
+        self.assertEqual(measure("--set", "machine=M1").returncode, 4)
+        self.drop("simulated.ndjson", path.read_bytes())
+        self.wait(lambda: "simulated.ndjson" in self.files("failed"))
+        self.assertIn("line 1 is of a simulation", (self.folder / "failed" / "simulated.ndjson.error.txt").read_text())
         header, end, rows = first.get("/v1/measurements", Accept="text/csv").body.partition(b"\r\n")
         self.drop("simulated.csv", header + end + rows.replace(b",gauge,", b",simulation,", 1))
         self.wait(lambda: "simulated.csv" in self.files("failed"))

@@ -3,6 +3,7 @@
 import base64
 import hashlib
 import hmac
+import itertools
 import json
 import os
 import pathlib
@@ -14,11 +15,12 @@ import time
 import unittest
 
 from support.certificates import certificate
-from support.daemon import Daemon
+from support.daemon import Daemon, preload
 from support.receiver import Receiver
 
 SECRETS = ["whsec_" + base64.b64encode(bytes(range(first, first + 32))).decode() for first in (0, 100)]
 PRIVATE = ("--allow-private-addresses",)
+FAKETIME = next(iter(sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))), None)
 SOURCES = pathlib.Path(__file__).parent / "webhooks"
 
 
@@ -267,6 +269,40 @@ class Verifiers(Receivers):
                               check=True, timeout=120)
         self.assertEqual(sorted(set(done.stdout.split("\n"))), ["", "standard ok", "svix ok"], done.stdout + done.stderr)
         self.assertEqual(done.stdout.count("ok"), 80)
+
+
+@unittest.skipUnless(os.environ.get("FITGAUGE_DEEP") and FAKETIME, "FITGAUGE_DEEP=1 and libfaketime run it")
+class Outage(Receivers):
+    def test_an_hour_of_errors_and_stalls_loses_nothing(self):
+        """The clock of the service goes sixty times as fast: an hour of its back-off is a minute here."""
+        answers = itertools.cycle([500, "stall", 503, 502])
+        over = time.monotonic() + 60
+
+        def answer(_):
+            if time.monotonic() > over:
+                return 200
+            said = next(answers)
+            if said == "stall":
+                time.sleep(1)  # a minute
+            return 500 if said == "stall" else said
+
+        receiver = self.receiver(answer)
+        daemon = Daemon(*PRIVATE, environment=preload(FAKETIME) | {"FAKETIME": "+0 x60"})
+        self.addCleanup(daemon.cleanup)
+        daemon.start()
+        self.connect(daemon, receiver, longest_wait_s=300)
+        ids = []
+        while time.monotonic() < over:
+            ids += self.store(daemon, range(len(ids), len(ids) + 5))
+            time.sleep(0.5)
+        self.assertEqual(receiver.events, [])
+        told = len(receiver.attempts)
+        receiver.wait(lambda: len(receiver.distinct()) == len(ids))
+        self.assertEqual(receiver.distinct(), ids)
+        self.assertEqual(self.state(daemon)["dead_letters"], [])
+        # Waits of 1, 2, 4 and so on to 300 seconds: about twenty attempts, not a storm.
+        self.assertLess(told, 60)
+        self.assertGreater(told, 8)
 
 
 if __name__ == "__main__":

@@ -1,23 +1,33 @@
 """MTConnect: the documents of a small agent over the log, read by the XML parser of Python and held against the
 schemas where MTCONNECT_SCHEMAS names their folder."""
 
+import http.client
 import os
 import pathlib
 import subprocess
+import types
 import unittest
+import urllib.parse
 import xml.etree.ElementTree as tree
 
-from support.daemon import DaemonTest
+from support.daemon import Daemon, DaemonTest
 
 SCHEMAS = os.environ.get("MTCONNECT_SCHEMAS")
 VERDICTS = {"good": "PASS", "rework": "REWORK", "reject": "FAIL", "indeterminate": "INDETERMINATE"}
 
 
 class Agent(DaemonTest):
+    def setUp(self):
+        self.daemon = Daemon().start()
+        self.addCleanup(self.daemon.cleanup)
+
     def read(self, path, status=200):
         answer = self.daemon.get("/mtconnect/" + path)
         self.assertEqual(answer.status, status, answer)
         self.assertEqual(answer.headers["content-type"], "text/xml")
+        return self.document(answer)
+
+    def document(self, answer):
         root = tree.fromstring(answer.body)
         kind = root.tag.split("}")[1].removeprefix("MTConnect")
         self.assertEqual(root.tag, f"{{urn:mtconnect.org:MTConnect{kind}:2.4}}MTConnect{kind}")
@@ -27,7 +37,7 @@ class Agent(DaemonTest):
                                   capture_output=True, check=False)
             self.assertEqual(done.returncode, 0, done.stderr.decode() + answer.text)
         for element in root.iter():
-            element.tag = element.tag.split("}")[1]
+            element.tag = element.tag.split("}")[-1]
         return root
 
     def header(self, root):
@@ -61,11 +71,13 @@ class Agent(DaemonTest):
         sequences = [int(each.get("sequence")) for each in root.iter() if each.get("dataItemId")]
         self.assertEqual(sequences, list(range(1, 10)))
         # Page by page, from any sequence on, each observation comes once.
-        for count in (2, 3, 5):
+        for count in (1, 2, 3, 5):
             at, seen = 1, []
             while at < 10:
                 root = self.read(f"sample?from={at}&count={count}")
-                seen += [int(each.get("sequence")) for each in root.iter() if each.get("dataItemId")]
+                page = [int(each.get("sequence")) for each in root.iter() if each.get("dataItemId")]
+                self.assertLessEqual(len(page), count)
+                seen += page
                 self.assertGreater(self.header(root)["nextSequence"], at)
                 at = self.header(root)["nextSequence"]
             self.assertEqual(seen, list(range(1, 10)), count)
@@ -75,8 +87,92 @@ class Agent(DaemonTest):
         self.assertEqual(self.features(root)[0][0], 9)
         self.assertEqual({count.get("subType"): count.text for count in root.iter("PartCount")},
                          {"ALL": "4", "GOOD": "1", "BAD": "1", "x:REWORK": "1", "x:INDETERMINATE": "1"})
-        for query in ("sample?from=0", "sample?count=1", "sample?interval=100"):
-            self.assertEqual(self.daemon.get("/mtconnect/" + query).status, 400)
+
+    def code(self, path, status):
+        return self.read(path, status).find("Errors/Error").get("errorCode")
+
+    def test_errors_are_documents_of_mtconnect(self):
+        for query in ("from=0", "from=x", "count=0", "count=-1", "count=10001", "interval=-1", "heartbeat=0"):
+            self.assertEqual(self.code("sample?" + query, 400), "OUT_OF_RANGE", query)
+        self.assertEqual(self.code("sample?nothing=1", 400), "INVALID_REQUEST")
+        self.assertEqual(self.code("nothing", 404), "INVALID_URI")
+        for path in ("x", "//", "//DataItem[", "//DataItem[@type]", "//DataItem[type='A']", "//DataItem[@type='A' & @id='b']",
+                     "//Axes", "//DataItem[@type='POSITION']", "/DataItem", "//DataItem|", "//DataItem[@type='PART_ID"):
+            for name in ("sample", "current"):
+                self.assertEqual(self.code(f"{name}?path={urllib.parse.quote(path)}", 400), "INVALID_PATH", path)
+        answer = self.daemon.post("/mtconnect/probe", b"")
+        self.assertEqual((answer.status, self.document(answer).find("Errors/Error").get("errorCode")), (405, "UNSUPPORTED"))
+
+    def test_a_path_chooses_what_is_shown(self):
+        self.daemon.measure([{"designation": "25 H7", "measured_mm": 25.01, "part_id": f"P{i}"} for i in range(3)])
+        shown = lambda path, name="current": [each.get("dataItemId") for each in
+                                              self.read(f"{name}?path={urllib.parse.quote(path)}").iter() if each.get("dataItemId")]
+        everything = shown("//*")
+        self.assertEqual(len(everything), 10)
+        for path, items in (("//DataItem", everything), ("//Device[@name='Gauge']", everything), ("/MTConnectDevices/Devices/Device/DataItems/DataItem", everything),
+                            ('//DataItem[@type="PART_ID"]', ["part"]), ("//m:DataItem[@id='part' or @id='avail']", ["avail", "part"]),
+                            ("//DataItem[ @type = 'PART_COUNT' and @subType='BAD' ]", ["count3"]), ("//Device[@id='gauge']//DataItem[@category='EVENT']", everything),
+                            ("//DataItem[@id='part']|//DataItem[@id='feature']", ["part", "feature"])):
+            self.assertEqual(sorted(shown(path)), sorted(items), path)
+        self.assertEqual(shown("//DataItem[@id='part']", "sample"), ["part"] * 3)
+        root = self.read("sample?count=2&path=" + urllib.parse.quote("//DataItem[@id='feature']"))
+        self.assertEqual(([each.get("sequence") for each in root.iter("FeatureMeasurementTable")], self.header(root)["nextSequence"]), (["3", "5"], 6))
+
+    def test_the_results_are_an_asset(self):
+        self.assertEqual(len(self.read("assets").find("Assets")), 0)
+        self.assertEqual(self.read("probe").find("Header").get("assetCount"), "0")
+        self.assertEqual(self.code("asset/nothing", 404), "ASSET_NOT_FOUND")
+        self.daemon.measure([{"designation": "25 H7", "measured_mm": f"25.0{i}", "part_id": f"P{i}"} for i in range(1, 5)])
+        changed = next(self.read("current").iter("AssetChanged"))
+        self.assertEqual(changed.get("assetType"), "QIFDocumentWrapper")
+        self.assertEqual(self.read("probe").find("Header").get("assetCount"), "1")
+        for path in ("assets", "asset", "assets?type=QIFDocumentWrapper", "asset/" + changed.text):
+            wrapper = self.read(path).find("Assets/QIFDocumentWrapper")
+            self.assertEqual((wrapper.get("assetId"), wrapper.get("qifDocumentType")), (changed.text, "RESULTS"))
+            self.assertEqual([each.text for each in wrapper.iter("Value")], ["25.01", "25.02", "25.03", "25.04"])
+        self.assertEqual(len(self.read("assets?type=CuttingTool").find("Assets")), 0)
+
+    def stream(self, query):
+        connection = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=30)
+        self.addCleanup(connection.close)
+        connection.request("GET", "/mtconnect/sample?" + query)
+        return connection.getresponse()
+
+    def part(self, stream):
+        """The next document of the stream."""
+        self.assertEqual(stream.readline(), b"--fitgauge-mtconnect\r\n")
+        headers = {}
+        while (line := stream.readline().strip()):
+            name, _, value = line.partition(b": ")
+            headers[name.lower()] = value
+        self.assertEqual(headers[b"content-type"], b"text/xml")
+        body = stream.read(int(headers[b"content-length"]))
+        self.assertEqual(stream.readline(), b"\r\n")
+        return self.document(types.SimpleNamespace(body=body, text=body.decode()))
+
+    def test_a_stream_tells_what_is_measured_and_beats_between(self):
+        stream = self.stream("interval=10&heartbeat=200&count=3&from=1")
+        self.assertEqual(stream.status, 200)
+        self.assertEqual(stream.getheader("content-type"), "multipart/x-mixed-replace;boundary=fitgauge-mtconnect")
+        seen = []
+
+        def follow(until):
+            while not seen or seen[-1] < until:
+                root = self.part(stream)
+                seen.extend(int(each.get("sequence")) for each in root.iter() if each.get("dataItemId"))
+            return root
+        follow(1)
+        root = self.part(stream)  # a heartbeat
+        self.assertEqual(([each for each in root.iter() if each.get("dataItemId")], self.header(root)["nextSequence"]), ([], 2))
+        for i in range(5):
+            self.daemon.measure([{"designation": "25 H7", "measured_mm": 25.01, "part_id": f"P{i}-{j}"} for j in range(4)])
+            follow(2 * 4 * (i + 1) + 1)
+        self.assertEqual(seen, list(range(1, 42)))
+
+    def test_streams_are_bounded(self):
+        streams = [self.stream("interval=1000&heartbeat=1000") for _ in range(32)]
+        self.assertEqual([stream.status for stream in streams], [200] * 32)
+        self.assertEqual(self.code("sample?interval=1000", 503), "TOO_MANY")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 #include "api/wire/csv_reader.hpp"
 
+#include "sheet/csv_cell.hpp"
+
 #include <doctest/doctest.h>
 
 using namespace fitgauge;
@@ -61,8 +63,8 @@ TEST_CASE("what is not CSV names its line") {
 
 TEST_CASE("cells are quoted where they must be") {
   std::string out;
-  append_csv_cell(out, "plain");
+  sheet::append_csv_cell(out, "plain");
   out += '|';
-  append_csv_cell(out, "a,\"b\"");
+  sheet::append_csv_cell(out, "a,\"b\"");
   CHECK(out == "plain|\"a,\"\"b\"\"\"");
 }

@@ -4,9 +4,9 @@
 
 #include <limits>
 
-#include "api/wire/csv_reader.hpp"
 #include "app/measurements/record.hpp"
 #include "iso286/table_data.hpp"
+#include "sheet/csv_cell.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;
@@ -157,9 +157,9 @@ TEST_CASE("what a spreadsheet would run as a formula is guarded in CSV, and read
   };
   for (const auto& [text, cell] : rows) {
     std::string out;
-    append_csv_text(out, text);
+    sheet::append_csv_text(out, text);
     CHECK(out == cell);
-    CHECK(without_formula_guard(out) == text);
+    CHECK(sheet::without_formula_guard(out) == text);
   }
   const auto batch = decode("designation,measured_mm,comment\n25 H7,25.01,'=1\n", "text/csv");
   REQUIRE(batch.has_value());

@@ -1,0 +1,50 @@
+#include "api/measurements/measurement_dfq.hpp"
+
+#include <fmt/format.h>
+
+namespace fitgauge::api {
+namespace {
+
+/// How a record is judged, as far as that is not by its limits alone.
+std::string rule_of(const app::Measurement& m) {
+  std::string rule;
+  const auto say = [&rule](std::string_view name, std::string_view text) {
+    if (!rule.empty()) rule += ';';
+    rule += fmt::format("{}={}", name, text);
+  };
+  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
+  if (m.standard_uncertainty) say("uncertainty_um", format_um(*m.standard_uncertainty));
+  if (m.coverage_factor) say("coverage_factor", format(*m.coverage_factor));
+  if (m.conformance) say("probability", format(m.rule.probability()));
+  return rule;
+}
+
+}  // namespace
+
+Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
+  if (m.source != app::Source::Gauge) {
+    return Error{ErrorCode::FieldInvalid, "it is of a simulation, which a DFQ cannot say"};
+  }
+  const std::string rule = rule_of(m);
+  aqdef::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
+  value.measured = m.decisive();
+  value.nominal = m.nominal_size;
+  if (m.has_upper_limit()) value.limits.upper = m.upper_limit();
+  if (m.has_lower_limit()) value.limits.lower = m.lower_limit();
+  value.class_name = m.class_name.value_or("");
+  value.is_hole = m.feature == iso286::Feature::Hole;
+  value.rule = rule;
+  value.part_id = m.texts.part_id.value_or("");
+  value.characteristic = m.texts.characteristic.value_or("");
+  value.order = m.texts.order.value_or("");
+  value.operation = m.texts.operation.value_or("");
+  value.machine = m.texts.machine.value_or("");
+  value.operator_name = m.texts.operator_id.value_or("");
+  value.gauge = m.texts.gauge.value_or("");
+  value.unit = m.texts.unit.value_or("");
+  value.comment = m.texts.comment.value_or("");
+  value.subgroup = m.texts.subgroup.value_or("");
+  return writer.add(value);
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,158 @@
+#include "api/measurements/measurement_download.hpp"
+
+#include <fmt/format.h>
+
+#include <future>
+
+#include "api/handlers.hpp"
+#include "api/measurements/measurement_file.hpp"
+#include "sheet/time_zone.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::size_t kRowsAtOnce = 200;
+
+/// What a file is made of.
+struct Download {
+  const Services& services;
+  SharedResponder responder;
+  std::string_view media_type;
+  aqdef::DfqOptions options;
+  app::MeasurementQuery query;
+  std::int64_t after;
+  std::optional<std::size_t> limit;
+};
+
+Result<aqdef::DfqOptions> options_of(const http::Request& request, std::string_view media_type) {
+  aqdef::DfqOptions options;
+  if (const auto name = request.text("time_zone")) {
+    if (media_type == kQifType) {
+      return Error{ErrorCode::QueryInvalid, "time_zone is of format=dfq or xlsx", "time_zone"};
+    }
+    auto zone = sheet::TimeZone::load(*name);
+    if (!zone) return Error{ErrorCode::QueryInvalid, zone.error().message, "time_zone"};
+    options.zone = *std::move(zone);
+  }
+  for (const auto& [name, field, into] :
+       {std::tuple("part_number", aqdef::k::kPartNumber, &options.part_number),
+        std::tuple("part_description", aqdef::k::kPartDescription, &options.part_description)}) {
+    const auto text = request.text(name);
+    if (!text) continue;
+    if (media_type != kDfqType) {
+      return Error{ErrorCode::QueryInvalid, fmt::format("{} is of format=dfq", name), name};
+    }
+    *into = *text;
+    if (const auto checked = aqdef::check_text(field, *text); !checked) {
+      return Error{ErrorCode::QueryInvalid, checked.error().message, name};
+    }
+  }
+  return options;
+}
+
+Result<std::unique_ptr<MeasurementFile>> make_file(Download& download) {
+  if (download.media_type == kDfqType) return make_dfq_file(std::move(download.options));
+  if (download.media_type == kQifType) return std::unique_ptr<MeasurementFile>(make_qif_file());
+  return make_xlsx_file(std::move(download.options.zone));
+}
+
+/// Adds a page, whose rows a reader visits while this thread waits.
+Result<app::ListPage> add_page(Download& download, MeasurementFile& file, std::size_t limit) {
+  std::promise<Result<app::ListPage>> promise;
+  auto page = promise.get_future();
+  Result<void> added;
+  download.services.measurements.list(
+      download.query, download.after, limit,
+      [&](const app::Measurement& measurement) {
+        if (added) added = file.add(measurement);
+      },
+      [&promise](Result<app::ListPage> read) { promise.set_value(std::move(read)); });
+  auto read = page.get();
+  if (read && !added) return added.error();
+  return read;
+}
+
+/// How many match. @errors those of MeasurementService::summary
+Result<std::size_t> count(const Download& download) {
+  std::promise<Result<std::vector<app::MeasurementGroup>>> promise;
+  auto groups = promise.get_future();
+  download.services.measurements.summary(
+      download.query, "tolerance_class",
+      [&promise](Result<std::vector<app::MeasurementGroup>> read) {
+        promise.set_value(std::move(read));
+      });
+  const auto read = groups.get();
+  if (!read) return read.error();
+  std::size_t rows = 0;
+  for (const app::MeasurementGroup& group : *read) rows += static_cast<std::size_t>(group.count);
+  return rows;
+}
+
+/// @errors QueryInvalid: more match than a file holds.
+Result<void> check_count(const Download& download) {
+  if (download.limit || download.query.last) return {};
+  const auto rows = count(download);
+  if (!rows) return rows.error();
+  if (*rows <= MeasurementFile::kMostRows) return {};
+  return Error{ErrorCode::QueryInvalid,
+               fmt::format("{} measurements match, and a file of this format holds {}: choose "
+                           "fewer by from and to, or take csv",
+                           *rows, MeasurementFile::kMostRows),
+               "format"};
+}
+
+Result<std::string> make_bytes(Download& download) {
+  if (const auto checked = check_count(download); !checked) return checked.error();
+  auto file = make_file(download);
+  if (!file) return file.error();
+  for (;;) {
+    const auto page = add_page(download, **file, download.limit.value_or(kRowsAtOnce));
+    if (!page) return page.error();
+    if (download.limit || !page->next) return (*file)->finish();
+    download.query.as_of = page->as_of;
+    download.query.after.reset();
+    download.after = *page->next;
+  }
+}
+
+}  // namespace
+
+std::vector<http::Parameter> download_parameters() {
+  return {
+      {.name = "time_zone",
+       .description = "Of the times of dfq and xlsx, as in Europe/Berlin; UTC when absent"},
+      {.name = "part_number", .description = "K1001 of a dfq where none travels with a value"},
+      {.name = "part_description", .description = "K1002, likewise"},
+  };
+}
+
+void send_file(const Services& services, const http::Request& request, http::Responder responder,
+               std::string_view media_type, app::MeasurementQuery query, std::int64_t after,
+               std::optional<std::int64_t> limit) {
+  auto options = options_of(request, media_type);
+  if (!options) return responder.fail(options.error());
+  const auto download = std::make_shared<Download>(
+      Download{.services = services,
+               .responder = share(std::move(responder)),
+               .media_type = media_type,
+               .options = *std::move(options),
+               .query = std::move(query),
+               .after = after,
+               .limit = limit ? std::optional(static_cast<std::size_t>(*limit)) : std::nullopt});
+  services.measurements.run(
+      [download] {
+        auto bytes = make_bytes(*download);
+        if (!bytes) return download->responder->fail(bytes.error());
+        const std::string_view ending = download->media_type == kDfqType   ? "dfq"
+                                        : download->media_type == kQifType ? "qif"
+                                                                           : "xlsx";
+        download->responder->answer(
+            http::Response(200, std::string(download->media_type), *std::move(bytes))
+                .with("Vary", "Accept")
+                .with("Content-Disposition",
+                      fmt::format("attachment; filename=\"measurements.{}\"", ending)));
+      },
+      [download](Error error) { download->responder->fail(std::move(error)); });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/measurements/measurement.hpp"
+#include "aqdef/dfq_writer.hpp"
+#include "base/result.hpp"
+
+namespace fitgauge::api {
+
+/// Measurements as a file that is made whole before its first byte is sent. Used by one thread at a
+/// time.
+class MeasurementFile {
+ public:
+  /// So many rows a file has at most: it is made in memory.
+  static constexpr std::size_t kMostRows = 100'000;
+
+  MeasurementFile() = default;
+  MeasurementFile(const MeasurementFile&) = delete;
+  MeasurementFile& operator=(const MeasurementFile&) = delete;
+  virtual ~MeasurementFile() = default;
+
+  /// @errors QueryInvalid: the format cannot hold it.
+  virtual Result<void> add(const app::Measurement& measurement) = 0;
+  /// The whole file. @errors StorageUnavailable
+  virtual Result<std::string> finish() = 0;
+};
+
+/// DFQ of Q-DAS. An empty list is an error: a DFQ without a characteristic is none.
+std::unique_ptr<MeasurementFile> make_dfq_file(aqdef::DfqOptions options);
+
+/// QIF 3.0; an empty list is an error likewise.
+std::unique_ptr<MeasurementFile> make_qif_file();
+
+/// XLSX, with the columns of the CSV. @param zone of its times; none: UTC
+/// @errors StorageUnavailable
+Result<std::unique_ptr<MeasurementFile>> make_xlsx_file(std::optional<sheet::TimeZone> zone);
+
+}  // namespace fitgauge::api

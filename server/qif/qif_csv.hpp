@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aqdef/limits.hpp"
+#include "base/result.hpp"
+#include "sheet/shop_csv.hpp"
+
+namespace fitgauge::qif {
+
+struct QifOptions {
+  sheet::Words constants{};               ///< a field and its value, where the document says none
+  std::optional<sheet::TimeZone> zone{};  ///< of times without an offset
+  std::optional<aqdef::LengthUnit> length_unit{};  ///< where FileUnits says none
+  bool leaves_out_others = false;  ///< characteristics that are no size, or have no value
+  aqdef::LimitsOfClass limits_of{};
+  std::size_t most_rows = 100'000;
+};
+
+/// The measurements of a document as CSV that /v1/measurements takes.
+struct QifText {
+  std::string csv{};
+  std::vector<std::uint32_t> lines{};  ///< of the document, for each line below the header
+};
+
+/// Whether the name of a file says so: `.qif`.
+bool is_qif(std::string_view file_name);
+
+/// Reads the sizes that a QIF 3 document has measured: diameters, widths, lengths, thicknesses and
+/// such, with the tolerance of their characteristic, which must not contradict its class. An
+/// attribute by the name of a field of /v1/measurements is that field. The document is read twice,
+/// element by element. @errors CsvMalformed with the line
+Result<QifText> read_qif(std::string_view text, const QifOptions& options);
+
+}  // namespace fitgauge::qif

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/length.hpp"
+#include "base/result.hpp"
+
+namespace fitgauge::qif {
+
+/// As CharacteristicStatusEnum says it.
+enum class Status : std::uint8_t { Pass, Rework, Indeterminate, Fail };
+std::string_view word(Status status);
+
+/// A measurement on its way into a document.
+struct OutgoingValue {
+  std::string_view origin{};  ///< of its id: 16 hexadecimal digits
+  std::int64_t number = 0;    ///< of its id
+  Timestamp measured_at{};
+  Length measured{};
+  Length nominal{};
+  std::optional<Length> upper{};  ///< limits of size
+  std::optional<Length> lower{};
+  std::string_view class_name{};  ///< empty: the limits are those of a drawing
+  bool is_hole = true;
+  Status status = Status::Pass;
+  std::optional<Length> uncertainty{};  ///< standard
+  std::optional<std::string_view> part_id{};
+  std::optional<std::string_view> characteristic{};
+  /// What else it was recorded with, by the names of /v1/measurements.
+  std::vector<std::pair<std::string_view, std::string>> fields{};
+};
+
+/// Makes a QIF document of results: the characteristics with their limits, the measurements in the
+/// order they came in, and their parts. What QIF has no place for stands in an attribute by its
+/// name. The same measurements give the same bytes. Not thread-safe.
+class QifWriter {
+ public:
+  /// @errors FieldInvalid: a text has a character that XML cannot hold; nothing is added.
+  Result<void> add(const OutgoingValue& value);
+  bool is_empty() const { return measurements_ == 0; }
+  /// The element QIFDocument; nothing stands before it. @pre !is_empty()
+  std::string element() const;
+  /// The whole file.
+  std::string text() const;
+
+ private:
+  struct Part {
+    std::uint32_t id = 0;
+    Status worst = Status::Pass;
+  };
+
+  /// The item of a characteristic, made where there is none yet.
+  std::uint32_t item_of(const OutgoingValue& value);
+
+  std::string qpid_{};
+  std::uint32_t last_id_ = 1;  ///< 1 is the standard
+  std::size_t measurements_ = 0;
+  Status worst_ = Status::Pass;
+  std::map<std::string, std::uint32_t, std::less<>> items_{};  ///< by their definition and name
+  std::map<std::string, Part, std::less<>> parts_{};
+  std::string definitions_{};
+  std::string nominals_{};
+  std::string item_texts_{};
+  std::string measurement_texts_{};
+};
+
+}  // namespace fitgauge::qif

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/clock.hpp"
+#include "base/length.hpp"
+#include "base/result.hpp"
+
+namespace fitgauge::workbook {
+
+/// An XLSX of one sheet, written cell by cell, each row to disk as it ends: memory does not grow
+/// with the rows. Lengths are numbers with their unit, times are times, and a text is a text
+/// whatever it begins with. Not thread-safe; of no more use after an error.
+class Workbook {
+ public:
+  static constexpr std::size_t kMostRows = 1'048'575;  ///< what a sheet holds below its header
+
+  /// Begins the sheet with its header, which stays in sight.
+  /// @errors StorageUnavailable: the folder of temporary files (TMPDIR, else /tmp) takes none.
+  static Result<Workbook> make(std::string_view sheet, std::span<const std::string> header);
+  Workbook(Workbook&&) noexcept;
+  Workbook& operator=(Workbook&&) noexcept;
+  ~Workbook();
+
+  // The next cell of the row.
+  void text(std::string_view text);
+  void mm(Length length);
+  void um(Length length);
+  /// @param value in units of 10^-scale
+  void decimal(std::int64_t value, int scale);
+  /// Of a clock on the wall: a cell has no offset. Before 1900-03-01, which a sheet cannot count, a
+  /// text.
+  void time(Timestamp time);
+  void blank();
+  void end_row();
+
+  /// The whole file. @errors StorageUnavailable: it could not be written.
+  Result<std::string> finish();
+
+ private:
+  struct State;
+  explicit Workbook(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace fitgauge::workbook
