@@ -217,12 +217,31 @@ class Together(unittest.TestCase):
         self.assertEqual(self.other.get(f"/v1/measurements/{record['id']}/proof").status, 200)
         self.assertEqual(self.one.get("/v1/log/key").text.count("\n"), 2)
 
-    def test_a_run_of_one_is_known_to_the_other_and_outlives_a_third(self):
+    def test_a_run_of_one_is_known_to_the_other(self):
         self.one.request("PUT", "/v1/files/nc_prog/R.H", "BEGIN PGM R MM\nFN 0: Q1 = +7\nEND PGM R MM\n",
                          {"Content-Type": "text/plain"})
         run = self.one.post("/v1/runs", {"program": "TNC:\\nc_prog\\R.H"})
         self.assertEqual(run.status, 201, run)
         self.assertEqual(self.other.get(f"/v1/runs/{run.json['id']}").json["status"], "completed")
+
+    def test_the_run_of_a_killed_daemon_is_run_again_by_another(self):
+        killed, = daemons_on(self.cluster, 1)
+        self.addCleanup(killed.cleanup)
+        self.one.request("PUT", "/v1/files/nc_prog/E.H",
+                         "BEGIN PGM E MM\nLBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM E MM\n",
+                         {"Content-Type": "text/plain"})
+        order = {"program": "TNC:\\nc_prog\\E.H", "limits": {"blocks": 100_000_000, "seconds": 2}}
+        begun = killed.post("/v1/runs", order, {"Prefer": "respond-async"})
+        self.assertEqual(begun.status, 202, begun)
+        killed.kill()
+        place = begun.headers["location"]
+        self.assertIn(self.other.get(place).json["status"], ("queued", "running"))
+        deadline = time.monotonic() + 60
+        while (run := self.other.get(place).json)["status"] in ("queued", "running"):
+            self.assertLess(time.monotonic(), deadline, run)
+            time.sleep(0.2)
+        self.assertEqual(run["status"], "limit_exceeded", run)
+        self.assertEqual(run, self.one.get(place).json)
 
     def test_what_is_for_a_data_folder_says_what_to_use(self):
         backup = command("backup", "copy", "--database", self.cluster.address(), "--data", self.one.data)
