@@ -69,8 +69,8 @@ class ServiceCalls(Transport):
         return loads(self._perform(Request("POST", path_of("connections", name, "test"))).body)
 
     def mtconnect(self, request: str, *, start: int | None = None, count: int | None = None) -> str:
-        """An MTConnect document: `probe`, `current` or `sample`, from a sequence on."""
-        return self._bytes("/mtconnect/" + urllib.parse.quote(request, safe="") + query_of({"from": start, "count": count}),
+        """An MTConnect document: `probe`, `current`, `sample` from a sequence on, `assets` or `asset/ID`."""
+        return self._bytes("/mtconnect/" + urllib.parse.quote(request) + query_of({"from": start, "count": count}),
                            "text/xml").decode()
 
     def live(self) -> bool:

@@ -114,16 +114,15 @@ void write_outcome(JsonWriter& json, const http::Route& route, const http::Outco
 }
 
 void write_responses(JsonWriter& json, const http::Route& route) {
+  const std::string_view refusal = route.pattern.starts_with("/mtconnect/")
+                                       ? "#/components/responses/MtconnectError"
+                                       : "#/components/responses/Problem";
   json.key("responses").begin_object();
   for (const http::Outcome& outcome : route.outcomes) write_outcome(json, route, outcome);
   for (const int status : refusals_of(route)) {
-    json.key(std::to_string(status))
-        .begin_object()
-        .member("$ref", "#/components/responses/Problem")
-        .end_object();
+    json.key(std::to_string(status)).begin_object().member("$ref", refusal).end_object();
   }
-  json.key("default").begin_object().member("$ref", "#/components/responses/Problem");
-  json.end_object().end_object();
+  json.key("default").begin_object().member("$ref", refusal).end_object().end_object();
 }
 
 /// The role a key needs; `open` asks for one only where everything asks for one.
@@ -176,9 +175,11 @@ std::string openapi_path(std::string pattern) {
 
 constexpr std::string_view kSecurity =
     R"({"key":{"type":"http","scheme":"bearer","description":"A key of fitgauged key create"}})";
-constexpr std::string_view kResponses = R"({"Problem":{"description":"What is wrong, RFC 9457",
-                           "content" : {"application/problem+json":)"
-                                        R"({"schema":{"$ref":"#/components/schemas/Problem"}}}}})";
+constexpr std::string_view kResponses =
+    R"({"Problem":{"description":"What is wrong, RFC 9457","content":{"application/problem+json":)"
+    R"({"schema":{"$ref":"#/components/schemas/Problem"}}}},)"
+    R"("MtconnectError":{"description":"What is wrong, an MTConnectError document",)"
+    R"("content":{"text/xml":{"schema":{"type":"string"}}}}})";
 
 /// The groups of operations, in the order of a first reading.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTags = {{

@@ -196,6 +196,11 @@ class EveryRoute(ControlTest):
         self.assertIn("FEATURE_MEASUREMENT", client.mtconnect("probe"))
         self.assertIn("nextSequence", client.mtconnect("sample", start=1, count=2))
         self.assertIn("PartCount", client.mtconnect("current"))
+        assets = client.mtconnect("assets")
+        self.assertEqual(re.findall("<Asset>|QIFDocument ", client.mtconnect("asset")),
+                         re.findall("<Asset>|QIFDocument ", assets))
+        asset = re.search(r'assetId="([^"]+)"', assets)[1]
+        self.assertIn(f'assetId="{asset}"', client.mtconnect(f"asset/{asset}"))
         self.assertEqual(client.wait_until_ready()["database"], client.ready()["database"])
         with fitgauge.Client("http://127.0.0.1:1") as nobody, self.assertRaises(fitgauge.NoAnswer):
             nobody.wait_until_ready(timeout=0.2)

@@ -42,7 +42,7 @@ class Cluster:
 
 
 NGINX = """
-daemon off; worker_processes 1; pid {folder}/nginx.pid; error_log {folder}/error.log warn;
+daemon off; master_process off; pid {folder}/nginx.pid; error_log {folder}/error.log warn;
 events {{ worker_connections 512; }}
 http {{
   access_log off; client_body_temp_path {folder}/body; proxy_temp_path {folder}/proxy;
@@ -77,8 +77,9 @@ class FrontDoor(Daemon):
         configuration.write_text(NGINX.format(folder=self.folder, servers=servers, port=self.port))
         # Its worker reads and writes in the folder: as root it would be another user's.
         user = ["-g", "user root;"] if os.getuid() == 0 else []
+        # One process: a worker would outlive its killed master and hold what reads our output.
         self.process = subprocess.Popen(["nginx", "-c", configuration, "-p", self.folder, *user],
-                                        stderr=subprocess.DEVNULL)
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         deadline = time.monotonic() + timeout
         while True:
             try:
