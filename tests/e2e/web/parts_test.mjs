@@ -60,7 +60,7 @@ describe('the parts', () => {
     assert.equal((await page.$$('.records tbody tr')).length, 2);
     await page.getByLabel('With what was corrected').check();
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 3);
-    assert.equal((await page.$$('.records .corrected button')).length, 0);
+    assert.equal(await page.locator('.records .corrected').getByRole('button', { name: 'Correct' }).count(), 0);
     await picture(page, 'parts-corrected', { fullPage: true });
   });
 

@@ -137,11 +137,13 @@ describe('the trend', () => {
   it('stays at the size that was shown first, whatever another station measures', async () => {
     await daemon.send('POST', '/v1/measurements', ['25.01', '25.011'].map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'hops' })));
     page = await open(browser, daemon, '#/trend?characteristic=hops');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 2);
-    for (const [designation, measured] of [['40 H7', '40.01'], ['25 H7', '25.012'], ['40 H7', '40.011'], ['25 H7', '25.013']]) {
-      await daemon.send('POST', '/v1/measurements', { designation, measured_mm: measured, characteristic: 'hops' });
-    }
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 4);
+    const points = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.point').length === wanted, count);
+    await points(2);
+    const measure = (designation, measured) => daemon.send('POST', '/v1/measurements', { designation, measured_mm: measured, characteristic: 'hops' });
+    await measure('25 H7', '25.0115');
+    await points(3); // from here on it follows the events
+    for (const [designation, measured] of [['40 H7', '40.01'], ['25 H7', '25.012'], ['40 H7', '40.011'], ['25 H7', '25.013']]) await measure(designation, measured);
+    await points(5);
     assert.equal(await page.inputValue('#trend-designation'), '25 H7');
     assert.deepEqual(await page.$$eval('#trend-designation option', (all) => all.map(({ value }) => value)), ['25 H7', '40 H7']);
   });
