@@ -1,5 +1,7 @@
 #include "postgres/database.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "postgres/listener.hpp"
@@ -13,9 +15,8 @@ namespace fitgauge::store::postgres {
 namespace {
 
 Error not_here(std::string_view command, std::string_view instead) {
-  return {
-      ErrorCode::StorageUnavailable,
-      std::string(command) + " is for a data folder; on PostgreSQL use " + std::string(instead)};
+  return {ErrorCode::StorageUnavailable,
+          fmt::format("{} is for a data folder; on PostgreSQL use {}", command, instead)};
 }
 
 /// Destroyed from the last member to the first.
