@@ -6,6 +6,7 @@
 #include "cli/address.hpp"
 #include "cli/input_file.hpp"
 #include "cli/problem.hpp"
+#include "cli/show.hpp"
 #include "cli/tolerance_zones.hpp"
 
 namespace fitgauge::cli {
@@ -102,15 +103,9 @@ std::string format_standard(const JsonValue& standard, const Terminal& /*termina
 template <class Format>
 Outcome<ExitCode> show(const Context& context, const std::string& target, const Format& format) {
   const auto answer = get(context, target);
-  if (!answer) return answer.error();
-  if (context.json) {
-    context.print_document(answer->body);
-    return ExitCode::Good;
-  }
-  const auto document = read_document(*answer, context.client.url());
-  if (!document) return document.error();
-  context.print("{}", format(*document, context.out));
-  return ExitCode::Good;
+  return show(context, answer, [&](const JsonValue& document) {
+    context.print("{}", format(document, context.out));
+  });
 }
 
 /// The path and query of a table in the form that is wanted.

@@ -9,6 +9,7 @@
 #include "cli/json_object.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
+#include "cli/show.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -80,18 +81,12 @@ Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix) {
   const auto answer =
       send(context,
            {.target = "/v1/files" + (prefix.empty() ? "" : "?prefix=" + percent_encoded(prefix))});
-  if (!answer) return answer.error();
-  if (context.json) {
-    context.print_document(answer->body);
-    return ExitCode::Good;
-  }
-  const auto document = read_document(*answer, context.client.url());
-  if (!document) return document.error();
-  for (const JsonValue& file : document->member("files").items) {
-    context.print("{:>9}  {}  {}\n", file.text_of("size"), file.text_of("modified_at"),
-                  file.text_of("path"));
-  }
-  return ExitCode::Good;
+  return show(context, answer, [&](const JsonValue& document) {
+    for (const JsonValue& file : document.member("files").items) {
+      context.print("{:>9}  {}  {}\n", file.text_of("size"), file.text_of("modified_at"),
+                    file.text_of("path"));
+    }
+  });
 }
 
 Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::string>& files,

@@ -6,6 +6,7 @@
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
 #include "cli/problem.hpp"
+#include "cli/show.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -109,15 +110,8 @@ Outcome<ExitCode> run_statistics(const Context& context, const StatisticsOptions
       context.client.send(
           {.method = "POST", .target = target, .content_type = "application/json", .body = *body}),
       context.client.url());
-  if (!answer) return answer.error();
-  if (context.json) {
-    context.print_document(answer->body);
-    return ExitCode::Good;
-  }
-  const auto document = read_document(*answer, context.client.url());
-  if (!document) return document.error();
-  print_members(context, "", *document);
-  return ExitCode::Good;
+  return show(context, answer,
+              [&](const JsonValue& document) { print_members(context, "", document); });
 }
 
 }  // namespace fitgauge::cli

@@ -6,6 +6,7 @@
 #include "cli/nc_commands.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
+#include "cli/show.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -26,18 +27,12 @@ template <class Line>
 Outcome<ExitCode> list(const Context& context, const std::string& target, std::string_view items,
                        const Line& line) {
   const auto answer = send(context, {.target = target});
-  if (!answer) return answer.error();
-  if (context.json) {
-    context.print_document(answer->body);
-    return ExitCode::Good;
-  }
-  const auto document = read_document(*answer, context.client.url());
-  if (!document) return document.error();
-  for (const JsonValue& item : document->member(items).items) context.print("{}\n", line(item));
-  if (const std::string_view next = document->text_of("next"); !next.empty()) {
-    context.note(fmt::format("there are more: --after {}", next));
-  }
-  return ExitCode::Good;
+  return show(context, answer, [&](const JsonValue& document) {
+    for (const JsonValue& item : document.member(items).items) context.print("{}\n", line(item));
+    if (const std::string_view next = document.text_of("next"); !next.empty()) {
+      context.note(fmt::format("there are more: --after {}", next));
+    }
+  });
 }
 
 /// Writes what a GET gives into a file, or standard output.
@@ -96,21 +91,15 @@ Outcome<ExitCode> run_runs_ls(const Context& context, const RunsQuery& query) {
 
 Outcome<ExitCode> run_runs_show(const Context& context, const std::string& id) {
   const auto answer = send(context, {.target = run_target(id)});
-  if (!answer) return answer.error();
-  if (context.json) {
-    context.print_document(answer->body);
-    return ExitCode::Good;
-  }
-  const auto run = read_document(*answer, context.client.url());
-  if (!run) return run.error();
-  context.print("{}  {}  {}  {}\n", run->text_of("created_at"), run->text_of("program"),
-                run->text_of("status"), run->text_of("verdict"));
-  for (const JsonValue& line : run->member("screen").items) context.print("{}\n", line.text);
-  print_messages(*run);
-  for (const JsonValue& file : run->member("files").items) {
-    context.print("{:>9}  {}\n", file.text_of("size"), file.text_of("path"));
-  }
-  return ExitCode::Good;
+  return show(context, answer, [&](const JsonValue& run) {
+    context.print("{}  {}  {}  {}\n", run.text_of("created_at"), run.text_of("program"),
+                  run.text_of("status"), run.text_of("verdict"));
+    for (const JsonValue& line : run.member("screen").items) context.print("{}\n", line.text);
+    print_messages(run);
+    for (const JsonValue& file : run.member("files").items) {
+      context.print("{:>9}  {}\n", file.text_of("size"), file.text_of("path"));
+    }
+  });
 }
 
 Outcome<ExitCode> run_runs_get(const Context& context, const std::string& id,
