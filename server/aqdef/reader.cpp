@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
+#include "aqdef/separators.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::aqdef {
@@ -27,31 +26,6 @@ bool must_be_whole(int number) {
 bool begins_value(char c) {
   return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == ',' || c == ' ' ||
          c == kFieldSeparator || c == kValueSeparator;
-}
-
-/// Calls `each` with the place of every separator of fields and of values. Eight bytes at a time:
-/// the fields are short, so that a branch for each byte would be guessed wrong at each of them.
-template <class Each>
-void for_each_separator(std::string_view text, const Each& each) {
-  constexpr std::uint64_t kOnes = 0x0101010101010101;
-  constexpr std::uint64_t kLow = 0x7F * kOnes;
-  // The highest bit of every byte that is 0.
-  const auto zeros = [](std::uint64_t word) { return ~(((word & kLow) + kLow) | word | kLow); };
-  std::size_t at = 0;
-  if constexpr (std::endian::native == std::endian::little) {
-    for (; at + sizeof(std::uint64_t) <= text.size(); at += sizeof(std::uint64_t)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, text.data() + at, sizeof word);
-      std::uint64_t found =
-          zeros(word ^ kFieldSeparator * kOnes) | zeros(word ^ kValueSeparator * kOnes);
-      for (; found != 0; found &= found - 1) {
-        each(at + static_cast<std::size_t>(std::countr_zero(found)) / 8);
-      }
-    }
-  }
-  for (; at < text.size(); ++at) {
-    if (text[at] == kFieldSeparator || text[at] == kValueSeparator) each(at);
-  }
 }
 
 }  // namespace
@@ -154,29 +128,35 @@ Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
   // Behind the last value may stand a separator.
   if (rest.back() == kValueSeparator) rest.remove_suffix(1);
   const std::size_t count = description_.count();
+  std::string_view* const cells = set.cells.room_for(rest.size() + 1);
+  std::uint32_t cell = 0;
+  std::uint32_t first_cell = 0;  // of the value
   std::size_t from = 0;
-  std::uint32_t first = 0;
+  const auto end_cell = [&](std::size_t at) {
+    cells[cell++] = {rest.data() + from, at - from};
+    from = at + 1;
+  };
   const auto end_value = [&] {
-    const auto end = static_cast<std::uint32_t>(set.cells.size());
     set.values.push_back({.characteristic = static_cast<std::uint32_t>(set.values.size()) + 1,
                           .line = line.number,
-                          .first_cell = first,
-                          .cells = end - first});
-    first = end;
+                          .first_cell = first_cell,
+                          .cells = cell - first_cell});
+    first_cell = cell;
   };
   for_each_separator(rest, [&](std::size_t at) {
-    if (set.values.size() >= count) return;  // too many: told below
-    set.cells.push_back(rest.substr(from, at - from));
-    from = at + 1;
-    if (rest[at] == kValueSeparator) end_value();
+    end_cell(at);
+    if (rest[at] != kValueSeparator) return true;
+    end_value();
+    return set.values.size() < count;  // too many: told below
   });
   if (set.values.size() >= count) {
     return at_line(
         line.number,
         fmt::format("has more values than the {} characteristics described above it", count));
   }
-  set.cells.push_back(rest.substr(from));
+  end_cell(rest.size());
   end_value();
+  set.cells.add(cell);
   return {};
 }
 
@@ -203,8 +183,9 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
                           .line = line.number,
                           .first_cell = static_cast<std::uint32_t>(set.cells.size()),
                           .cells = kCells.size()});
-    set.cells.resize(set.cells.size() + kCells.size());
-    set.cells[set.values.back().first_cell] = field.text;
+    for (std::size_t i = 0; i < kCells.size(); ++i) {
+      set.cells.push_back(i == 0 ? field.text : std::string_view());
+    }
     if (field.number == k::kSubgroupSize) {
       set.fields.push_back({field.index, field.number, field.text});
     }

@@ -32,10 +32,34 @@ struct ValueField {
   std::string_view text;
 };
 
+/// Texts in a row. Its room stays when it is emptied, so that a line of values is written into it
+/// without a question at each.
+class Cells {
+ public:
+  std::size_t size() const { return size_; }
+  std::string_view& operator[](std::size_t index) { return room_[index]; }
+  std::string_view operator[](std::size_t index) const { return room_[index]; }
+  void clear() { size_ = 0; }
+  void push_back(std::string_view cell) {
+    room_for(1)[0] = cell;
+    add(1);
+  }
+  /// Where the next ones go; they are of the row when add() has said how many there are.
+  std::string_view* room_for(std::size_t most) {
+    if (room_.size() - size_ < most) room_.resize(size_ + most);
+    return room_.data() + size_;
+  }
+  void add(std::size_t count) { size_ += count; }
+
+ private:
+  std::vector<std::string_view> room_{};
+  std::size_t size_ = 0;
+};
+
 /// The values of one line, or of K0001 of one characteristic after the other.
 struct ValueSet {
   std::vector<Value> values{};
-  std::vector<std::string_view> cells{};
+  Cells cells{};
   std::vector<ValueField> fields{};
 
   /// A text by its number of K0001 to K0012; empty where there is none.

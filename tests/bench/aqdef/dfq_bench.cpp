@@ -1,5 +1,6 @@
 // A DFQ read from a file: `bench_dfq FILE [rows]`. Prints how many characteristics and values it
-// has, and the seconds of the processor; with `rows` as CSV of measurements, else as fields alone.
+// has, and the seconds of the processor outside of the kernel; with `rows` as CSV of measurements,
+// else as fields alone.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
       const auto more = reader.next(set);
       if (!more) said = more.error().message;
       if (!more || !*more) break;
-      for (const auto& value : set.values) values += set.cell(value, 0).empty() ? 0 : 1;
+      for (const auto& value : set.values) values += set.cell(value, 0).empty() ? 0U : 1U;
     }
     if (const auto checked = reader.check(); said.empty() && !checked) {
       said = checked.error().message;

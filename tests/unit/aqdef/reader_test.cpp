@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "aqdef/separators.hpp"
+
 namespace fitgauge::aqdef {
 namespace {
 
@@ -40,6 +42,32 @@ std::string lines(std::initializer_list<std::string_view> all) {
 
 const std::string kTwo = lines(
     {"K0100 2", "K1001/1 4711", "K2001/1 1", "K2002/1 Diameter", "K2001/2 2", "K2002/2 Length"});
+
+TEST_CASE("a line is cut at every separator, wherever it stands in a block") {
+  // All bytes but NUL, line ends and separators, so that nothing is taken for one.
+  const auto filler = [](std::size_t at) {
+    const char byte = static_cast<char>(at * 37 % 256);
+    return byte == '\0' || byte == '\n' || byte == '\r' || byte == '\x14' || byte == '\x0F' ? 'x'
+                                                                                            : byte;
+  };
+  for (std::size_t size = 1; size <= 3 * kBlock; ++size) {
+    for (std::size_t step = 1; step <= kBlock + 1; step += 1 + size % 5) {
+      std::string text;
+      std::vector<std::size_t> wanted;
+      for (std::size_t at = 0; at < size; ++at) {
+        const bool is_separator = at % step == step - 1;
+        if (is_separator) wanted.push_back(at);
+        text += is_separator ? (at % 2 == 0 ? '\x14' : '\x0F') : filler(at);
+      }
+      std::vector<std::size_t> found;
+      for_each_separator(text, [&](std::size_t at) {
+        found.push_back(at);
+        return true;
+      });
+      REQUIRE(found == wanted);
+    }
+  }
+}
 
 TEST_CASE("values stand in lines, with their fields below them") {
   CHECK(read(kTwo + "25.01\x14"
