@@ -90,6 +90,36 @@ std::string actions_schema() {
 
 std::string separator_schema() { return schema::words({"comma", "point"}); }
 
+void read_separator(const JsonValue& setup, const std::string& pointer,
+                    interpreter::RunOptions& options, FieldErrors& errors) {
+  const JsonValue* separator = setup.find("decimal_separator");
+  if (separator == nullptr) return;
+  if (separator->is(Kind::String) && (separator->text == "comma" || separator->text == "point")) {
+    options.decimal_comma = separator->text == "comma";
+  } else {
+    errors.add(ErrorCode::FieldInvalid, pointer_to(pointer, "decimal_separator"),
+               "takes \"comma\" or \"point\"");
+  }
+}
+
+void read_print_folder(const JsonValue& setup, const std::string& pointer,
+                       interpreter::RunOptions& options, FieldErrors& errors) {
+  constexpr std::string_view kMember = "fn16_default_path";
+  const JsonValue* folder = setup.find(kMember);
+  if (folder == nullptr) return;
+  const std::string where = pointer_to(pointer, kMember);
+  if (!folder->is(Kind::String)) {
+    errors.add(ErrorCode::FieldType, where, "takes a text such as TNC:\\logs");
+    return;
+  }
+  auto path = interpreter::ControlPath::parse(folder->text + "\\log");
+  if (path) {
+    options.print_folder = *std::move(path);
+  } else {
+    errors.add(path.error().code, where, path.error().message);
+  }
+}
+
 }  // namespace
 
 void name_builder_actions(SetupFields& fields) {
@@ -100,8 +130,12 @@ void name_builder_actions(SetupFields& fields) {
   fields.elsewhere({"cycles", "Of the machine's builder, likewise"}, actions_schema);
 }
 
-void name_decimal_separator(SetupFields& fields) {
+void name_printing(SetupFields& fields) {
   fields.elsewhere({"decimal_separator", "Of FN 15; comma when absent"}, separator_schema);
+  fields.elsewhere({"fn16_default_path",
+                    "fn16DefaultPath: the folder, such as `TNC:\\logs`, of logs and of files that "
+                    "FN 16 names without a folder; that of the program when absent"},
+                   [] { return schema::text(); });
 }
 
 void decode_builder(const JsonValue& setup, const std::string& pointer,
@@ -116,14 +150,8 @@ void decode_builder(const JsonValue& setup, const std::string& pointer,
     if (machine->is(Kind::Object)) read(*machine, pointer_to(pointer, "machine"));
   }
   read(setup, pointer);
-  const JsonValue* separator = setup.find("decimal_separator");
-  if (separator == nullptr) return;
-  if (separator->is(Kind::String) && (separator->text == "comma" || separator->text == "point")) {
-    options.decimal_comma = separator->text == "comma";
-  } else {
-    errors.add(ErrorCode::FieldInvalid, pointer_to(pointer, "decimal_separator"),
-               "takes \"comma\" or \"point\"");
-  }
+  read_separator(setup, pointer, options, errors);
+  read_print_folder(setup, pointer, options, errors);
 }
 
 }  // namespace fitgauge::api

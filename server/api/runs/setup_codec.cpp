@@ -30,7 +30,7 @@ void read_setup(SetupFields& fields, machine::Setup& setup) {
                                   read_feature);
                 });
   name_builder_actions(fields);
-  name_decimal_separator(fields);
+  name_printing(fields);
   fields.seed({"seed", "Of the random parts of a contact: the same seed, the same run"},
               setup.seed);
 }

@@ -30,6 +30,14 @@ NcResult<ControlPath> Channel::resolve(std::string_view written) const {
   return *std::move(path);
 }
 
+NcResult<ControlPath> Channel::resolve_printed(std::string_view written) const {
+  const bool is_name = written.find_first_of("\\/:") == std::string_view::npos;
+  if (!is_name || !options.print_folder) return resolve(written);
+  auto path = ControlPath::resolve(written, *options.print_folder);
+  if (path.has_error()) return from_error(path.error());
+  return *std::move(path);
+}
+
 NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
   auto path = resolve(written);
   if (!path) return path;

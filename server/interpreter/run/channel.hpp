@@ -46,6 +46,9 @@ class Channel {
 
   /// A path as the program that runs names it.
   NcResult<ControlPath> resolve(std::string_view written) const;
+  /// A file that the program that runs prints: in the folder of FN 16, where there is one and the
+  /// name has none.
+  NcResult<ControlPath> resolve_printed(std::string_view written) const;
   /// A program as the one that runs names it; `.H` where it has no extension.
   NcResult<ControlPath> resolve_program(std::string_view written) const;
   /// The program, linked; each file is loaded once in a run.

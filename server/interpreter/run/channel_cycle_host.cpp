@@ -26,12 +26,16 @@ void ChannelCycleHost::set_q(std::uint16_t number, double value, probing::Unit u
 
 probing::CycleResult<void> ChannelCycleHost::append_log(std::string_view name,
                                                         std::string_view text) {
-  return reported(channel_.files.append(channel_.linked().path().beside(name), text));
+  const auto path = channel_.resolve_printed(name);
+  if (!path) return reported(path.error());
+  return reported(channel_.files.append(*path, text));
 }
 
 probing::CycleResult<void> ChannelCycleHost::write_log(std::string_view name,
                                                        std::string_view text) {
-  return reported(channel_.files.write(channel_.linked().path().beside(name), std::string(text)));
+  const auto path = channel_.resolve_printed(name);
+  if (!path) return reported(path.error());
+  return reported(channel_.files.write(*path, std::string(text)));
 }
 
 void ChannelCycleHost::stop(std::string_view reason) {

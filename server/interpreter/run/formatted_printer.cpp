@@ -129,7 +129,7 @@ NcResult<void> FormattedPrinter::print(Channel& channel, const ControlPath& mask
   if (is_device(target)) {
     return channel.note(fmt::format("FN 16: nothing is connected to {}", target));
   }
-  const auto path = channel.resolve(target);
+  const auto path = channel.resolve_printed(target);
   if (!path) return path.error();
   if (auto reserved = channel.files.reserve(*path); !reserved) return reserved;
   Output& output = outputs_.try_emplace(path->key(), Output{*path, {}, false, {}}).first->second;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -31,7 +32,10 @@ struct RunOptions {
   /// Lines that are no Klartext are ERROR blocks, which fail when they are reached (decision 32);
   /// otherwise they refuse the program.
   bool keeps_unreadable = false;
-  bool decimal_comma = true;                                          ///< of FN 15
+  bool decimal_comma = true;  ///< of FN 15
+  /// A file of the folder for logs and for what FN 16 names without a folder (fn16DefaultPath);
+  /// without one they lie beside the program.
+  std::optional<ControlPath> print_folder;
   klartext::MaskLanguage language = klartext::MaskLanguage::English;  ///< of the control's dialog
 };
 

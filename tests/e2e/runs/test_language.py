@@ -29,11 +29,11 @@ class Language(ControlTest):
     def test_a_table_that_makes_no_sense_is_refused(self):
         path = self.upload_program("empty")
         bad = {"m_functions": {"3": "ignore", "x": "ignore", "55": "skip"}, "cycles": {"200": "ignore"},
-               "decimal_separator": "dot"}
+               "decimal_separator": "dot", "fn16_default_path": "C:\\logs"}
         found = {e["pointer"] for e in
                  self.assert_problem(self.post_run(path, setup=bad), 422, "request.invalid")["errors"]}
         self.assertEqual(found, {"/setup/m_functions/3", "/setup/m_functions/x", "/setup/m_functions/55",
-                                 "/setup/cycles/200", "/setup/decimal_separator"})
+                                 "/setup/cycles/200", "/setup/decimal_separator", "/setup/fn16_default_path"})
 
     def test_an_unreadable_line_may_wait_until_it_is_reached(self):
         path = self.upload_program("torn", "Q1 = 1", "CYCLE DEF 9.0", "Q1 = 2")

@@ -302,5 +302,28 @@ TEST_CASE("FN 15 prints four decimals and the separator of the control") {
   CHECK(printed() == "-0.6316  +0  +105.868\n");
 }
 
+TEST_CASE("logs and what FN 16 prints lie beside the program or in the folder of the control") {
+  Control control;
+  control.setup.features = {machine::Block{{0, 0, -40}, {100, 80, 0}}};
+  control.file("mask.a", "\"text\";\n");
+  const auto written = [&] {
+    std::vector<std::string> paths;
+    const RunResult result = control.run(
+        "TOOL CALL 30 Z\nL Z+50 FMAX\nFN 16: F-PRINT mask.a / out.txt\n"
+        "FN 16: F-PRINT mask.a / sub\\out.txt\nFN 16: F-PRINT mask.a / TNC:\\out.txt\n"
+        "TCH PROBE 427 MEASURE COORDINATE Q263=+50 Q264=+40 Q261=+0 Q320=+0 Q272=+3 Q267=-1 "
+        "Q260=+50 Q281=+1 Q288=+1 Q289=-1 Q309=+0 Q330=+0");
+    CHECK(outcome(result) == "completed");
+    for (const WrittenFile& file : result.files) paths.push_back(file.path.text());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+  };
+  CHECK(written() == Lines{"TNC:\\nc_prog\\TCHPR427.TXT", "TNC:\\nc_prog\\out.txt",
+                           "TNC:\\nc_prog\\sub\\out.txt", "TNC:\\out.txt"});
+  control.options.print_folder = ControlPath::parse("TNC:\\logs\\log").value();
+  CHECK(written() == Lines{"TNC:\\logs\\TCHPR427.TXT", "TNC:\\logs\\out.txt",
+                           "TNC:\\nc_prog\\sub\\out.txt", "TNC:\\out.txt"});
+}
+
 }  // namespace
 }  // namespace fitgauge::interpreter
