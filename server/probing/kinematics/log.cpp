@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "log_templates.hpp"
 #include "probing/log/html_log.hpp"
 #include "probing/log/measuring_log.hpp"
 #include "probing/measured_value.hpp"
@@ -14,14 +15,12 @@
 namespace fitgauge::probing {
 namespace {
 
+using namespace fmt::literals;
 using machine::Axis;
+namespace parts = templates::kinematics;
 
 std::string mm(double value) { return log_text(to_length(value), false); }
 std::string degrees(double value) { return fixed(value, 4); }
-
-std::string row(std::string_view label, std::string_view value) {
-  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", label, value);
-}
 
 std::string components(const Vec3& v, std::string (*text)(double)) {
   return fmt::format("X {}, Y {}, Z {}", text(v.x), text(v.y), text(v.z));
@@ -40,19 +39,14 @@ std::string position_text(const SpherePose& pose, std::span<const Axis> axes) {
 /// The positions with the sphere's distance from its mean place.
 std::string positions(std::span<const SpherePose> poses, std::span<const Axis> axes,
                       const Spread& before, const Spread& after) {
-  std::string html =
-      "<table>\n<thead><tr><th scope=\"col\">Position in degrees</th><th scope=\"col\">X</th>"
-      "<th scope=\"col\">Y</th><th scope=\"col\">Z</th><th scope=\"col\">Error in space</th>"
-      "<th scope=\"col\">After correction</th></tr></thead>\n<tbody>\n";
+  std::string rows;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const Vec3& error = before.errors[k];
-    html += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-        "</tr>\n",
-        position_text(poses[k], axes), mm(error.x), mm(error.y), mm(error.z), mm(norm(error)),
-        mm(norm(after.errors[k])));
+    rows += fmt::format(parts::position, "position"_a = position_text(poses[k], axes),
+                        "x"_a = mm(error.x), "y"_a = mm(error.y), "z"_a = mm(error.z),
+                        "error"_a = mm(norm(error)), "after"_a = mm(norm(after.errors[k])));
   }
-  return html + "</tbody>\n</table>\n";
+  return fmt::format(parts::positions, "rows"_a = rows);
 }
 
 struct Valuation {
@@ -69,33 +63,24 @@ Valuation valuation_of(double number) {
 
 /// What the positions can and cannot say.
 std::string judged(const AxisErrors& errors, bool directions) {
-  std::string html;
-  if (!errors.location) {
-    return "<p class=\"verdict none\">– These positions cannot see the location of the axis: "
-           "nothing was determined</p>\n";
-  }
+  if (!errors.location) return parts::no_location;
   const auto [style, words] = valuation_of(errors.valuation);
-  html += fmt::format("<p class=\"verdict {}\">{} (valuation number {:.1f})</p>\n", style, words,
-                      errors.valuation);
-  if (directions && !errors.tilt_deg) {
-    html +=
-        "<p class=\"verdict none\">– These positions cannot see the direction of the axis: only "
-        "its location was determined</p>\n";
-  }
+  std::string html = fmt::format(parts::valuation, "style"_a = style, "words"_a = words,
+                                 "number"_a = errors.valuation);
+  if (directions && !errors.tilt_deg) html += parts::no_direction;
   return html;
 }
 
 /// What was found of an error and how sure it is. @param what "the location error".
 std::string error_rows(std::string_view label, std::string_view what, const FoundError& found,
                        std::string (*text)(double)) {
-  std::string html = row(label, components(found.value, text));
+  std::string html =
+      fmt::format(parts::error, "label"_a = label, "value"_a = components(found.value, text));
   if (found.uncertainty != Vec3{}) {
-    html += row(fmt::format("Uncertainty of {} (95 %)", what), components(found.uncertainty, text));
+    html += fmt::format(parts::uncertainty, "what"_a = what,
+                        "value"_a = components(found.uncertainty, text));
   }
-  if (!found.is_significant) {
-    html +=
-        row(fmt::format("Significance of {}", what), "▲ less than twice its standard uncertainty");
-  }
+  if (!found.is_significant) html += fmt::format(parts::insignificant, "what"_a = what);
   return html;
 }
 
@@ -116,33 +101,32 @@ std::string error_rows(const AxisErrors& errors) {
 }
 
 std::string deviation_rows(const Spread& before, const Spread& after) {
-  const bool one = before.errors.size() < 3;
-  return row(one ? "Measured error of the position" : "Measured dispersion (root mean square)",
-             mm(before.deviation)) +
-         row(one ? "Error after correction" : "Optimised dispersion (root mean square)",
-             mm(after.deviation));
+  const std::string old_value = mm(before.deviation);
+  const std::string new_value = mm(after.deviation);
+  if (before.errors.size() < 3) {
+    return fmt::format(parts::deviation_of_position, "before"_a = old_value, "after"_a = new_value);
+  }
+  return fmt::format(parts::dispersion, "before"_a = old_value, "after"_a = new_value);
 }
 
 std::string axis_text(const AxisMeasurement& axis, bool directions) {
   const AxisPlan& plan = axis.plan;
   const std::array only{plan.axis};
-  std::string html = fmt::format(
-      "<h3>Axis {}</h3>\n<p>{} positions from {} to {} degrees{}; it stands at {} while other "
-      "axes are measured</p>\n",
-      name(plan.axis), plan.points, degrees(plan.start), degrees(plan.end),
-      plan.grid > 0 ? fmt::format(" on a Hirth grid of {}", degrees(plan.grid)) : "",
-      degrees(plan.incidence));
-  html += judged(axis.errors, directions) + positions(axis.poses, only, axis.before, axis.after) +
-          "<table>\n<tbody>\n" + deviation_rows(axis.before, axis.after) + error_rows(axis.errors);
-  html += row("Backlash in degrees",
-              axis.backlash_deg ? degrees(*axis.backlash_deg) : std::string(axis.no_backlash));
-  html += row("Mean positioning error in degrees", degrees(axis.positioning_error_deg));
-  html += row("Radius of the measuring circle", mm(axis.radius));
   constexpr double kMicrometre = 0.001;
-  html += row("Measuring uncertainty in degrees per µm",
-              axis.radius > 0 ? fmt::format("{:.6f}", machine::degrees(kMicrometre / axis.radius))
-                              : std::string("none: the sphere lies on the axis"));
-  return html + "</tbody>\n</table>\n";
+  return fmt::format(
+      parts::axis, "axis"_a = name(plan.axis), "points"_a = plan.points,
+      "start"_a = degrees(plan.start), "end"_a = degrees(plan.end),
+      "grid"_a = plan.grid > 0 ? fmt::format(" on a Hirth grid of {}", degrees(plan.grid)) : "",
+      "incidence"_a = degrees(plan.incidence), "judged"_a = judged(axis.errors, directions),
+      "positions"_a = positions(axis.poses, only, axis.before, axis.after),
+      "deviations"_a = deviation_rows(axis.before, axis.after),
+      "errors"_a = error_rows(axis.errors),
+      "backlash"_a =
+          axis.backlash_deg ? degrees(*axis.backlash_deg) : std::string(axis.no_backlash),
+      "positioning_error"_a = degrees(axis.positioning_error_deg), "circle"_a = mm(axis.radius),
+      "uncertainty"_a = axis.radius > 0
+                            ? fmt::format("{:.6f}", machine::degrees(kMicrometre / axis.radius))
+                            : std::string("none: the sphere lies on the axis"));
 }
 
 /// Writes a section into the log of the cycle.
@@ -156,22 +140,20 @@ CycleResult<void> add(const CycleContext& context, std::string_view mode,
   const HtmlLog log{file, title, heading, "Errors are real minus modelled.", true};
   return add_section(
       context.host, log,
-      fmt::format("<section>\n<h2>Kinematics measured on {}</h2>\n<p>Mode {}; active kinematics 0; "
-                  "calibration sphere of radius {}</p>\n{}</section>\n",
-                  date_and_time(context.host), mode, mm(context.arguments.number(407)), measured));
+      fmt::format(parts::section, "when"_a = date_and_time(context.host), "mode"_a = mode,
+                  "radius"_a = mm(context.arguments.number(407)), "measured"_a = measured));
 }
 
 }  // namespace
 
 CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsReport& report) {
   std::string html;
-  if (report.measurement.axes.empty()) html += "<p>No axis was to be measured.</p>\n";
+  if (report.measurement.axes.empty()) html += parts::no_axis;
   for (const AxisMeasurement& axis : report.measurement.axes) {
     html += axis_text(axis, report.directions);
   }
   if (report.shift) {
-    html += fmt::format("<p>Preset compensation, taken into the kinematics: {}</p>\n",
-                        components(*report.shift, mm));
+    html += fmt::format(parts::shift, "shift"_a = components(*report.shift, mm));
   }
   return add(context, report.mode, html);
 }
@@ -179,14 +161,17 @@ CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsRe
 CycleResult<void> log_grid(const CycleContext& context, std::string_view mode,
                            std::span<const SpherePose> poses, const KinematicsFit& fit) {
   std::vector<Axis> axes;
-  std::string html = "<table>\n<tbody>\n" + deviation_rows(fit.before.front(), fit.after.front()) +
-                     "</tbody>\n</table>\n";
+  std::string html;
   for (const AxisErrors& errors : fit.errors) {
     axes.push_back(errors.axis);
-    html += fmt::format("<h3>Axis {}</h3>\n{}<table>\n<tbody>\n{}</tbody>\n</table>\n",
-                        name(errors.axis), judged(errors, true), error_rows(errors));
+    html += fmt::format(parts::axis_of_grid, "axis"_a = name(errors.axis),
+                        "judged"_a = judged(errors, true), "errors"_a = error_rows(errors));
   }
-  return add(context, mode, html + positions(poses, axes, fit.before.front(), fit.after.front()));
+  const Spread& before = fit.before.front();
+  const Spread& after = fit.after.front();
+  return add(context, mode,
+             fmt::format(parts::grid, "deviations"_a = deviation_rows(before, after),
+                         "axes"_a = html, "positions"_a = positions(poses, axes, before, after)));
 }
 
 }  // namespace fitgauge::probing

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "log_templates.hpp"
 #include "probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {
 namespace {
 
-constexpr std::string_view kRule = "------------------------------------------------------------\n";
+using namespace fmt::literals;
+
 constexpr double kMmPerInch = 25.4;
 
 }  // namespace
@@ -28,19 +30,15 @@ std::string log_text(Length value, bool inch) {
 MeasuringLog::MeasuringLog(const CycleDescriptor& cycle, const CycleHost& host)
     : inch_(host.is_inch()) {
   const CivilTime time = civil_time(host.now());
-  text_ = fmt::format(
-      "****** Measuring log of touch-probe cycle {} {} ******\n"
-      "Date: {:02}-{:02}-{:04}\n"
-      "Time: {}:{:02}:{:02}\n"
-      "Measuring program: {}\n"
-      "Unit (0=MM / 1=INCH): {}\n",
-      cycle.number, cycle.name, time.day, time.month, time.year, time.hour, time.minute,
-      time.second, host.program_path(), inch_ ? 1 : 0);
+  text_ =
+      fmt::format(templates::measuring::beginning, "cycle"_a = cycle.number, "name"_a = cycle.name,
+                  "day"_a = time.day, "month"_a = time.month, "year"_a = time.year,
+                  "hour"_a = time.hour, "minute"_a = time.minute, "second"_a = time.second,
+                  "program"_a = host.program_path(), "unit"_a = inch_ ? 1 : 0);
 }
 
 void MeasuringLog::section(std::string_view title) {
-  text_ += kRule;
-  fmt::format_to(std::back_inserter(text_), "{}:\n", title);
+  text_ += fmt::format(templates::measuring::section, "title"_a = title);
 }
 
 void MeasuringLog::length(std::string_view label, Length value) {
@@ -50,12 +48,12 @@ void MeasuringLog::length(std::string_view label, Length value) {
 void MeasuringLog::number(std::string_view label, double value) { line(label, fixed(value, 4)); }
 
 void MeasuringLog::line(std::string_view label, std::string_view value) {
-  fmt::format_to(std::back_inserter(text_), "{:<44}{:>16}\n", fmt::format("{}:", label), value);
+  text_ += fmt::format(templates::measuring::line, "label"_a = fmt::format("{}:", label),
+                       "value"_a = value);
 }
 
 std::string MeasuringLog::finish() && {
-  text_ += kRule;
-  text_ += "****** End of measuring log ******\n\n";
+  text_ += templates::measuring::end;
   return std::move(text_);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "log_templates.hpp"
 #include "probing/log/html_log.hpp"
 #include "probing/log/measuring_log.hpp"
 #include "probing/measured_value.hpp"
@@ -11,6 +12,7 @@
 namespace fitgauge::probing {
 namespace {
 
+using namespace fmt::literals;
 using gauging::Verdict;
 using machine::Vec3;
 
@@ -37,29 +39,20 @@ Appearance appearance(const std::optional<Verdict>& verdict) {
 /// Of the values along the axes and along the normal.
 using Styles = std::array<std::string_view, 4>;
 
-/// Adds rows of a value along each axis and one along the normal.
-class PointTable {
- public:
-  PointTable(std::string& html, bool inch) : html_(html), inch_(inch) {}
-
-  void row(std::string_view label, const std::array<Length, 3>& along_axes, Length along_normal,
-           const Styles& styles = {}) {
-    html_ += fmt::format("<tr><th scope=\"row\">{}</th>", label);
-    for (std::size_t axis = 0; axis < 3; ++axis) cell(along_axes.at(axis), styles.at(axis));
-    cell(along_normal, styles.back());
-    html_ += "</tr>\n";
-  }
-
- private:
-  void cell(Length value, std::string_view style) {
-    const std::string begin =
-        style.empty() ? std::string("<td>") : fmt::format("<td class=\"judged {}\">", style);
-    html_ += fmt::format("{}{}</td>", begin, log_text(value, inch_));
-  }
-
-  std::string& html_;
-  bool inch_;
-};
+/// A row of a value along each axis and one along the normal.
+std::string row(std::string_view label, const std::array<Length, 3>& along_axes,
+                Length along_normal, bool inch, const Styles& styles = {}) {
+  const auto cell = [&](Length value, std::string_view style) {
+    const std::string text = log_text(value, inch);
+    return style.empty()
+               ? fmt::format(templates::point::cell, "value"_a = text)
+               : fmt::format(templates::point::judged_cell, "style"_a = style, "value"_a = text);
+  };
+  return fmt::format(
+      templates::point::row, "label"_a = label, "main"_a = cell(along_axes[0], styles[0]),
+      "secondary"_a = cell(along_axes[1], styles[1]), "probe"_a = cell(along_axes[2], styles[2]),
+      "normal"_a = cell(along_normal, styles[3]));
+}
 
 std::array<Length, 3> components(const Vec3& normal, double length) {
   return {to_length(normal.x * length), to_length(normal.y * length), to_length(normal.z * length)};
@@ -95,33 +88,30 @@ std::array<Length, 3> difference(const std::array<Length, 3>& a, const std::arra
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-std::string section(const CycleHost& host, const ProbedPoint& point) {
-  const Appearance look = appearance(point.verdict);
-  std::string html = fmt::format(
-      "<section>\n<h2>Point touched on {}</h2>\n"
-      "<p class=\"verdict {}\">{} (Q183 = {})</p>\n"
-      "<table>\n<thead><tr><th scope=\"col\">Value</th><th scope=\"col\">{}</th>"
-      "<th scope=\"col\">{}</th><th scope=\"col\">{}</th>"
-      "<th scope=\"col\">Along the normal</th></tr></thead>\n<tbody>\n",
-      date_and_time(host), look.style, look.words, look.q183, name(point.plane.main),
-      name(point.plane.secondary), name(point.plane.probe));
-  PointTable table(html, host.is_inch());
-  table.row("Probing direction vector", components(point.normal, -point.distance),
-            to_length(-point.distance));
-  table.row("Nominal", point.nominal, Length{});
+std::string rows(const ProbedPoint& point, bool inch) {
+  std::string rows = row("Probing direction vector", components(point.normal, -point.distance),
+                         to_length(-point.distance), inch) +
+                     row("Nominal", point.nominal, Length{}, inch);
   if (point.limits) {
     const auto limit = [&](std::string_view label, Length along_normal) {
-      table.row(label, sum(point.nominal, components(point.normal, along_normal.to_mm())),
-                along_normal);
+      return row(label, sum(point.nominal, components(point.normal, along_normal.to_mm())),
+                 along_normal, inch);
     };
-    limit("Upper limit", point.limits->upper);
-    limit("Lower limit", point.limits->lower);
+    rows += limit("Upper limit", point.limits->upper) + limit("Lower limit", point.limits->lower);
   }
   const Styles styles = styles_of(point);
-  table.row("Actual", point.measured, point.deviation, styles);
-  table.row("Deviation", difference(point.measured, point.nominal), point.deviation, styles);
-  html += "</tbody>\n</table>\n</section>\n";
-  return html;
+  rows += row("Actual", point.measured, point.deviation, inch, styles);
+  rows +=
+      row("Deviation", difference(point.measured, point.nominal), point.deviation, inch, styles);
+  return rows;
+}
+
+std::string section(const CycleHost& host, const ProbedPoint& point) {
+  const Appearance look = appearance(point.verdict);
+  return fmt::format(templates::point::section, "when"_a = date_and_time(host),
+                     "style"_a = look.style, "words"_a = look.words, "q183"_a = look.q183,
+                     "main"_a = name(point.plane.main), "secondary"_a = name(point.plane.secondary),
+                     "probe"_a = name(point.plane.probe), "rows"_a = rows(point, host.is_inch()));
 }
 
 }  // namespace
