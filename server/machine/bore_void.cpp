@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::machine {
 
 struct BoreVoid::Local {
@@ -89,11 +91,10 @@ double BoreVoid::way_inside(const Vec3& centre, const Vec3& direction, double ra
 }
 
 Box BoreVoid::box() const {
-  constexpr double kBeside = 1e-6;
   Box box = Box::everything();
   const bool is_upright = from_local_ * Vec3{0, 0, 1} == Vec3{0, 0, 1};
   if (!is_upright || slope_ != 0) return box;
-  const double reach = radius_ + amplitude_ + kBeside;
+  const double reach = radius_ + amplitude_ + tolerance::kNanometre;
   box.min.x = opening_.x - reach;
   box.max.x = opening_.x + reach;
   box.min.y = opening_.y - reach;

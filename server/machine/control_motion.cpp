@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "machine/control.hpp"
+#include "machine/tolerance.hpp"
 
 namespace fitgauge::machine {
 namespace {
@@ -54,8 +55,7 @@ MachineResult<Vec3> Control::target_rotary(const LinearMove& move) const {
     programmed[letter] = *word;
     rotary[letter] = state_.frames.rotary_to_machine(programmed, move.system)[letter];
     const double grid = range->hirth_grid_deg;
-    constexpr double kOnTooth = 1e-6;
-    if (grid > 0 && std::abs(std::remainder(rotary[letter], grid)) > kOnTooth) {
+    if (grid > 0 && std::abs(std::remainder(rotary[letter], grid)) > tolerance::kOnTooth) {
       return make_fault(FaultKind::HirthGrid, fmt::format("{}{:+.4f} with a grid of {} degrees",
                                                           name(axis), rotary[letter], grid));
     }
@@ -193,9 +193,9 @@ MachineResult<void> Control::check_range(const Position& nose) const {
   for (const Axis axis : kAllAxes) {
     const auto& range = state_.ranges[index(axis)];
     if (!range) continue;
-    constexpr double kRounding = 1e-9;  // a position computed to lie on the limit is in range
     const double at = nose[axis];
-    if (at >= range->min - kRounding && at <= range->max + kRounding) continue;
+    if (at >= range->min - tolerance::kSamePoint && at <= range->max + tolerance::kSamePoint)
+      continue;
     return make_fault(FaultKind::AxisLimit, fmt::format("{}{:+.4f} is outside {} to {}", name(axis),
                                                         at, range->min, range->max));
   }
@@ -247,13 +247,12 @@ MachineResult<double> Control::follow(const Path& path, const Motion& motion) {
 /// Halves the part of the path until each piece is straight.
 MachineResult<double> Control::follow_pieces(const Path& path, const Motion& motion, double from,
                                              double to) {
-  constexpr double kStraight = 5e-4;  // mm
   constexpr double kLongestPiece = 0.125;
   const Position start = path.nose(from);
   const Position end = to < 1 ? path.nose(to) : path.end;
   const double half = (from + to) / 2;
   const Vec3 sag = path.nose(half).linear - (start.linear + end.linear) * 0.5;
-  if (to - from > kLongestPiece || norm(sag) > kStraight) {
+  if (to - from > kLongestPiece || norm(sag) > tolerance::kSag) {
     auto first = follow_pieces(path, motion, from, half);
     if (!first || *first < half) return first;
     return follow_pieces(path, motion, half, to);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::machine {
 
 Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
@@ -49,8 +51,7 @@ Vec3 spatial_angles(const Matrix3& rotation) {
   const auto& [x, y, z] = rotation.rows;
   const double cosine = std::hypot(x.x, y.x);
   const double b = degrees(std::atan2(-z.x, cosine));
-  constexpr double kDegenerate = 1e-12;
-  if (cosine < kDegenerate) return {0, b, degrees(std::atan2(-x.y, y.y))};
+  if (cosine < tolerance::kParallel) return {0, b, degrees(std::atan2(-x.y, y.y))};
   return {degrees(std::atan2(z.y, z.z)), b, degrees(std::atan2(y.x, x.x))};
 }
 

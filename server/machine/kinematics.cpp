@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::machine {
 namespace {
 
@@ -28,10 +30,9 @@ Vec3 across(const Vec3& v, const Vec3& axis) { return v - axis * dot(v, axis); }
 /// The angle in degrees that turns `from` to `to` around `axis`, or `free` where none matters
 /// because `from` lies along the axis.
 double angle_between(const Vec3& from, const Vec3& to, const Vec3& axis, double free) {
-  constexpr double kAlong = 1e-9;
   const Vec3 a = across(from, axis);
   const Vec3 b = across(to, axis);
-  if (norm(a) < kAlong || norm(b) < kAlong) return free;
+  if (norm(a) < tolerance::kSameDirection || norm(b) < tolerance::kSameDirection) return free;
   return degrees(std::atan2(dot(axis, cross(a, b)), dot(a, b)));
 }
 
@@ -56,14 +57,12 @@ std::vector<Vec3> solve_pair(const Joint& outer, const Joint& inner, const Vec3&
   const Vec3& v = inner.direction;
   const double cosine = dot(u, v);
   const double determinant = 1 - cosine * cosine;
-  constexpr double kParallel = 1e-12;
-  if (determinant < kParallel) return {};
+  if (determinant < tolerance::kParallel) return {};
   const double along_u = (dot(u, normal) - cosine * dot(v, tool)) / determinant;
   const double along_v = (dot(v, tool) - cosine * dot(u, normal)) / determinant;
   const double rest =
       (1 - along_u * along_u - along_v * along_v - 2 * along_u * along_v * cosine) / determinant;
-  constexpr double kOutOfReach = -1e-9;
-  if (rest < kOutOfReach) return {};
+  if (rest < -tolerance::kSameDirection) return {};
   const double side = std::sqrt(std::max(rest, 0.0));
   std::vector<Vec3> solutions;
   for (const double sign : {1.0, -1.0}) {
@@ -137,13 +136,14 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown
   const Vec3 tool = unit_vector(tool_axis);
   std::vector<Vec3> found;
   const auto keep = [&](const Vec3& rotary) {
-    constexpr double kMisaligned = 1e-9;
     Vec3 reached = tool;
     for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
       reached = Matrix3::rotation(joint->direction, rotary[joint->letter]) * reached;
     }
-    if (norm(reached - normal) > kMisaligned) return;
-    const auto same = [&](const Vec3& other) { return way(rotary, other) < kMisaligned; };
+    if (norm(reached - normal) > tolerance::kSameDirection) return;
+    const auto same = [&](const Vec3& other) {
+      return way(rotary, other) < tolerance::kSameDirection;
+    };
     if (std::none_of(found.begin(), found.end(), same)) found.push_back(rotary);
   };
 

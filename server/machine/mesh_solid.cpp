@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::machine {
 
 MeshSolid::MeshSolid(const Mesh& mesh)
@@ -23,8 +25,7 @@ Field MeshSolid::field(const Vec3& at) const {
   const double sign = dot(offset, outwards) < 0 ? -1 : 1;
   const double distance = norm(offset);
   // Close to a face the offset is lost in rounding; the face's normal is not.
-  constexpr double kOnFace = 1e-6;
-  const Vec3 away = distance < kOnFace ? unit(outwards) : offset * (sign / distance);
+  const Vec3 away = distance < tolerance::kNanometre ? unit(outwards) : offset * (sign / distance);
   return {sign * distance, place_.direction(away)};
 }
 
@@ -37,7 +38,7 @@ bool MeshSolid::is_inside(const Vec3& in_body, const Vec3& nearest) const {
 std::optional<double> MeshSolid::contact(const BallPath& ball) const {
   const BallPath path{to_body_.point(ball.start), to_body_.direction(ball.direction), ball.radius,
                       ball.longest};
-  if (body_->nearest(path.start, ball.radius + kNoClearance)) return 0;
+  if (body_->nearest(path.start, ball.radius + tolerance::kContact)) return 0;
   const auto way = body_->contact(path);
   if (!way) {
     const Vec3 nearest = body_->nearest(path.start).point;

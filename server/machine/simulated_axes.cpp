@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "machine/sphere_tracing.hpp"
+#include "machine/tolerance.hpp"
 
 namespace fitgauge::machine {
 namespace {
 
 constexpr double kMillimetresPerMicrometre = 1e-3;
-/// mm: a ball that overlaps the material by less only touches it.
-constexpr double kTouching = 1e-6;
 
 Kinematics as_built(const MachineSetup& setup) {
   std::vector<RotaryAxis> axes;
@@ -130,7 +129,7 @@ MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& moti
 /// The part of the path, 0 to 1, that the ball can go without touching.
 double SimulatedAxes::free_part(const Path& path, const RealTool& tool,
                                 Allowance& allowance) const {
-  const double radius = tool.radius - kTouching;
+  const double radius = tool.radius - tolerance::kNanometre;
 
   if (path.is_straight) {
     const Vec3 start = ball_on_table(path.start, tool);
@@ -173,7 +172,7 @@ MachineResult<Position> SimulatedAxes::probe(const Vec3& direction, double dista
 MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double distance,
                                                    const RealTool& tool, Allowance& allowance) {
   const Vec3 start = ball_on_table(nose_, tool);
-  if (workpiece_.clearance(start, tool.radius) < -kTouching) {
+  if (workpiece_.clearance(start, tool.radius) < -tolerance::kNanometre) {
     return make_fault(FaultKind::StylusDeflected);
   }
   const Vec3 on_table = real_table(nose_.rotary).inverse().direction(direction);
@@ -203,7 +202,8 @@ MachineResult<double> SimulatedAxes::plate_contact(const Vec3& direction, double
                                                    const RealTool& tool, Allowance& allowance) {
   const Workpiece plate(around_plate(setup_.tt, tool.radius));
   const Vec3 tip = real_tool_point(nose_, tool, tool.length);
-  if (plate.clearance(tip, 0) < -kTouching) return make_fault(FaultKind::StylusDeflected);
+  if (plate.clearance(tip, 0) < -tolerance::kNanometre)
+    return make_fault(FaultKind::StylusDeflected);
   const auto touched = plate.contact(tip, direction, 0, distance, allowance);
   if (!touched) return make_fault(FaultKind::NoContact);
   double way = *touched;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::machine {
 namespace {
 
@@ -17,13 +19,12 @@ double with_sign_of(double sign, double value) { return sign < 0 ? -value : valu
 }  // namespace
 
 std::optional<double> Solid::contact(const BallPath& ball) const {
-  constexpr double kSettled = 1e-13;
   constexpr int kSteps = 200;  // a tangent comes nearer by halves
   double way = 0;
   for (int step = 0; step < kSteps; ++step) {
     const Field at = field(ball.at(way));
     const double gap = at.distance - ball.radius;
-    if (gap <= (step == 0 ? kNoClearance : kSettled)) return way;
+    if (gap <= (step == 0 ? tolerance::kContact : tolerance::kRounding)) return way;
     const double slope = dot(at.gradient, ball.direction);
     const double next = slope < 0 ? way - gap / slope : std::numeric_limits<double>::infinity();
     if (next > ball.longest) return std::nullopt;

@@ -8,8 +8,6 @@
 
 namespace fitgauge::machine {
 
-inline constexpr double kNoClearance = 1e-11;  ///< mm: a clearance that is none
-
 /// A signed distance to a boundary and its gradient, a unit vector away from the material: the
 /// nearest point of the boundary is `at - distance * gradient`.
 struct Field {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "machine/delaunay.hpp"
+#include "machine/tolerance.hpp"
 
 namespace fitgauge::machine {
 namespace {
@@ -48,8 +49,8 @@ Field SurfaceSolid::field(const Vec3& at) const {
   const double distance = norm(offset);
   const double sign = inside ? -1 : 1;
   // Close to a face the offset is lost in rounding; the face's normal is not.
-  constexpr double kOnFace = 1e-6;
-  return {sign * distance, distance < kOnFace ? nearest.normal : offset * (sign / distance)};
+  return {sign * distance,
+          distance < tolerance::kNanometre ? nearest.normal : offset * (sign / distance)};
 }
 
 SurfaceSolid::Candidate SurfaceSolid::nearest_with_walls(const Vec3& at,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::machine {
 namespace {
 
@@ -158,7 +160,7 @@ std::optional<double> TriangleTree::contact(const BallPath& ball) const {
 }
 
 Vec3 TriangleTree::normal_at(const Vec3& point) const {
-  constexpr double kThere = 1e-9;  // mm: far below what STL's floats tell apart
+  constexpr double kThere = tolerance::kSamePoint;  // STL's floats tell less apart
   constexpr double kSquared = 1.01 * kThere * kThere;
   Vec3 sum;
   tree_.near(point, kSquared, [&](std::uint32_t begin, std::uint32_t end) {

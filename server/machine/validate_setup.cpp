@@ -7,6 +7,7 @@
 
 #include "machine/delaunay.hpp"
 #include "machine/machine_setup.hpp"
+#include "machine/tolerance.hpp"
 
 namespace fitgauge::machine {
 namespace {
@@ -41,8 +42,7 @@ class Findings {
   }
   void direction(const std::string& where, const Vec3& d) {
     point(where, d);
-    constexpr double kShortest = 1e-9;
-    if (norm(d) < kShortest) add(where, "A direction must not be zero.");
+    if (norm(d) < tolerance::kSamePoint) add(where, "A direction must not be zero.");
   }
 
   Result<void> result() && {

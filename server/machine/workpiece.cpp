@@ -8,12 +8,12 @@
 #include "machine/solid.hpp"
 #include "machine/sphere_tracing.hpp"
 #include "machine/surface_solid.hpp"
+#include "machine/tolerance.hpp"
 
 namespace fitgauge::machine {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kOnBoundary = 1e-9;  ///< mm: what counts as lying on a face
 
 /// The point nearest to `at` on the edge where two boundaries meet, searched from `from`: projects
 /// `at` onto the line in which the tangent planes meet, until that moves no more.
@@ -22,7 +22,6 @@ template <class First, class Second>
 std::optional<Vec3> nearest_on_edge(const Vec3& at, Vec3 from, const First& first,
                                     const Second& second) {
   constexpr int kSteps = 60;
-  constexpr double kSettled = 1e-11;
   for (int step = 0; step < kSteps; ++step) {
     const Field a = first(from);
     const Field b = second(from);
@@ -37,8 +36,8 @@ std::optional<Vec3> nearest_on_edge(const Vec3& at, Vec3 from, const First& firs
     const Vec3 next = at - a.gradient * along_a - b.gradient * along_b;
     const double moved = norm(next - from);
     from = next;
-    if (moved > kSettled) continue;
-    if (along_a < -kOnBoundary || along_b < -kOnBoundary) return std::nullopt;
+    if (moved > tolerance::kContact) continue;
+    if (along_a < -tolerance::kSamePoint || along_b < -tolerance::kSamePoint) return std::nullopt;
     return next;
   }
   return std::nullopt;
@@ -88,8 +87,9 @@ struct Workpiece::Part {
   const Cut* cut_at(const Vec3& point, const Cut* except) const {
     const Cut* found = nullptr;
     any_cut(point, [&](const Cut& cut) {
-      if (&cut == except || cut.bound(point) <= kOnBoundary - cut.bore->roughness()) return false;
-      if (cut.field(point).distance <= kOnBoundary) return false;
+      if (&cut == except || cut.bound(point) <= tolerance::kSamePoint - cut.bore->roughness())
+        return false;
+      if (cut.field(point).distance <= tolerance::kSamePoint) return false;
       found = &cut;
       return true;
     });
@@ -150,19 +150,19 @@ double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) co
     edge = nearest_on_edge(at, foot, solid_field, [&](const Vec3& p) { return other->field(p); });
   } else {
     const auto cut_field = [&](const Vec3& p) { return of->field(p); };
-    if (solid->field(foot).distance > kOnBoundary) {
+    if (solid->field(foot).distance > tolerance::kSamePoint) {
       edge = nearest_on_edge(at, foot, solid_field, cut_field);
       other = of;
     } else if (other == nullptr) {
       return largest.distance;
     } else {
       edge = nearest_on_edge(at, foot, cut_field, [&](const Vec3& p) { return other->field(p); });
-      if (edge && solid->field(*edge).distance > kOnBoundary) return largest.distance;
+      if (edge && solid->field(*edge).distance > tolerance::kSamePoint) return largest.distance;
     }
   }
   if (!edge) return largest.distance;
   const bool is_in_third = any_cut(*edge, [&](const Cut& cut) {
-    return &cut != of && &cut != other && cut.field(*edge).distance > kOnBoundary;
+    return &cut != of && &cut != other && cut.field(*edge).distance > tolerance::kSamePoint;
   });
   return is_in_third ? largest.distance : std::max(largest.distance, norm(at - *edge));
 }
@@ -181,13 +181,14 @@ std::optional<double> Workpiece::Part::contact(const BallPath& ball, Allowance& 
       if (cuts.empty()) return way;
     }
     const Vec3 at = ball.at(way);
-    if (distance(at, ball.radius, solid->field(at)) - ball.radius <= kNoClearance) return way;
+    if (distance(at, ball.radius, solid->field(at)) - ball.radius <= tolerance::kContact)
+      return way;
     double free = 0;
     any_cut(at, [&](const Cut& cut) {
       free = std::max(free, cut.bore->way_inside(at, ball.direction, ball.radius, !cut.is_through));
       return false;
     });
-    if (free <= kNoClearance) break;
+    if (free <= tolerance::kContact) break;
     way += free;
     if (way > ball.longest) return std::nullopt;
   }
@@ -217,7 +218,8 @@ std::unique_ptr<const Solid> solid_of(const Mesh& f) { return std::make_unique<M
 void Workpiece::join(const Bore& bore) {
   const auto shared = std::make_shared<const BoreVoid>(bore);
   for (Part& part : parts_) {
-    part.cuts.push_back({shared, shared->floor_top() <= part.solid->bottom() + kOnBoundary});
+    part.cuts.push_back(
+        {shared, shared->floor_top() <= part.solid->bottom() + tolerance::kSamePoint});
   }
 }
 
@@ -235,7 +237,7 @@ Workpiece::Workpiece(const std::vector<Feature>& features) {
     part.complete();
     boxes.push_back(part.solid->box());
     // A ball that touches may stand a rounding beside it.
-    boxes.back().grow(kOnBoundary);
+    boxes.back().grow(tolerance::kSamePoint);
   }
   std::vector<std::uint32_t> order;
   tree_ = BoxTree(boxes, order);
@@ -259,7 +261,7 @@ double Workpiece::clearance(const Vec3& centre, double radius) const {
       least = std::min(least, part.distance(centre, radius, to_solid));
     }
     // Inside of one part another may be deeper: its box holds the centre, too.
-    const double beyond = std::max(least, 0.0) + kOnBoundary;
+    const double beyond = std::max(least, 0.0) + tolerance::kSamePoint;
     squared = beyond * beyond;
   });
   return least - radius;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "klartext/expression.hpp"
+#include "machine/tolerance.hpp"
 
 /// The arithmetic of the control. An undefined parameter is a NaN, which every operation passes on;
 /// a failed operation gives a value that is not finite. So one check of the result finds both.
@@ -13,13 +14,11 @@ namespace fitgauge::interpreter {
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 inline bool is_defined(double value) { return !std::isnan(value); }
 
-/// EQU and NE compare with this tolerance, relative to the larger of 1, |a| and |b| (decision 2);
-/// GT and LT are plain.
-inline constexpr double kEqualTolerance = 1e-9;
-
+/// As EQU and NE compare; GT and LT are plain.
 /// @pre both are defined.
 inline bool are_equal(double a, double b) {
-  return std::abs(a - b) <= kEqualTolerance * std::fmax(1.0, std::fmax(std::abs(a), std::abs(b)));
+  return std::abs(a - b) <=
+         tolerance::kEqualNumbers * std::fmax(1.0, std::fmax(std::abs(a), std::abs(b)));
 }
 
 /// The operators that take up to two numbers; those with one ignore a defined `b`. Angles in

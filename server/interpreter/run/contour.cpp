@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 
 namespace fitgauge::interpreter {
@@ -59,7 +60,7 @@ std::optional<Vec3> end_direction(const Element& element) {
     return element.plane.with({}, *element.curve.end_direction());
   }
   const Vec3 travel = end_of(element) - element.from;
-  if (!element.moves_in_plane() && norm(travel) < kSamePoint) return std::nullopt;
+  if (!element.moves_in_plane() && norm(travel) < tolerance::kSamePoint) return std::nullopt;
   return travel;
 }
 
@@ -148,7 +149,7 @@ NcResult<void> Contour::turn_corner(Channel& channel, Element& next) {
   turn_into_plane(next, before.plane);
   const auto arriving = before.curve.end_direction();
   const auto leaving = next.curve.start_direction();
-  if (arriving && leaving && std::abs(cross(*arriving, *leaving)) < 1e-12 &&
+  if (arriving && leaving && std::abs(cross(*arriving, *leaving)) < tolerance::kParallel &&
       dot(*arriving, *leaving) > 0) {
     return cut(channel, before);  // no corner
   }

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 
 namespace fitgauge::interpreter {
@@ -11,9 +12,6 @@ namespace {
 
 /// Moves outside of the plane that wait for the next element of a contour.
 constexpr std::size_t kMostAside = 32;
-
-/// Directions that differ by less (the sine of the angle) are tangential.
-constexpr double kTangential = 1e-9;
 
 NcError too_large(double radius, Vec2 at, std::string_view where) {
   return nc_error(1003,
@@ -24,11 +22,11 @@ NcError too_large(double radius, Vec2 at, std::string_view where) {
 
 /// Whether the centre of the tool goes forward from `start` to `end` beside a curve.
 bool goes_forward(const Curve& curve, Vec2 start, Vec2 end) {
-  constexpr double kSlack = 1e-7;
-  if (!curve.is_arc()) return dot(end - start, unit(curve.end - curve.start)) >= -kSlack;
-  if (norm(end - start) < kSlack) return true;
+  if (!curve.is_arc())
+    return dot(end - start, unit(curve.end - curve.start)) >= -tolerance::kNanometre;
+  if (norm(end - start) < tolerance::kNanometre) return true;
   const double turn = sweep(start, end, *curve.centre, curve.is_left_turn());
-  return std::abs(turn) <= std::abs(curve.sweep_deg) + kSlack;
+  return std::abs(turn) <= std::abs(curve.sweep_deg) + tolerance::kNanometre;
 }
 
 void remove_plane_target(Element& element) {
@@ -112,7 +110,8 @@ NcResult<void> CutterPath::join(Channel& channel, const Element& next) {
   } else {
     const Vec2 arriving = *last_->curve.end_direction();
     const double turn = cross(arriving, *leaving);
-    const bool is_straight = std::abs(turn) < kTangential && dot(arriving, *leaving) > 0;
+    const bool is_straight =
+        std::abs(turn) < tolerance::kSameDirection && dot(arriving, *leaving) > 0;
     if (!is_straight && turn * distance > 0) {
       const auto met = inner_corner(last_->curve, next.curve, distance);
       if (!met || !goes_forward(last_->curve, at_, *met)) {
@@ -123,7 +122,7 @@ NcResult<void> CutterPath::join(Channel& channel, const Element& next) {
     } else {
       const Vec2 end = corner + left_of(arriving) * distance;
       if (auto done = move_to(channel, end); !done) return done;
-      if (!is_straight && norm(begin - end) > kSamePoint) {
+      if (!is_straight && norm(begin - end) > tolerance::kSamePoint) {
         Element around{next.plane,
                        {end, begin, corner, sweep(end, begin, corner, distance < 0)},
                        next.from,
@@ -150,7 +149,7 @@ NcResult<void> CutterPath::move_to(Channel& channel, Vec2 end) {
     if (element.curve.is_arc()) {
       // Equal ends are a full circle only where the contour itself is one.
       element.curve.sweep_deg =
-          norm(end - at_) < kSamePoint && std::abs(element.curve.sweep_deg) < 360
+          norm(end - at_) < tolerance::kSamePoint && std::abs(element.curve.sweep_deg) < 360
               ? 0
               : whole_turns(element.curve.sweep_deg) +
                     sweep(at_, end, *element.curve.centre, element.curve.is_left_turn());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "machine/machine.hpp"
+#include "machine/tolerance.hpp"
 #include "run/plane_geometry.hpp"
 
 namespace fitgauge::interpreter {
@@ -17,7 +18,7 @@ struct Element {
   int side = 0;  ///< of the contour that the tool is on: 1 left (RL), -1 right (RR), 0 on it
 
   bool moves_in_plane() const {
-    return curve.is_arc() || norm(curve.end - curve.start) > kSamePoint;
+    return curve.is_arc() || norm(curve.end - curve.start) > tolerance::kSamePoint;
   }
 };
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <string_view>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 #include "run/frame_commands.hpp"
 #include "run/statements.hpp"
@@ -49,11 +50,12 @@ Matrix3 from_axes(const Vec3& x, const Vec3& z) {
 
 /// The plane of a normal, its X axis as near as possible to `x`. @errors 1018.
 NcResult<Matrix3> plane_of(const Vec3& normal, const Vec3& x) {
-  constexpr double kLeast = 1e-9;
-  if (norm(normal) < kLeast) return nc_error(1018, "the normal vector has no length");
+  if (norm(normal) < tolerance::kSameDirection)
+    return nc_error(1018, "the normal vector has no length");
   const Vec3 z = machine::unit(normal);
   const Vec3 in_plane = x - z * dot(x, z);
-  if (norm(in_plane) < kLeast) return nc_error(1018, "base and normal vector are parallel");
+  if (norm(in_plane) < tolerance::kSameDirection)
+    return nc_error(1018, "base and normal vector are parallel");
   return from_axes(machine::unit(in_plane), z);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 #include "run/m_functions.hpp"
 #include "run/motion_words.hpp"
@@ -244,19 +245,17 @@ class Positioning {
   std::optional<Vec2> arriving() {
     if (!contour().direction) return std::nullopt;
     const Vec2 in_plane = plane_.project(*contour().direction);
-    if (norm(in_plane) < kSamePoint) return std::nullopt;
+    if (norm(in_plane) < tolerance::kSamePoint) return std::nullopt;
     return unit(in_plane);
   }
 
   NcResult<Curve> centre_arc(Vec2 end) {
     if (!contour().pole) return nc_error("an arc needs a centre: CC stands before it");
-    // The control accepts an end point that lies this far beside the circle (mm).
-    constexpr double kCircleTolerance = 0.016;
     const Vec2 centre = contour().pole->point;
     const double radius = norm(start_ - centre);
-    if (radius < kSamePoint) return nc_error("the arc begins in its centre");
+    if (radius < tolerance::kSamePoint) return nc_error("the arc begins in its centre");
     const double error = norm(end - centre) - radius;
-    if (std::abs(error) > kCircleTolerance) {
+    if (std::abs(error) > tolerance::kBesideCircle) {
       return nc_error(fmt::format(
           "the end of the arc lies {:.4f} mm {} its circle in the plane {}{}: CC names the centre "
           "and by its two axes the plane",

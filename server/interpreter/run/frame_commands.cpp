@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 #include "run/plane_geometry.hpp"
 #include "run/preassigned.hpp"
@@ -27,7 +28,6 @@ NcResult<void> change_frames(Channel& channel, const Change& change) {
 /// TABLE ROT (decision 31): the table axis next to the workpiece is free where it is parallel to
 /// the tool in the plane. It turns until the plane's main axis lies along the machine's.
 void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec3& rotary) {
-  constexpr double kParallel = 1e-9;
   const auto& axes = state.kinematics.axes();
   const auto next_to_workpiece = std::find_if(axes.rbegin(), axes.rend(), [](const auto& axis) {
     return axis.mount == machine::AxisMount::Table;
@@ -37,7 +37,7 @@ void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec
   const Vec3 normal =
       machine::unit(plane.direction_to_machine(machine::unit_vector(state.tool_axis())));
   const double along = dot(normal, next_to_workpiece->direction);
-  if (std::abs(along) < 1 - kParallel) return;
+  if (std::abs(along) < 1 - tolerance::kSameDirection) return;
   double& angle = rotary[machine::index(next_to_workpiece->axis) - 3];
   angle = 0;
   const Vec3 main_axis = state.kinematics.table(rotary).direction(
@@ -45,7 +45,7 @@ void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec
   const Vec2 seen = working.project(main_axis);
   const double turn = machine::degrees(std::atan2(seen.y, seen.x));
   angle = along > 0 ? turn : -turn;
-  if (angle < -180 + kParallel) angle = 180;
+  if (angle < -180 + tolerance::kSameDirection) angle = 180;
 }
 
 /// The rotary positions for a plane, the one that SEQ asks for first.

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 #include "run/preassigned.hpp"
 
@@ -36,7 +37,7 @@ double room(const machine::MachineState& state, const machine::Vec3& direction) 
   double room = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& range = state.ranges[axis];
-    if (!range || std::abs(direction[axis]) < 1e-12) continue;
+    if (!range || std::abs(direction[axis]) < tolerance::kParallel) continue;
     const double limit = direction[axis] > 0 ? range->max : range->min;
     room = std::min(room, (limit - state.nose.linear[axis]) / direction[axis]);
   }

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 #include "run/machining.hpp"
 
@@ -68,7 +69,7 @@ NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, dou
     const Vec2 last = arrives_along_y ? Vec2{centre.x, point.y} : Vec2{point.x, centre.y};
     const auto placed = [&](Vec2 p) { return outline.at({p.x, p.y * turn}); };
     if (auto done = motion.to_point(placed(first), feed); !done) return done;
-    if (corner <= kSamePoint) continue;
+    if (corner <= tolerance::kSamePoint) continue;
     if (auto done = motion.arc(placed(centre), placed(last), turn * 90, height, feed); !done) {
       return done;
     }
@@ -172,7 +173,7 @@ NcResult<void> mill_bore(Machining& cycle) {
   if (cycle.value(334) <= 0) return nc_error(1011, "Q334 is 0");
   if (auto done = cycle.start(); !done) return done;
   const Feed feed = cycle.feed(206);
-  if (radius < kSamePoint) {  // a hole of the tool's own diameter is drilled
+  if (radius < tolerance::kSamePoint) {  // a hole of the tool's own diameter is drilled
     if (auto done = motion.to_height(heights.bottom, feed); !done) return done;
   } else {
     const Vec2 centre = motion.point();
@@ -261,7 +262,7 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
       const auto on = [&](double radius, double at) { return centre + polar(radius, at); };
       auto milled = motion.to_point(on(pitch + width, first), feed);
       if (milled) milled = motion.arc(centre, on(pitch + width, last), length, depth, feed);
-      if (width > kSamePoint) {
+      if (width > tolerance::kSamePoint) {
         const double end = std::copysign(180, length);
         if (milled) milled = motion.arc(on(pitch, last), on(pitch - width, last), end, depth, feed);
         if (milled) milled = motion.arc(centre, on(pitch - width, first), -length, depth, feed);
@@ -301,7 +302,8 @@ NcResult<void> mill_thread(Machining& cycle) {
   const double depth = heights.surface - heights.bottom;
   const double stretch = per_step == 1 ? depth : pitch;
   const double step = per_step > 1 ? per_step * pitch : depth;
-  for (double bottom = heights.bottom; bottom < heights.surface - kSamePoint; bottom += step) {
+  for (double bottom = heights.bottom; bottom < heights.surface - tolerance::kSamePoint;
+       bottom += step) {
     const double top = bottom + stretch;
     if (auto done = thread_path(cycle, centre, radius, up ? bottom : top, up ? top : bottom);
         !done) {

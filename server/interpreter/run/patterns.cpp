@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 #include "run/machining.hpp"
 
@@ -18,7 +19,7 @@ std::vector<Vec2> circle_points(const MachiningDefinition& pattern) {
   const double span = pattern.value(246, 360) - begin;
   double step = pattern.value(247);
   if (step == 0) {
-    const bool is_full = std::abs(std::abs(span) - 360) < 1e-9;
+    const bool is_full = std::abs(std::abs(span) - 360) < tolerance::kSameAngle;
     step = count < 2 ? 0 : span / (is_full ? count : count - 1);
   }
   const Vec2 centre{pattern.value(216), pattern.value(217)};

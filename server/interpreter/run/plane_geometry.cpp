@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::interpreter {
 namespace {
 
@@ -23,14 +25,14 @@ std::optional<Offset> offset(const Curve& curve, Vec2 corner, double side) {
     return Offset{corner + left_of(direction) * side, direction, std::nullopt, 0};
   }
   const double radius = norm(corner - *curve.centre) + (curve.is_left_turn() ? -side : side);
-  if (radius <= kSamePoint) return std::nullopt;
+  if (radius <= tolerance::kSamePoint) return std::nullopt;
   return Offset{{}, {}, curve.centre, radius};
 }
 
 std::vector<Vec2> intersect_line(const Offset& line, const Offset& other) {
   if (!other.centre) {
     const double across = cross(line.direction, other.direction);
-    if (std::abs(across) < 1e-12) return {};
+    if (std::abs(across) < tolerance::kParallel) return {};
     const double t = cross(other.point - line.point, other.direction) / across;
     return {line.point + line.direction * t};
   }
@@ -47,7 +49,7 @@ std::vector<Vec2> intersect(const Offset& a, const Offset& b) {
   if (!b.centre) return intersect_line(b, a);
   const Vec2 between = *b.centre - *a.centre;
   const double distance = norm(between);
-  if (distance < kSamePoint) return {};
+  if (distance < tolerance::kSamePoint) return {};
   const double along =
       (distance * distance + a.radius * a.radius - b.radius * b.radius) / (2 * distance);
   if (std::abs(along) > a.radius) return {};
@@ -69,15 +71,14 @@ Vec2 touch(const Curve& curve, Vec2 centre) {
 
 /// Whether a point of the curve's line or circle lies between its ends.
 bool is_on(const Curve& curve, Vec2 point) {
-  constexpr double kSlack = 1e-6;
   if (curve.is_arc()) {
-    if (norm(point - curve.start) < kSlack) return true;
+    if (norm(point - curve.start) < tolerance::kNanometre) return true;
     return std::abs(sweep(curve.start, point, *curve.centre, curve.is_left_turn())) <=
-           std::abs(curve.sweep_deg) + kSlack;
+           std::abs(curve.sweep_deg) + tolerance::kNanometre;
   }
   const Vec2 whole = curve.end - curve.start;
   const double along = dot(point - curve.start, unit(whole));
-  return along >= -kSlack && along <= norm(whole) + kSlack;
+  return along >= -tolerance::kNanometre && along <= norm(whole) + tolerance::kNanometre;
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ WorkingPlane WorkingPlane::across(machine::Axis tool_axis) {
 
 std::optional<Vec2> Curve::start_direction() const {
   if (!is_arc()) {
-    if (norm(end - start) < kSamePoint) return std::nullopt;
+    if (norm(end - start) < tolerance::kSamePoint) return std::nullopt;
     return unit(end - start);
   }
   const Vec2 left = left_of(unit(start - *centre));
@@ -120,19 +121,17 @@ std::optional<Vec2> Curve::end_direction() const {
 double sweep(Vec2 start, Vec2 end, Vec2 centre, bool left_turn) {
   const Vec2 a = start - centre;
   const Vec2 b = end - centre;
-  if (norm(end - start) < kSamePoint) return left_turn ? 360 : -360;
+  if (norm(end - start) < tolerance::kSamePoint) return left_turn ? 360 : -360;
   const double angle = degrees(std::atan2(cross(a, b), dot(a, b)));
   if (left_turn) return angle > 0 ? angle : angle + 360;
   return angle < 0 ? angle : angle - 360;
 }
 
 std::optional<Curve> arc_of_radius(Vec2 start, Vec2 end, double r, bool left_turn) {
-  // A chord that exceeds the diameter by less than the control's tolerance is the diameter.
-  constexpr double kTolerance = 0.001;
   const double radius = std::abs(r);
   const Vec2 chord = end - start;
   const double half = norm(chord) / 2;
-  if (half < kSamePoint || half > radius + kTolerance) return std::nullopt;
+  if (half < tolerance::kSamePoint || half > radius + tolerance::kLongChord) return std::nullopt;
   const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
   const double side = left_turn == (r > 0) ? 1 : -1;
   const Vec2 centre = (start + end) * 0.5 + left_of(unit(chord)) * (side * height);
@@ -142,7 +141,7 @@ std::optional<Curve> arc_of_radius(Vec2 start, Vec2 end, double r, bool left_tur
 Curve tangential_arc(Vec2 start, Vec2 direction, Vec2 end) {
   const Vec2 chord = end - start;
   const double offset = dot(chord, left_of(direction));
-  if (std::abs(offset) < kSamePoint) return {start, end, std::nullopt, 0};
+  if (std::abs(offset) < tolerance::kSamePoint) return {start, end, std::nullopt, 0};
   const double radius = dot(chord, chord) / (2 * offset);  // signed: positive to the left
   const Vec2 centre = start + left_of(direction) * radius;
   return {start, end, centre, sweep(start, end, centre, radius > 0)};
@@ -153,7 +152,7 @@ std::optional<Curve> rounding(const Curve& before, const Curve& after, double ra
   const auto leaving = after.start_direction();
   if (!arriving || !leaving) return std::nullopt;
   const double turn = cross(*arriving, *leaving);
-  if (std::abs(turn) < 1e-12) return std::nullopt;
+  if (std::abs(turn) < tolerance::kParallel) return std::nullopt;
   const bool left_turn = turn > 0;
   const double side = left_turn ? radius : -radius;
   const Vec2 corner = before.end;
@@ -174,7 +173,8 @@ std::optional<Curve> rounding(const Curve& before, const Curve& after, double ra
 }
 
 double whole_turns(double sweep_deg) {
-  const double turns = std::max(0.0, std::ceil(std::abs(sweep_deg) / 360 - 1e-12) - 1);
+  const double turns =
+      std::max(0.0, std::ceil((std::abs(sweep_deg) - tolerance::kSameAngle) / 360) - 1);
   return std::copysign(turns * 360, sweep_deg);
 }
 
@@ -205,7 +205,8 @@ std::optional<Curve> chamfer(const Curve& before, const Curve& after, double sid
   const auto arriving = before.end_direction();
   const auto leaving = after.start_direction();
   if (!arriving || !leaving) return std::nullopt;
-  if (norm(*arriving + *leaving) < 1e-12) return std::nullopt;  // back along the same line
+  if (norm(*arriving + *leaving) < tolerance::kParallel)
+    return std::nullopt;  // back along the same line
   if (side > norm(before.end - before.start) || side > norm(after.end - after.start)) {
     return std::nullopt;
   }

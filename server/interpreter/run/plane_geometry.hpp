@@ -27,9 +27,6 @@ Vec2 unit(Vec2 a);
 Vec2 polar(double radius, double angle_deg);
 Vec2 turned(Vec2 a, double angle_deg);
 
-/// Two points nearer than this are one.
-inline constexpr double kSamePoint = 1e-9;
-
 /// The two axes of the plane across the tool axis: XY for Z, ZX for Y, YZ for X.
 struct WorkingPlane {
   std::size_t first = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "machine/tolerance.hpp"
 #include "run/channel.hpp"
 
 namespace fitgauge::interpreter {
@@ -11,7 +12,7 @@ ToolMotion::ToolMotion(Channel& channel)
 
 NcResult<void> ToolMotion::to_height(double height, const machine::Feed& feed) {
   if (auto allowed = channel_.budget.check(); !allowed) return allowed;
-  if (std::abs(height - this->height()) < kSamePoint) return {};
+  if (std::abs(height - this->height()) < tolerance::kSamePoint) return {};
   machine::AxisWords target;
   target[plane_.normal] = height;
   return checked(channel_.machine().move({target, feed}));
@@ -19,7 +20,7 @@ NcResult<void> ToolMotion::to_height(double height, const machine::Feed& feed) {
 
 NcResult<void> ToolMotion::to_point(Vec2 point, const machine::Feed& feed) {
   if (auto allowed = channel_.budget.check(); !allowed) return allowed;
-  if (norm(point - this->point()) < kSamePoint) return {};
+  if (norm(point - this->point()) < tolerance::kSamePoint) return {};
   machine::AxisWords target;
   target.values[plane_.first] = point.x;
   target.values[plane_.second] = point.y;

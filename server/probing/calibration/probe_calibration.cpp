@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "machine/tolerance.hpp"
 #include "probing/calibration/calibration_log.hpp"
 #include "probing/measured_value.hpp"
 
@@ -11,8 +12,7 @@ namespace {
 using machine::MachineState;
 
 CycleResult<void> check_straight(const MachineState& state, machine::Axis probe) {
-  constexpr double kStraight = 1e-9;
-  if (norm(state.tool_direction() - unit_vector(probe)) <= kStraight) return {};
+  if (norm(state.tool_direction() - unit_vector(probe)) <= tolerance::kSameDirection) return {};
   return nc_error(1075, "the probe stands along the probe axis while it is calibrated");
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "machine/tolerance.hpp"
 #include "probing/touch/gauss_newton.hpp"
 
 namespace fitgauge::probing {
@@ -44,13 +45,12 @@ Adjustment::Adjustment(const AdjustedPoses& poses, std::vector<Unknown> unknowns
 }
 
 std::vector<bool> Adjustment::seen() const {
-  constexpr double kUndefined = 1e-3;  // mm of the centres for 1 mm of the unknowns
   constexpr double kPart = 1e-6;
   const auto& sizes = decomposition_.singularValues();
   std::vector<bool> seen(unknowns_.size(), true);
   // With fewer residuals than unknowns the last directions have no size at all.
   for (Eigen::Index direction = 0; direction < index_of(unknowns_.size()); ++direction) {
-    if (direction < sizes.size() && sizes[direction] > kUndefined) continue;
+    if (direction < sizes.size() && sizes[direction] > tolerance::kSeen) continue;
     for (std::size_t j = 0; j < unknowns_.size(); ++j) {
       const double part = decomposition_.matrixV()(index_of(j), direction);
       if (std::abs(part) > kPart) seen[j] = false;
@@ -60,12 +60,11 @@ std::vector<bool> Adjustment::seen() const {
 }
 
 void Adjustment::solve() {
-  // mm: a thousandth of a nanometre, above the noise of doubles in what is barely seen.
-  constexpr double kSettled = 1e-9;
   if (unknowns_.empty()) return;
-  const bool settled = gauss_newton(values_, kSettled, [this](const Eigen::VectorXd& values) {
-    return Linearised{residuals(at(values)), jacobian(values)};
-  });
+  const bool settled =
+      gauss_newton(values_, tolerance::kSamePoint, [this](const Eigen::VectorXd& values) {
+        return Linearised{residuals(at(values)), jacobian(values)};
+      });
   // Poses that no rigid machine could have: nothing is better than anything.
   if (!settled) values_.setZero();
   decompose();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "machine/tolerance.hpp"
 #include "probing/kinematics/adjustment.hpp"
 
 namespace fitgauge::probing {
@@ -16,9 +17,6 @@ using machine::AxisMount;
 using machine::Kinematics;
 using machine::RotaryAxis;
 using machine::Vec3;
-
-/// mm: what is smaller is nothing.
-constexpr double kNothing = 1e-6;
 
 /// What belongs together: the location, the direction or the zero of one axis.
 bool is_of(const Unknown& unknown, std::size_t axis, ErrorKind kind) {
@@ -104,8 +102,8 @@ class Estimate {
     const double along =
         error.size > 0 ? values_.dot(covariance_ * values_) / values_.squaredNorm() : worst();
     error.standard_uncertainty = scatter_ * std::sqrt(along + rests);
-    error.is_significant =
-        error.size >= 2 * error.standard_uncertainty || 2 * error.standard_uncertainty < kNothing;
+    error.is_significant = error.size >= 2 * error.standard_uncertainty ||
+                           2 * error.standard_uncertainty < tolerance::kNanometre;
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector2d part(steps_[0][k], steps_[1][k]);
       error.uncertainty[k] = coverage * scatter_ *
@@ -199,13 +197,12 @@ void mark_corrected(std::vector<AxisErrors>& errors, const std::vector<Unknown>&
 /// Which of `axes` carries the k-th of them, if it does so at once and across it.
 std::optional<std::size_t> carrier_of(const Kinematics& model, std::span<const Axis> axes,
                                       std::size_t k) {
-  constexpr double kAcross = 1e-3;  // of the sine of the angle between both
   const auto& chain = model.axes();
   const auto own = std::ranges::find(chain, axes[k], &RotaryAxis::axis);
   if (own == chain.begin() || std::prev(own)->mount != own->mount) return std::nullopt;
   const RotaryAxis& carrier = *std::prev(own);
   const auto found = std::ranges::find(axes, carrier.axis);
-  if (found == axes.end() || norm(cross(carrier.direction, own->direction)) < kAcross) {
+  if (found == axes.end() || norm(cross(carrier.direction, own->direction)) < tolerance::kAcross) {
     return std::nullopt;
   }
   return static_cast<std::size_t>(found - axes.begin());

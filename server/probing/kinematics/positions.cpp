@@ -7,17 +7,16 @@
 #include <cmath>
 #include <cstdint>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::probing {
 namespace {
 
 using machine::Axis;
 
-constexpr double kReference = 1e-9;  ///< degrees from 0 that still are the reference
-
-/// Angles of a block and of a grid are decimals: whole billionths of a degree, in which steps and
-/// ties are exact.
-constexpr double kPerDegree = 1e9;
-std::int64_t whole(double degrees) { return std::llround(degrees * kPerDegree); }
+/// Angles of a block and of a grid in whole billionths of a degree, in which steps and ties are
+/// exact.
+std::int64_t whole(double degrees) { return std::llround(degrees / tolerance::kSameAngle); }
 
 /// The multiple of the grid that is nearest to numerator / denominator, of two equally near ones
 /// that away from zero (decision 5).
@@ -84,7 +83,7 @@ CycleResult<std::vector<AxisPlan>> plan_positions(const Arguments& arguments,
                   .points = arguments.whole(start + 3),
                   .grid = range->hirth_grid_deg};
     plan.positions = measuring_positions(plan.start, plan.end, plan.points, plan.grid);
-    std::erase_if(plan.positions, [](double p) { return std::abs(p) < kReference; });
+    std::erase_if(plan.positions, [](double p) { return std::abs(p) < tolerance::kSameAngle; });
     plan.strobed = state.kinematics_options.strobed[index(axis) - 3];
     if (plan.strobed && state.nose[axis] != 0) {
       return nc_error(1005, fmt::format("{} is positioned by an M function and stands at {:+.4f}: "

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "machine/tolerance.hpp"
 #include "probing/cycles.hpp"
 #include "probing/errors.hpp"
 #include "probing/log/measuring_log.hpp"
@@ -35,9 +36,6 @@ constexpr std::array<CycleOutput, 8> kResults{{{158, "Projection angle A", Unit:
                                                {174, "2nd point, probe axis", Unit::Length},
                                                {175, "3rd point, probe axis", Unit::Length}}};
 
-/// Points less than this far off a line, relative to their distance, make no plane.
-constexpr double kCollinear = 1e-9;
-
 struct TiltedAxes {
   Vec3 main;
   Vec3 secondary;
@@ -49,7 +47,7 @@ CycleResult<TiltedAxes> axes_through(const std::vector<Contact>& contacts) {
   const Vec3 along = contacts[1].ball_centre - contacts[0].ball_centre;
   const Vec3 side = contacts[2].ball_centre - contacts[0].ball_centre;
   const Vec3 normal = cross(along, side);
-  if (norm(normal) <= kCollinear * norm(along) * norm(side)) {
+  if (norm(normal) <= tolerance::kCollinear * norm(along) * norm(side)) {
     return nc_error(1081, "the three points lie on a straight line");
   }
   TiltedAxes axes{.main = unit(along), .secondary = {}, .normal = unit(normal)};

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "machine/tolerance.hpp"
 #include "probing/cycles.hpp"
 #include "probing/errors.hpp"
 #include "probing/measured_value.hpp"
@@ -77,9 +78,8 @@ Vec3 surface_normal(const Arguments& arguments) {
 /// The machine parameter chkTiltingAxes: in a tilted plane the tool must stand square to it. TCPM
 /// is there to incline it.
 CycleResult<void> check_tilting_axes(const machine::MachineState& state, machine::Axis probe) {
-  constexpr double kSquare = 1e-4;  ///< 0.006 degrees
   if (!state.frames.is_tilted() || state.modes.tcpm) return {};
-  if (norm(state.tool_direction() - unit_vector(probe)) <= kSquare) return {};
+  if (norm(state.tool_direction() - unit_vector(probe)) <= tolerance::kSquare) return {};
   return nc_error(1099,
                   "the rotary axes do not stand as the tilted plane needs them; position "
                   "them, or incline the probe with FUNCTION TCPM");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/tolerance.hpp"
 #include "probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {
@@ -29,11 +30,10 @@ CycleResult<void> check(const MachineState& state) {
     return nc_error(1093, fmt::format("tool {} is a touch probe", tool->number));
   }
   if (state.tool.axis != Axis::Z) return nc_error(1079, "the TT is touched along Z");
-  constexpr double kStraight = 1e-9;
   const Vec3 up = unit_vector(Axis::Z);
   const Vec3 height = unit(state.frames.direction_to_machine(up));
-  if (norm(state.tool_direction(CoordinateSystem::Machine) - up) > kStraight ||
-      norm(height - up) > kStraight) {
+  if (norm(state.tool_direction(CoordinateSystem::Machine) - up) > tolerance::kSameDirection ||
+      norm(height - up) > tolerance::kSameDirection) {
     return nc_error(1075, "the tool is measured upright: reset the tilted plane");
   }
   return {};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "machine/tolerance.hpp"
 #include "probing/touch/gauss_newton.hpp"
 
 namespace fitgauge::probing {
@@ -15,9 +16,8 @@ using Eigen::Vector3d;
 using Points = Matrix<double, Eigen::Dynamic, 2>;
 using Columns3 = Matrix<double, Eigen::Dynamic, 3>;
 
-/// Below this ratio of the singular directions the points count as one line.
-constexpr double kCollinear = 1e-10;
-constexpr double kSettled = 1e-10;  ///< of the points' spread; a short arc has noise above less
+/// Where the search ends, of the points' spread; a short arc has noise above less.
+constexpr double kSettled = 1e-10;
 
 /// Centre x, y and radius of the algebraic fit (Kåsa), exact for points on a circle.
 /// Nothing when the points lie on a line.
@@ -25,7 +25,7 @@ std::optional<Vector3d> algebraic_fit(const Points& points) {
   Columns3 a(points.rows(), 3);
   a << points, Eigen::VectorXd::Ones(points.rows());
   Eigen::ColPivHouseholderQR<Columns3> qr(a);
-  qr.setThreshold(kCollinear);
+  qr.setThreshold(tolerance::kCollinear);
   if (qr.rank() < 3) return std::nullopt;
   const Vector3d s = qr.solve(points.rowwise().squaredNorm());
   const Vector2d centre = s.head<2>() / 2;

@@ -2,11 +2,10 @@
 
 #include <cmath>
 
+#include "machine/tolerance.hpp"
+
 namespace fitgauge::probing {
 namespace {
-
-/// Lines that meet at less than this angle (radians) count as parallel.
-constexpr double kParallel = 1e-6;
 
 struct Edge {
   Point2 first;
@@ -31,7 +30,7 @@ CycleResult<Point2> intersection(Point2 a1, Point2 a2, Point2 b1, Point2 b2) {
   const Point2 a{a2.x - a1.x, a2.y - a1.y};
   const Point2 b{b2.x - b1.x, b2.y - b1.y};
   const double across = a.x * b.y - a.y * b.x;
-  if (std::abs(across) <= kParallel * std::hypot(a.x, a.y) * std::hypot(b.x, b.y)) {
+  if (std::abs(across) <= tolerance::kParallelEdges * std::hypot(a.x, a.y) * std::hypot(b.x, b.y)) {
     return nc_error(1081, "the measured lines do not meet");
   }
   const double part = ((b1.x - a1.x) * b.y - (b1.y - a1.y) * b.x) / across;

@@ -1,5 +1,6 @@
 #include "probing/touch/sphere_fit.hpp"
 
+#include "machine/tolerance.hpp"
 #include "probing/touch/gauss_newton.hpp"
 
 namespace fitgauge::probing {
@@ -7,7 +8,6 @@ namespace fitgauge::probing {
 using machine::Vec3;
 
 std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points, const FittedSphere& near) {
-  constexpr double kSettled = 1e-9;  // mm
   const auto count = static_cast<Eigen::Index>(points.size());
   const auto linearise = [&](const Eigen::Vector4d& sphere) {
     Linearised at{Eigen::VectorXd(count), Eigen::MatrixXd(count, 4)};
@@ -21,7 +21,7 @@ std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points, const Fitte
     return at;
   };
   Eigen::Vector4d sphere(near.centre.x, near.centre.y, near.centre.z, near.radius);
-  if (!gauss_newton(sphere, kSettled, linearise)) return std::nullopt;
+  if (!gauss_newton(sphere, tolerance::kSamePoint, linearise)) return std::nullopt;
   return FittedSphere{{sphere[0], sphere[1], sphere[2]}, sphere[3]};
 }
 

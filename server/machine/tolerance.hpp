@@ -1,0 +1,57 @@
+#pragma once
+
+/// What counts as equal, by what is compared: the one place for machine, cycles and interpreter.
+/// Results are written in whole nanometres (decision 21), and a double keeps 1e-13 mm at one metre;
+/// what is decided lies between. Where a search begins, steps and ends is no decision about a part
+/// and stands at the search.
+namespace fitgauge::tolerance {
+
+// Lengths in mm.
+
+/// The smallest length that is said: a ball that overlaps material by less only touches it, and an
+/// error below it is none.
+inline constexpr double kNanometre = 1e-6;
+/// Points that are nearer are one, and a point that near to a face or a limit lies on it: a
+/// thousandth of what is said, so that sums of hundreds of roundings do not show.
+inline constexpr double kSamePoint = 1e-9;
+/// A clearance that is none: a fit through several contacts then still keeps kSamePoint.
+inline constexpr double kContact = 1e-11;
+/// Along a path: places that no double tells apart.
+inline constexpr double kRounding = 1e-13;
+/// How far beside its circle the end of an arc may be programmed, as the control accepts it.
+inline constexpr double kBesideCircle = 0.016;
+/// A chord longer than its diameter by less is the diameter, as the control accepts it.
+inline constexpr double kLongChord = 0.001;
+/// A path of turning axes is followed in straight pieces that leave it by less.
+inline constexpr double kSag = 5e-4;
+
+// Angles in degrees.
+
+/// Written angles are decimals: whole billionths of a degree.
+inline constexpr double kSameAngle = 1e-9;
+/// On a tooth of a Hirth grid: an angle that went through preset and datum shift.
+inline constexpr double kOnTooth = 1e-6;
+
+// Directions: the sine of the angle between them.
+
+/// The same direction: at a lever of a metre it leads to the same nanometre.
+inline constexpr double kSameDirection = 1e-9;
+/// Lines that do not meet: what they have in common is rounding.
+inline constexpr double kParallel = 1e-12;
+/// Touched edges that make no corner: it would lie a million times their distance away.
+inline constexpr double kParallelEdges = 1e-6;
+/// Rotary axes that can be told apart by the way the sphere takes.
+inline constexpr double kAcross = 1e-3;
+/// chkTiltingAxes, 0.006 degrees: the tool stands square to its plane.
+inline constexpr double kSquare = 1e-4;
+
+// Without a unit.
+
+/// Points that are less than this part of their distance off a line lie on it.
+inline constexpr double kCollinear = 1e-9;
+/// An error of the kinematics that moves the sphere by less than this part of itself is not seen.
+inline constexpr double kSeen = 1e-3;
+/// EQU and NE, of the larger of 1 and both numbers (decision 2).
+inline constexpr double kEqualNumbers = 1e-9;
+
+}  // namespace fitgauge::tolerance
