@@ -82,18 +82,16 @@ void Streams::add_availability() {
       format_rfc3339(agent_.began)));
 }
 
-std::uint64_t Streams::add(const app::Measurement& measurement, std::uint64_t from,
-                           std::size_t most) {
+void Streams::add(const app::Measurement& measurement, std::uint64_t sequence) {
   const std::string at = format_rfc3339(measurement.received_at);
-  const std::uint64_t part_at = part_sequence(measurement.row);
-  if (part_at >= from && shows("part")) {
-    if (count_ == most) return part_at;
+  if (sequence == part_sequence(measurement.row)) {
+    if (!shows("part")) return;
     const std::string part = xml_text(measurement.texts.part_id.value_or(""));
-    append(fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>)",
-                       part_at, at, part.empty() ? "UNAVAILABLE" : part));
+    return append(
+        fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>)",
+                    sequence, at, part.empty() ? "UNAVAILABLE" : part));
   }
-  if (!shows("feature")) return 0;
-  if (count_ == most) return feature_sequence(measurement.row);
+  if (!shows("feature")) return;
   std::string cells = fmt::format(
       R"(<Cell key="MEASUREMENT_TYPE">DIAMETER</Cell><Cell key="MEASUREMENT_UNITS">MILLIMETER</Cell><Cell key="MEASUREMENT_VALUE">{}</Cell><Cell key="CHARACTERISTIC_STATUS">{}</Cell>)",
       format_mm(measurement.measured), status_of(measurement.result.verdict));
@@ -104,12 +102,10 @@ std::uint64_t Streams::add(const app::Measurement& measurement, std::uint64_t fr
   }
   append(fmt::format(
       R"(<FeatureMeasurementTable dataItemId="feature" sequence="{}" timestamp="{}" count="1"><Entry key="{}">{}</Entry></FeatureMeasurementTable>)",
-      feature_sequence(measurement.row), at, key_of(measurement.texts.characteristic.value_or("")),
-      cells));
-  return 0;
+      sequence, at, key_of(measurement.texts.characteristic.value_or("")), cells));
 }
 
-void Streams::add_counts(const Counts& counts, Timestamp at) {
+void Streams::add_counts(const Counts& counts, std::int64_t newest, Timestamp at) {
   const std::pair<std::string_view, std::int64_t> each[] = {
       {"count1", counts.good + counts.rework + counts.reject + counts.indeterminate},
       {"count2", counts.good},
@@ -122,31 +118,30 @@ void Streams::add_counts(const Counts& counts, Timestamp at) {
                                    [&](const DataItem& other) { return other.id == id; });
     append(fmt::format(
         R"(<PartCount dataItemId="{}" subType="{}" sequence="{}" timestamp="{}">{}</PartCount>)",
-        id, item->sub_type, std::max<std::uint64_t>(1, feature_sequence(agent_.newest)),
-        format_rfc3339(at), count));
+        id, item->sub_type, feature_sequence(newest), format_rfc3339(at), count));
   }
 }
 
-void Streams::add_unavailable() {
-  const std::string began = format_rfc3339(agent_.began);
-  if (shows("part")) {
-    append(fmt::format(
-        R"(<PartId dataItemId="part" sequence="1" timestamp="{}">UNAVAILABLE</PartId>)", began));
-  }
-  if (shows("feature")) {
-    append(fmt::format(
-        R"(<FeatureMeasurementTable dataItemId="feature" sequence="1" timestamp="{}" count="0">UNAVAILABLE</FeatureMeasurementTable>)",
-        began));
-  }
+void Streams::add_unavailable_part() {
+  if (!shows("part")) return;
+  append(
+      fmt::format(R"(<PartId dataItemId="part" sequence="1" timestamp="{}">UNAVAILABLE</PartId>)",
+                  format_rfc3339(agent_.began)));
 }
 
-void Streams::add_assets(Timestamp at) {
+void Streams::add_unavailable_feature() {
+  if (!shows("feature")) return;
+  append(fmt::format(
+      R"(<FeatureMeasurementTable dataItemId="feature" sequence="1" timestamp="{}" count="0">UNAVAILABLE</FeatureMeasurementTable>)",
+      format_rfc3339(agent_.began)));
+}
+
+void Streams::add_assets(std::int64_t newest, Timestamp at) {
   if (shows("asset_changed")) {
     append(fmt::format(
         R"(<AssetChanged dataItemId="asset_changed" sequence="{}" timestamp="{}" assetType="{}">{}</AssetChanged>)",
-        agent_.has_asset ? feature_sequence(agent_.newest) : 1, format_rfc3339(at),
-        agent_.has_asset ? "QIFDocumentWrapper" : "",
-        agent_.has_asset ? asset_id(agent_) : "UNAVAILABLE"));
+        feature_sequence(newest), format_rfc3339(at), newest > 0 ? "QIFDocumentWrapper" : "",
+        newest > 0 ? asset_id(agent_) : "UNAVAILABLE"));
   }
   if (shows("asset_removed")) {
     append(fmt::format(

@@ -19,7 +19,7 @@ constexpr std::uint64_t part_sequence(std::int64_t id) {
   return 2 * static_cast<std::uint64_t>(id);
 }
 constexpr std::uint64_t feature_sequence(std::int64_t id) { return part_sequence(id) + 1; }
-/// The first measurement that has a sequence from `sequence` on.
+/// The measurement that has a sequence; before the first, 0.
 constexpr std::int64_t measurement_at(std::uint64_t sequence) {
   return static_cast<std::int64_t>(sequence / 2);
 }
@@ -48,15 +48,15 @@ class Streams {
       : agent_(agent), selection_(selection) {}
 
   void add_availability();
-  /// Its observations from the sequence `from` on, until there are `most` in the document.
-  /// @returns the sequence of the first that found no room; 0: all did.
-  std::uint64_t add(const app::Measurement& measurement, std::uint64_t from = 0,
-                    std::size_t most = SIZE_MAX);
-  void add_counts(const Counts& counts, Timestamp at);
+  /// The observation of that sequence. @pre it is one of the two that the measurement has.
+  void add(const app::Measurement& measurement, std::uint64_t sequence);
+  /// @param newest of the measurements that are counted
+  void add_counts(const Counts& counts, std::int64_t newest, Timestamp at);
   /// No measurement is known yet.
-  void add_unavailable();
-  /// Which asset has changed.
-  void add_assets(Timestamp at);
+  void add_unavailable_part();
+  void add_unavailable_feature();
+  /// Which asset has changed. @param newest of the measurements it had; 0: there was none.
+  void add_assets(std::int64_t newest, Timestamp at);
   std::size_t count() const { return count_; }
 
   /// @param next the sequence to ask from next.

@@ -61,16 +61,39 @@ void probe(const Services& services, const http::Request&, http::Responder respo
   });
 }
 
-void answer_current(const Gathered& gathered, const std::vector<app::MeasurementGroup>& groups) {
-  Streams streams(gathered.agent, gathered.selection);
+/// What current shows: the newest of the log, or of the log as it was.
+struct Current {
+  SharedGathered gathered;
+  std::uint64_t at = 0;  ///< the last sequence that is seen
+  /// The newest measurement that is seen whole.
+  std::unique_ptr<app::KeptMeasurement> newest{};
+  /// The one after it, of which only the part is seen.
+  std::unique_ptr<app::KeptMeasurement> begun{};
+
+  /// All up to here are seen whole.
+  std::int64_t whole() const {
+    const std::int64_t last = mtconnect::measurement_at(at);
+    return at == mtconnect::feature_sequence(last) ? last : last - 1;
+  }
+};
+using SharedCurrent = std::shared_ptr<Current>;
+
+void answer_current(const Current& current, const std::vector<app::MeasurementGroup>& groups) {
+  Streams streams(current.gathered->agent, current.gathered->selection);
   streams.add_availability();
-  const Timestamp at =
-      gathered.newest.empty() ? gathered.agent.began : (*gathered.newest.front())->received_at;
-  streams.add_assets(at);
-  if (gathered.newest.empty()) {
-    streams.add_unavailable();
+  const app::Measurement* const newest = current.newest ? &**current.newest : nullptr;
+  const Timestamp at = newest == nullptr ? current.gathered->agent.began : newest->received_at;
+  const std::int64_t seen = newest == nullptr ? 0 : current.whole();
+  streams.add_assets(seen, at);
+  if (const app::Measurement* const part = current.begun ? &**current.begun : newest) {
+    streams.add(*part, mtconnect::part_sequence(part->row));
   } else {
-    streams.add(**gathered.newest.front());
+    streams.add_unavailable_part();
+  }
+  if (newest != nullptr) {
+    streams.add(*newest, mtconnect::feature_sequence(newest->row));
+  } else {
+    streams.add_unavailable_feature();
   }
   mtconnect::Counts counts;
   for (const app::MeasurementGroup& group : groups) {
@@ -79,9 +102,50 @@ void answer_current(const Gathered& gathered, const std::vector<app::Measurement
     counts.reject += group.reject;
     counts.indeterminate += group.indeterminate;
   }
-  streams.add_counts(counts, at);
-  const std::uint64_t next = mtconnect::feature_sequence(gathered.agent.newest) + 1;
-  gathered.responder->answer(mtconnect_response(200, streams.document(next)));
+  streams.add_counts(counts, seen, at);
+  const std::uint64_t next = mtconnect::feature_sequence(current.gathered->agent.newest) + 1;
+  current.gathered->responder->answer(mtconnect_response(200, streams.document(next)));
+}
+
+/// Keeps the first measurement that a list shows, then goes on with `done`.
+void keep_first(const Services& services, const SharedCurrent& current,
+                const app::MeasurementQuery& query, std::int64_t behind,
+                std::unique_ptr<app::KeptMeasurement> Current::*where, std::function<void()> done) {
+  services.measurements.list(
+      query, behind, 1,
+      [current, where](const app::Measurement& measurement) {
+        (*current).*where = std::make_unique<app::KeptMeasurement>(measurement);
+      },
+      [current, done = std::move(done)](const Result<app::ListPage>& page) {
+        if (!page) return current->gathered->responder->fail(page.error());
+        done();
+      });
+}
+
+void count_and_answer(const Services& services, const SharedCurrent& current) {
+  app::MeasurementQuery counted;
+  counted.as_of = current->whole();
+  services.measurements.summary(
+      counted, "tolerance_class",
+      [current](const Result<std::vector<app::MeasurementGroup>>& groups) {
+        if (!groups) return current->gathered->responder->fail(groups.error());
+        answer_current(*current, *groups);
+      });
+}
+
+void read_current(const Services& services, const SharedCurrent& current) {
+  app::MeasurementQuery whole;
+  whole.newest_first = true;
+  whole.as_of = current->whole();
+  keep_first(services, current, whole, 0, &Current::newest, [current, &services] {
+    const std::int64_t last = mtconnect::measurement_at(current->at);
+    if (last == current->whole()) return count_and_answer(services, current);
+    app::MeasurementQuery part;
+    part.history = true;
+    part.as_of = last;
+    keep_first(services, current, part, last - 1, &Current::begun,
+               [current, &services] { count_and_answer(services, current); });
+  });
 }
 
 void current(const Services& services, const http::Request& request, http::Responder responder) {
@@ -91,17 +155,19 @@ void current(const Services& services, const http::Request& request, http::Respo
     if (!chosen) return responder.fail(chosen.error());
     selection = *chosen;
   }
-  const auto gathered = gathered_for(services, std::move(responder));
-  gathered->selection = selection;
-  gather_newest(services, gathered, 1, [gathered, &services] {
-    app::MeasurementQuery counted;
-    counted.as_of = gathered->agent.newest;
-    services.measurements.summary(
-        counted, "tolerance_class",
-        [gathered](const Result<std::vector<app::MeasurementGroup>>& groups) {
-          if (!groups) return gathered->responder->fail(groups.error());
-          answer_current(*gathered, *groups);
-        });
+  const auto current =
+      std::make_shared<Current>(Current{.gathered = gathered_for(services, std::move(responder))});
+  current->gathered->selection = selection;
+  const auto wanted = request.integer("at");
+  gather_newest(services, current->gathered, 1, [current, wanted, &services] {
+    const Gathered& gathered = *current->gathered;
+    const std::uint64_t last = mtconnect::feature_sequence(gathered.agent.newest);
+    current->at = wanted ? static_cast<std::uint64_t>(*wanted) : last;
+    if (current->at > last) {
+      return gathered.responder->fail(
+          {ErrorCode::NotFound, fmt::format("at goes from 1 to {}", last), "at"});
+    }
+    read_current(services, current);
   });
 }
 
@@ -147,7 +213,7 @@ std::string_view code_of(const Error& error, int status) {
   if (status >= 500) return "INTERNAL_ERROR";
   if (error.where == "path") return "INVALID_PATH";
   if (error.where == "id") return "ASSET_NOT_FOUND";
-  for (const std::string_view name : {"from", "count", "interval", "heartbeat"}) {
+  for (const std::string_view name : {"at", "from", "count", "interval", "heartbeat"}) {
     if (error.where == name) return "OUT_OF_RANGE";
   }
   if (status == 404) return "INVALID_URI";
@@ -176,7 +242,13 @@ void add_mtconnect_routes(std::vector<http::Route>& routes, const Services& serv
   routes.push_back(route("current", "currentMtconnect", with(services, current),
                          "MTConnectStreams 2.4: the newest measurement, and counts by verdict"));
   routes.back().parameters = {
+      {.name = "at",
+       .type = http::Integer{.min = 1, .max = kMostSequence},
+       .description = "The state when this sequence was the last"},
       {.name = "path", .description = "Only what it names: `//DataItem[@type=\"PART_COUNT\"]`"}};
+  routes.back().outcomes.push_back({.status = 404,
+                                    .meaning = "MTConnectError: `at` is beyond the log",
+                                    .media_types = {std::string(kXml)}});
   const auto open = std::make_shared<std::atomic<int>>(0);
   routes.push_back(route("sample", "sampleMtconnect",
                          http::AsyncHandler([&services, open](const http::Request& request,

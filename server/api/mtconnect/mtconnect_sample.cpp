@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdlib>
 #include <mutex>
+#include <utility>
 
 #include "api/handlers.hpp"
 #include "app/log/log_service.hpp"
@@ -18,14 +21,14 @@ using mtconnect::Streams;
 using std::chrono::milliseconds;
 
 constexpr std::int64_t kMostObservations = 10'000;
-constexpr std::int64_t kMostSequence = std::int64_t{1} << 53;
 constexpr std::int64_t kMostMilliseconds = 3'600'000;
 constexpr std::string_view kBoundary = "fitgauge-mtconnect";
 
 /// What a document of observations is asked for.
 struct Sample {
-  std::uint64_t from = 1;
+  std::optional<std::uint64_t> from{};  ///< none: from the first, or backwards from the last
   std::size_t count = 100;
+  bool backwards = false;  ///< a negative count
   Selection selection = mtconnect::kEverything;
 };
 
@@ -44,19 +47,34 @@ struct Gathering {
 Result<Sampled> sampled(const Gathering& gathering, const Sample& sample,
                         const app::ListPage& page) {
   const std::uint64_t end = mtconnect::feature_sequence(page.as_of) + 1;
-  if (sample.from > end) {
+  const std::uint64_t from = sample.from.value_or(sample.backwards ? end - 1 : 1);
+  if (from > end) {
     return Error{ErrorCode::NotFound, fmt::format("from goes from 1 to {}", end), "from"};
   }
   Streams streams(gathering.agent, sample.selection);
-  if (sample.from == 1) streams.add_availability();
-  std::uint64_t next = page.next ? mtconnect::part_sequence(*page.next) + 2 : end;
+  const auto sampled = [&](std::uint64_t next) {
+    return Sampled{
+        .document = streams.document(next), .observations = streams.count(), .next = next};
+  };
+  if (from == 1 && !sample.backwards) streams.add_availability();
   for (const auto& measurement : gathering.measurements) {
-    const std::uint64_t left = streams.add(**measurement, sample.from, sample.count);
-    if (left == 0) continue;
-    next = left;
-    break;
+    const app::Measurement& each = **measurement;
+    std::array sequences = {mtconnect::part_sequence(each.row),
+                            mtconnect::feature_sequence(each.row)};
+    if (sample.backwards) std::swap(sequences[0], sequences[1]);
+    for (const std::uint64_t sequence : sequences) {
+      if (sample.backwards ? sequence > from : sequence < from) continue;
+      if (streams.count() == sample.count) return sampled(sequence);
+      streams.add(each, sequence);
+    }
   }
-  return Sampled{.document = streams.document(next), .observations = streams.count(), .next = next};
+  if (!sample.backwards) {
+    return sampled(page.next ? mtconnect::part_sequence(*page.next) + 2 : end);
+  }
+  if (page.next) return sampled(mtconnect::part_sequence(*page.next) - 1);
+  // Nothing comes before the first.
+  if (streams.count() < sample.count) streams.add_availability();
+  return sampled(1);
 }
 
 /// Reads the log and calls `done` on a thread of the storage.
@@ -65,9 +83,15 @@ void read_sample(const Services& services, const Sample& sample,
   const auto gathering = std::make_shared<Gathering>(Gathering{.agent = mtconnect_agent(services)});
   app::MeasurementQuery query;
   query.history = true;
-  const std::int64_t first = std::max<std::int64_t>(mtconnect::measurement_at(sample.from), 1);
+  query.newest_first = sample.backwards;
+  // A list goes on behind the row it is given; 0: from its begin.
+  std::int64_t behind = 0;
+  if (sample.from) {
+    const std::int64_t first = std::max<std::int64_t>(mtconnect::measurement_at(*sample.from), 1);
+    behind = sample.backwards ? first + 1 : first - 1;
+  }
   services.measurements.list(
-      query, first - 1, sample.count / 2 + 1,
+      query, behind, sample.count / 2 + 1,
       [gathering](const app::Measurement& measurement) {
         gathering->measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
       },
@@ -168,10 +192,11 @@ http::Response mtconnect_response(int status, std::string text) {
 std::vector<http::Parameter> sample_parameters() {
   return {{.name = "from",
            .type = http::Integer{.min = 1, .max = kMostSequence},
-           .description = "The first sequence; 1 when absent"},
+           .description = "The sequence to begin with; 1 when absent"},
           {.name = "count",
-           .type = http::Integer{.min = 1, .max = kMostObservations},
-           .description = "Most observations of a document; 100 when absent"},
+           .type = http::Integer{.min = -kMostObservations, .max = kMostObservations},
+           .description = "Most observations of a document, 100 when absent; below 0 they go "
+                          "backwards, from the last when `from` is absent"},
           {.name = "path", .description = "Only what it names: `//DataItem[@type=\"PART_ID\"]`"},
           {.name = "interval",
            .type = http::Integer{.min = 0, .max = kMostMilliseconds},
@@ -183,8 +208,12 @@ std::vector<http::Parameter> sample_parameters() {
 
 void sample_mtconnect(const Services& services, const OpenStreams& open,
                       const http::Request& request, http::Responder responder) {
-  Sample sample{.from = static_cast<std::uint64_t>(request.integer("from").value_or(1)),
-                .count = static_cast<std::size_t>(request.integer("count").value_or(100))};
+  const std::int64_t count = request.integer("count").value_or(100);
+  if (count == 0) {
+    return responder.fail({ErrorCode::QueryInvalid, "count is no 0: leave it out", "count"});
+  }
+  Sample sample{.count = static_cast<std::size_t>(std::abs(count)), .backwards = count < 0};
+  if (const auto from = request.integer("from")) sample.from = static_cast<std::uint64_t>(*from);
   if (const auto path = request.text("path")) {
     const auto selection = mtconnect::select(*path);
     if (!selection) return responder.fail(selection.error());
@@ -197,6 +226,10 @@ void sample_mtconnect(const Services& services, const OpenStreams& open,
                          if (!read) return shared->fail(read.error());
                          shared->answer(mtconnect_response(200, std::move(read->document)));
                        });
+  }
+  if (sample.backwards) {
+    return responder.fail({ErrorCode::QueryInvalid,
+                           "a stream goes forwards: leave the minus or interval out", "count"});
   }
   if (++*open > kMostMtconnectStreams) {
     --*open;

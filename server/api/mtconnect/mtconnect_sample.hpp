@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 
 #include "api/mtconnect/mtconnect_document.hpp"
@@ -12,6 +13,9 @@ namespace fitgauge::api {
 /// What every document of the agent says now.
 mtconnect::Agent mtconnect_agent(const Services& services);
 http::Response mtconnect_response(int status, std::string text);
+
+/// That a query may name.
+inline constexpr std::int64_t kMostSequence = std::int64_t{1} << 53;
 
 /// How many streams are open.
 using OpenStreams = std::shared_ptr<std::atomic<int>>;

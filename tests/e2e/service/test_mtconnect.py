@@ -88,11 +88,67 @@ class Agent(DaemonTest):
         self.assertEqual({count.get("subType"): count.text for count in root.iter("PartCount")},
                          {"ALL": "4", "GOOD": "1", "BAD": "1", "x:REWORK": "1", "x:INDETERMINATE": "1"})
 
+    def sequences(self, root):
+        return [int(each.get("sequence")) for each in root.iter() if each.get("dataItemId")]
+
+    def test_a_negative_count_goes_backwards(self):
+        self.assertEqual(self.sequences(self.read("sample?count=-5")), [1])
+        self.daemon.measure([{"designation": "25 H7", "measured_mm": f"25.0{i}", "part_id": f"P{i}"} for i in range(4)])
+        newest_first = list(range(9, 0, -1))
+        self.assertEqual(self.sequences(self.read("sample?count=-100")), newest_first)
+        self.assertEqual(self.sequences(self.read("sample?count=-3")), [9, 8, 7])
+        for count in (1, 2, 3, 4, 5):
+            at, seen = 9, []
+            for _ in range(20):
+                root = self.read(f"sample?from={at}&count=-{count}")
+                seen += self.sequences(root)
+                self.assertLessEqual(len(self.sequences(root)), count)
+                at = self.header(root)["nextSequence"]
+                if seen[-1] == 1:
+                    break
+            self.assertEqual((seen, at), (newest_first, 1), count)
+        self.assertEqual(self.sequences(self.read("sample?from=6&count=-2")), [6, 5])
+        self.assertEqual(self.sequences(self.read("sample?from=10&count=-1")), [9])
+        self.assertEqual(self.code("sample?from=11&count=-1", 404), "OUT_OF_RANGE")
+        root = self.read("sample?count=-2&path=" + urllib.parse.quote("//DataItem[@id='part']"))
+        self.assertEqual((self.sequences(root), self.header(root)["nextSequence"]), ([8, 6], 5))
+
+    def test_current_at_a_sequence_is_the_state_it_had(self):
+        """As an observer who read the whole sample up to there has it."""
+        self.assertEqual(self.sequences(self.read("current?at=1")), self.sequences(self.read("current")))
+        ids = [self.daemon.measure({"designation": "25 H7", "measured_mm": measured, "part_id": f"P{i}"}).json["id"]
+               for i, measured in enumerate(("25.01", "24.99", "25.05"))]
+        self.daemon.post(f"/v1/measurements/{ids[0]}/corrections", {"measured_mm": "25.06", "reason": "misread"})
+        last = self.header(self.read("current"))["lastSequence"]
+        self.assertEqual(last, 9)
+        part, feature, counts = "UNAVAILABLE", [], {"GOOD": 0, "BAD": 0, "x:REWORK": 0}
+        status = {"PASS": "GOOD", "FAIL": "BAD", "REWORK": "x:REWORK"}
+        for at in range(1, last + 1):
+            seen = self.read(f"sample?from={at}&count=1")
+            for each in seen.iter("PartId"):
+                part = each.text
+            if self.features(seen):
+                feature = self.features(seen)
+                counts[status[feature[0][2]["CHARACTERISTIC_STATUS"]]] += 1
+                if at == 9:  # the correction takes the place of the first
+                    counts["GOOD"] -= 1
+            root = self.read(f"current?at={at}")
+            self.assertEqual([each.text for each in root.iter("PartId")], [part], at)
+            self.assertEqual(self.features(root), feature, at)
+            shown = {each.get("subType"): int(each.text) for each in root.iter("PartCount")}
+            self.assertEqual({name: shown[name] for name in counts}, counts, at)
+            self.assertLessEqual(max(self.sequences(root)), at)
+            self.assertEqual(self.header(root), {"firstSequence": 1, "lastSequence": last, "nextSequence": last + 1})
+        self.assertEqual(self.read("current?at=9").find("Streams/DeviceStream/ComponentStream/Events/PartId").text,
+                         self.read("current").find("Streams/DeviceStream/ComponentStream/Events/PartId").text)
+        for query, status_code in (("at=10", 404), ("at=0", 400), ("at=x", 400), ("at=-1", 400)):
+            self.assertEqual(self.code("current?" + query, status_code), "OUT_OF_RANGE", query)
+
     def code(self, path, status):
         return self.read(path, status).find("Errors/Error").get("errorCode")
 
     def test_errors_are_documents_of_mtconnect(self):
-        for query in ("from=0", "from=x", "count=0", "count=-1", "count=10001", "interval=-1", "heartbeat=0"):
+        for query in ("from=0", "from=x", "count=0", "count=-10001", "count=10001", "count=-1&interval=10", "interval=-1", "heartbeat=0"):
             self.assertEqual(self.code("sample?" + query, 400), "OUT_OF_RANGE", query)
         self.assertEqual(self.code("sample?nothing=1", 400), "INVALID_REQUEST")
         self.assertEqual(self.code("nothing", 404), "INVALID_URI")
