@@ -49,11 +49,12 @@ export function number(text) {
 /** With its sign, zero without. */
 export const signed = (text) => (/^[-0]*$|^-/.test(String(text)) ? number(text) : `+${number(text)}`);
 
-export function time(date) {
-  return date.toLocaleTimeString(locale(), { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
-}
+const formats = {};
+/** A format of dates, made once for a language: to make one takes longer than to write a hundred dates. */
+const dateFormat = (name, options) => (formats[`${name} ${language}`] ??= new Intl.DateTimeFormat(locale(), options));
 
-export const date = (day) => day.toLocaleDateString(locale(), { day: 'numeric', month: 'short', year: 'numeric' });
+export const time = (date) => dateFormat('time', { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' }).format(date);
+export const date = (day) => dateFormat('date', { day: 'numeric', month: 'short', year: 'numeric' }).format(day);
 export const dateTime = (moment) => `${date(moment)}, ${time(moment)}`;
 
 /** Why a call failed, in the reader's language, with the field it is about. */

@@ -7,7 +7,7 @@ import { umText } from '../exact.js';
 import { dateTime, explain, number, signed, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
-import { controlChartFigure, rulesAt } from '../trend/control_chart.js';
+import { ControlChart, rulesAt } from '../trend/control_chart.js';
 import { capability, controlChart } from '../trend/figures.js';
 import { newestValues } from '../trend/recent_values.js';
 import { Stretch } from '../trend/stretch.js';
@@ -19,6 +19,8 @@ const COUNTS = [50, 100, 200, 500, 1000, 5000, 10000];
 const RULES = [1, 2, 3, 4];
 const KINDS = ['i_mr', 'xbar_r', 'xbar_s'];
 const ROWS = 12;
+/** More than so many values missed are a list to read anew. */
+const MOST_MISSED = 1000;
 /** Many events make one drawing: one of so many ms, and as many more as there are values by ten. */
 const DRAW_MS = 120;
 const VALUES_PER_MS = 10;
@@ -55,6 +57,9 @@ export function mount(main, route) {
   let picked = null;
   let timer = 0;
   let frame = 0;
+  let width = 0;
+  let shown = null;
+  let told = null;
 
   count.append(...COUNTS.map((each) => option(each, String(each), each === (Number(options.count) || 100))));
   kind.append(...KINDS.map((each) => option(each, t(`trend.kind.${each}`), each === options.kind)));
@@ -68,12 +73,10 @@ export function mount(main, route) {
       h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
     table));
 
-  /** The choices; what the URL names is offered even when nothing has it yet. */
+  /** The characteristics there are; what the URL names is offered even when nothing has it yet. */
   async function offer() {
     const { groups } = await getJson(url(['measurements', 'summary'], { group_by: 'characteristic' }), { signal: leaving.signal });
-    characteristic.append(option('', t('trend.all'), true));
-    for (const name of [options.characteristic, ...groups.map((group) => group.characteristic)]) offerOne(name);
-    characteristic.value = options.characteristic ?? '';
+    for (const group of groups) offerOne(group.characteristic);
   }
 
   function offerOne(name) {
@@ -151,8 +154,10 @@ export function mount(main, route) {
     if (!points.length) {
       chart.replaceChildren(h('p.empty', t('trend.empty')));
       for (const place of [tiles, indices, detail, table]) place.replaceChildren();
+      told = null;
       return;
     }
+    width ||= Math.max(chart.clientWidth, 300);
     drawChart();
     tiles.replaceChildren(...countTiles(points));
     indices.replaceChildren(...capabilityTiles(figures.indices, points, figures.chart, drawn));
@@ -161,9 +166,17 @@ export function mount(main, route) {
 
   function drawChart() {
     if (!points.length || chart.querySelector('.brush')) return; // not under the finger
-    chart.replaceChildren(controlChartFigure(drawn, points, figures.chart, {
-      width: Math.max(chart.clientWidth, 300), view: stretch.of(drawn.length), picked, onPick: pick, onStretch: (from, to) => stretch.choose(from, to),
-    }));
+    if (!shown?.isOf(drawn, figures.chart, width) || !shown.element.isConnected) {
+      shown = new ControlChart(drawn, points, figures.chart, { width, onPick: pick, onStretch: (from, to) => stretch.choose(from, to) });
+      chart.replaceChildren(shown.element);
+    }
+    shown.show(stretch.of(drawn.length), picked);
+    if (told?.picked !== picked || told.drawn !== drawn || told.chart !== figures.chart) tell();
+  }
+
+  /** What there is to say of the point that was picked. */
+  function tell() {
+    told = { picked, drawn, chart: figures.chart };
     refill(detail, picked === null ? h('p.aside', [left && t('trend.left_out', { count: left }), priceText()].filter(Boolean).join(' ')) : pointDetail(drawn[picked], rulesAt(figures.chart).get(picked)));
   }
 
@@ -209,24 +222,53 @@ export function mount(main, route) {
     return true;
   }
 
+  /** Adds a record, also to a list that is being read and may not have it yet. */
+  function take(record) {
+    meanwhile.push(record);
+    return add(record);
+  }
+
+  /** Reads what was stored since the newest value held, which the stream of events may not have told of. */
+  async function catchUp() {
+    const newest = records.at(-1);
+    if (!newest) return load();
+    try {
+      const { measurements, next } = await getJson(url(['measurements'], { ...filter(), after: newest.id, limit: MOST_MISSED }), { signal: leaving.signal });
+      if (next) return load();
+      if (measurements.filter(take).length) computeSoon();
+      return null;
+    } catch {
+      return leaving.signal.aborted ? null : load(); // another log, or none: it says why
+    }
+  }
+
   function arrived(event) {
-    if (event.type === 'resync') return load();
+    if (event.type === 'resync') return catchUp();
     if (event.type !== 'measurement.recorded') return null;
     const record = JSON.parse(event.data);
     note.textContent = '';
     offerOne(record.characteristic);
-    meanwhile.push(record);
-    if (!add(record)) return null;
+    if (take(record)) computeSoon();
+    return null;
+  }
+
+  function computeSoon() {
     timer ||= setTimeout(() => {
       timer = 0;
       compute();
     }, DRAW_MS + points.length / VALUES_PER_MS);
-    return null;
   }
 
-  const resized = new ResizeObserver(() => drawChart());
+  // Asked for in every frame, the width would make the browser lay out the page once more in each.
+  const resized = new ResizeObserver(() => {
+    width = Math.max(chart.clientWidth, 300);
+    drawChart();
+  });
   resized.observe(chart);
-  offer().then(load, (problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); })
+  characteristic.append(option('', t('trend.all'), true));
+  offerOne(options.characteristic);
+  characteristic.value = options.characteristic ?? '';
+  Promise.all([offer(), load()]).catch((problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); })
     .then(() => follow(leaving.signal, arrived));
   return () => {
     leaving.abort();

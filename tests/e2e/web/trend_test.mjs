@@ -120,18 +120,20 @@ describe('the trend', () => {
     await post('25.001');
     page = await open(browser, daemon, '#/parts');
     let asked = 0;
-    // The second reading comes with the stream of events: its answer is older than the event that overtakes it.
+    // Each answer of the list is older than a value that was stored before it came: the first time before the
+    // page follows the events, the second time while it does.
     await page.route('**/v1/measurements?*sort=newest*', async (route) => {
       const answer = await route.fetch();
-      if (++asked === 2) {
-        await post('25.002');
-        await sleep(500);
-      }
+      await post(`25.00${++asked + 1}`);
+      await sleep(500);
       await route.fulfill({ response: answer });
     });
+    const points = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.point').length === wanted, count);
     await page.evaluate(() => { location.hash = '#/trend?characteristic=slow-list&designation=25+H7'; });
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 2);
-    assert.ok(asked >= 2);
+    await points(2);
+    await page.selectOption('#trend-count', '200');
+    await points(3);
+    assert.equal(asked, 2, 'the list is read once for each choice');
   });
 
   it('stays at the size that was shown first, whatever another station measures', async () => {
