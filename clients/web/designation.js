@@ -1,16 +1,43 @@
-/** Designations as people type them: Ø25H7, 25 h7, 132,5/a13, 25H7/g6. */
+/** Designations as people type them: Ø25H7, 25 h7, 132,5/a13, 25H7/g6; of other standards M10-6H and 25 ISO 2768-m. */
 
 import { nmFromMm, parseMeasured } from './exact.js';
+import { number } from './i18n.js';
 
 const DESIGNATION = /^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*\/?\s*([A-Za-z]\w*)$/;
 const FIT = /^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*([A-Z]\w*)\s*[/\s-]\s*([a-z]\w*)$/;
+const THREAD = /^M\s*(\d+(?:[.,]\d+)?)(?:\s*[xX×]\s*(\d+(?:[.,]\d+)?))?\s*[-−–]\s*((?:\d[A-Za-z]){1,2})$/i;
+const GENERAL = /^(?:([RC])|[Øø⌀∅])?\s*(\d+(?:[.,]\d+)?)\s*(?:mm)?\s*ISO\s*2768\s*[-−–]\s*([fmcv])$/i;
+/** A general tolerance of a length does not say whether it is of an outside or an inside dimension. */
+const OPEN = /^ISO 2768-/;
 
-/** {text: "25H7", nominal_nm, tolerance_class}; null where it cannot be one. */
+/** {text: "25H7", nominal_nm, tolerance_class}; of another standard also `standard: true`; null where it cannot be one. */
 export function parseDesignation(typed) {
-  const match = DESIGNATION.exec(typed.trim());
+  const text = typed.trim();
+  const other = otherStandard(text);
+  if (other) return other;
+  const match = DESIGNATION.exec(text);
   const nominal = match && parseMeasured(match[1]);
   return nominal && { text: nominal + match[2], nominal_nm: nmFromMm(nominal), tolerance_class: match[2] };
 }
+
+function otherStandard(typed) {
+  const [thread, general] = [THREAD.exec(typed), GENERAL.exec(typed)];
+  if (!thread && !general) return null;
+  const nominal = parseMeasured(thread ? thread[1] : general[2]);
+  const text = thread ? `M${nominal}${thread[2] ? `x${parseMeasured(thread[2])}` : ''}-${thread[3]}`
+    : `${(general[1] ?? '').toUpperCase()}${nominal} ISO 2768-${general[3].toLowerCase()}`;
+  return { text, nominal_nm: nmFromMm(nominal), tolerance_class: thread ? text : text.replace(/^[RC]?[\d.]+ /, ''), standard: true };
+}
+
+/** Whether limits hold inside and outside alike, so that somebody must say which of them is measured. */
+export const isOpen = (limits) => OPEN.test(limits?.tolerance_class ?? '');
+
+/** Whether limits are those of the pitch diameter of a thread. */
+export const isThread = (limits) => THREAD.test(limits?.tolerance_class ?? '');
+
+/** A designation for people: "Ø 25 H7" with the comma of the language; those of other standards as they are written. */
+export const designationText = (designation) => (otherStandard(designation)
+  ? number(designation).replaceAll('\u2212', '-') : `Ø ${number(designation)}`);
 
 /** {size: "25", hole: "H7", shaft: "g6"}; null where it cannot be one. */
 export function parseFit(typed) {

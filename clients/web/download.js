@@ -7,10 +7,11 @@ import { explain } from './i18n.js';
 /**
  * A link whose `href` its owner sets; it saves with `download`, and opens with `target`. A link cannot send a key:
  * where one is in use, what it names is fetched and comes from memory. @param onProblem takes why it could not be
+ * @param bounded whether the service may refuse it for its length: fetched too, so that the reason is said
  */
-export function downloadLink(attributes, text, onProblem) {
+export function downloadLink(attributes, text, onProblem, { bounded = false } = {}) {
   const link = h('a.button', { ...attributes, onclick: (event) => {
-    if (!keyInUse()) return;
+    if (!keyInUse() && !bounded) return;
     event.preventDefault();
     fetched(link).catch((problem) => onProblem(explain(problem)));
   } }, text);

@@ -4,6 +4,7 @@
  * bouncing key) for 300 ms.
  */
 
+import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
@@ -18,7 +19,7 @@ export class Entry {
    * @param job gives {nominal_nm, limits} or a reason why nothing can be gauged: {reason}
    * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}
    * @param onValue takes {text, correcting}: the exact decimal, and the record it corrects
-   * @param onJob takes a designation, and resolves to whether there is such a one; @param onField takes (name, text, correcting)
+   * @param onJob takes a designation, and resolves to whether there is such a one, undefined where nobody can say; @param onField takes (name, text, correcting)
    * @param onBadge takes a key that was scanned
    * @param isName tells whether a text names something known, such as a plan; @param onTyped is told of the first character
    * @param onOpen takes what was typed and is not taken as it is
@@ -107,17 +108,18 @@ export class Entry {
     const read = readLine(typed, { burst: this.burst.isBurst(typed), prefixes: this.prefixes() });
     if (read.kind === 'value') return this.#judge(read.text);
     if (this.correcting) return this.#refuse(t('entry.malformed', { typed }));
-    if (read.kind === 'job') return this.#adopt(read.text);
+    if (read.kind === 'job') return this.#adopt(read);
     if (read.kind === 'field') return this.#finish(() => this.onField(read.name, read.text));
     return this.#refuse(t('entry.malformed', { typed }));
   }
 
-  /** `25.013in` is written like a size and a class: the service knows whether there is one. */
-  async #adopt(text) {
+  /** `25.013in` is written like a size and a class, the number of a part like a thread: the service knows whether there is one. */
+  async #adopt({ text, name }) {
     this.input.readOnly = true;
     const known = await this.onJob(text);
     this.input.readOnly = false;
     if (known) this.#finish(() => {});
+    else if (known === false && name) this.#finish(() => this.onField(name, text));
     else this.#refuse(t('entry.malformed', { typed: text }));
   }
 
@@ -152,7 +154,7 @@ export class Entry {
     this.element.classList.add('asking');
     this.onOpen(this.input.value.trim());
     const typed = this.input.value.trim();
-    this.#say(t('entry.ask', { mm: number(text), nominal: number(limits?.designation ?? mmText(nominal, 0)) }));
+    this.#say(t('entry.ask', { mm: number(text), nominal: limits?.designation ? designationText(limits.designation).replace('Ø ', '') : number(mmText(nominal, 0)) }));
     const choice = (label, act) => h('button', { type: 'button', onclick: act }, label);
     this.#offer([
       choice(t('entry.ask_keep'), () => this.#accept(text)),

@@ -4,7 +4,7 @@ import { explain, number, t } from '../i18n.js';
 import { field, h, refill } from '../dom.js';
 import { getJson, url } from '../api.js';
 import { Latest } from '../latest.js';
-import { parseDesignation } from '../designation.js';
+import { designationText, isOpen, isThread, parseDesignation } from '../designation.js';
 import { nmFromMm, nmFromUm, parseMeasured } from '../exact.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, toleranceText } from '../verdict.js';
@@ -16,6 +16,8 @@ const COVERAGE = 2;
 const MOST_OFFERED = 200;
 const KEPT_LIMITS = 'limits';
 const KEPT_PREFIXES = 'prefixes';
+/** Which side of the material is measured: where the designation does not say. */
+const SIDES = ['shaft', 'hole'];
 const SIDE_FIELDS = ['characteristic', 'order', 'operation', 'machine', 'operator', 'gauge'];
 export const FIELDS = ['part_id', ...SIDE_FIELDS];
 
@@ -47,6 +49,10 @@ export class Job {
     this.uncertainty = h('input', {
       type: 'text', inputmode: 'decimal', name: 'uncertainty_um', autocomplete: 'off', onchange: () => this.#changed(),
     });
+    this.side = h('select', { name: 'feature', onchange: () => this.#show(this.read, this.reason) },
+      SIDES.map((side) => h('option', { value: side, selected: side === options.feature }, t(`job.side.${side}`))));
+    this.sideField = field(t('job.side'), this.side);
+    this.sideField.hidden = true;
     for (const name of FIELDS) this.inputs[name].value = options[name] ?? '';
     this.rule.value = options.rule === 'guard_band' ? 'guard_band' : 'simple';
     this.uncertainty.value = options.uncertainty_um ?? '';
@@ -72,7 +78,7 @@ export class Job {
         this.#look();
         onDone();
       },
-    }, h('div.line', field(t('field.part_id'), this.inputs.part_id), field(t('job.designation'), this.input), this.echo),
+    }, h('div.line', field(t('field.part_id'), this.inputs.part_id), field(t('job.designation'), this.input), this.sideField, this.echo),
     h('div.more-line', this.more, this.given, this.gaugeNote), Object.values(this.offered),
     h('button.unseen', { type: 'submit', tabindex: -1 }, t('entry.judge')));
     this.uncertainty.disabled = this.rule.value === 'simple';
@@ -114,10 +120,10 @@ export class Job {
     this.#changed();
   }
 
-  /** Gauges another size from now on, if there is such a one. @returns whether there is */
+  /** Gauges another size from now on, if there is such a one. @returns whether there is; undefined where nobody can say */
   async adopt(text) {
-    const limits = await this.#limitsOf(parseDesignation(text).text).catch(() => null);
-    if (!limits) return false;
+    const limits = await this.#limitsOf(parseDesignation(text).text).catch(() => false);
+    if (!limits) return limits === false ? false : undefined;
     this.input.value = text;
     this.#show(limits, '');
     return true;
@@ -144,6 +150,7 @@ export class Job {
   follow(one, limits) {
     this.own = limits;
     this.limits = null;
+    this.side.value = one.feature ?? SIDES[0];
     this.input.value = one.designation ?? (limits ? '' : `${one.nominal_mm}${one.tolerance_class}`);
     this.inputs.characteristic.value = one.name;
     // What a plan does not name is measured with the station's own gauge, not with that of the one before.
@@ -168,6 +175,7 @@ export class Job {
   /** Everything but the designation, as the URL has it. */
   get options() {
     const options = Object.fromEntries(FIELDS.map((name) => [name, this.inputs[name].value.trim()]));
+    if (isOpen(this.limits)) options.feature = this.side.value;
     if (this.rule.value === 'simple') return options;
     return { ...options, rule: 'guard_band', uncertainty_um: this.uncertainty.value.trim() };
   }
@@ -177,7 +185,7 @@ export class Job {
     const parsed = this.own ? { own: this.own, nominal_nm: nmFromMm(this.own.nominal_mm) } : parseDesignation(this.designation);
     if (!parsed) return { reason: this.designation ? t('error.designation.malformed') : t('job.missing') };
     if (this.reason) return { reason: this.reason };
-    const job = { ...parsed, limits: this.limits };
+    const job = { ...parsed, limits: this.limits, ...(isOpen(parsed) && { feature: this.side.value }) };
     if (this.rule.value === 'simple') return job;
     const uncertainty = parseMeasured(this.uncertainty.value);
     return uncertainty === null ? { reason: t('job.uncertainty_missing') } : { ...job, uncertainty };
@@ -197,11 +205,11 @@ export class Job {
 
   #gauged() {
     const { upper_limit_mm: upper, lower_limit_mm: lower } = this.limits ?? {};
-    return JSON.stringify([this.designation, this.part, this.inputs.characteristic.value.trim(), upper, lower]);
+    return JSON.stringify([this.designation, this.limits?.feature, this.part, this.inputs.characteristic.value.trim(), upper, lower]);
   }
 
   #changed() {
-    const given = Object.entries(this.options).filter(([name, value]) => value && name !== 'part_id');
+    const given = Object.entries(this.options).filter(([name, value]) => value && !['part_id', 'feature'].includes(name));
     this.given.textContent = given.map(([name, value]) =>
       (name === 'rule' ? t(`rule.${value}`) : `${t(`field.${name}`)} ${value}`)).join(' · ');
     this.#lookAtGauge();
@@ -268,20 +276,23 @@ export class Job {
   }
 
   #show(limits, reason) {
-    this.limits = limits;
+    this.read = limits;
+    this.sideField.hidden = !isOpen(limits);
+    this.limits = isOpen(limits) ? { ...limits, feature: this.side.value } : limits;
     this.reason = reason;
     this.echo.classList.toggle('wrong', reason !== '');
-    this.echo.replaceChildren(...(limits ? this.#understood(limits) : [reason || (this.designation ? '' : t('job.missing'))]));
+    this.echo.replaceChildren(...(limits ? this.#understood(this.limits) : [reason || (this.designation ? '' : t('job.missing'))]));
     this.#changed();
   }
 
   #understood(limits) {
     return [
-      h('strong', limits.designation ? `Ø ${number(limits.designation)}` : number(limits.nominal_mm)),
-      h('span', t(`feature.${limits.feature}`)),
+      h('strong', limits.designation ? designationText(limits.designation) : number(limits.nominal_mm)),
+      h('span', [t(`feature.${limits.feature}`), isThread(limits) && t('job.pitch_diameter')].filter(Boolean).join(', ')),
       h('span.figures', limitsText(limits)),
       limits.tolerance_um !== undefined && h('span.tolerance', t('limits.tolerance', { um: toleranceText(limits) })),
       limits.basis === 'custom' && h('span.own-basis', t('limits.custom')),
+      limits.basis === 'standard' && h('span.tolerance', limits.table_revision.replace(/-[^-]*$/, '')),
     ].filter(Boolean);
   }
 }

@@ -1,5 +1,6 @@
 /** The verdict across the shop: shape, word, value, of which part it is, and where it lies between the limits. */
 
+import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { limitStrip } from '../figures/limit_strip.js';
@@ -11,7 +12,7 @@ const word = (text) => h(`p.word${text.length > 11 ? '.longer' : text.length > 7
 
 /** "SN-1 · bore-A · Ø 25 H7": what a verdict is about. */
 const about = ({ part_id: part, characteristic, designation }) =>
-  h('p.about', [part, characteristic, designation && `Ø ${number(designation)}`].filter(Boolean).join(' · '));
+  h('p.about', [part, characteristic, designation && designationText(designation)].filter(Boolean).join(' · '));
 
 export class Panel {
   constructor() {

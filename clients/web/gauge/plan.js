@@ -2,6 +2,7 @@
 
 import { getJson, url } from '../api.js';
 import { h, refill } from '../dom.js';
+import { designationText } from '../designation.js';
 import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
 import { number, signed, t } from '../i18n.js';
 import { readJson, store } from '../stored.js';
@@ -12,10 +13,9 @@ const KEPT_LIST = 'plans';
 
 const given = (um) => (um === undefined ? undefined : nmFromUm(um));
 
-/** What a characteristic is measured against, for people: Ø 25 H7, 40 +0.1/-0.1, or ≤ 0.05 mm. */
+/** What a characteristic is measured against, for people: Ø 25 H7, M10-6H, 40 +0.1/-0.1, or ≤ 0.05 mm. */
 export const sizeText = (one) => {
-  if (one.designation) return `Ø ${number(one.designation)}`;
-  if (one.tolerance_class) return `Ø ${number(one.nominal_mm)} ${one.tolerance_class}`;
+  if (one.designation || one.tolerance_class) return designationText(one.designation ?? `${one.nominal_mm} ${one.tolerance_class}`);
   const deviations = [one.upper_um, one.lower_um].map(given);
   if (deviations.includes(undefined)) return limitsText(ownLimits(one));
   return `${number(one.nominal_mm)} ${deviations.map((nm) => signed(mmText(nm, 0))).join('/')}`;

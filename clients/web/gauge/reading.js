@@ -19,7 +19,7 @@ const NAME = /^(?=.*[A-Za-z])(?=.*\d).{3,200}$/;
  * @param text the whole line
  * @param burst whether it came as fast as a scanner types
  * @param prefixes {field: prefix}
- * @returns {kind: 'value' | 'job' | 'field' | 'nothing', text, name}
+ * @returns {kind: 'value' | 'job' | 'field' | 'nothing', text, name}; a job has the name of the field it is of where there is no such size
  */
 export function readLine(text, { burst = false, prefixes = PREFIXES } = {}) {
   const line = text.trim();
@@ -30,8 +30,11 @@ export function readLine(text, { burst = false, prefixes = PREFIXES } = {}) {
   }
   const value = parseMeasured(line);
   if (value !== null) return { kind: 'value', text: value };
-  if (parseDesignation(line) && !EXPONENT.test(line)) return { kind: 'job', text: line };
-  if (burst && NAME.test(line) && !LIKE_A_READING.test(line) && !EXPONENT.test(line)) return { kind: 'field', name: 'part_id', text: line };
+  const designation = parseDesignation(line);
+  const isScan = burst && NAME.test(line);
+  // M12-3A may be the number of a part too.
+  if (designation && !EXPONENT.test(line)) return { kind: 'job', text: line, name: designation.standard && isScan ? 'part_id' : undefined };
+  if (isScan && !LIKE_A_READING.test(line) && !EXPONENT.test(line)) return { kind: 'field', name: 'part_id', text: line };
   return { kind: 'nothing', text: line };
 }
 

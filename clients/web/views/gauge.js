@@ -99,13 +99,13 @@ export function mount(main, route) {
   }
 
   function bodyOf(text) {
-    const { text: designation, own, uncertainty } = job.current();
+    const { text: designation, own, uncertainty, feature } = job.current();
     const given = FIELDS.map((name) => [name, job.inputs[name].value.trim()]).filter(([, value]) => value);
     const rule = uncertainty ? { rule: 'guard_band', uncertainty_um: new Decimal(uncertainty) } : {};
     const exact = (value) => (value === undefined ? undefined : new Decimal(String(value)));
     const limits = own ? {
       nominal_mm: exact(own.nominal_mm), feature: own.feature, upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
-    } : { designation };
+    } : { designation, feature };
     return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...rule };
   }
 

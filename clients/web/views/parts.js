@@ -1,6 +1,7 @@
 /** The parts: what was measured at which, found by part, order or whatever else a record says; the newest first. */
 
 import { getJson, url } from '../api.js';
+import { designationText } from '../designation.js';
 import { field, h } from '../dom.js';
 import { downloadLink } from '../download.js';
 import { dateTime, explain, number, signed, t } from '../i18n.js';
@@ -13,6 +14,10 @@ import { limitsText, measuredText, noteText, verdictMark, VERDICTS } from '../ve
 
 const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator', 'cause'];
 const PAGE = 50;
+/** What the service writes a list as, by its `format`. */
+const FORMS = { csv: 'CSV', xlsx: 'Excel', dfq: 'Q-DAS', qif: 'QIF' };
+/** Of the times in a workbook. */
+const ZONE = Intl.DateTimeFormat().resolvedOptions().timeZone ?? '';
 
 export function mount(main, route) {
   const leaving = new AbortController();
@@ -29,7 +34,8 @@ export function mount(main, route) {
     h('table', h('thead', h('tr', ['field.part_id', 'field.characteristic', 'trend.verdict', 'trend.value', 'parts.deviation', 'parts.limits', 'parts.by', 'trend.time']
       .map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), rows));
   const more = h('button', { type: 'button', hidden: true, onclick: () => read() }, t('parts.more'));
-  const exported = downloadLink({ download: 'measurements.csv' }, t('parts.csv'), (reason) => { said.textContent = reason; });
+  const exported = Object.fromEntries(Object.entries(FORMS).map(([format, form]) => [format,
+    downloadLink({ download: `measurements.${format}` }, t('parts.save', { form }), (reason) => { said.textContent = reason; }, { bounded: format !== 'csv' })]));
   const certificate = new CertificateForm((reason) => { said.textContent = reason; });
   const replaced = new Set();
   // The list goes on by itself where its end comes into sight.
@@ -42,7 +48,7 @@ export function mount(main, route) {
       FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict),
       h('label.choice', corrected, h('span', t('parts.history'))),
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
-    h('p.actions', exported), certificate.element, said, table, h('p.actions', more)));
+    h('p.actions', Object.values(exported)), certificate.element, said, table, h('p.actions', more)));
 
   const filter = () => ({
     ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
@@ -53,7 +59,7 @@ export function mount(main, route) {
     after = '';
     more.hidden = true;
     rows.replaceChildren();
-    exported.href = url(['measurements'], { ...filter(), format: 'csv' });
+    for (const [format, link] of Object.entries(exported)) link.href = url(['measurements'], { ...filter(), format, time_zone: format === 'xlsx' ? ZONE : '' });
     const { part_id, order } = filter();
     certificate.show({ part_id, order });
     return read();
@@ -103,7 +109,7 @@ function row(record, isReplaced, { onCorrect, onNote }) {
   }, t(name));
   return h('tr', { class: isReplaced && 'corrected' },
     h('td', part ? h('a', { href: fragment({ view: 'parts', options: { part_id: part, history: 'all' } }) }, part) : '–'),
-    h('td', record.characteristic ?? '', h('span.aside', record.designation ? `Ø ${number(record.designation)}` : '')),
+    h('td', record.characteristic ?? '', h('span.aside', record.designation ? designationText(record.designation) : '')),
     h('td', verdictMark(record.verdict), (isReplaced || record.correction_of)
       && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · ')),
     (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), one.operator, dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),

@@ -1,6 +1,7 @@
 /** The control chart of the newest values as they come in: is it stable, is it capable. */
 
 import { getJson, url } from '../api.js';
+import { designationText } from '../designation.js';
 import { field, h, refill } from '../dom.js';
 import { follow } from '../events.js';
 import { umText } from '../exact.js';
@@ -145,7 +146,7 @@ export function mount(main, route) {
   }
 
   function draw() {
-    refill(designation, [...new Set([...sizes, wanted].filter(Boolean))].sort().map((name) => option(name, number(name), name === wanted)));
+    refill(designation, [...new Set([...sizes, wanted].filter(Boolean))].sort().map((name) => option(name, designationText(name).replace('Ø ', ''), name === wanted)));
     designation.value = wanted;
     remembered();
     const computable = Boolean(figures.chart);

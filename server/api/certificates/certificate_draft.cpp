@@ -9,26 +9,38 @@
 #include "api/wire/json_writer.hpp"
 #include "app/measurements/record.hpp"
 #include "base/decimal.hpp"
-#include "base/json_value.hpp"
+#include "standards/designated_limits.hpp"
 
 namespace fitgauge::api {
 namespace {
 
+/// `25 H7`, `M10-6H`, of a drawing's own limits `25 hole`.
 std::string size_text(const app::Measurement& m) {
-  const std::string nominal = format_mm(m.nominal_size);
-  return m.class_name ? fmt::format("{} {}", nominal, *m.class_name)
-                      : fmt::format("{} {}", nominal, word(m.feature));
+  if (!m.class_name) return fmt::format("{} {}", format_mm(m.nominal_size), word(m.feature));
+  std::string text;
+  standards::append_designation(text, m.nominal_size, *m.class_name);
+  return text;
+}
+
+/// Millimetres with three decimals or more, so that the eye compares the numbers of a line.
+std::string mm_text(Length length) {
+  constexpr std::size_t kDecimals = 3;
+  std::string text = format_mm(length);
+  if (text.find('.') == text.npos) text += '.';
+  const std::size_t decimals = text.size() - text.find('.') - 1;
+  if (decimals < kDecimals) text.append(kDecimals - decimals, '0');
+  return text;
 }
 
 std::string limits_text(const app::Measurement& m) {
-  if (!m.has_lower_limit()) return fmt::format("up to {}", format_mm(m.upper_limit()));
-  if (!m.has_upper_limit()) return fmt::format("from {}", format_mm(m.lower_limit()));
-  return fmt::format("{} to {}", format_mm(m.lower_limit()), format_mm(m.upper_limit()));
+  if (!m.has_lower_limit()) return fmt::format("up to {}", mm_text(m.upper_limit()));
+  if (!m.has_upper_limit()) return fmt::format("from {}", mm_text(m.lower_limit()));
+  return fmt::format("{} to {}", mm_text(m.lower_limit()), mm_text(m.upper_limit()));
 }
 
 std::string measured_text(const app::Measurement& m) {
-  if (!m.corrected) return format_mm(m.measured);
-  return fmt::format("{} (read {})", format_mm(*m.corrected), format_mm(m.measured));
+  if (!m.corrected) return mm_text(m.measured);
+  return fmt::format("{} (read {})", mm_text(*m.corrected), mm_text(m.measured));
 }
 
 std::string rule_text(const app::Measurement& m) {
@@ -48,11 +60,6 @@ std::string time_text(Timestamp time) {
   std::string text = format_rfc3339(time);
   if (const std::size_t point = text.find('.'); point != text.npos) text.erase(point) += 'Z';
   return text.replace(text.find('T'), 1, " ");
-}
-
-std::string member(const JsonValue& document, std::string_view name) {
-  const JsonValue* value = document.find(name);
-  return value != nullptr && value->is(JsonValue::Kind::String) ? std::string(value->text) : "";
 }
 
 }  // namespace
@@ -80,21 +87,18 @@ void CertificateDraft::add(const app::Measurement& m) {
                     .measured_at = time_text(m.measured_at)});
 }
 
-void CertificateDraft::add_gauges(const std::vector<app::NamedDocument>& gauges) {
-  for (const app::NamedDocument& stored : gauges) {
-    const auto used = gauges_.find(stored.name);
-    if (used == gauges_.end()) continue;
-    const auto document = parse_json(stored.text);
-    if (!document) continue;  // it was checked when it was stored
-    used->second = {.calibration_due = member(*document, "calibration_due"),
-                    .uncertainty = member(*document, "uncertainty")};
+void CertificateDraft::add_gauges(const GaugeBook& book) {
+  for (auto& [name, gauge] : gauges_) {
+    if (const auto known = book.find(name); known != book.end()) gauge = known->second;
   }
   for (certificate::Line& line : lines_) {
     const auto used = gauges_.find(line.gauge);
     if (used == gauges_.end()) continue;
-    const Gauge& gauge = used->second;
+    const GaugeInUse& gauge = used->second;
+    if (gauge.standard_uncertainty) {
+      line.gauge += fmt::format(", u {} \u00b5m", format_um(*gauge.standard_uncertainty));
+    }
     if (!gauge.calibration_due.empty()) line.gauge += ", due " + gauge.calibration_due;
-    if (!gauge.uncertainty.empty()) line.gauge += ", budget " + gauge.uncertainty;
   }
 }
 
@@ -112,7 +116,8 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
   for (const auto& [name, gauge] : gauges_) {
     json.begin_object().member("name", name);
     if (!gauge.calibration_due.empty()) json.member("calibration_due", gauge.calibration_due);
-    if (!gauge.uncertainty.empty()) json.member("uncertainty", gauge.uncertainty);
+    if (!gauge.budget.empty()) json.member("uncertainty", gauge.budget);
+    if (gauge.standard_uncertainty) json.member_um("uncertainty_um", *gauge.standard_uncertainty);
     json.end_object();
   }
   json.end_array().member("checkpoint", checkpoint);

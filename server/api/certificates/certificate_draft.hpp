@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "api/statistics/gauges_in_use.hpp"
 #include "app/measurements/measurement.hpp"
-#include "app/service/document_service.hpp"
 #include "certificate/certificate.hpp"
 
 namespace fitgauge::api {
@@ -33,8 +33,8 @@ class CertificateDraft {
   const std::string& last_id() const { return last_id_; }  ///< of the measurements
 
   void add(const app::Measurement& measurement);
-  /// The gauges in use, as they are stored.
-  void add_gauges(const std::vector<app::NamedDocument>& gauges);
+  /// What is known of the gauges in use.
+  void add_gauges(const GaugeBook& book);
 
   /// @param checkpoint the signed head of the log
   std::string json(Timestamp made_at, const std::string& checkpoint) const;
@@ -42,11 +42,6 @@ class CertificateDraft {
   std::string pdf(Timestamp made_at, const std::string& checkpoint) const;
 
  private:
-  struct Gauge {
-    std::string calibration_due;  ///< a date, or empty
-    std::string uncertainty;      ///< the name of its budget, or empty
-  };
-
   std::string summary() const;
 
   CertificateOrder order_;
@@ -54,7 +49,7 @@ class CertificateDraft {
   std::array<std::int64_t, 4> verdicts_{};  ///< by gauging::Verdict
   std::string records_;                     ///< JSON, with commas between them
   std::vector<certificate::Line> lines_;
-  std::map<std::string, Gauge> gauges_;  ///< those that were used
+  std::map<std::string, GaugeInUse> gauges_;  ///< those that were used
   std::map<std::string, int> revisions_;
   std::string first_id_;
   std::string last_id_;

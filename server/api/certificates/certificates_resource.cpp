@@ -45,26 +45,21 @@ http::Response written(const CertificateDraft& draft, Timestamp now,
   return std::move(response).with("Content-Disposition", "inline; filename=\"certificate.pdf\"");
 }
 
-/// Its measurements are read: asks for the gauges and a head that has all of them, then writes it,
-/// which may take long.
+/// Its measurements are read: asks for a head that has all of them, then writes it, which may take
+/// long.
 void finish(const Services& services, const std::shared_ptr<CertificateDraft>& draft,
             const SharedResponder& shared) {
-  services.documents.list(
-      app::DocumentKind::GaugeInUse,
-      [&services, draft, shared](const Result<std::vector<app::NamedDocument>>& gauges) {
-        if (!gauges) return shared->fail(gauges.error());
-        draft->add_gauges(*gauges);
-        const auto last = services.measurements.parse_id(draft->last_id());
-        if (!last) return shared->fail(last.error());
-        services.log.prove(
-            *last, [&services, draft, shared](const Result<app::LogService::Proof>& proof) {
-              if (!proof) return shared->fail(proof.error());
-              services.runs.prepare(
-                  [now = services.clock.now(), head = proof->head, draft, shared] {
-                    shared->answer(written(*draft, now, head->note).with("Vary", "Accept"));
-                  },
-                  [shared](Error error) { shared->fail(std::move(error)); });
-            });
+  draft->add_gauges(*services.gauges.book());
+  const auto last = services.measurements.parse_id(draft->last_id());
+  if (!last) return shared->fail(last.error());
+  services.log.prove(
+      *last, [&services, draft, shared](const Result<app::LogService::Proof>& proof) {
+        if (!proof) return shared->fail(proof.error());
+        services.runs.prepare(
+            [now = services.clock.now(), head = proof->head, draft, shared] {
+              shared->answer(written(*draft, now, head->note).with("Vary", "Accept"));
+            },
+            [shared](Error error) { shared->fail(std::move(error)); });
       });
 }
 

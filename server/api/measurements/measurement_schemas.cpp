@@ -175,7 +175,8 @@ void add_measurement_schemas(Schemas& schemas) {
   const std::string gauge =
       schema::object({{"name", schema::text(), ""},
                       {"calibration_due", schema::text(), "A date, of a gauge in use", false},
-                      {"uncertainty", schema::text(), "The name of its budget", false}});
+                      {"uncertainty", schema::text(), "The name of its budget", false},
+                      {"uncertainty_um", schema::number(), "What it comes to", false}});
   schemas.push_back(
       {"Certificate",
        schema::object({{"order", schema::text(), "What it is of", false},

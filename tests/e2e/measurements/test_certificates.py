@@ -12,7 +12,9 @@ class Certificates(DaemonTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.daemon.request("PUT", "/v1/gauges-in-use/G-07", {"calibration_due": "2027-03-31"})
+        cls.daemon.request("PUT", "/v1/uncertainties/bore%20gauge", {"contributions": [
+            {"name": "repeatability", "standard_uncertainty": 0.6}, {"name": "master", "standard_uncertainty": 0.5304}]})
+        cls.daemon.request("PUT", "/v1/gauges-in-use/G-07", {"uncertainty": "bore gauge", "calibration_due": "2027-03-31"})
         for number in range(60):
             cls.daemon.measure({"designation": "25 H7", "measured_mm": f"25.{number:03d}", "order": "WO-1",
                                 "part_id": f"SN-{number:02d}", "characteristic": "Bohrung Ø 25 links, Größe по чертежу",
@@ -36,8 +38,8 @@ class Certificates(DaemonTest):
         for part in range(60):
             self.assertEqual(len(re.findall(rf"SN-{part:02d}\b", text)), 1, part)
         self.assertIn("60 measured values: 22 good, 0 rework, 38 reject, 0 indeterminate.", text)
-        for word in ("Inspection certificate", "Muster GmbH", "Customer: Öhler & Co", "Order: WO-1", "25 to 25.021",
-                     "Bohrung Ø", "чертежу", "due", "2027-03-31", "fitgauge/"):
+        for word in ("Inspection certificate", "Muster GmbH", "Customer: Öhler & Co", "Order: WO-1", "25.000 to 25.021",
+                     "Bohrung Ø", "чертежу", "u 0.801", "due", "2027-03-31", "fitgauge/"):
             self.assertIn(word, text)
         pages = int(info["Pages"])
         self.assertEqual(re.findall(r"page (\d+) of (\d+)", text),
@@ -47,8 +49,17 @@ class Certificates(DaemonTest):
 
     def test_what_decided_stands_in_it(self):
         text, _ = self.pdf("part_id=SN-07")
-        for word in ("10.006525", "(read 10.0071)", "conformance", "up to 10.01", "10 shaft"):
+        for word in ("10.006525", "(read 10.0071)", "conformance", "up to 10.010", "10 shaft"):
             self.assertIn(word, text)
+
+    def test_designations_of_other_standards_stand_as_they_are_written(self):
+        for designation, size in (("M10x1.25-6g", "9.1"), ("R5 ISO 2768-m", "5.2"), ("12 ISO 2768-f", "12.05")):
+            self.daemon.measure({"designation": designation, "measured_mm": size, "order": "WO-S", "part_id": "S"})
+        text, _ = self.pdf("order=WO-S")
+        flat = re.sub(r"\s+", " ", text)
+        for word in ("S M10x1.25-6g 9.042 to 9.160 9.100 -88 good", "R5 ISO", "12 ISO", "tables ISO 965-1:2013"):
+            self.assertIn(word, flat)
+        self.assertNotIn("9.188", text)
 
     def test_json_has_the_records_and_a_head_that_covers_them(self):
         answer = self.daemon.get("/v1/certificates?part_id=SN-07", Accept="application/json")
@@ -57,7 +68,7 @@ class Certificates(DaemonTest):
         listed = self.daemon.get("/v1/measurements?part_id=SN-07").json["measurements"]
         self.assertEqual(certificate["measurements"], listed)
         self.assertEqual((certificate["part_id"], certificate["count"], certificate["verdicts"]["good"]), ("SN-07", 2, 2))
-        self.assertEqual(certificate["gauges"], [{"name": "G-07", "calibration_due": "2027-03-31"}])
+        self.assertEqual(certificate["gauges"], [{"name": "G-07", "calibration_due": "2027-03-31", "uncertainty": "bore gauge", "uncertainty_um": 0.801}])
         self.assertGreaterEqual(int(certificate["checkpoint"].splitlines()[1]), 61)
 
     def test_what_is_refused(self):

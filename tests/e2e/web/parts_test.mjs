@@ -111,6 +111,27 @@ describe('the parts', () => {
 });
 
 describe('what is saved as a file', () => {
+  it('is what is shown, in every form the service writes, and a refusal is said', async () => {
+    await daemon.send('POST', '/v1/measurements', ['SAVED-1', 'SAVED-2'].map((part_id) => ({ designation: '25 H7', measured_mm: '25.0131', part_id, order: 'WO-S', characteristic: 'bore' })));
+    page = await open(browser, daemon, '#/parts?part_id=SAVED-1', { timezoneId: 'Europe/Berlin' });
+    await page.waitForSelector('.records tbody tr');
+    const save = async (form) => {
+      const [download] = await Promise.all([page.waitForEvent('download'), page.getByText(`All of it as ${form}`).click()]);
+      return [download.suggestedFilename(), fs.readFileSync(await download.path())];
+    };
+    const begins = { CSV: ['measurements.csv', 'id,'], Excel: ['measurements.xlsx', 'PK\x03\x04'], 'Q-DAS': ['measurements.dfq', 'K0100 1'], QIF: ['measurements.qif', '<?xml'] };
+    for (const [form, [name, first]] of Object.entries(begins)) {
+      const [file, bytes] = await save(form);
+      assert.equal(file, name);
+      assert.equal(bytes.subarray(0, first.length).toString('latin1'), first, form);
+      if (form !== 'Excel') assert.equal(bytes.toString().includes('SAVED-2'), false, form);
+    }
+    await page.route('**/v1/measurements?*format=xlsx*', (route) => route.fulfill({
+      status: 400, contentType: 'application/problem+json', body: '{"code":"export.too_many","detail":"a file has at most 100,000 measurements"}' }));
+    await page.getByText('All of it as Excel').click();
+    await page.waitForFunction(() => /100,000/.test(document.querySelector('.parts .note').textContent));
+  });
+
   it('is saved with the key where one is needed', async () => {
     const locked = await new Daemon('--auth', 'read-open').start();
     try {

@@ -1,0 +1,115 @@
+/** What is gauged by the designations of other standards than ISO 286: threads and general tolerances. */
+
+import assert from 'node:assert/strict';
+import { afterEach, describe, it } from 'node:test';
+
+import { judge, mmText, nmFromMm } from '../../../clients/web/exact.js';
+import { close, findings, open, picture } from './support/browser.mjs';
+import { sleep } from './support/daemon.mjs';
+import { PAIR_MS, scan as scanInto } from './support/scanner.mjs';
+import { browser, daemon } from './support/stage.mjs';
+
+let page;
+
+afterEach(() => close(page));
+
+const scan = (text) => scanInto(page, text);
+const measure = async (text) => { await page.keyboard.type(`${text}\n`, { delay: 45 }); await sleep(PAIR_MS); };
+const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
+const echo = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.echo').textContent), pattern);
+const stored = async (part) => (await daemon.stored(`part_id=${part}`)).map(({ designation, feature, measured_mm, verdict: word }) => [designation, feature, measured_mm, word]);
+
+describe('other standards at the station', () => {
+  it('are scanned like a size and class, and name their edition', async () => {
+    page = await open(browser, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    await scan('P:TH-1');
+    await scan('M10-6H');
+    // ISO 965-1: D2 of M10 is 9.026, T_D2 of 6H 180 µm.
+    await echo('^M10-6Hhole, pitch diameter9\\.026 to 9\\.206 mm.*ISO 965-1:2013$');
+    await measure('9.206');
+    await verdict('good');
+    assert.match(await page.textContent('.verdict .about'), /^TH-1 · M10-6H$/);
+    await measure('9.207');
+    await verdict('reject');
+    await scan('M10×1,25-6g');
+    await echo('^M10x1\\.25-6gshaft');
+    await measure('9.17');
+    await verdict('rework');
+    assert.deepEqual(await stored('TH-1'), [['M10-6H', 'hole', 9.206, 'good'], ['M10-6H', 'hole', 9.207, 'reject'], ['M10x1.25-6g', 'shaft', 9.17, 'rework']]);
+    await picture(page, 'gauge-thread');
+    await scan('M12-3A'); // no class of this standard: the number of a part
+    assert.equal(await page.inputValue('[name="part_id"]'), 'M12-3A');
+    await page.keyboard.type('M10-9H\n', { delay: 45 }); // typed, it is nothing
+    await page.waitForFunction(() => /Nothing is stored/.test(document.querySelector('#entry-note').textContent));
+  });
+
+  it('say whether a general tolerance is of an outside or an inside dimension', async () => {
+    page = await open(browser, daemon, '#/gauge/25%20ISO%202768-m?part_id=GT-1');
+    await echo('^25 ISO 2768-mshaft24\\.800 to 25\\.200 mm');
+    await page.focus('#value');
+    await measure('25.3');
+    await verdict('rework');
+    await page.selectOption('[name="feature"]', 'hole');
+    await echo('hole');
+    assert.match(decodeURIComponent(page.url()), /feature=hole/);
+    await page.focus('#value');
+    await measure('25.3');
+    await verdict('reject');
+    assert.deepEqual(await stored('GT-1'), [['25 ISO 2768-m', 'shaft', 25.3, 'rework'], ['25 ISO 2768-m', 'hole', 25.3, 'reject']]);
+    assert.deepEqual(await findings(page), []);
+    await page.reload();
+    await echo('hole');
+    await page.fill('#designation', '25H7');
+    await echo('^Ø 25 H7');
+    assert.ok(await page.isHidden('[name="feature"]'));
+  });
+
+  it('are judged by the limits held while the service is away, as the service judges', async () => {
+    for (const designation of ['M10-6H', 'M10x1.25-6g', '25 ISO 2768-m', 'R5 ISO 2768-f']) {
+      const limits = await daemon.json(`/v1/limits/${encodeURIComponent(designation)}`);
+      for (const limit of [limits.lower_limit_mm, limits.upper_limit_mm].map((mm) => nmFromMm(String(mm)))) {
+        for (const nm of [limit - 1, limit, limit + 1]) {
+          const answer = await daemon.json(`/v1/verdicts/${encodeURIComponent(designation)}?measured_mm=${mmText(nm)}`);
+          assert.equal(judge(nm, limits), answer.verdict, `${designation} ${mmText(nm)}`);
+        }
+      }
+    }
+    page = await open(browser, daemon, '#/gauge/M10-6H?part_id=AWAY');
+    await echo('^M10-6H');
+    await page.focus('#value');
+    await daemon.kill();
+    await measure('9.2061');
+    await page.waitForSelector('.verdict[data-verdict="reject"][data-provisional]');
+    await daemon.start();
+    await page.waitForSelector('.arrived li');
+    assert.deepEqual(await stored('AWAY'), [['M10-6H', 'hole', 9.2061, 'reject']]);
+  });
+
+  it('stand in plans, in lists, in a certificate and in every language as they are written', async () => {
+    await daemon.send('PUT', '/v1/plans/STUD', { characteristics: [{ name: 'thread', designation: 'M10x1.25-6g' }, { name: 'slot', designation: '12 ISO 2768-f', feature: 'hole' }] });
+    page = await open(browser, daemon, '#/gauge', { locale: 'de-DE' });
+    await page.waitForSelector('.plan option[value="STUD"]', { state: 'attached' });
+    await scan('STUD');
+    await scan('P:ST-1');
+    await echo('^M10x1,25-6g');
+    assert.match(await page.textContent('.tiles-of-plan'), /threadM10x1,25-6gslot12 ISO 2768-f/);
+    await measure('9,1');
+    await echo('^12 ISO 2768-f');
+    await measure('12,11');
+    await verdict('reject');
+    assert.deepEqual(await stored('ST-1'), [['M10x1.25-6g', 'shaft', 9.1, 'good'], ['12 ISO 2768-f', 'hole', 12.11, 'reject']]);
+    await page.evaluate(() => { location.hash = '#/parts?part_id=ST-1'; });
+    await page.waitForSelector('.records tbody tr');
+    assert.match(await page.textContent('.records tbody'), /slot12 ISO 2768-f.*threadM10x1,25-6g/);
+    const sheet = await (await fetch(`${daemon.url}/v1/certificates?part_id=ST-1`, { headers: { Accept: 'application/json' } })).text();
+    for (const text of ['M10x1.25-6g', '12 ISO 2768-f', 'ISO 965-1:2013']) assert.ok(sheet.includes(text), text);
+  });
+
+  it('are charted by their designation', async () => {
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({ designation: 'M10-6H', measured_mm: `9.1${10 + (i * 7) % 20}`, characteristic: 'pitch' })));
+    page = await open(browser, daemon, '#/trend?characteristic=pitch');
+    await page.waitForFunction(() => document.querySelectorAll('.point').length === 30);
+    assert.equal(await page.textContent('#trend-designation option:checked'), 'M10-6H');
+  });
+});
