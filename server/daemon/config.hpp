@@ -35,6 +35,7 @@ struct Config {
   std::string control_model = "TNC640";
   std::string control_setup;
   bool control_write = false;
+  std::string shdr_listen;
   std::string connections;
   std::vector<std::string> connection_folders;
   bool allow_private_addresses = false;

@@ -74,8 +74,9 @@ Result<void> preflight(const Config& config, const std::string& port_file) {
   for (const http::ListenAddress& address : *addresses) {
     if (const auto free = http::check_listen(address); !free) return free.error();
   }
-  if (!config.control_listen.empty()) {
-    const auto address = http::parse_listen_address(config.control_listen);
+  for (const std::string& text : {config.control_listen, config.shdr_listen}) {
+    if (text.empty()) continue;
+    const auto address = http::parse_listen_address(text);
     if (!address) return address.error();
     if (const auto free = http::check_listen(*address); !free) return free.error();
   }

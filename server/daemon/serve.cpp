@@ -30,6 +30,7 @@
 #include "daemon/memory.hpp"
 #include "daemon/preflight.hpp"
 #include "daemon/service_metrics.hpp"
+#include "daemon/shdr.hpp"
 #include "http/answer_batch.hpp"
 
 namespace fitgauge::daemon {
@@ -250,6 +251,8 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   http::Server& server = **started;
   auto control = start_control(config, app, services);
   if (!control) return control.error();
+  auto adapter = start_shdr(config, app, clock);
+  if (!adapter) return adapter.error();
   metrics.add([&server](api::Exposition& out) { write_server_metrics(server, out); });
   if (!config.tls_client_ca.empty()) {
     const auto written = write_port_file(health_port_file(config), server.ports().back());
@@ -274,6 +277,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   // Runs are cancelled first, so that those who wait for one get their answer.
   app.runs().stop();
   control->reset();
+  adapter->reset();
   server.stop();
   connecting->reset();
   forwarding.reset();

@@ -17,7 +17,7 @@ FOLDERS = {
     "machine": "server/machine", "probing": "server/probing",
     "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http", "http_client": "server/http_client", "tlog": "server/tlog",
     "control_link": "server/control_link", "log_reader": "server/log_reader", "certificate": "server/certificate", "sheet": "server/sheet", "aqdef": "server/aqdef", "qif": "server/qif", "workbook": "server/workbook",
-    "api": "server/api", "virtual_control": "server/virtual_control", "collector": "server/collector", "forwarder": "server/forwarder", "connections": "server/connections", "daemon": "server/daemon", "clients": "clients",
+    "api": "server/api", "virtual_control": "server/virtual_control", "collector": "server/collector", "forwarder": "server/forwarder", "connections": "server/connections", "shdr": "server/shdr", "daemon": "server/daemon", "clients": "clients",
 }
 DOMAIN = {"iso286", "standards", "tabfile", "gauging", "metrology", "klartext", "machine", "probing", "program", "run"}
 
@@ -44,7 +44,8 @@ def allowed_edges(architecture: str) -> dict[str, set[str]]:
 BORDERS = {
     r"(sqlite3\.h|SQLiteCpp/)": {"sqlite"},
     r"postgresql/": {"postgres"},
-    r"boost/(beast|asio)": {"http", "clients"},
+    r"boost/beast": {"http", "clients"},
+    r"boost/asio": {"http", "clients", "shdr"},
     r"nlohmann/": {"base"},
     r"simdjson": {"api"},
 }

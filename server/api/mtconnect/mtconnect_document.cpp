@@ -63,6 +63,43 @@ std::string head(const Agent& agent, std::string_view kind, std::string_view mor
 
 }  // namespace
 
+Counts counts_of(const std::vector<app::MeasurementGroup>& groups) {
+  Counts counts;
+  for (const app::MeasurementGroup& group : groups) {
+    counts.good += group.good;
+    counts.rework += group.rework;
+    counts.reject += group.reject;
+    counts.indeterminate += group.indeterminate;
+  }
+  return counts;
+}
+
+std::array<std::pair<std::string_view, std::int64_t>, 5> counts_by_item(const Counts& counts) {
+  return {{{"count1", counts.good + counts.rework + counts.reject + counts.indeterminate},
+           {"count2", counts.good},
+           {"count3", counts.reject},
+           {"count4", counts.rework},
+           {"count5", counts.indeterminate}}};
+}
+
+std::string entry_of(const app::Measurement& measurement) {
+  return key_of(measurement.texts.characteristic.value_or(""));
+}
+
+std::vector<std::pair<std::string_view, std::string>> cells_of(
+    const app::Measurement& measurement) {
+  std::vector<std::pair<std::string_view, std::string>> cells = {
+      {"MEASUREMENT_TYPE", "DIAMETER"},
+      {"MEASUREMENT_UNITS", "MILLIMETER"},
+      {"MEASUREMENT_VALUE", format_mm(measurement.measured)},
+      {"CHARACTERISTIC_STATUS", std::string(status_of(measurement.result.verdict))}};
+  if (measurement.standard_uncertainty) {
+    cells.emplace_back("UNCERTAINTY", format_mm(*measurement.standard_uncertainty));
+    cells.emplace_back("UNCERTAINTY_TYPE", "COMBINED");
+  }
+  return cells;
+}
+
 bool Streams::shows(std::string_view id) const {
   const auto found = std::find_if(kDataItems.begin(), kDataItems.end(),
                                   [id](const DataItem& item) { return item.id == id; });
@@ -89,30 +126,20 @@ void Streams::add(const app::Measurement& measurement, std::uint64_t sequence) {
     const std::string part = xml_text(measurement.texts.part_id.value_or(""));
     return append(
         fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>)",
-                    sequence, at, part.empty() ? "UNAVAILABLE" : part));
+                    sequence, at, part.empty() ? kUnavailable : part));
   }
   if (!shows("feature")) return;
-  std::string cells = fmt::format(
-      R"(<Cell key="MEASUREMENT_TYPE">DIAMETER</Cell><Cell key="MEASUREMENT_UNITS">MILLIMETER</Cell><Cell key="MEASUREMENT_VALUE">{}</Cell><Cell key="CHARACTERISTIC_STATUS">{}</Cell>)",
-      format_mm(measurement.measured), status_of(measurement.result.verdict));
-  if (measurement.standard_uncertainty) {
-    cells += fmt::format(
-        R"(<Cell key="UNCERTAINTY">{}</Cell><Cell key="UNCERTAINTY_TYPE">COMBINED</Cell>)",
-        format_mm(*measurement.standard_uncertainty));
+  std::string cells;
+  for (const auto& [key, text] : cells_of(measurement)) {
+    cells += fmt::format(R"(<Cell key="{}">{}</Cell>)", key, text);
   }
   append(fmt::format(
       R"(<FeatureMeasurementTable dataItemId="feature" sequence="{}" timestamp="{}" count="1"><Entry key="{}">{}</Entry></FeatureMeasurementTable>)",
-      sequence, at, key_of(measurement.texts.characteristic.value_or("")), cells));
+      sequence, at, entry_of(measurement), cells));
 }
 
 void Streams::add_counts(const Counts& counts, std::int64_t newest, Timestamp at) {
-  const std::pair<std::string_view, std::int64_t> each[] = {
-      {"count1", counts.good + counts.rework + counts.reject + counts.indeterminate},
-      {"count2", counts.good},
-      {"count3", counts.reject},
-      {"count4", counts.rework},
-      {"count5", counts.indeterminate}};
-  for (const auto& [id, count] : each) {
+  for (const auto& [id, count] : counts_by_item(counts)) {
     if (!shows(id)) continue;
     const auto item = std::find_if(kDataItems.begin(), kDataItems.end(),
                                    [&](const DataItem& other) { return other.id == id; });

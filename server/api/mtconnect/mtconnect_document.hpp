@@ -5,10 +5,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/mtconnect/mtconnect_path.hpp"
-#include "app/measurements/measurement.hpp"
+#include "app/measurements/measurement_service.hpp"
 
 // MTConnect 2.4: a device `Gauge` whose observations are the measurements of the log.
 
@@ -40,6 +41,18 @@ struct Counts {
   std::int64_t reject = 0;
   std::int64_t indeterminate = 0;
 };
+
+Counts counts_of(const std::vector<app::MeasurementGroup>& groups);
+
+/// The part counts by the ids of their data items.
+std::array<std::pair<std::string_view, std::int64_t>, 5> counts_by_item(const Counts& counts);
+
+/// The key of a measurement's entry in the table of features: its characteristic.
+std::string entry_of(const app::Measurement& measurement);
+/// The cells of that entry.
+std::vector<std::pair<std::string_view, std::string>> cells_of(const app::Measurement& measurement);
+
+inline constexpr std::string_view kUnavailable = "UNAVAILABLE";
 
 /// Gathers the observations of a document.
 class Streams {

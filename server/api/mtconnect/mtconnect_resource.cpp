@@ -95,14 +95,7 @@ void answer_current(const Current& current, const std::vector<app::MeasurementGr
   } else {
     streams.add_unavailable_feature();
   }
-  mtconnect::Counts counts;
-  for (const app::MeasurementGroup& group : groups) {
-    counts.good += group.good;
-    counts.rework += group.rework;
-    counts.reject += group.reject;
-    counts.indeterminate += group.indeterminate;
-  }
-  streams.add_counts(counts, seen, at);
+  streams.add_counts(mtconnect::counts_of(groups), seen, at);
   const std::uint64_t next = mtconnect::feature_sequence(current.gathered->agent.newest) + 1;
   current.gathered->responder->answer(mtconnect_response(200, streams.document(next)));
 }

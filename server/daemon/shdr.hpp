@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "app/application.hpp"
+#include "base/clock.hpp"
+#include "daemon/config.hpp"
+#include "shdr/shdr_adapter.hpp"
+
+namespace fitgauge::daemon {
+
+/// Opens the SHDR port of the configuration; null where it names none. The adapter goes before
+/// `app`. @errors as ShdrAdapter::start.
+Result<std::unique_ptr<shdr::ShdrAdapter>> start_shdr(const Config& config, app::Application& app,
+                                                      const Clock& clock);
+
+}  // namespace fitgauge::daemon
