@@ -6,7 +6,7 @@
 #include "machine/random.hpp"
 #include "support/deep.hpp"
 
-/// Random machines of six kinds with planted errors, measured by the cycle itself: what Q144 to
+/// Random machines of nine kinds with planted errors, measured by the cycle itself: what Q144 to
 /// Q146 promise is what the next check finds, at other positions too.
 namespace fitgauge::probing {
 namespace {
@@ -19,16 +19,19 @@ struct Measured {
   Axis axis;
   AxisMount mount;
 };
-using Kind = std::array<Measured, 2>;
+using Kind = std::vector<Measured>;
 
 constexpr AxisMount kTable = AxisMount::Table;
 constexpr AxisMount kHead = AxisMount::Head;
-constexpr std::array<Kind, 6> kKinds{{{{{Axis::A, kTable}, {Axis::C, kTable}}},
-                                      {{{Axis::B, kTable}, {Axis::C, kTable}}},
-                                      {{{Axis::A, kHead}, {Axis::C, kHead}}},
-                                      {{{Axis::B, kHead}, {Axis::C, kHead}}},
-                                      {{{Axis::A, kHead}, {Axis::C, kTable}}},
-                                      {{{Axis::B, kHead}, {Axis::C, kTable}}}}};
+const std::array<Kind, 9> kKinds{{{{Axis::A, kTable}, {Axis::C, kTable}},
+                                  {{Axis::B, kTable}, {Axis::C, kTable}},
+                                  {{Axis::A, kTable}, {Axis::B, kTable}},
+                                  {{Axis::A, kHead}, {Axis::C, kHead}},
+                                  {{Axis::B, kHead}, {Axis::C, kHead}},
+                                  {{Axis::A, kHead}, {Axis::C, kTable}},
+                                  {{Axis::B, kHead}, {Axis::C, kTable}},
+                                  {{Axis::A, kTable}, {Axis::B, kHead}, {Axis::C, kHead}},
+                                  {{Axis::A, kTable}, {Axis::B, kHead}, {Axis::C, kTable}}}};
 
 Setup random_machine(const Kind& kind, std::uint64_t seed) {
   machine::Random random(seed);
@@ -52,16 +55,17 @@ Setup random_machine(const Kind& kind, std::uint64_t seed) {
   return setup;
 }
 
-/// Five positions of the first axis, with C inclined, then of C with the first inclined.
+/// Five positions of each axis while the others are inclined.
 Values block(const Kind& kind, double mode, double shift) {
-  const auto incidence = [](Axis axis, double angle) {
-    return Values{{413 + 4 * (static_cast<int>(index(axis)) - 3), angle}};
-  };
   Values values = with(kinematics_block(), {{406, mode}});
-  values = with(values, measured(kind[0].axis, -50 + shift, 60 + shift, 5));
-  values = with(values, incidence(kind[0].axis, 25 + shift));
-  values = with(values, measured(Axis::C, -80 + shift, 100 + shift, 5));
-  return with(values, incidence(Axis::C, 30 - shift));
+  for (const auto& [axis, mount] : kind) {
+    const bool turns = axis == Axis::C;
+    values = turns ? with(values, measured(axis, -80 + shift, 100 + shift, 5))
+                   : with(values, measured(axis, -50 + shift, 60 + shift, 5));
+    const int incidence = 413 + 4 * (static_cast<int>(index(axis)) - 3);
+    values = with(values, {{incidence, turns ? 30 - shift : 25 + shift}});
+  }
+  return values;
 }
 
 double worst_of(const ProbingBench& bench, int first) {
