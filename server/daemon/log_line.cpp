@@ -25,9 +25,16 @@ constexpr std::size_t kMostMethod = 32;
 class Line {
  public:
   void put(std::string_view text) {
-    if (text.empty() || text.size() > static_cast<std::size_t>(room_.end() - end_)) return;
+    if (text.empty() || text.size() > left()) return;
     std::memcpy(end_, text.data(), text.size());
     end_ += text.size();
+  }
+  /// A literal, whose length the compiler knows: no call copies it.
+  template <std::size_t size>
+  void put(const char (&literal)[size]) {
+    if (size - 1 > left()) return;
+    std::memcpy(end_, literal, size - 1);
+    end_ += size - 1;
   }
   template <std::integral Number>
   void put(Number number) {
@@ -44,6 +51,8 @@ class Line {
   std::string_view text() const { return {room_.begin(), end_}; }
 
  private:
+  std::size_t left() const { return static_cast<std::size_t>(room_.end() - end_); }
+
   std::array<char, 1024> room_;
   char* end_ = room_.begin();
 };

@@ -1,7 +1,5 @@
 #include "api/service/guard.hpp"
 
-#include <algorithm>
-
 #include "base/text.hpp"
 
 namespace fitgauge::api {
@@ -58,15 +56,17 @@ Error invalid_key() {
 
 /// A page of another site whose name was made to resolve to this machine addresses it by that name,
 /// and every write of a page has an Origin. An address is no such name, nor is one without a dot:
-/// it is of this machine or its network.
+/// it is of this machine or its network. No name of the internet ends with a label of digits.
 bool may_be_rebound(const http::Request& request) {
   if (is_write(request.method()) && !request.header("Origin")) return false;
   std::string_view host = request.header("Host").value_or("localhost");
   if (host.starts_with('[')) return false;
   host = host.substr(0, host.find(':'));
-  const auto is_of_number = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
-  return !std::all_of(host.begin(), host.end(), is_of_number) &&
-         host.find('.') != std::string_view::npos;
+  if (host.ends_with('.')) host.remove_suffix(1);
+  const std::size_t dot = host.rfind('.');
+  if (dot == std::string_view::npos) return false;
+  const std::string_view last = host.substr(dot + 1);
+  return last.empty() || last.find_first_not_of("0123456789") != std::string_view::npos;
 }
 
 }  // namespace

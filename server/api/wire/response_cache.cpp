@@ -14,14 +14,14 @@ constexpr std::size_t kOverhead = 256;
 http::SyncHandler ResponseCache::cached(std::shared_ptr<ResponseCache> cache, TableHandler make) {
   return [cache = std::move(cache),
           make = std::move(make)](const http::Request& request) -> Result<http::Response> {
-    if (auto found = cache->find(request)) return http::Response(std::move(found));
+    if (auto found = cache->find(request)) return found;
     const auto state = cache->tables_.state();
     if (state->tables == nullptr) return cache->tables_.tables().error();
     Result<http::Response> made = make(request, *state->tables);
     if (!made || made->status != 200 || made->prepared) return made;
     Prepared prepared = http::prepare(*made);
     cache->keep(request, state, prepared);
-    return http::Response(std::move(prepared));
+    return prepared;
   };
 }
 

@@ -113,21 +113,24 @@ RequestParser::Step RequestParser::parse(std::string_view input, std::size_t& us
     const auto line_end = static_cast<std::size_t>(head_.target.end() - input.data());
     head_bytes_ += had_line ? n : n - std::min(n, line_end);
   }
-  if (error == beast::http::error::need_more) return need_more(input.substr(n));
+  if (error) return take_error(error, input.substr(n));
+
+  if (!had_head) return check_head() ? Step::Head : Step::Refused;
+  if (framing_run_ > kMaxFraming) return need_more({});
+  return is_done() ? Step::Complete : Step::BodyPiece;
+}
+
+RequestParser::Step RequestParser::take_error(const beast::error_code& error,
+                                              std::string_view pending) {
+  if (error == beast::http::error::need_more) return need_more(pending);
   if (error == beast::http::error::bad_version) {
     return refuse(400, ErrorCode::VersionUnsupported, "This server speaks HTTP/1.0 and HTTP/1.1.");
   }
   if (error == beast::http::error::header_limit) {
     return refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
   }
-  if (error == beast::http::error::bad_chunk && has_endless_size(input.substr(n))) {
-    return refuse_body();
-  }
-  if (error) return refuse(400, ErrorCode::RequestMalformed, describe(error));
-
-  if (!had_head) return check_head() ? Step::Head : Step::Refused;
-  if (framing_run_ > kMaxFraming) return need_more({});
-  return is_done() ? Step::Complete : Step::BodyPiece;
+  if (error == beast::http::error::bad_chunk && has_endless_size(pending)) return refuse_body();
+  return refuse(400, ErrorCode::RequestMalformed, describe(error));
 }
 
 RequestParser::Step RequestParser::need_more(std::string_view pending) {

@@ -48,6 +48,7 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
   Step parse(std::string_view input, std::size_t& used);
   Step refuse(int status, ErrorCode code, const char* message);
   Step refuse_body();
+  Step take_error(const boost::beast::error_code& error, std::string_view pending);
   Step need_more(std::string_view pending);
   bool check_head();
 

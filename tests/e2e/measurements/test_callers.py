@@ -87,7 +87,8 @@ class Open(Callers):
             self.assert_problem(self.daemon.measure(PART, {**headers, "Origin": origin}), 403, "origin.refused")
 
     def test_a_name_that_was_made_to_resolve_here_is_remote(self):
-        for host in ("rebound.example", "rebound.example:8286", "127.0.0.1.rebound.example"):
+        for host in ("rebound.example", "rebound.example:8286", "rebound.example.", "rebound.example..",
+                     "127.0.0.1.rebound.example"):
             self.assert_needs_a_key(self.daemon.get("/v1/measurements", Host=host))
             self.assert_needs_a_key(self.daemon.measure(PART, {"Host": host, "Origin": f"http://{host}"}))
             self.assertEqual(self.daemon.measure(PART, {"Host": host}).status, 201, "no page writes so")
