@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "sql/connection.hpp"
@@ -208,6 +209,7 @@ std::vector<MeasurementQuery::Posting> MeasurementQuery::postings_of(
 bool MeasurementQuery::run_indexed(const MeasurementFilter& filter, Statement& matching,
                                    const IdSpan& ids, ListOrder order, const Visitor& visit) {
   if (ids.empty()) return true;
+  if (filter.cause || filter.has_notes) return run_noted(filter, matching, ids, order, visit);
   const std::vector<Posting> postings = postings_of(filter);
   if (postings.empty() && !filter.has_times()) return scan(matching, ids, order, visit);
   std::string sql =
@@ -235,14 +237,56 @@ bool MeasurementQuery::run_indexed(const MeasurementFilter& filter, Statement& m
   for (Rows rows(blocks); rows.next();) {
     const auto block = rows.get<std::int64_t>(0);
     RowSet wanted = postings.empty() ? RowSet::all() : RowSet::decode(rows.get<Blob>(1).bytes);
-    for (std::size_t i = 1; i < postings.size() && !wanted.empty(); ++i) {
-      // A source is looked at in the rows: most have the one that is asked for.
-      if (postings[i].field == number_of(IndexField::Source)) break;
-      wanted &= rows_in_block(postings[i], block);
-    }
+    if (!postings.empty()) keep_rows_of(std::span(postings).subspan(1), block, wanted);
     if (!run_block(matching, ids, wanted, block, order, visit)) return false;
   }
   return true;
+}
+
+/// Notes are few, as people write them: from one block with some to the next.
+bool MeasurementQuery::run_noted(const MeasurementFilter& filter, Statement& matching,
+                                 const IdSpan& ids, ListOrder order, const Visitor& visit) {
+  const std::vector<Posting> postings = postings_of(filter);
+  const std::string where = fmt::format("FROM notes WHERE measurement BETWEEN ? AND ?{}",
+                                        filter.cause ? " AND cause = ?" : "");
+  const bool newest = order == ListOrder::NewestFirst;
+  Statement& next =
+      statement(fmt::format("SELECT {}(measurement) {}", newest ? "max" : "min", where));
+  Statement& in_block = statement("SELECT measurement " + where);
+  if (filter.cause) {
+    next.bind(3, std::string_view(*filter.cause));
+    in_block.bind(3, std::string_view(*filter.cause));
+  }
+  for (IdSpan left = ids; !left.empty();) {
+    next.bind(1, left.first);
+    next.bind(2, left.last);
+    const auto found = next.returning<std::optional<std::int64_t>>();
+    if (!found) return true;
+    const IndexNode block = IndexNode::of(*found, 0);
+    const IdSpan whole = block.ids();
+    in_block.bind(1, whole.first);
+    in_block.bind(2, whole.last);
+    RowSet wanted;
+    for (Rows rows(in_block); rows.next();) wanted.add(rows.get<std::int64_t>(0) - whole.first);
+    keep_rows_of(postings, block.node, wanted);
+    if (!run_block(matching, ids, wanted, block.node, order, visit)) return false;
+    if (newest) {
+      left.last = whole.first - 1;
+    } else {
+      left.first = whole.last + 1;
+    }
+  }
+  return true;
+}
+
+/// Takes the rows of a block that lack a value out of `wanted`.
+void MeasurementQuery::keep_rows_of(std::span<const Posting> postings, std::int64_t block,
+                                    RowSet& wanted) {
+  for (const Posting& posting : postings) {
+    // A source is looked at in the rows: most have the one that is asked for.
+    if (wanted.empty() || posting.field == number_of(IndexField::Source)) return;
+    wanted &= rows_in_block(posting, block);
+  }
 }
 
 RowSet MeasurementQuery::rows_in_block(const Posting& posting, std::int64_t block) {

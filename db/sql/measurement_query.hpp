@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +67,9 @@ class MeasurementQuery {
   bool scan(sql::Statement& matching, const IdSpan& ids, ListOrder order, const Visitor& visit);
   bool run_indexed(const MeasurementFilter& filter, sql::Statement& matching, const IdSpan& ids,
                    ListOrder order, const Visitor& visit);
+  bool run_noted(const MeasurementFilter& filter, sql::Statement& matching, const IdSpan& ids,
+                 ListOrder order, const Visitor& visit);
+  void keep_rows_of(std::span<const Posting> postings, std::int64_t block, RowSet& wanted);
   bool run_block(sql::Statement& matching, const IdSpan& ids, const RowSet& rows,
                  std::int64_t block, ListOrder order, const Visitor& visit);
   RowSet rows_in_block(const Posting& posting, std::int64_t block);

@@ -201,6 +201,7 @@ CREATE TABLE notes (
   CHECK (coalesce(cause, measure, text) IS NOT NULL)
 );
 CREATE INDEX notes_of_measurements ON notes (measurement);
+CREATE INDEX notes_of_causes ON notes (cause, measurement) WHERE cause IS NOT NULL;
 CREATE FUNCTION refuse_change_of_note() RETURNS trigger LANGUAGE plpgsql AS $$
 BEGIN RAISE EXCEPTION 'a note is never changed or deleted: add another'; END $$;
 CREATE TRIGGER notes_are_kept BEFORE UPDATE OR DELETE ON notes

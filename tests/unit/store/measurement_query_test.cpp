@@ -122,7 +122,14 @@ struct Sample {
            (!filter.from_ns || row.measured_at_ns >= *filter.from_ns) &&
            (!filter.to_ns || row.measured_at_ns < *filter.to_ns) &&
            (!filter.received_from_ns || row.received_at_ns >= *filter.received_from_ns) &&
-           (!filter.received_to_ns || row.received_at_ns < *filter.received_to_ns);
+           (!filter.received_to_ns || row.received_at_ns < *filter.received_to_ns) &&
+           (!filter.has_notes || notes.contains(i)) &&
+           (!filter.cause || has_note(i, *filter.cause));
+  }
+
+  bool has_note(std::size_t i, const std::string& cause) const {
+    const auto [first, last] = notes.equal_range(i);
+    return std::any_of(first, last, [&](const auto& note) { return note.second == cause; });
   }
 
   std::vector<std::int64_t> ids(const MeasurementFilter& filter) const {
@@ -136,7 +143,22 @@ struct Sample {
   std::vector<std::optional<std::string>> texts;
   std::vector<MeasurementRow> rows;
   std::multimap<std::size_t, std::size_t> corrections;
+  std::multimap<std::size_t, std::optional<std::string>> notes;  ///< causes
 };
+
+void add_notes(Fixture& fixture, Sample& sample, std::mt19937& random, std::size_t count) {
+  for (; count > 0; --count) {
+    Note note;
+    const std::size_t i = random() % sample.rows.size();
+    note.measurement = static_cast<std::int64_t>(i) + 1;
+    note.cause = any_text(random);
+    note.text = "seen";
+    sample.notes.emplace(i, note.cause);
+    const auto stored = fixture.write(
+        [&](Stores& stores) -> Result<std::int64_t> { return stores.notes.append(note); });
+    REQUIRE(stored.has_value());
+  }
+}
 
 TextField any_field(std::mt19937& random) {
   return kTextColumns[random() % kTextColumns.size()].field;
@@ -157,6 +179,8 @@ MeasurementFilter any_filter(std::mt19937& random, std::size_t size) {
   time(filter.received_from_ns), time(filter.received_to_ns);
   filter.history = random() % 3 == 0;
   if (random() % 4 == 0) filter.as_of_id = random() % (size + 10);
+  if (random() % 6 == 0) filter.cause = kTexts[random() % 5];
+  filter.has_notes = random() % 8 == 0;
   return filter;
 }
 
@@ -254,10 +278,11 @@ TEST_CASE("a filter finds the same rows however many of them are indexed") {
     REQUIRE(fixture.append(std::span<const MeasurementRow>(begin, end)).has_value());
     begin = end;
   }
-  check_filters(fixture, sample, random, 40);
+  add_notes(fixture, sample, random, 300);
+  check_filters(fixture, sample, random, 60);
   while (index_step(fixture)) {
   }
-  check_filters(fixture, sample, random, 40);
+  check_filters(fixture, sample, random, 60);
   CHECK(fixture.database->verify()->findings.empty());
 }
 

@@ -1,0 +1,148 @@
+#include "cli/registration.hpp"
+
+#include "cli/figure_commands.hpp"
+#include "cli/gauge_command.hpp"
+#include "cli/limits_commands.hpp"
+#include "cli/measure_command.hpp"
+#include "cli/statistics_command.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+void add_limits(CLI::App& app, Action& chosen) {
+  const auto designation = std::make_shared<std::string>();
+  add_command<std::string>(app, "limits", "Limits of size: fitgauge limits 25H7", chosen,
+                           designation, run_limits)
+      ->add_option("designation", *designation, "Size and class")
+      ->required();
+  const auto fit = std::make_shared<std::string>();
+  add_command<std::string>(app, "fit", "A fit with its zones: fitgauge fit 25H7/g6", chosen, fit,
+                           run_fit)
+      ->add_option("fit", *fit, "Size, class of the hole, class of the shaft")
+      ->required();
+}
+
+void add_tools(CLI::App& app, Action& chosen) {
+  const auto designation = std::make_shared<std::string>();
+  add_command<std::string>(app, "limit-gauge", "GO and NO-GO sizes: fitgauge limit-gauge 25H7",
+                           chosen, designation, run_limit_gauge)
+      ->add_option("designation", *designation, "Size and class")
+      ->required();
+  const auto search = std::make_shared<FitSearch>();
+  CLI::App* fits = add_command(app, "fits", "Fits whose clearances lie between two bounds", chosen,
+                               search, run_fits);
+  fits->add_option("nominal", search->nominal_mm, "Nominal size in mm")->required();
+  fits->add_option("--min-um", search->min_clearance_um, "Least clearance; interference is below 0")
+      ->required();
+  fits->add_option("--max-um", search->max_clearance_um, "Greatest clearance")->required();
+  fits->add_option("--limit", search->limit, "Most fits, else 20")->check(CLI::Range(1, 1000));
+  const auto standard = std::make_shared<StandardQuery>();
+  CLI::App* standards = add_command(app, "standards", "Numbers of other standards than ISO 286",
+                                    chosen, standard, run_standards);
+  standards->add_option("name", standard->name, "iso2768-1, iso965-1, din6885-1 or iso492");
+  standards->add_option("--size-mm", standard->size_mm, "Only what holds for this size");
+}
+
+void add_gauge(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<GaugeOptions>();
+  CLI::App* gauge = add_command(app, "gauge", "Judge a value: fitgauge gauge 25H7 25.013", chosen,
+                                options, run_gauge);
+  gauge->add_option("designation", options->designation, "Size and class, or the nominal size")
+      ->required();
+  const auto measured = gauge->add_option("measured", options->measured, "Measured value in mm");
+  const auto serial = gauge->add_option("--serial", options->serial, "Port whose lines are values")
+                          ->excludes(measured);
+  gauge->add_option("--baud", options->baud, "Of the port, else 9600")->needs(serial);
+  gauge->add_option("--pattern", options->pattern, "Regular expression of a whole line")
+      ->needs(serial);
+  gauge->add_option("--rule", options->rule, "simple, guard_band or conformance");
+  gauge->add_option("--uncertainty-um", options->uncertainty_um, "Standard uncertainty in µm");
+  gauge->add_option("--coverage-factor", options->coverage_factor, "k of the guard band, else 2");
+  gauge->add_option("--probability", options->probability, "Of conformance, else 0.95");
+  gauge->add_option("--temperature-c", options->temperature_c, "Temperature of the part in °C");
+  gauge->add_option("--part-material", options->part_material, "steel: corrects to 20 °C");
+  gauge->add_option("--part-expansion", options->part_expansion, "The same in µm/(m·K)");
+  gauge->add_option("--scale-temperature-c", options->scale_temperature_c,
+                    "Temperature of what it was read on, else 20");
+  gauge->add_option("--scale-material", options->scale_material, "Of what it was read on");
+  gauge->add_option("--scale-expansion", options->scale_expansion, "The same in µm/(m·K)");
+  const auto record = gauge->add_flag("--record", options->record, "Store the measurement");
+  const auto field = [&](const std::string& name, std::string& value, const std::string& help) {
+    gauge->add_option(name, value, help)->needs(record);
+  };
+  const auto feature =
+      gauge->add_option("--feature", options->feature, "hole or shaft, with a drawing's own limits")
+          ->needs(record)
+          ->check(CLI::IsMember({"hole", "shaft"}));
+  const auto upper = gauge->add_option("--upper-um", options->upper_um, "Upper deviation in µm");
+  const auto lower = gauge->add_option("--lower-um", options->lower_um, "Lower deviation in µm");
+  upper->needs(feature);
+  lower->needs(feature);
+  field("--part-id", options->part_id, "Part, as its label says");
+  field("--characteristic", options->characteristic, "What was measured on it");
+  field("--order", options->order, "Work order");
+  field("--operation", options->operation, "Operation");
+  field("--machine", options->machine, "Machine");
+  field("--operator", options->operator_name, "Who measured");
+  field("--gauge", options->gauge, "Gauge");
+  field("--unit", options->unit, "Production unit");
+  gauge->add_option("--measured-at", options->measured_at, "RFC 3339 time, else now")
+      ->needs(record)
+      ->excludes(serial);
+  field("--comment", options->comment, "Remark");
+}
+
+void add_measure(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<MeasureOptions>();
+  CLI::App* measure =
+      add_command(app, "measure", "Store the rows of a CSV file, or the values of a DFQ", chosen,
+                  options, run_measure);
+  measure->add_option("file", options->input, "CSV file or DFQ, or - for standard input")
+      ->required();
+  measure->add_option("--state", options->state_file, "File that says how far a stopped run was");
+  measure->add_option("--chunk", options->chunk_rows, "Rows of one request, else 100000")
+      ->check(CLI::Range(1, 100'000));
+  measure
+      ->add_option("--map", options->columns,
+                   "Column and field: Istwert=measured_mm; also date and time, or none")
+      ->allow_extra_args(false);
+  measure->add_option("--set", options->constants, "Field and value of all rows: machine=M3")
+      ->allow_extra_args(false);
+  measure->add_option("--time-zone", options->time_zone, "Of times without an offset");
+  measure->add_option("--length-unit", options->length_unit, "Of a DFQ that names none: mm, inch");
+  measure->add_option("--encoding", options->encoding, "auto, utf-8, utf-16 or windows-1252");
+  measure->add_flag("--leave-out-others", options->leave_out_others,
+                    "Columns that are no field are left out");
+  measure->add_flag("--again", options->again, "Store rows that were stored before once more");
+  measure->add_flag("--exit-verdict", options->exit_verdict, "The exit code is the worst verdict");
+}
+
+void add_statistics(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<StatisticsOptions>();
+  CLI::App* statistics = add_command(app, "statistics", "Figures of values in a file", chosen,
+                                     options, run_statistics);
+  statistics
+      ->add_option("figure", options->figure,
+                   "summary, anova, capability, chart, type1, grr, pairing or uncertainty")
+      ->required()
+      ->check(CLI::IsMember(
+          {"summary", "anova", "capability", "chart", "type1", "grr", "pairing", "uncertainty"}));
+  statistics->add_option("file", options->file, "JSON as the HTTP API takes it, or a value a line")
+      ->required();
+  statistics->add_option("--lower", options->lower, "Lower limit of capability");
+  statistics->add_option("--upper", options->upper, "Upper limit of capability");
+  statistics->add_option("--reference", options->reference, "Size of the master of type1");
+  statistics->add_option("--tolerance", options->tolerance, "Of what the gauge of type1 is for");
+}
+
+}  // namespace
+
+void add_gauging(CLI::App& app, Action& chosen) {
+  add_limits(app, chosen);
+  add_tools(app, chosen);
+  add_gauge(app, chosen);
+  add_measure(app, chosen);
+  add_statistics(app, chosen);
+}
+
+}  // namespace fitgauge::cli

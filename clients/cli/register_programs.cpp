@@ -1,0 +1,137 @@
+#include "cli/registration.hpp"
+
+#include "cli/control_commands.hpp"
+#include "cli/nc_commands.hpp"
+#include "cli/replay_command.hpp"
+#include "cli/stored_commands.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+void add_nc_files(CLI::App& nc, Action& chosen) {
+  const auto prefix = std::make_shared<std::string>();
+  add_command<std::string>(nc, "ls", "List the control's files", chosen, prefix, run_nc_ls)
+      ->add_option("prefix", *prefix, "Only paths that begin so");
+
+  const auto paths = std::make_shared<std::vector<std::string>>();
+  CLI::App* put = nc.add_subcommand("put", "Store files: nc put 8255.h nc_prog/8255/");
+  put->add_option("paths", *paths, "Files, then the path or the folder/ they get")
+      ->required()
+      ->expected(2, CLI::detail::expected_max_vector_size);
+  put->callback([&chosen, paths] {
+    chosen = [paths](const Context& context) {
+      return run_nc_put(context, {paths->begin(), paths->end() - 1}, paths->back());
+    };
+  });
+
+  const auto options = std::make_shared<GetOptions>();
+  CLI::App* get = add_command(nc, "get", "Fetch a file: nc get nc_prog/8255/8255.h", chosen,
+                              options, run_nc_get);
+  get->add_option("path", options->path, "Path on the control")->required();
+  get->add_option("file", options->file,
+                  "File it goes to, else its name here; - is standard output");
+  get->add_flag("--force", options->force, "Replace a file that is there");
+}
+
+void add_nc_programs(CLI::App& nc, Action& chosen) {
+  const auto path = std::make_shared<std::string>();
+  add_command<std::string>(nc, "check", "Check a program, a mask or a table", chosen, path,
+                           run_nc_check)
+      ->add_option("path", *path, "Path on the control")
+      ->required();
+
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* run =
+      add_command(nc, "run", "Run a program on a simulated machine", chosen, options, run_nc_run);
+  run->add_option("program", options->program, "Path on the control")->required();
+  const auto setup = run->add_option("--setup", options->setup, "Name of a stored setup");
+  run->add_option("--setup-file", options->setup_file, "JSON file with a setup")->excludes(setup);
+  run->add_option("--set", options->parameters, "Parameter before block 0: Q1=25, QS1=H7")
+      ->expected(1)
+      ->take_all();
+  run->add_option("--on-stop", options->on_stop, "At STOP: continue or end");
+  run->add_option("--language", options->language, "Of masks: english, german, dutch, italian");
+  run->add_flag("--block-skip", options->block_skip, "Pass over blocks that begin with /");
+}
+
+void add_runs(CLI::App& app, Action& chosen) {
+  CLI::App* runs = app.add_subcommand("runs", "The runs of NC programs");
+  runs->require_subcommand(1);
+  const auto query = std::make_shared<RunsQuery>();
+  CLI::App* list =
+      add_command(*runs, "ls", "List the runs, the newest first", chosen, query, run_runs_ls);
+  list->add_option("--status", query->status, "queued, running, completed, stopped, failed, …");
+  list->add_option("--program", query->program, "Only this program");
+  list->add_option("--limit", query->limit, "Most runs, else 100")->check(CLI::Range(1, 1000));
+  list->add_option("--after", query->after, "Begin where the page before ended");
+  add_words(
+      *runs, "show", "Screen, messages and files of a run", chosen, {"id"}, 1,
+      [](const Context& context, const Words& words) { return run_runs_show(context, words[0]); });
+  add_words(*runs, "get", "Print a file a run has written", chosen, {"id", "name", "file"}, 2,
+            [](const Context& context, const Words& words) {
+              return run_runs_get(context, words[0], words[1], words[2]);
+            });
+  add_words(*runs, "cancel", "Cancel a run that is queued or under way", chosen, {"id"}, 1,
+            [](const Context& context, const Words& words) {
+              return run_runs_cancel(context, words[0]);
+            });
+}
+
+void add_control(CLI::App& app, Action& chosen) {
+  CLI::App* control = app.add_subcommand("control", "A HEIDENHAIN control over LSV-2");
+  control->require_subcommand(1);
+  add_words(*control, "ls", "List a folder of a control", chosen, {"address", "directory"}, 1,
+            [](const Context& context, const Words& words) {
+              return run_control_ls(context, words[0], words[1]);
+            });
+  const auto got = std::make_shared<ControlGetOptions>();
+  CLI::App* get = add_command(*control, "get", "Fetch a file: control get tnc TNC:/log.txt", chosen,
+                              got, run_control_get);
+  get->add_option("address", got->address, "The control: HOST or HOST:PORT")->required();
+  get->add_option("path", got->path, "Path on the control")->required();
+  get->add_option("file", got->file, "File it goes to, else its name here; - is standard output");
+  get->add_flag("--force", got->force, "Replace a file that is there");
+  const auto put = std::make_shared<ControlPutOptions>();
+  CLI::App* send = add_command(*control, "put", "Send files: control put tnc part.h TNC:/nc_prog/",
+                               chosen, put, run_control_put);
+  send->add_option("paths", put->words, "The control, files, then the path or the folder/ they get")
+      ->required()
+      ->expected(3, CLI::detail::expected_max_vector_size);
+  send->add_flag("--force", put->force, "Replace a file that is on the control");
+  add_words(*control, "run", "Run a program of a virtual control", chosen, {"address", "program"},
+            2, [](const Context& context, const Words& words) {
+              return run_control_run(context, words[0], words[1]);
+            });
+  add_words(*control, "state", "Mode, program, axes and errors of a control", chosen, {"address"},
+            1, [](const Context& context, const Words& words) {
+              return run_control_state(context, words[0]);
+            });
+}
+
+void add_replay(CLI::App& app, Action& chosen) {
+  const auto options = std::make_shared<ReplayOptions>();
+  CLI::App* replay =
+      add_command(app, "replay", "Compare a machine's log with the same contacts here", chosen,
+                  options, run_replay);
+  replay->add_option("program", options->run.program, "Path on the control")->required();
+  replay->add_option("file", options->log, "Measuring log of the machine")->required();
+  replay->add_option("--contacts", options->contacts, "JSON file: [[X, Y, Z], null, …]")
+      ->required();
+  const auto setup = replay->add_option("--setup", options->run.setup, "Name of a stored setup");
+  replay->add_option("--setup-file", options->run.setup_file, "JSON file with a setup")
+      ->excludes(setup);
+}
+
+}  // namespace
+
+void add_programs(CLI::App& app, Action& chosen) {
+  CLI::App* nc = app.add_subcommand("nc", "NC programs and the control's files");
+  nc->require_subcommand(1);
+  add_nc_programs(*nc, chosen);
+  add_nc_files(*nc, chosen);
+  add_runs(app, chosen);
+  add_control(app, chosen);
+  add_replay(app, chosen);
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,85 @@
+#include "cli/registration.hpp"
+
+#include "cli/figure_commands.hpp"
+#include "cli/record_commands.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+void add_filters(CLI::App& command, const std::shared_ptr<RecordQuery>& query) {
+  for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
+    const RecordFilter& filter = kRecordFilters.at(i);
+    command.add_option(std::string(filter.option), query->filters.at(i), std::string(filter.help));
+  }
+}
+
+void add_figures(CLI::App& app, Action& chosen) {
+  const std::string help = "use, or ignore to take the values one by one";
+  const auto indices = std::make_shared<CapabilityQuery>();
+  CLI::App* capability = add_command(app, "capability", "Capability of what is stored", chosen,
+                                     indices, run_capability);
+  add_filters(*capability, indices);
+  capability->add_option("--target-mm", indices->target_mm, "Of cpm, else the middle");
+  capability->add_option("--confidence", indices->confidence, "Of the intervals, else 0.95");
+  capability->add_option("--subgroups", indices->subgroups, help)
+      ->check(CLI::IsMember({"use", "ignore"}));
+
+  const auto query = std::make_shared<ChartQuery>();
+  CLI::App* chart =
+      add_command(app, "chart", "Control chart of what is stored", chosen, query, run_chart);
+  add_filters(*chart, query);
+  chart->add_option("--kind", query->kind, "xbar_r with subgroups, else i_mr, when not given")
+      ->check(CLI::IsMember({"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}));
+  chart->add_option("--rules", query->rules, "Of Western Electric: 1,2,3,4");
+  chart->add_option("--subgroups", query->subgroups, help)->check(CLI::IsMember({"use", "ignore"}));
+}
+
+void add_listed(CLI::App& app, Action& chosen) {
+  auto query = std::make_shared<RecordQuery>();
+  CLI::App* list = add_command(app, "list", "Print stored measurements", chosen, query, run_list);
+  add_filters(*list, query);
+  list->add_option("--limit", query->limit, "Most records, else 100")->check(CLI::Range(1, 1000));
+  list->add_option("--after", query->after, "Begin where the page before ended");
+
+  query = std::make_shared<RecordQuery>();
+  CLI::App* out = add_command(app, "export", "Write all stored measurements that match", chosen,
+                              query, run_export);
+  add_filters(*out, query);
+  out->add_option("--format", query->format, "csv, ndjson, dfq of Q-DAS, qif or xlsx")
+      ->check(CLI::IsMember({"csv", "ndjson", "dfq", "qif", "xlsx"}));
+  out->add_option("--time-zone", query->time_zone,
+                  "Of the times of dfq and xlsx: Europe/Berlin; else UTC");
+  out->add_option("--output,-o", query->output, "File, else standard output");
+
+  query = std::make_shared<RecordQuery>();
+  CLI::App* summary = add_command(app, "summary", "Count, mean and scatter of each group", chosen,
+                                  query, run_summary);
+  add_filters(*summary, query);
+  summary->add_option("--group-by", query->group_by, "Field of the groups, else characteristic");
+
+  const auto options = std::make_shared<CorrectOptions>();
+  CLI::App* correct = add_command(app, "correct", "Correct a record: fitgauge correct m17 25.0131",
+                                  chosen, options, run_correct);
+  correct->add_option("id", options->id, "The record")->required();
+  correct->add_option("measured", options->measured, "Right value in mm")->required();
+  correct->add_option("--reason", options->reason, "Why it is corrected")->required();
+
+  const auto said = std::make_shared<NoteOptions>();
+  CLI::App* note = add_command(
+      app, "note", "Note a cause or measure beside a record; without one, show its notes", chosen,
+      said, run_note);
+  note->add_option("id", said->id, "The record")->required();
+  note->add_option("--cause", said->cause, "Why the value is what it is");
+  note->add_option("--measure", said->measure, "What was done about it");
+  note->add_option("--text", said->text, "Whatever else");
+  note->add_option("--operator", said->operator_name, "Who says so");
+}
+
+}  // namespace
+
+void add_records(CLI::App& app, Action& chosen) {
+  add_listed(app, chosen);
+  add_figures(app, chosen);
+}
+
+}  // namespace fitgauge::cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+
+namespace fitgauge::cli {
+
+// How a subject registers its commands; add_commands() calls each of them.
+
+void add_gauging(CLI::App& app, Action& chosen);   ///< limits, fits, gauge, measure, statistics
+void add_records(CLI::App& app, Action& chosen);   ///< what is stored: lists, corrections, figures
+void add_programs(CLI::App& app, Action& chosen);  ///< NC files and programs, runs, a control
+
+/// Registers one command whose options outlive the parsing; `chosen` becomes what it does.
+template <class Options>
+CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& help,
+                      Action& chosen, const std::shared_ptr<Options>& options,
+                      Outcome<ExitCode> (*run)(const Context&, const Options&)) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->callback([&chosen, options, run] {
+    chosen = [options, run](const Context& context) { return run(context, *options); };
+  });
+  return command;
+}
+
+using Words = std::vector<std::string>;
+
+/// Registers a command of up to three words, the last of which may be left out.
+template <class Run>
+CLI::App* add_words(CLI::App& parent, const std::string& name, const std::string& help,
+                    Action& chosen, const Words& words, std::size_t required, const Run& run) {
+  const auto values = std::make_shared<Words>(words.size());
+  CLI::App* command = parent.add_subcommand(name, help);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    command->add_option(words[i], values->at(i))->required(i < required);
+  }
+  command->callback([&chosen, values, run] {
+    chosen = [values, run](const Context& context) { return run(context, *values); };
+  });
+  return command;
+}
+
+}  // namespace fitgauge::cli
