@@ -1,0 +1,76 @@
+"""The schema of SQLite and the one of PostgreSQL have the same tables, columns and named indexes.
+
+Each engine has migrations of its own, so a table or column that is put into one of them alone shows here. What
+differs on purpose stands in the constants."""
+
+import contextlib
+import sqlite3
+import unittest
+
+from support.daemon import Daemon
+from support.postgres import Cluster
+
+ONLY_SQLITE = {"storage_probe"}  # whether the file takes a write again
+ONLY_POSTGRES = {"head"}  # of several daemons: who writes next
+SEAL = "seal"  # shows a changed row of a file; a server has rights for that
+ONLY_POSTGRES_COLUMNS = {("runs", "daemon")}
+# A unique column's index bears a name of its own there; the origin is the first column of another one.
+ONLY_SQLITE_INDEXES = {"api_key_tokens", "measurement_origins"}
+
+
+def of_sqlite():
+    """@returns the tables with their columns, and the names of the indexes"""
+    daemon = Daemon().start()
+    try:
+        daemon.stop()
+        with contextlib.closing(sqlite3.connect(daemon.database)) as database:
+            def names(kind):
+                return [name for name, in database.execute(
+                    "SELECT name FROM sqlite_schema WHERE type = ? AND name NOT LIKE 'sqlite_%'", [kind])]
+            tables = {table: {column[1] for column in database.execute(f"PRAGMA table_xinfo({table})")}
+                      for table in names("table")}
+            return tables, set(names("index"))
+    finally:
+        daemon.cleanup()
+
+
+def of_postgres():
+    """The same of a server; a partition is no table of its own."""
+    cluster = Cluster().start()
+    daemon = Daemon("--database", cluster.address())
+    try:
+        daemon.start().stop()
+        tables = {}
+        for table, column in cluster.query(
+                "SELECT c.relname, a.attname FROM pg_class c JOIN pg_attribute a ON a.attrelid = c.oid "
+                "WHERE c.relnamespace = 'fitgauge'::regnamespace AND c.relkind IN ('r', 'p') "
+                "AND NOT c.relispartition AND a.attnum > 0 AND NOT a.attisdropped"):
+            tables.setdefault(table, set()).add(column)
+        indexes = cluster.query("SELECT indexname FROM pg_indexes WHERE schemaname = 'fitgauge'")
+        return tables, {name for name, in indexes}
+    finally:
+        daemon.cleanup()
+        cluster.cleanup()
+
+
+class Schemas(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.file, cls.file_indexes = of_sqlite()
+        cls.server, cls.server_indexes = of_postgres()
+
+    def test_both_have_the_same_tables(self):
+        self.assertEqual(set(self.file) - set(self.server), ONLY_SQLITE)
+        self.assertEqual(set(self.server) - set(self.file), ONLY_POSTGRES)
+
+    def test_both_have_the_same_columns(self):
+        for table in set(self.file) & set(self.server):
+            more = {column for name, column in ONLY_POSTGRES_COLUMNS if name == table}
+            self.assertEqual(self.file[table] - {SEAL} | more, self.server[table], table)
+
+    def test_each_named_index_stands_in_both(self):
+        self.assertEqual(self.file_indexes - self.server_indexes, ONLY_SQLITE_INDEXES)
+
+
+if __name__ == "__main__":
+    unittest.main()
