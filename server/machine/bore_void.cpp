@@ -32,7 +32,7 @@ BoreVoid::BoreVoid(const Bore& bore)
 
 BoreVoid::Local BoreVoid::local(const Vec3& at) const {
   const Vec3 p = to_local_ * (at - opening_);
-  return {p.x, p.y, -p.z, std::hypot(p.x, p.y)};
+  return {p.x, p.y, -p.z, std::sqrt(p.x * p.x + p.y * p.y)};
 }
 
 double BoreVoid::wall_bound(const Vec3& at) const {
@@ -74,9 +74,12 @@ double BoreVoid::way_inside(const Vec3& centre, const Vec3& direction, double ra
   const Vec3 p = to_local_ * (centre - opening_);
   const Vec3 d = to_local_ * direction;
   const double free = radius_ - radius;  // of the ball's centre, from the axis
-  const double outside = p.x * p.x + p.y * p.y - free * free;
+  const double across = p.x * p.x + p.y * p.y;
+  const double outside = across - free * free;
   const double height = p.z + depth_ - radius;  // above the bottom
-  if (free < 0 || outside > 0 || (with_floor && height < 0)) return 0;
+  const double clear = free - tolerance::kContact;
+  if (clear < 0 || across > clear * clear) return 0;
+  if (with_floor && height < tolerance::kContact) return 0;
   // The zero ahead of a t^2 + 2 b t + outside, in the form that does not cancel.
   const double a = d.x * d.x + d.y * d.y;
   const double b = p.x * d.x + p.y * d.y;

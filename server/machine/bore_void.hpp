@@ -23,7 +23,7 @@ class BoreVoid {
 
   /// How far a ball that lies in the void can move along the unit vector `direction` before it
   /// touches wall or bottom: of a cylinder the solution of a quadratic. 0 where the ball does not
-  /// lie in the void as a whole, or the bore has lobes or taper.
+  /// lie in the void with room around it, or the bore has lobes or taper.
   /// @param with_floor whether there is material below the bottom
   double way_inside(const Vec3& centre, const Vec3& direction, double radius,
                     bool with_floor) const;

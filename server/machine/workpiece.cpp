@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "machine/bore_void.hpp"
 #include "machine/mesh_solid.hpp"
@@ -98,6 +99,7 @@ struct Workpiece::Part {
 
   double distance(const Vec3& at, double radius, const Field& to_solid) const;
   double exact_distance(const Vec3& at, const Field& to_solid) const;
+  bool is_behind(const Cut& cut, const Vec3& centre) const;
   std::optional<double> contact(const BallPath& ball, Allowance& allowance) const;
 };
 
@@ -167,30 +169,45 @@ double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) co
   return is_in_third ? largest.distance : std::max(largest.distance, norm(at - *edge));
 }
 
+/// Whether there is material behind the wall or bottom of a cut, where a ball in its void touches.
+bool Workpiece::Part::is_behind(const Cut& cut, const Vec3& centre) const {
+  const Vec3 foot = cut.field(centre).foot(centre);
+  return solid->field(foot).distance < 0 && cut_at(foot, &cut) == nullptr;
+}
+
 /// Goes from one place to the next before which there is certainly no contact: to the solid as if
-/// it had no bores, then to the end of the bore that the ball is in. Where neither helps (over the
-/// edge of a bore, beside lobes, a surface) the rest is traced.
+/// it had no bores, then to the end of the bore that the ball is in, where it touches if there is
+/// material. Where neither helps (over the edge of a bore, beside lobes, a surface) the rest is
+/// traced.
 std::optional<double> Workpiece::Part::contact(const BallPath& ball, Allowance& allowance) const {
+  if (cuts.empty() && !solid->is_traced()) return solid->contact(ball);
   double way = 0;
   constexpr int kLegs = 16;
   for (int leg = 0; leg < kLegs; ++leg) {
-    if (!solid->is_traced()) {
+    Vec3 at = ball.at(way);
+    Field to_solid = solid->field(at);
+    if (!solid->is_traced() && to_solid.distance - ball.radius > tolerance::kContact) {
       const auto reached = solid->contact(ball.from(way));
       if (!reached) return std::nullopt;
       way += *reached;
-      if (cuts.empty()) return way;
+      at = ball.at(way);
+      to_solid = solid->field(at);
     }
-    const Vec3 at = ball.at(way);
-    if (distance(at, ball.radius, solid->field(at)) - ball.radius <= tolerance::kContact)
-      return way;
     double free = 0;
+    const Cut* in = nullptr;
     any_cut(at, [&](const Cut& cut) {
-      free = std::max(free, cut.bore->way_inside(at, ball.direction, ball.radius, !cut.is_through));
+      const double ahead = cut.bore->way_inside(at, ball.direction, ball.radius, !cut.is_through);
+      if (ahead > free) std::tie(free, in) = std::pair(ahead, &cut);
       return false;
     });
-    if (free <= tolerance::kContact) break;
-    way += free;
-    if (way > ball.longest) return std::nullopt;
+    if (free > tolerance::kContact) {
+      way += free;
+      if (way > ball.longest) return std::nullopt;
+      if (is_behind(*in, ball.at(way))) return way;
+      continue;
+    }
+    if (distance(at, ball.radius, to_solid) - ball.radius <= tolerance::kContact) return way;
+    break;
   }
   const BallPath rest = ball.from(way);
   const auto traced = first_zero(
