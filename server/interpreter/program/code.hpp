@@ -52,6 +52,10 @@ enum class Op : std::uint8_t {
   JumpDefined,    ///< cell a
   JumpUndefined,  ///< cell a
   JumpWhen,       ///< the condition node of index a (strings)
+  // additions in one step with what follows, which stays as it is for who jumps there
+  AddThenAdd,
+  AddThenJumpLess,  ///< the end of a counted loop
+  AddTwiceThenJumpLess,  ///< Add, then AddThenJumpLess
   // flow
   Count,      ///< nothing: accounts for blocks without effect before a label
   SkipBlock,  ///< on to c while the operator's block skip is on

@@ -56,6 +56,7 @@ class Linker {
     writer_.begin_block(blocks.empty() ? 0 : static_cast<std::uint32_t>(blocks.size() - 1));
     writer_.add({.op = Op::End});
     resolve_jumps();
+    writer_.join_pairs();
     writer_.place_temporaries(parts_.counters);
     parts_.temporaries = writer_.temporaries();
     parts_.code = writer_.take_code();

@@ -93,6 +93,17 @@ void CodeWriter::lower_node(std::uint32_t target, NodeIndex index) {
   used_temporaries_ = used;  // those of the operands are free again
 }
 
+void CodeWriter::join_pairs() {
+  for (std::size_t i = code_.size(); i-- > 1;) {
+    Instruction& first = code_[i - 1];
+    const Op second = code_[i].op;
+    if (first.op != Op::Add) continue;
+    if (second == Op::JumpLess) first.op = Op::AddThenJumpLess;
+    if (second == Op::AddThenJumpLess) first.op = Op::AddTwiceThenJumpLess;
+    if (second == Op::Add) first.op = Op::AddThenAdd;
+  }
+}
+
 void CodeWriter::place_temporaries(std::uint32_t counters) {
   const auto first_counter = kFirstConstant + static_cast<std::uint32_t>(constants_.size());
   const auto move = [&](std::uint32_t& cell) {

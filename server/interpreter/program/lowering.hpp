@@ -42,6 +42,8 @@ class CodeWriter {
 
   std::vector<Instruction> take_code() { return std::move(code_); }
   std::vector<std::uint32_t> take_blocks() { return std::move(block_of_); }
+  /// Joins two instructions that often follow each other, once no more are added.
+  void join_pairs();
   /// Moves the temporaries, whose number and place are known only at the end, behind `counters`.
   void place_temporaries(std::uint32_t counters);
   std::vector<double> take_constants() { return std::move(constants_); }

@@ -231,7 +231,11 @@ const Instruction* Executor<kFollowed>::end_program() {
 #define FITGAUGE_OP(name) op_##name
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a statement
 #define FITGAUGE_NEXT() goto* kHandlers[static_cast<std::size_t>(pc->op)]
+// What is known of a variable is forgotten: on the rare way out everything is read again, so that
+// no step of the usual way keeps it in a register.
+#define FITGAUGE_FORGET(variable) asm volatile("" : "+r"(variable) : : "memory")
 #else
+#define FITGAUGE_FORGET(variable) static_cast<void>(variable)
 #define FITGAUGE_OP(name) case Op::name
 #define FITGAUGE_NEXT() continue
 #endif
@@ -242,13 +246,16 @@ const Instruction* Executor<kFollowed>::end_program() {
   if constexpr (kFollowed) announce(pc)
 
 // Keeps a result, which must be finite: else an operand is undefined or the operation failed.
-#define FITGAUGE_STORE(value)                                       \
+#define FITGAUGE_KEEP(value)                                        \
   do {                                                              \
     const double result = (value);                                  \
     if (!std::isfinite(result)) [[unlikely]] goto not_a_value;      \
     cells[pc->c] = result;                                          \
   } while (false);                                                  \
-  ++pc;                                                             \
+  ++pc
+
+#define FITGAUGE_STORE(value)                                       \
+  FITGAUGE_KEEP(value);                                             \
   FITGAUGE_NEXT()
 
 // Jumps when `jumps`, goes on when `stays`; neither holds where an operand is undefined.
@@ -284,9 +291,9 @@ void Executor<kFollowed>::loop() {
       &&op_Add,         &&op_Subtract,      &&op_Multiply,    &&op_Divide,
       &&op_Copy,        &&op_Compute,       &&op_Evaluate,    &&op_JumpEqual,
       &&op_JumpNotEqual, &&op_JumpGreater,  &&op_JumpLess,    &&op_JumpDefined,
-      &&op_JumpUndefined, &&op_JumpWhen,    &&op_Count,       &&op_SkipBlock,
-      &&op_CallLabel,   &&op_LabelEnd,      &&op_Repeat,      &&op_Statement,
-      &&op_End};
+      &&op_JumpUndefined, &&op_JumpWhen,    &&op_AddThenAdd,  &&op_AddThenJumpLess,
+      &&op_AddTwiceThenJumpLess, &&op_Count,  &&op_SkipBlock,   &&op_CallLabel,
+      &&op_LabelEnd,    &&op_Repeat,        &&op_Statement,   &&op_End};
   static_assert(std::size(kHandlers) == static_cast<std::size_t>(Op::End) + 1);
 #endif
   // What the loop works with lies in registers; the members are brought up to date on the way out.
@@ -349,6 +356,24 @@ void Executor<kFollowed>::loop() {
     FITGAUGE_BEGIN();
     FITGAUGE_CALL(jump_when(pc));
 
+  FITGAUGE_OP(AddThenAdd):
+    FITGAUGE_BEGIN();
+    FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
+    FITGAUGE_BEGIN();
+    FITGAUGE_STORE(cells[pc->a] + cells[pc->b]);
+  FITGAUGE_OP(AddThenJumpLess):
+    FITGAUGE_BEGIN();
+    FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
+    FITGAUGE_BEGIN();
+    FITGAUGE_BRANCH(a < b, a >= b);
+  FITGAUGE_OP(AddTwiceThenJumpLess):
+    FITGAUGE_BEGIN();
+    FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
+    FITGAUGE_BEGIN();
+    FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
+    FITGAUGE_BEGIN();
+    FITGAUGE_BRANCH(a < b, a >= b);
+
   FITGAUGE_OP(Count):
     FITGAUGE_BEGIN();
     ++pc;
@@ -373,11 +398,14 @@ void Executor<kFollowed>::loop() {
     FITGAUGE_CALL(end_block(pc));
 
   out_of_fuel:
+    FITGAUGE_FORGET(pc);
+    FITGAUGE_FORGET(fuel);
     fuel_ = fuel + pc->blocks;
     if (!refuel(pc->blocks)) goto done;
     fuel = fuel_;
     FITGAUGE_NEXT();
   not_a_value:
+    FITGAUGE_FORGET(pc);
     if (give_preassigned(*pc)) {
       fuel += pc->blocks;
       FITGAUGE_NEXT();

@@ -19,6 +19,43 @@ TEST_CASE("an endless loop ends at the budget of blocks, exactly") {
   CHECK(result.blocks_executed >= 10'005);
 }
 
+TEST_CASE("additions in one step with what follows are counted and refused one by one") {
+  Control control;
+  const std::string loop =
+      "Q1 = 0\nQ2 = 0\nLBL 1\nQ2 = Q2 + Q1\nQ1 = Q1 + 1\nFN 12: IF +Q1 LT +5 GOTO LBL 1";
+  const RunResult all = control.run(loop);
+  CHECK(value(all, "Q1") == "5");
+  CHECK(value(all, "Q2") == "10");
+  CHECK(all.blocks_executed == 24);
+  // At every limit the values are those of the blocks before it: three, then LBL 1, the sum, the
+  // counter and the jump of each pass.
+  for (unsigned limit = 3; limit < 24; ++limit) {
+    CAPTURE(limit);
+    control.options.limits.blocks = limit;
+    const RunResult result = control.run(loop);
+    CHECK(result.status == RunStatus::LimitExceeded);
+    CHECK(result.blocks_executed <= limit);
+    CHECK(result.blocks_executed + 1 >= limit);  // a label counts with the block behind it
+    double q1 = 0;
+    double q2 = 0;
+    for (unsigned block = 3; block < limit; ++block) {
+      if ((block - 3) % 4 == 1) q2 += q1;
+      if ((block - 3) % 4 == 2) q1 += 1;
+    }
+    CHECK(number_of(result, "Q1") == q1);
+    CHECK(number_of(result, "Q2") == q2);
+  }
+  control.options.limits.blocks = 1'000'000;
+  // A jump to the second and third of them.
+  CHECK(value(control.run("Q1 = 1\nFN 9: IF +1 EQU +1 GOTO LBL 2\nQ1 = Q1 + 10\nLBL 2\n"
+                          "Q1 = Q1 + 100\nLBL 3\nFN 12: IF +Q1 LT +5 GOTO LBL 3"),
+              "Q1") == "101");
+  // What fails is the block that fails.
+  CHECK(outcome(
+            control.run("Q1 = 1\nQ1 = Q1 + 1\nQ2 = Q9 + 1\nFN 12: IF +Q1 LT +0 GOTO LBL 1\nLBL 1"))
+            .starts_with("failed line 4: "));
+}
+
 TEST_CASE("a program of as many blocks as the budget completes") {
   Control control;
   control.options.limits.blocks = 4;
