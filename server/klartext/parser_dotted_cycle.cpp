@@ -47,7 +47,7 @@ bool at_value(BlockReader& in) {
 /// `TCH PROBE 0.0 REF. PLANE Q5 X-`: the parameter of the result, the axis and the direction.
 void parse_probing_direction(BlockReader& in) {
   while (!in.at_end() && !in.at_parameter()) in.move_to(in.at() + 1);
-  in.add_word({.letter = Letter::Result, .value = in.parameter()});
+  in.add_word({.value = in.parameter(), .letter = Letter::Result});
   const std::optional<Letter> axis = in.at_end() ? std::nullopt : find_letter(in.letters());
   if (!axis || !is_axis(*axis)) {
     in.fail_expected("the probing axis with its direction, such as X-");
@@ -56,7 +56,7 @@ void parse_probing_direction(BlockReader& in) {
   in.move_to(in.at() + 1);
   const bool minus = in.accept('-');
   if (!minus) in.expect('+');
-  in.add_word({.letter = *axis, .value = minus ? -1.0 : 1.0});
+  in.add_word({.value = minus ? -1.0 : 1.0, .letter = *axis});
 }
 
 /// A run of letters within dialog text; a word of kLooseWords or passed over.
@@ -70,7 +70,7 @@ void parse_loose_letters(BlockReader& in, bool bare_axes) {
       behind == '.' || behind == ':' || behind == '_' || static_cast<unsigned char>(behind) >= 0x80;
   if (!letter || !kLooseWords.contains(*letter) || part_of_text) return;
   if (incremental && !is_axis(*letter)) return;
-  Word word{.letter = *letter, .incremental = incremental, .value = {}};
+  Word word{.value = {}, .letter = *letter, .incremental = incremental};
   in.skip_blanks();
   if (is_bare(*letter) || (is_axis(*letter) && bare_axes && !at_value(in))) {
     in.add_word(word);
@@ -85,9 +85,9 @@ void parse_loose_part(BlockReader& in, CycleFamily family, unsigned part) {
   while (!in.at_end()) {
     const char c = in.peek();
     if (probe && part == 1 && in.at_parameter()) {
-      in.add_word({.letter = Letter::Result, .value = in.parameter()});
+      in.add_word({.value = in.parameter(), .letter = Letter::Result});
     } else if (at_value(in)) {
-      in.add_word({.letter = Letter::Value, .value = parse_number(in)});
+      in.add_word({.value = parse_number(in), .letter = Letter::Value});
     } else if (is_ascii_letter(c)) {
       parse_loose_letters(in, probe);
     } else {
@@ -113,7 +113,7 @@ void parse_part_words(BlockReader& in, CycleFamily family, unsigned number, unsi
   }
   if (family == CycleFamily::CyclDef && number == 12) {
     in.accept_word("PGM");  // some programs leave it out
-    in.add_word({.letter = Letter::Program, .value = parse_path(in)});
+    in.add_word({.value = parse_path(in), .letter = Letter::Program});
     return;
   }
   parse_loose_part(in, family, part);

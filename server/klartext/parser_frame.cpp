@@ -51,16 +51,14 @@ Slice<Word> parse_rotation(BlockReader& in) {
   }
   in.expect_prefix("LBL");
   const Label label = parse_label(in);
-  in.add_word({.letter = Letter::Label,
-               .value = std::visit(
-                   [](const auto& value) -> Expr {
-                     if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>) {
-                       return static_cast<double>(value);
-                     } else {
-                       return value;
-                     }
-                   },
-                   label)});
+  const auto value_of = [](const auto& value) -> Expr {
+    if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>) {
+      return static_cast<double>(value);
+    } else {
+      return value;
+    }
+  };
+  in.add_word({.value = std::visit(value_of, label), .letter = Letter::Label});
   return in.words_since(first);
 }
 
@@ -69,7 +67,7 @@ BlankForm parse_file_blank(BlockReader& in) {
   form.file = parse_string(in);
   const std::uint32_t first = in.word_count();
   if (in.accept_word("TARGET")) {
-    in.add_word({.letter = Letter::Target, .value = parse_string(in)});
+    in.add_word({.value = parse_string(in), .letter = Letter::Target});
   }
   form.words = in.words_since(first);
   return form;

@@ -129,7 +129,7 @@ Statement parse_motion(BlockReader& in, Path path) {
   const LetterSet allowed = kWordsOf[static_cast<std::size_t>(path)];
   WordReader words(in, allowed);
   if (path == Path::Chf && !in.at_end()) {
-    in.add_word({.letter = Letter::Chamfer, .value = parse_number(in)});
+    in.add_word({.value = parse_number(in), .letter = Letter::Chamfer});
   }
   const bool turns = path == Path::C || path == Path::Cp || path == Path::Cr || path == Path::Ct ||
                      path == Path::Ctp;

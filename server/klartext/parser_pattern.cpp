@@ -34,8 +34,8 @@ void parse_element(BlockReader& in) {
   }
   in.move_to(in.at() + name.size());
   const std::uint32_t number = in.digits(kMostElements, "the number of the element");
-  in.add_word({.letter = Letter::Element, .value = static_cast<double>(kind)});
-  in.add_word({.letter = Letter::Value, .value = static_cast<double>(number)});
+  in.add_word({.value = static_cast<double>(kind), .letter = Letter::Element});
+  in.add_word({.value = static_cast<double>(number), .letter = Letter::Value});
   in.skip_blanks();
   in.expect('(');
   WordReader words(in, kElementWords[kind]);

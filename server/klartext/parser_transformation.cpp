@@ -53,7 +53,7 @@ bool parse_solution(BlockReader& in) {
     if (in.accept_word(spelling(letter))) {
       const bool minus = in.accept('-');
       if (!minus) in.expect('+');
-      in.add_word({.letter = letter, .value = minus ? -1.0 : 1.0});
+      in.add_word({.value = minus ? -1.0 : 1.0, .letter = letter});
       return true;
     }
   }

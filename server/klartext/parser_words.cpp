@@ -79,7 +79,7 @@ bool WordReader::read_plain_words() {
     const char* number = at + (sign == '+' || sign == '-' ? 2 : 1);
     const char* end = scan_plain_number(number, in_.source_end(), value);
     if (end == nullptr) break;
-    in_.add_word({.letter = letter, .value = sign == '-' ? -value : value});
+    in_.add_word({.value = sign == '-' ? -value : value, .letter = letter});
     plain_.erase(letter);
     seen_.insert(letter);
     behind = end;

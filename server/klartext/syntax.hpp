@@ -17,15 +17,15 @@ namespace fitgauge::klartext {
 
 /// One logical line: optional skip mark `/`, optional block number, statement, optional comment.
 struct Block {
-  Slice<char> written{};  ///< its place in the source, all physical lines of it
-  Text comment{};         ///< after `;` as written; of a cycle, that of its first line
+  [[no_unique_address]] Statement statement{};  ///< what follows lies in its last bytes
+  bool has_number = false;                      ///< it is written
+  bool skip = false;          ///< `/`: passed over while the operator's block skip is on
+  bool comment_mark = false;  ///< a `;` is there, perhaps with an empty comment
   /// As written, which is cosmetic and may repeat; a block without one counts on from the block
   /// before it, from 0, as the control numbers it.
   std::uint32_t number = 0;
-  bool has_number = false;    ///< it is written
-  bool skip = false;          ///< `/`: passed over while the operator's block skip is on
-  bool comment_mark = false;  ///< a `;` is there, perhaps with an empty comment
-  Statement statement{};
+  Slice<char> written{};  ///< its place in the source, all physical lines of it
+  Text comment{};         ///< after `;` as written; of a cycle, that of its first line
 
   /// The place does not count.
   friend bool operator==(const Block& a, const Block& b) {
@@ -34,8 +34,8 @@ struct Block {
   }
 };
 
-static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) <= 64,
-              "a long program is one array of blocks, one cache line each");
+static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) == 56,
+              "a long program is one array of blocks");
 
 /// What the parser fills and a Program freezes. The pools are filled in the order of the source.
 struct ProgramParts {

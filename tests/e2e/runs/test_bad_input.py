@@ -124,7 +124,7 @@ class BadInput(ControlTest):
         connection.close()
 
     def test_program_of_8_megabytes_is_checked_while_others_are_served(self):
-        blocks = "".join(f"L X+{n % 100}.500000 Y-{n % 90}.000000 F500\n" for n in range(230_000))
+        blocks = "".join(f"L X+{n % 100}.500000 Y-{n % 90}.000000 F500\n" for n in range(260_000))
         self.upload("large.h", f"BEGIN PGM large MM\n{blocks}CALL LBL 1\nEND PGM large MM\n")
         checked = threading.Thread(target=lambda: answers.append(self.post_run("TNC:\\large.h")))
         answers = []
@@ -134,14 +134,14 @@ class BadInput(ControlTest):
             self.assertEqual(self.daemon.get("/v1/limits/25H7").status, 200)
             self.assertLess(time.monotonic() - begun, 1)
         problem = self.assert_problem(answers[0], 422, "program.invalid")
-        self.assertEqual(problem["diagnostics"][0]["line"], 230_002)
+        self.assertEqual(problem["diagnostics"][0]["line"], 260_002)
 
     def test_program_that_takes_too_much_memory_says_where_and_what_to_do(self):
-        blocks = "".join(f"L X+{n % 100}.5 Y-{n % 90} F500\n" for n in range(330_000))
+        blocks = "".join(f"L X+{n % 100}.5 Y-{n % 90} F500\n" for n in range(400_000))
         self.upload("larger.h", f"BEGIN PGM larger MM\n{blocks}END PGM larger MM\n")
         found, = self.assert_problem(self.post_run("TNC:\\larger.h"), 422, "program.invalid")["diagnostics"]
         self.assertIn("split it", found["message"])
-        self.assertTrue(300_000 < found["line"] < 330_000, found)
+        self.assertTrue(380_000 < found["line"] < 400_000, found)
 
     def test_unknown_program(self):
         self.assert_problem(self.post_run("TNC:\\nothing.h"), 422, "program.unknown")

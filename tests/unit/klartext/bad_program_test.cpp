@@ -146,7 +146,7 @@ TEST_CASE("A program beyond the limits is refused") {
     CHECK(parsed.diagnostics[0].code == DiagnosticCode::ProgramTooLarge);
   }
   std::string words;
-  for (std::size_t i = 0; i < kMostBlocks / 2; ++i) words += "L X1Y1Z1A1B1C1\n";
+  for (std::size_t i = 0; i < kMostBlocks / 2; ++i) words += "L X1Y1Z1A1B1C1U1V1W1\n";
   const Diagnostic heavy = parse_lines(words).diagnostics.back();
   CHECK(heavy.code == DiagnosticCode::ProgramTooLarge);
   CHECK(heavy.message == too_much_memory());

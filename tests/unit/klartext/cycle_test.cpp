@@ -93,32 +93,32 @@ TEST_CASE("Old controls give the parameters as indented lines without ~") {
 TEST_CASE("Dotted cycles are blocks of their own") {
   using W = std::vector<Word>;
   CHECK(part_words("CYCL DEF 7.0 DATUM SHIFT").empty());
-  CHECK(part_words("12 CYCL DEF 7.1 X+60") == W{{.letter = Letter::X, .value = 60.0}});
+  CHECK(part_words("12 CYCL DEF 7.1 X+60") == W{{.value = 60.0, .letter = Letter::X}});
   CHECK(part_words("CYCL DEF 7.2 IY-5") ==
-        W{{.letter = Letter::Y, .incremental = true, .value = -5.0}});
-  CHECK(part_words("CYCL DEF 7.1 #5") == W{{.letter = Letter::Row, .value = 5.0}});
+        W{{.value = -5.0, .letter = Letter::Y, .incremental = true}});
+  CHECK(part_words("CYCL DEF 7.1 #5") == W{{.value = 5.0, .letter = Letter::Row}});
   CHECK(part_words("CYCL DEF 8.1 X Y") == W{{.letter = Letter::X}, {.letter = Letter::Y}});
   CHECK(part_words("CYCL DEF 8.1").empty());
-  CHECK(part_words("CYCL DEF 9.1 DWELL 0.5") == W{{.letter = Letter::Value, .value = 0.5}});
-  CHECK(part_words("CYCL DEF 9.1 V.ZEIT0.5") == W{{.letter = Letter::Value, .value = 0.5}});
-  CHECK(part_words("CYCL DEF 10.1 ROT+35") == W{{.letter = Letter::Rot, .value = 35.0}});
+  CHECK(part_words("CYCL DEF 9.1 DWELL 0.5") == W{{.value = 0.5, .letter = Letter::Value}});
+  CHECK(part_words("CYCL DEF 9.1 V.ZEIT0.5") == W{{.value = 0.5, .letter = Letter::Value}});
+  CHECK(part_words("CYCL DEF 10.1 ROT+35") == W{{.value = 35.0, .letter = Letter::Rot}});
   CHECK(part_words("CYCL DEF 10.1 IROT-5") ==
-        W{{.letter = Letter::Rot, .incremental = true, .value = -5.0}});
-  CHECK(part_words("CYCL DEF 11.1 SCL 0.99") == W{{.letter = Letter::Scl, .value = 0.99}});
+        W{{.value = -5.0, .letter = Letter::Rot, .incremental = true}});
+  CHECK(part_words("CYCL DEF 11.1 SCL 0.99") == W{{.value = 0.99, .letter = Letter::Scl}});
   CHECK(part_words("CYCL DEF 26.1 X1.4 Y0.6 CCX+15 CCY+20") ==
-        W{{.letter = Letter::X, .value = 1.4},
-          {.letter = Letter::Y, .value = 0.6},
-          {.letter = Letter::Ccx, .value = 15.0},
-          {.letter = Letter::Ccy, .value = 20.0}});
-  CHECK(part_words("CYCL DEF 13.1 ANGLE 180") == W{{.letter = Letter::Value, .value = 180.0}});
+        W{{.value = 1.4, .letter = Letter::X},
+          {.value = 0.6, .letter = Letter::Y},
+          {.value = 15.0, .letter = Letter::Ccx},
+          {.value = 20.0, .letter = Letter::Ccy}});
+  CHECK(part_words("CYCL DEF 13.1 ANGLE 180") == W{{.value = 180.0, .letter = Letter::Value}});
   CHECK(part_words("CYCL DEF 14.1 CONTOUR LABEL 1 /2") ==
-        W{{.letter = Letter::Value, .value = 1.0}, {.letter = Letter::Value, .value = 2.0}});
+        W{{.value = 1.0, .letter = Letter::Value}, {.value = 2.0, .letter = Letter::Value}});
   CHECK(part_words("CYCL DEF 19.1 A+0 B+45 C-Q5 F1000 ABST50")[1] ==
-        Word{.letter = Letter::B, .value = 45.0});
-  CHECK(part_words("CYCL DEF 32.1 T0.05") == W{{.letter = Letter::T, .value = 0.05}});
+        Word{.value = 45.0, .letter = Letter::B});
+  CHECK(part_words("CYCL DEF 32.1 T0.05") == W{{.value = 0.05, .letter = Letter::T}});
   CHECK(part_words("CYCL DEF 32.2 HSC-MODE:1 TA5") ==
-        W{{.letter = Letter::Value, .value = 1.0}, {.letter = Letter::Ta, .value = 5.0}});
-  CHECK(part_words("CYCL DEF 1.5 F80") == W{{.letter = Letter::F, .value = 80.0}});
+        W{{.value = 1.0, .letter = Letter::Value}, {.value = 5.0, .letter = Letter::Ta}});
+  CHECK(part_words("CYCL DEF 1.5 F80") == W{{.value = 80.0, .letter = Letter::F}});
   const ParsedProgram call = parse_lines("CYCL DEF 12.1 PGM TNC:\\x\\y.h");
   CHECK(call.program.text(std::get<Text>(part_words(call)[0].value)) == "TNC:\\x\\y.h");
 }
@@ -133,21 +133,21 @@ TEST_CASE("A wrap separates words of code, also in a dotted cycle") {
 TEST_CASE("Dotted touch probe cycles") {
   using W = std::vector<Word>;
   CHECK(part_words("TCH PROBE 0.0 REF. PLANE Q5 X-") ==
-        W{{.letter = Letter::Result, .value = QRef{QSpace::Q, 5}},
-          {.letter = Letter::X, .value = -1.0}});
+        W{{.value = QRef{QSpace::Q, 5}, .letter = Letter::Result},
+          {.value = -1.0, .letter = Letter::X}});
   CHECK(part_words("TCH PROBE 0.1 X+5 Y+0 Z-5").size() == 3);
   CHECK(part_words("TCH PROBE 1.1 X ANGLE: +30") ==
-        W{{.letter = Letter::X}, {.letter = Letter::Value, .value = 30.0}});
+        W{{.letter = Letter::X}, {.value = 30.0, .letter = Letter::Value}});
   CHECK(part_words("TCH PROBE 3.1 Q1") ==
-        W{{.letter = Letter::Result, .value = QRef{QSpace::Q, 1}}});
+        W{{.value = QRef{QSpace::Q, 1}, .letter = Letter::Result}});
   CHECK(part_words("TCH PROBE 3.3 ABST +10 F100 MB1 REFERENCE SYSTEM: 0") ==
-        W{{.letter = Letter::Value, .value = 10.0},
-          {.letter = Letter::F, .value = 100.0},
-          {.letter = Letter::Mb, .value = 1.0},
-          {.letter = Letter::Value, .value = 0.0}});
-  CHECK(part_words("TCH PROBE 3.4 ERRORMODE1") == W{{.letter = Letter::Value, .value = 1.0}});
+        W{{.value = 10.0, .letter = Letter::Value},
+          {.value = 100.0, .letter = Letter::F},
+          {.value = 1.0, .letter = Letter::Mb},
+          {.value = 0.0, .letter = Letter::Value}});
+  CHECK(part_words("TCH PROBE 3.4 ERRORMODE1") == W{{.value = 1.0, .letter = Letter::Value}});
   CHECK(part_words("TCH PROBE 4.2 IX+0 IY+0 IZ-1")[2] ==
-        Word{.letter = Letter::Z, .incremental = true, .value = -1.0});
+        Word{.value = -1.0, .letter = Letter::Z, .incremental = true});
   CHECK(part_words("TCH PROBE 4.3 ABST+45 F100 MB50 REFERENCE SYSTEM:0").size() == 4);
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("Words that follow an M function with arguments belong to it") {
   const auto words = parsed.program.view(statement_of<Motion>(parsed).words);
   REQUIRE(words.size() == 4);
   CHECK_FALSE(words[1].argument);
-  CHECK(words[3] == Word{.letter = Letter::F, .argument = true, .value = 1000.0});
+  CHECK(words[3] == Word{.value = 1000.0, .letter = Letter::F, .argument = true});
 }
 
 }  // namespace
