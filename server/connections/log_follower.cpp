@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <future>
 #include <iterator>
 
@@ -16,6 +17,9 @@ constexpr std::chrono::milliseconds kBetweenSaves{1000};
 constexpr std::chrono::milliseconds kLongestSleep{30'000};
 constexpr std::chrono::seconds kFirstPause{1};
 constexpr std::int64_t kMostWait = 3600;
+constexpr std::string_view kRecorded = "measurement.recorded";
+constexpr std::array<std::string_view, 3> kStoredEvents = {"run.finished", "table.changed",
+                                                           "note.added"};
 
 struct Page {
   std::vector<Outgoing> measurements{};
@@ -40,6 +44,16 @@ Result<Page> read_page(app::MeasurementService& service, const LogFilter& filter
   return page;
 }
 
+Result<app::EventService::StoredPage> read_event_page(app::EventService& service,
+                                                      std::int64_t after, std::size_t limit) {
+  std::promise<Result<app::EventService::StoredPage>> promise;
+  auto read = promise.get_future();
+  service.read_stored(after, limit, [&promise](Result<app::EventService::StoredPage> page) {
+    promise.set_value(std::move(page));
+  });
+  return read.get();
+}
+
 /// How many measurements the log has.
 Result<std::int64_t> end_of_log(app::MeasurementService& service) {
   const auto page = read_page(service, {}, 0, 1);
@@ -60,15 +74,51 @@ void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerO
       fields.integer_or("longest_wait_s", options.longest_wait.count(), 1, kMostWait));
 }
 
+std::string event_text(const OutgoingEvent& event, std::string_view origin) {
+  return fmt::format("e{}-{}", event.id, origin);
+}
+
+void read_events(api::FieldReader& fields, FollowerOptions& options) {
+  if (!fields.has("events")) return;
+  const JsonValue* const list = fields.array("events");
+  if (list == nullptr) return;
+  bool has_measurements = false;
+  for (const JsonValue& item : list->items) {
+    const std::string type = item.is(JsonValue::Kind::String) ? item.text : std::string();
+    if (type == kRecorded) {
+      has_measurements = true;
+    } else if (std::find(kStoredEvents.begin(), kStoredEvents.end(), type) != kStoredEvents.end()) {
+      options.events.insert(type);
+    } else {
+      return fields.report(
+          ErrorCode::FieldInvalid, "events",
+          fmt::format("events is a list of {}, {}", kRecorded, fmt::join(kStoredEvents, ", ")));
+    }
+  }
+  if (list->items.empty()) {
+    fields.report(ErrorCode::FieldInvalid, "events", "an empty list lets nothing through");
+  }
+  if (!has_measurements) options.filter.verdicts = {};
+}
+
 Result<Progress> begin_progress(const FollowerOptions& options, app::Application& app) {
   auto loaded = load_progress(app.documents(), options.name);
   if (!loaded) return loaded.error();
-  if (*loaded) return **std::move(loaded);
-  Progress progress;
-  if (!options.from_beginning) {
+  const bool is_new = !*loaded;
+  Progress progress = is_new ? Progress() : **std::move(loaded);
+  const bool begins_events = !options.events.empty() && !progress.event;
+  // One that asks for none, and later for some again, begins anew.
+  if (options.events.empty()) progress.event.reset();
+  if (!is_new && !begins_events) return progress;
+  if (is_new && !options.from_beginning) {
     const auto end = end_of_log(app.measurements());
     if (!end) return end.error();
     progress.position = *end;
+  }
+  if (begins_events) {
+    const auto events = read_event_page(app.events(), 0, 0);
+    if (!events) return events.error();
+    progress.event = is_new && options.from_beginning ? 0 : events->newest;
   }
   const auto saved = save_progress(app.documents(), options.name, progress);
   if (!saved) return saved.error();
@@ -128,7 +178,9 @@ void LogFollower::run(bool has_begun, const std::stop_token& stop) {
   }
   while (!stop.stop_requested() && !state().is_stopped) {
     guarded("connection", [&] {
-      const auto has_read = read();
+      // Events first, so that what was stored before them is among the measurements.
+      auto has_read = read_events();
+      if (has_read) has_read = read();
       if (!has_read || cannot_read_) {
         finish_attempt(has_read ? std::nullopt : std::optional(has_read.error().message));
       }
@@ -140,7 +192,7 @@ void LogFollower::run(bool has_begun, const std::stop_token& stop) {
     if (pause_.count() > 0) {
       bell_->wait(stop, pause_, false);
       guarded("connection", [&] { deliver(stop); });
-    } else if (ripe() == 0) {
+    } else if (ripe() == 0 && !has_events()) {
       const bool is_idle = pending_.empty() && is_saved && !cannot_read_;
       wait(stop, is_idle ? kLongestSleep : kBetweenSaves);
     }
@@ -164,18 +216,42 @@ bool LogFollower::begin() {
   return true;
 }
 
+Result<void> LogFollower::read_events() {
+  if (options_.events.empty() || !pending_events_.empty()) return {};
+  auto page = read_event_page(around_.app.events(), *progress_.event, kPage);
+  if (!page) return page.error();
+  if (page->gap) {
+    around_.tell("connection_events_lost",
+                 fmt::format("{}: event_retention keeps too few events for how long the other side "
+                             "was away",
+                             options_.name));
+  }
+  if (page->events.empty()) return {};
+  const std::int64_t last = page->events.back().id;
+  std::erase_if(page->events, [this](const OutgoingEvent& event) {
+    return options_.events.find(event.type) == options_.events.end();
+  });
+  pending_events_ = std::move(page->events);
+  // What is not asked for is dealt with.
+  if (pending_events_.empty()) {
+    progress_.event = last;
+    is_dirty_ = true;
+  }
+  return {};
+}
+
 Result<void> LogFollower::read() {
   app::MeasurementService& log = around_.app.measurements();
   if (pending_.size() >= kPage) {
     const auto end = end_of_log(log);
     if (!end) return end.error();
-    log_end_ = *end;
+    take_log_end(*end);
     return {};
   }
   auto page = read_page(log, options_.filter, read_to_, kPage);
   if (!page) return page.error();
   std::move(page->measurements.begin(), page->measurements.end(), std::back_inserter(pending_));
-  log_end_ = page->end.as_of;
+  take_log_end(page->end.as_of);
   read_to_ = std::max(read_to_, page->end.next.value_or(page->end.as_of));
   // What the filter lets pass by is dealt with.
   if (pending_.empty() && progress_.position < read_to_) {
@@ -183,6 +259,24 @@ Result<void> LogFollower::read() {
     is_dirty_ = true;
   }
   return {};
+}
+
+void LogFollower::take_log_end(std::int64_t end) {
+  log_end_ = end;
+  if (events_behind_ == 0 && !pending_events_.empty()) events_behind_ = end;
+}
+
+bool LogFollower::has_events() const {
+  return !pending_events_.empty() && pending_.empty() && read_to_ >= events_behind_;
+}
+
+void LogFollower::deliver_events(const std::stop_token& stop) {
+  const Delivery delivery = outlet_->deliver_events(pending_events_, stop);
+  if (delivery.dealt_with > 0) progress_.event = pending_events_[delivery.dealt_with - 1].id;
+  pending_events_.erase(pending_events_.begin(),
+                        pending_events_.begin() + static_cast<std::ptrdiff_t>(delivery.dealt_with));
+  if (pending_events_.empty()) events_behind_ = 0;
+  if (!stop.stop_requested() || delivery.dealt_with > 0) take(delivery, 0);
 }
 
 std::size_t LogFollower::ripe() const {
@@ -218,8 +312,9 @@ void LogFollower::deliver(const std::stop_token& stop) {
   if (stop.stop_requested()) return;
   const std::size_t count = planned(ripe());
   if (count == 0) {
+    if (has_events()) return deliver_events(stop);
     const auto attempt = outlet_->idle(stop);
-    if (attempt && !stop.stop_requested()) take(*attempt);
+    if (attempt && !stop.stop_requested()) take(*attempt, 0);
     return;
   }
   const Delivery delivery = outlet_->deliver(std::span(pending_).first(count), stop);
@@ -227,10 +322,12 @@ void LogFollower::deliver(const std::stop_token& stop) {
   pending_.erase(pending_.begin(),
                  pending_.begin() + static_cast<std::ptrdiff_t>(delivery.dealt_with));
   if (pending_.empty()) progress_.position = read_to_;
-  if (!stop.stop_requested() || delivery.dealt_with > 0) take(delivery);
+  if (!stop.stop_requested() || delivery.dealt_with > 0) {
+    take(delivery, delivery.dealt_with - delivery.refused.size());
+  }
 }
 
-void LogFollower::take(const Delivery& delivery) {
+void LogFollower::take(const Delivery& delivery, std::size_t measurements) {
   is_dirty_ = is_dirty_ || delivery.dealt_with > 0;
   for (const app::DeadLetter& letter : delivery.refused) {
     progress_.refuse(letter);
@@ -238,7 +335,7 @@ void LogFollower::take(const Delivery& delivery) {
                  fmt::format("{}: {}: {}", options_.name, letter.measurement, letter.reason));
   }
   change([&](app::ConnectionState& state) {
-    state.measurements += delivery.dealt_with - delivery.refused.size();
+    state.measurements += measurements;
     state.files += delivery.files;
     state.bytes += delivery.bytes;
     state.is_stopped = delivery.wants_no_more;

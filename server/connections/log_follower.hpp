@@ -7,12 +7,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "app/measurements/measurement.hpp"
+#include "app/service/event_service.hpp"
 #include "connections/log_filter.hpp"
 #include "connections/progress.hpp"
 #include "connections/worker.hpp"
@@ -21,6 +23,12 @@ namespace fitgauge::connections {
 
 /// A measurement on its way out.
 using Outgoing = std::unique_ptr<const app::KeptMeasurement>;
+
+/// An event that is no measurement, on its way out.
+using OutgoingEvent = app::EventService::Stored;
+
+/// The id of such an event on the outside. @param origin of the data folder
+std::string event_text(const OutgoingEvent& event, std::string_view origin);
 
 /// How far a delivery has come.
 struct Delivery {
@@ -45,6 +53,11 @@ class Outlet {
   /// stop. What is not dealt with comes again.
   virtual Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) = 0;
 
+  /// The same of events, for outlets whose options ask for some.
+  virtual Delivery deliver_events(std::span<const OutgoingEvent> events, const std::stop_token&) {
+    return {.dealt_with = events.size()};
+  }
+
   /// When there is nothing to go: at least every 30 s, and soon after `wake`. For what stays
   /// connected. @returns an attempt, or none where there was nothing to do.
   virtual std::optional<Delivery> idle(const std::stop_token&) { return std::nullopt; }
@@ -56,15 +69,20 @@ class Outlet {
 struct FollowerOptions {
   std::string name{};
   LogFilter filter{};
-  bool from_beginning = false;             ///< of the log; else from now on
-  std::chrono::seconds longest_wait{300};  ///< between two attempts in vain
-  std::chrono::seconds gather{0};          ///< what is younger waits for more
+  std::set<std::string, std::less<>> events{};  ///< that go out beside measurements
+  bool from_beginning = false;                  ///< of the log; else from now on
+  std::chrono::seconds longest_wait{300};       ///< between two attempts in vain
+  std::chrono::seconds gather{0};               ///< what is younger waits for more
   /// What goes out together is decided before, so that after a kill the same goes out together.
   bool plans = false;
 };
 
 /// Reads `filter`, `start` (now or beginning) and `longest_wait_s`. What is wrong goes to `errors`.
 void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerOptions& options);
+
+/// Reads `events`, the types of what goes out: measurement.recorded, run.finished, table.changed
+/// and note.added; the first alone when absent. To be called behind read_follower().
+void read_events(api::FieldReader& fields, FollowerOptions& options);
 
 /// Decides where a connection that has not begun begins, so that it misses nothing from now on.
 /// Waits. @errors those of storage.
@@ -90,12 +108,19 @@ class LogFollower final : public Worker {
   bool begin();
   /// Reads what comes next, if there is room. @errors those of storage.
   Result<void> read();
+  /// Reads the events that come next, if there is room.
+  Result<void> read_events();
+  void take_log_end(std::int64_t end);
   void deliver(const std::stop_token& stop);
+  /// Whether events go out now: when all measurements that were stored before them are dealt with.
+  bool has_events() const;
+  void deliver_events(const std::stop_token& stop);
   /// How many of those that are pending go out now.
   std::size_t ripe() const;
   /// @returns how many go out together; none while that cannot be kept.
   std::size_t planned(std::size_t count);
-  void take(const Delivery& delivery);
+  /// @param measurements of it that went out
+  void take(const Delivery& delivery, std::size_t measurements);
   void finish_attempt(const std::optional<std::string>& why);
   /// Unless it was saved less than a second ago. @returns whether nothing is left to save.
   bool save(bool at_once);
@@ -118,7 +143,9 @@ class LogFollower final : public Worker {
   std::int64_t read_to_ = 0;  ///< all up to here is pending or dealt with
   std::int64_t log_end_ = 0;  ///< of the log, when it was read last
   std::vector<Outgoing> pending_;
-  std::chrono::seconds pause_{0};  ///< before the next attempt; 0: the last went well
+  std::vector<OutgoingEvent> pending_events_;
+  std::int64_t events_behind_ = 0;  ///< the measurement they come behind; 0: none is pending
+  std::chrono::seconds pause_{0};   ///< before the next attempt; 0: the last went well
   bool is_dirty_ = false;
   bool cannot_read_ = false;
   Time saved_at_{};

@@ -28,6 +28,7 @@ Progress read(const JsonValue& stored) {
   Progress progress{.position = whole_number(stored, "position"),
                     .planned = whole_number(stored, "planned"),
                     .refused = static_cast<std::uint64_t>(whole_number(stored, "refused"))};
+  if (stored.find("event") != nullptr) progress.event = whole_number(stored, "event");
   if (const JsonValue* letters = stored.find("dead_letters")) {
     for (const JsonValue& letter : letters->items) {
       progress.dead_letters.push_back({.measurement = text_of(letter, "measurement"),
@@ -41,12 +42,9 @@ Progress read(const JsonValue& stored) {
 std::string write(const Progress& progress) {
   std::string text;
   api::JsonWriter json(text);
-  json.begin_object()
-      .member("position", progress.position)
-      .member("planned", progress.planned)
-      .member("refused", progress.refused)
-      .key("dead_letters")
-      .begin_array();
+  json.begin_object().member("position", progress.position).member("planned", progress.planned);
+  if (progress.event) json.member("event", *progress.event);
+  json.member("refused", progress.refused).key("dead_letters").begin_array();
   for (const app::DeadLetter& letter : progress.dead_letters) {
     json.begin_object()
         .member("measurement", letter.measurement)

@@ -14,6 +14,7 @@ namespace fitgauge::connections {
 struct Progress {
   std::int64_t position = 0;  ///< the last measurement that is dealt with
   std::int64_t planned = 0;   ///< what goes out together next ends there; up to `position`: nothing
+  std::optional<std::int64_t> event{};  ///< the last stored event that is dealt with
   std::uint64_t refused = 0;
   std::vector<app::DeadLetter> dead_letters{};  ///< the newest first
 

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "api/wire/json_writer.hpp"
+#include "app/log/log_service.hpp"
 #include "app/measurements/record.hpp"
 #include "base/text.hpp"
 #include "http_client/http_client.hpp"
@@ -84,9 +85,19 @@ class Webhook final : public Outlet {
         client_({.may_reach_private = around.may_reach_private}) {}
 
   Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
+  Delivery deliver_events(std::span<const OutgoingEvent> events,
+                          const std::stop_token& stop) override;
   HttpAnswer send(std::string_view id, std::string_view body, const std::stop_token& stop);
 
  private:
+  struct Posted {
+    std::string id;
+    std::string body;
+  };
+  /// Posts one after the other what `compose` makes of each.
+  template <class Items, class Compose>
+  Delivery post(const Items& items, const std::stop_token& stop, const Compose& compose);
+
   const Surroundings& around_;
   const WebhookOptions options_;
   http_client::HttpClient client_;
@@ -107,16 +118,13 @@ HttpAnswer Webhook::send(std::string_view id, std::string_view body, const std::
       [&stop] { return !stop.stop_requested(); });
 }
 
-Delivery Webhook::deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) {
+template <class Items, class Compose>
+Delivery Webhook::post(const Items& items, const std::stop_token& stop, const Compose& compose) {
   Delivery delivery;
   const auto until = std::chrono::steady_clock::now() + kLongestStretch;
-  for (const Outgoing& outgoing : measurements) {
-    const app::Measurement& measurement = **outgoing;
-    const std::string id = app::measurement_id_text(measurement.id, measurement.origin);
-    std::string body = begun_event("measurement.recorded", measurement.received_at);
-    app::append_record(body, measurement);
-    body += '}';
-    const HttpAnswer answer = send(id, body, stop);
+  for (const auto& item : items) {
+    const Posted posted = compose(item);
+    const HttpAnswer answer = send(posted.id, posted.body, stop);
     ++attempts_;
     if (answer.status < 200 || answer.status > 299) {
       const bool is_given_up = is_of_the_event(answer.status) && attempts_ >= kMostAttempts;
@@ -127,14 +135,34 @@ Delivery Webhook::deliver(std::span<const Outgoing> measurements, const std::sto
         return delivery;
       }
       delivery.refused.push_back(
-          {.measurement = id, .reason = reason_of(answer), .at = around_.clock.now()});
+          {.measurement = posted.id, .reason = reason_of(answer), .at = around_.clock.now()});
     }
     attempts_ = 0;
     ++delivery.dealt_with;
-    delivery.bytes += body.size();
+    delivery.bytes += posted.body.size();
     if (std::chrono::steady_clock::now() > until) break;
   }
   return delivery;
+}
+
+Delivery Webhook::deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) {
+  return post(measurements, stop, [](const Outgoing& outgoing) {
+    const app::Measurement& measurement = **outgoing;
+    Posted posted{.id = app::measurement_id_text(measurement.id, measurement.origin),
+                  .body = begun_event("measurement.recorded", measurement.received_at)};
+    app::append_record(posted.body, measurement);
+    posted.body += '}';
+    return posted;
+  });
+}
+
+Delivery Webhook::deliver_events(std::span<const OutgoingEvent> events,
+                                 const std::stop_token& stop) {
+  const std::string_view origin = around_.app.log().origin();
+  return post(events, stop, [origin](const OutgoingEvent& event) {
+    return Posted{.id = event_text(event, origin),
+                  .body = begun_event(event.type, event.at) + event.payload + '}'};
+  });
 }
 
 }  // namespace
@@ -168,6 +196,7 @@ WebhookOptions read_webhook(std::string_view name, FieldReader& fields, FieldErr
   read_url(fields, options);
   read_keys(fields, errors, options);
   read_follower(fields, errors, options.follower);
+  read_events(fields, options.follower);
   options.timeout = std::chrono::seconds(
       fields.integer_or("timeout_s", options.timeout.count(), 1, kLongestTimeout));
   return options;

@@ -28,12 +28,13 @@ std::optional<std::string> webhook_key(std::string_view secret);
 std::string webhook_signature(const std::vector<std::string>& keys, std::string_view id,
                               std::string_view timestamp, std::string_view body);
 
-/// Reads what the kind webhook takes: `url`, `secrets`, `filter`, `start`, `timeout_s`,
-/// `longest_wait_s`. What is wrong goes to `errors`.
+/// Reads what the kind webhook takes: `url`, `secrets`, `filter`, `events`, `start`,
+/// `timeout_s`, `longest_wait_s`. What is wrong goes to `errors`.
 WebhookOptions read_webhook(std::string_view name, api::FieldReader& fields,
                             api::FieldErrors& errors);
 
-/// Posts each measurement as an event `measurement.recorded` whose webhook-id is the measurement's.
+/// Posts each measurement as an event `measurement.recorded` whose webhook-id is the measurement's,
+/// and the other events that were asked for.
 /// 2xx is taken. 410 ends the connection. 400, 413, 415 and 422, five times, make a dead letter.
 /// Anything else is repeated for ever. @param around outlives it.
 std::unique_ptr<Outlet> make_webhook(const WebhookOptions& options, const Surroundings& around);

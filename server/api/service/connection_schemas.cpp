@@ -64,10 +64,17 @@ Fields follower_fields() {
        {"longest_wait_s", schema::integer(1, 3600), "Between two attempts; 300 when absent"}});
 }
 
+Fields event_fields() {
+  return {{"events",
+           schema::array(schema::words(
+               {"measurement.recorded", "run.finished", "table.changed", "note.added"})),
+           "What goes out; measurement.recorded when absent", false}};
+}
+
 Fields webhook_fields() {
   return Fields{{"url", schema::text(2000), "https://host/path"},
                 {"timeout_s", schema::integer(1, 30), "Of a request; 15 when absent", false}} +
-         follower_fields();
+         event_fields() + follower_fields();
 }
 
 Fields folder_out_own_fields() {
@@ -108,6 +115,8 @@ Fields mqtt_own_fields() {
          schema::optional({{"version", schema::words({"3.1.1", "5"}), "Of MQTT; 3.1.1 when absent"},
                            {"status_topic", schema::text(500),
                             "Of online and offline; client_id/status when absent"},
+                           {"events_topic", schema::text(500),
+                            "Above the type of an event; client_id/events when absent"},
                            {"retain", schema::boolean(),
                             "The broker keeps the last of each topic; true when absent"}});
 }
@@ -163,7 +172,7 @@ void add_connection_schemas(Schemas& schemas) {
        schema::any_of({order_of("lsv2", lsv2_fields()),
                        order_of("webhook", webhook_fields() + secret_fields()),
                        order_of("mqtt", broker_fields() + password_field() + mqtt_own_fields() +
-                                            follower_fields()),
+                                            event_fields() + follower_fields()),
                        order_of("sparkplug", broker_fields() + password_field() +
                                                  sparkplug_own_fields() + follower_fields()),
                        order_of("folder_in", folder_in_fields()),

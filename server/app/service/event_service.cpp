@@ -124,4 +124,21 @@ void EventService::read(std::optional<EventPosition> after, std::optional<Source
       std::move(done));
 }
 
+void EventService::read_stored(std::int64_t after, std::size_t limit,
+                               std::function<void(Result<StoredPage>)> done) {
+  database_.readers().submit(
+      [after, limit](const store::Stores& stores) -> Result<StoredPage> {
+        const store::EventsStore::Kept kept = stores.events.kept();
+        StoredPage page{.newest = kept.newest, .gap = after + 1 < kept.oldest};
+        for (store::Event& event : stores.events.after(after, limit)) {
+          page.events.push_back({.id = event.id,
+                                 .type = std::move(event.type),
+                                 .payload = std::move(event.payload),
+                                 .at = Timestamp{event.created_at_ns}});
+        }
+        return page;
+      },
+      std::move(done));
+}
+
 }  // namespace fitgauge::app

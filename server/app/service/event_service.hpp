@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/measurements/measurement.hpp"
 #include "app/service/commit_signal.hpp"
@@ -69,6 +70,23 @@ class EventService {
   /// @param source of the measurements; none: all. @errors StorageUnavailable, StorageBusy.
   void read(std::optional<EventPosition> after, std::optional<Source> source, std::size_t limit,
             Visitor visit, Done done);
+
+  /// An event that is in no other table, on its own.
+  struct Stored {
+    std::int64_t id = 0;
+    std::string type{};
+    std::string payload{};  ///< JSON
+    Timestamp at{};
+  };
+  struct StoredPage {
+    std::vector<Stored> events{};  ///< oldest first
+    std::int64_t newest = 0;       ///< of all that there are
+    bool gap = false;              ///< some that came next are gone
+  };
+  /// Reads up to `limit` stored events behind `after`, on a reader thread.
+  /// @errors StorageUnavailable, StorageBusy.
+  void read_stored(std::int64_t after, std::size_t limit,
+                   std::function<void(Result<StoredPage>)> done);
 
   /// A listener is told when there may be new events.
   void add(std::shared_ptr<CommitListener> listener) { signal_.add(std::move(listener)); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "app/log/log_service.hpp"
 #include "app/measurements/record.hpp"
 #include "connections/mqtt/mqtt_link.hpp"
 
@@ -37,11 +38,20 @@ class Mqtt final : public Outlet {
 
   void wake_by(std::function<void()> wake) override { link_.wake_by(std::move(wake)); }
   Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
+  Delivery deliver_events(std::span<const OutgoingEvent> events,
+                          const std::stop_token& stop) override;
   std::optional<Delivery> idle(const std::stop_token& stop) override;
 
  private:
+  struct Published {
+    std::string id;
+    MqttMessage message;
+  };
+
   std::optional<std::string> connect(const std::stop_token& stop);
-  MqttClient::Ticket publish(const app::Measurement& measurement);
+  /// Publishes in order what `compose` makes of each.
+  template <class Items, class Compose>
+  Delivery publish(const Items& items, const std::stop_token& stop, const Compose& compose);
 
   const Surroundings& around_;
   const MqttOptions options_;
@@ -60,25 +70,48 @@ std::optional<Delivery> Mqtt::idle(const std::stop_token& stop) {
   return Delivery{.failure = connect(stop)};
 }
 
-MqttClient::Ticket Mqtt::publish(const app::Measurement& measurement) {
-  MqttMessage message{.topic = options_.topic.topic_of(measurement), .retain = options_.retain};
-  app::append_record(message.payload, measurement);
-  return link_.client().publish(std::move(message));
+Delivery Mqtt::deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) {
+  return publish(measurements, stop, [this](const Outgoing& outgoing) {
+    const app::Measurement& measurement = **outgoing;
+    Published published{
+        .id = app::measurement_id_text(measurement.id, measurement.origin),
+        .message = {.topic = options_.topic.topic_of(measurement), .retain = options_.retain}};
+    app::append_record(published.message.payload, measurement);
+    return published;
+  });
 }
 
-Delivery Mqtt::deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) {
+Delivery Mqtt::deliver_events(std::span<const OutgoingEvent> events, const std::stop_token& stop) {
+  const std::string_view origin = around_.app.log().origin();
+  return publish(events, stop, [this, origin](const OutgoingEvent& event) {
+    const std::string id = event_text(event, origin);
+    return Published{.id = id,
+                     .message = {.topic = fmt::format("{}/{}", options_.events_topic, event.type),
+                                 .payload = fmt::format(R"({{"id":"{}","at":"{}","data":{}}})", id,
+                                                        format_rfc3339(event.at), event.payload)}};
+  });
+}
+
+template <class Items, class Compose>
+Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Compose& compose) {
   Delivery delivery{.failure = connect(stop)};
   if (delivery.failure) return delivery;
   const auto until = std::chrono::steady_clock::now() + kLongestStretch;
-  std::deque<MqttClient::Ticket> ahead;
+  struct Ahead {
+    std::string id;
+    MqttClient::Ticket ticket;
+  };
+  std::deque<Ahead> ahead;
   std::size_t sent = 0;
   while (true) {
     const bool sends_more = std::chrono::steady_clock::now() < until && !stop.stop_requested();
-    while (sends_more && sent < measurements.size() && ahead.size() < kMostAhead) {
-      ahead.push_back(publish(**measurements[sent++]));
+    while (sends_more && sent < items.size() && ahead.size() < kMostAhead) {
+      Published published = compose(items[sent++]);
+      ahead.push_back(
+          {std::move(published.id), link_.client().publish(std::move(published.message))});
     }
     if (ahead.empty()) return delivery;
-    const auto reason = link_.client().wait_settled(ahead.front(), kLongestSilence, stop);
+    const auto reason = link_.client().wait_settled(ahead.front().ticket, kLongestSilence, stop);
     if (!reason || (*reason != 0 && !is_of_the_message(*reason))) {
       if (stop.stop_requested()) return delivery;
       // What is on its way comes again over a new connection: a broker that is out of step ends.
@@ -87,11 +120,9 @@ Delivery Mqtt::deliver(std::span<const Outgoing> measurements, const std::stop_t
       return delivery;
     }
     if (*reason != 0) {
-      const app::Measurement& refused = **measurements[delivery.dealt_with];
-      delivery.refused.push_back(
-          {.measurement = app::measurement_id_text(refused.id, refused.origin),
-           .reason = mqtt_reason(*reason),
-           .at = around_.clock.now()});
+      delivery.refused.push_back({.measurement = ahead.front().id,
+                                  .reason = mqtt_reason(*reason),
+                                  .at = around_.clock.now()});
     }
     ahead.pop_front();
     ++delivery.dealt_with;
@@ -102,6 +133,23 @@ Mqtt::~Mqtt() {
   if (!link_.is_up()) return;
   link_.client().publish({.topic = options_.status_topic, .payload = "offline", .retain = true});
   link_.client().leave();
+}
+
+}  // namespace
+
+namespace {
+
+/// A topic without names; empty where there is none.
+std::string read_plain_topic(api::FieldReader& fields, std::string_view name) {
+  const auto text = fields.optional_text(name);
+  if (!text) return {};
+  const bool is_topic = text->size() <= kLongestTopic && text->find_first_of("{}") == text->npos &&
+                        TopicTemplate::parse(*text).has_value();
+  if (!is_topic) {
+    fields.report(ErrorCode::FieldInvalid, name,
+                  fmt::format("{} is a topic without names, such as plant/fitgauge/status", name));
+  }
+  return *text;
 }
 
 }  // namespace
@@ -124,25 +172,20 @@ MqttOptions read_mqtt(std::string_view name, const FolderPermissions& allowed,
       fields.report(ErrorCode::FieldInvalid, "topic", topic.error().message);
     }
   }
-  if (const auto text = fields.optional_text("status_topic")) {
-    const bool is_topic = text->size() <= kLongestTopic &&
-                          text->find_first_of("{}") == text->npos &&
-                          TopicTemplate::parse(*text).has_value();
-    if (!is_topic) {
-      fields.report(ErrorCode::FieldInvalid, "status_topic",
-                    "status_topic is a topic without names, such as plant/fitgauge/status");
-    }
-    options.status_topic = *text;
-  }
+  options.status_topic = read_plain_topic(fields, "status_topic");
+  options.events_topic = read_plain_topic(fields, "events_topic");
   options.retain = fields.boolean_or("retain", true);
   read_follower(fields, errors, options.follower);
+  read_events(fields, options.follower);
   return options;
 }
 
 std::unique_ptr<Outlet> make_mqtt(const MqttOptions& options, const Surroundings& around) {
   MqttOptions all = options;
   all.broker = named(all.broker, around.app.log().origin(), options.follower.name);
-  if (all.status_topic.empty()) all.status_topic = topic_level(all.broker.client_id) + "/status";
+  const std::string own = topic_level(all.broker.client_id);
+  if (all.status_topic.empty()) all.status_topic = own + "/status";
+  if (all.events_topic.empty()) all.events_topic = own + "/events";
   return std::make_unique<Mqtt>(all, around);
 }
 

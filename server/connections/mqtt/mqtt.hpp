@@ -17,11 +17,13 @@ struct MqttOptions {
   Broker broker{};
   TopicTemplate topic{};
   std::string status_topic{};  ///< where `online` and the last will `offline` stand
+  std::string events_topic{};  ///< above the type of an event that is no measurement
   bool retain = true;
 };
 
-/// Reads what the kind mqtt takes: that of a broker, `version`, `topic`, `status_topic`, `retain`,
-/// `filter`, `start`, `longest_wait_s`. What is wrong goes to `errors`.
+/// Reads what the kind mqtt takes: that of a broker, `version`, `topic`, `status_topic`,
+/// `events_topic`, `retain`, `filter`, `events`, `start`, `longest_wait_s`. What is wrong goes to
+/// `errors`.
 MqttOptions read_mqtt(std::string_view name, const FolderPermissions& allowed,
                       api::FieldReader& fields, api::FieldErrors& errors);
 

@@ -85,6 +85,82 @@ class Webhooks(Receivers):
         self.assertIn('fitgauge_connection_behind_measurements{connection="mes"} 0', daemon.get("/metrics").text)
         self.assertNotIn(SECRETS[0], daemon.get("/v1/connections").text + daemon.log)
 
+    def happen(self, daemon, number):
+        """A measurement, a run, a note and a changed table. Returns what is told of them, in order."""
+        measured = self.store(daemon, [number])[0]
+        program = f"0 BEGIN PGM p{number} MM\n1 Q1 = {number}\n2 END PGM p{number} MM\n"
+        self.assertIn(daemon.request("PUT", f"/v1/files/p{number}.h", program.encode()).status, (200, 201))
+        run = daemon.post("/v1/runs?wait=1", {"program": f"p{number}.h"}).json
+        self.assertEqual(daemon.post(f"/v1/measurements/{measured}/notes", {"text": f"note {number}"}).status, 201)
+        column = f"press{number}"
+        rows = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": 3}]}
+        self.assertEqual(daemon.request("PUT", f"/v1/tables/shaft/classes/{column}", rows).status, 201)
+        return [("measurement.recorded", measured), ("run.finished", run["id"]), ("note.added", f"note {number}"), ("table.changed", column)]
+
+    def told(self, receiver, requests=None):
+        names = {"measurement.recorded": "id", "run.finished": "id", "note.added": "text", "table.changed": "tolerance_class"}
+        events = [request["event"] for request in (receiver.events if requests is None else requests)]
+        return [(event["type"], event["data"][names[event["type"]]]) for event in events]
+
+    def test_runs_notes_and_tables_are_told_where_they_are_asked_for(self):
+        names = ["measurement.recorded", "run.finished", "table.changed", "note.added"]
+        receiver, plain, runs, daemon = self.receiver(), self.receiver(), self.receiver(), self.daemon()
+        self.happen(daemon, 0)
+        self.connect(daemon, receiver, events=names, filter={"verdict": ["good"]})
+        self.connect(daemon, plain, name="plain")
+        self.connect(daemon, runs, name="runs", events=["run.finished"])
+        happened = [each for number in range(1, 4) for each in self.happen(daemon, number)]
+        receiver.wait(lambda: len(receiver.events) >= 12)
+        runs.wait(lambda: len(runs.events) >= 3)
+        plain.wait(lambda: len(plain.events) >= 3)
+        # Each kind in its order; an event comes behind the measurements before it.
+        self.assertEqual(sorted(self.told(receiver)), sorted(happened))
+        for kinds in (names[:1], names[1:]):
+            self.assertEqual([each for each in self.told(receiver) if each[0] in kinds], [each for each in happened if each[0] in kinds])
+        for at, each in enumerate(happened):
+            before = [other for other in happened[:at] if other[0] == "measurement.recorded"]
+            self.assertLessEqual(set(before), set(self.told(receiver)[:self.told(receiver).index(each)]))
+        self.assertEqual(self.told(plain), [each for each in happened if each[0] == "measurement.recorded"])
+        self.assertEqual(self.told(runs), [each for each in happened if each[0] == "run.finished"])
+        for request in receiver.events:
+            headers = request["headers"]
+            self.assertEqual(headers["webhook-signature"], signature(SECRETS[0], headers, request["body"]))
+        self.assertEqual(len(set(receiver.ids())), 12)
+        self.assertEqual(self.state(daemon)["measurements"], 3)
+        bad = daemon.request("PUT", "/v1/connections/bad", {"kind": "webhook", "url": receiver.url, "secrets": SECRETS, "events": ["run.began"]})
+        self.assertEqual((bad.status, bad.json["errors"][0]["pointer"]), (422, "/events"))
+
+    def test_events_go_on_where_they_stood_after_a_kill_and_what_is_refused_is_a_dead_letter(self):
+        refused = []
+
+        def answer(event):
+            if event["type"] == "table.changed" and event["data"]["tolerance_class"] == "press2":
+                return 422
+            if not refused:
+                refused.append(event)
+                return 500
+            return 204
+
+        receiver, daemon = self.receiver(answer), self.daemon()
+        names = ["measurement.recorded", "run.finished", "table.changed", "note.added"]
+        self.connect(daemon, receiver, events=names)
+        happened = []
+        for number in range(1, 6):
+            happened += self.happen(daemon, number)
+            if number % 2 == 0:
+                daemon.kill()
+                daemon.start()
+        happened.remove(("table.changed", "press2"))
+        receiver.wait(lambda: len(receiver.distinct()) >= len(happened))
+        first = {request["headers"]["webhook-id"]: request for request in reversed(receiver.events)}
+        told = self.told(receiver, [first[each] for each in receiver.distinct()])
+        self.assertEqual(sorted(told), sorted(happened))
+        self.assertEqual([each for each in told if each[0] != "measurement.recorded"],
+                         [each for each in happened if each[0] != "measurement.recorded"])
+        letters = self.state(daemon)["dead_letters"]
+        self.assertEqual([letter["reason"] for letter in letters], ["the receiver answers 422"])
+        self.assertRegex(letters[0]["measurement"], "^e[0-9]+-[0-9a-f]{16}$")
+
     def test_a_receiver_that_fails_and_stalls_gets_all_in_order(self):
         script = [500, 503, "stall", 429, 404, 302, 401, 500]
 
