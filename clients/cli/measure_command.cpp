@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "cli/input_file.hpp"
-#include "cli/measure_dfq.hpp"
 #include "cli/measure_ndjson.hpp"
 #include "cli/measure_table.hpp"
 #include "cli/progress.hpp"
 #include "cli/retry.hpp"
+#include "cli/row_input.hpp"
 #include "sheet/exported_record.hpp"
 
 namespace fitgauge::cli {
@@ -78,8 +78,7 @@ class Upload {
 
  private:
   Outcome<CsvChunks> open_input() {
-    if (is_dfq(options_.input)) return open_dfq();
-    if (qif::is_qif(options_.input)) return open_qif();
+    if (RowInput::is_one(options_.input)) return open_rows();
     if (sheet::is_ndjson(options_.input)) return open_ndjson();
     if (is_converted(options_)) return open_converted();
     auto opened = InputFile::open(options_.input);
@@ -97,11 +96,7 @@ class Upload {
     auto text = converted_table(*bytes, options_);
     if (!text)
       return Failure{text.error().exit_code, fmt::format("{}: {}", name_, text.error().message)};
-    return open_text(*std::move(text));
-  }
-
-  Outcome<CsvChunks> open_text(std::string text) {
-    const auto whole = std::make_shared<std::string>(std::move(text));
+    const auto whole = std::make_shared<std::string>(*std::move(text));
     const auto taken = std::make_shared<std::size_t>(0);
     progress_.bytes_in_all = whole->size();
     return begin_chunks([whole, taken](std::span<char> into) -> Outcome<std::size_t> {
@@ -111,18 +106,11 @@ class Upload {
     });
   }
 
-  Outcome<CsvChunks> open_qif() {
-    auto read = read_qif_input(context_, options_);
-    if (!read) return read.error();
-    lines_ = std::move(read->lines);
-    return open_text(std::move(read->csv));
-  }
-
-  /// The values as rows, however large the file is.
-  Outcome<CsvChunks> open_dfq() {
-    auto opened = DfqInput::open(context_, options_);
+  /// The values of a DFQ or a QIF as rows, however large the file is.
+  Outcome<CsvChunks> open_rows() {
+    auto opened = RowInput::open(context_, options_);
     if (!opened) return opened.error();
-    const auto input = std::make_shared<DfqInput>(*std::move(opened));
+    const auto input = std::make_shared<RowInput>(*std::move(opened));
     return begin_chunks([input](std::span<char> into) { return input->read(into); });
   }
 
@@ -269,9 +257,8 @@ class Upload {
 
   /// Of a line of the text that is sent.
   std::uint64_t line_in_file(std::uint64_t line) const {
-    if (is_dfq(options_.input)) return DfqInput::line_of(context_, options_, line);
-    if (lines_.empty()) return line;
-    return lines_.at(std::clamp<std::uint64_t>(line, 2, lines_.size() + 1) - 2);
+    if (RowInput::is_one(options_.input)) return RowInput::line_of(context_, options_, line);
+    return line;
   }
   std::uint64_t first_line(const CsvChunk& chunk) const {
     return line_in_file(chunk.begin.lines + 1);
@@ -313,7 +300,6 @@ class Upload {
   const std::string name_;  // of the input
   MeasureJournal journal_;
   MeasureState state_;
-  std::vector<std::uint32_t> lines_;  // of a QIF, for each row
   std::uint64_t rows_sent_ = 0;
   Progress progress_;
   Clock::time_point began_ = Clock::now();

@@ -23,13 +23,18 @@ constexpr std::array kSizes = {
     "Diameter"sv, "SphericalDiameter"sv, "Width"sv, "Thickness"sv, "Length"sv, "Height"sv,
     "Depth"sv,    "DistanceBetween"sv};
 
-/// One document on its way into rows.
-class Converter {
- public:
-  Converter(const Definitions& definitions, const QifOptions& options)
-      : definitions_(definitions), options_(options) {}
+}  // namespace
 
-  Result<QifText> convert(std::string_view text);
+/// One document on its way into rows.
+class QifRows::Converter {
+ public:
+  Converter(Definitions definitions, aqdef::Read document, QifOptions options)
+      : definitions_(std::move(definitions)),
+        options_(std::move(options)),
+        reader_(std::move(document)) {}
+
+  Result<bool> append(std::string& out, std::vector<std::uint32_t>& lines);
+  bool has_rows() const { return rows_ > 0; }
 
  private:
   /// @returns whether there is a row.
@@ -49,13 +54,15 @@ class Converter {
   }
   void append_row(std::string& out) const;
 
-  const Definitions& definitions_;
-  const QifOptions& options_;
+  const Definitions definitions_;
+  const QifOptions options_;
+  XmlReader reader_;
   Fields fields_{};
+  std::size_t rows_ = 0;
 };
 
-Result<Length> Converter::length(std::string_view what, const std::string& text,
-                                 std::uint32_t line) const {
+Result<Length> QifRows::Converter::length(std::string_view what, const std::string& text,
+                                          std::uint32_t line) const {
   if (!definitions_.unit()) {
     return aqdef::at_line(line,
                           fmt::format("has lengths, and FileUnits names no unit that is known "
@@ -68,15 +75,16 @@ Result<Length> Converter::length(std::string_view what, const std::string& text,
       line, fmt::format("has the {} '{}', which is no length", what, first_characters(text, 40)));
 }
 
-Result<std::optional<Length>> Converter::limit(const std::string& text, Length from,
-                                               std::string_view what, std::uint32_t line) const {
+Result<std::optional<Length>> QifRows::Converter::limit(const std::string& text, Length from,
+                                                        std::string_view what,
+                                                        std::uint32_t line) const {
   if (text.empty()) return std::optional<Length>();
   const auto read = length(what, text, line);
   if (!read) return read.error();
   return std::optional(from + *read);
 }
 
-Result<void> Converter::read_tolerance(const Definitions::Item& item, std::uint32_t line) {
+Result<void> QifRows::Converter::read_tolerance(const Definitions::Item& item, std::uint32_t line) {
   const auto* const nominal = definitions_.nominal(item.nominal);
   const auto* const definition = definitions_.definition(nominal->definition);
   fill(aqdef::kName, item.name);
@@ -112,7 +120,7 @@ Result<void> Converter::read_tolerance(const Definitions::Item& item, std::uint3
   return {};
 }
 
-Result<void> Converter::read_value(const Element& element, std::uint32_t line) {
+Result<void> QifRows::Converter::read_value(const Element& element, std::uint32_t line) {
   const auto values = element.find("Value");
   const std::string unit = values.front().attribute("linearUnit");
   if (!unit.empty() && unit != definitions_.unit_name()) {
@@ -130,7 +138,7 @@ Result<void> Converter::read_value(const Element& element, std::uint32_t line) {
   return {};
 }
 
-Result<void> Converter::read_time(const Element& element, std::uint32_t line) {
+Result<void> QifRows::Converter::read_time(const Element& element, std::uint32_t line) {
   std::string text = element.text("TimeStamp");
   if (text.empty()) return {};
   const auto wall = sheet::parse_wall_time(text);
@@ -152,7 +160,8 @@ Result<void> Converter::read_time(const Element& element, std::uint32_t line) {
   return {};
 }
 
-std::string Converter::reason_against(const Element& element, const Definitions::Item& item) const {
+std::string QifRows::Converter::reason_against(const Element& element,
+                                               const Definitions::Item& item) const {
   std::string kind = element.name();
   if (kind.ends_with(kEnding)) kind.resize(kind.size() - kEnding.size());
   if (std::find(kSizes.begin(), kSizes.end(), kind) == kSizes.end()) {
@@ -170,7 +179,7 @@ std::string Converter::reason_against(const Element& element, const Definitions:
   return is_toleranced ? "" : "measures a characteristic without a tolerance";
 }
 
-Result<bool> Converter::read_row(const Element& element, std::uint32_t line) {
+Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t line) {
   const auto* const item = definitions_.item(element.text("CharacteristicItemId"));
   if (item == nullptr) {
     return aqdef::at_line(line, "measures a characteristic whose item the document lacks");
@@ -179,7 +188,8 @@ Result<bool> Converter::read_row(const Element& element, std::uint32_t line) {
     if (options_.leaves_out_others) return false;
     return aqdef::at_line(line, reason + ": with leave_out the others are taken");
   }
-  fields_ = item->fields;
+  fields_ = {};
+  for (const auto& [name, text] : item->attributes) set_field(fields_, name, text);
   for (const auto& [name, text] : element.named_attributes()) set_field(fields_, name, text);
   if (const auto read = read_tolerance(*item, line); !read) return read.error();
   if (const auto read = read_value(element, line); !read) return read.error();
@@ -197,7 +207,7 @@ Result<bool> Converter::read_row(const Element& element, std::uint32_t line) {
   return true;
 }
 
-void Converter::append_row(std::string& out) const {
+void QifRows::Converter::append_row(std::string& out) const {
   for (std::size_t place = 0; place < fields_.size(); ++place) {
     if (place > 0) out += ';';
     const auto append = place >= aqdef::kPartId && place <= aqdef::kSubgroup
@@ -208,46 +218,70 @@ void Converter::append_row(std::string& out) const {
   out += '\n';
 }
 
-Result<QifText> Converter::convert(std::string_view text) {
-  QifText converted{.csv = fmt::format("{}\n", fmt::join(sheet::kMeasurementFields, ";"))};
-  XmlReader reader(text);
-  std::size_t rows = 0;
+Result<bool> QifRows::Converter::append(std::string& out, std::vector<std::uint32_t>& lines) {
   for (;;) {
-    const auto more = reader.next();
+    const auto more = reader_.next();
     if (!more) return more.error();
-    if (!*more) break;
-    if (reader.parent() != "CharacteristicMeasurements") continue;
-    const std::uint32_t line = reader.line();
-    const auto element = reader.take();
+    if (!*more) return false;
+    if (reader_.parent() != "CharacteristicMeasurements") continue;
+    const std::uint32_t line = reader_.line();
+    const auto element = reader_.take();
     if (!element) return element.error();
     const auto read = read_row(*element, line);
     if (!read) return read.error();
     if (!*read) continue;
-    if (++rows > options_.most_rows) {
+    if (++rows_ > options_.most_rows) {
       return aqdef::at_line(line, fmt::format("is beyond {} measured values: cut the document into "
                                               "several",
                                               options_.most_rows));
     }
-    const auto before = static_cast<std::ptrdiff_t>(converted.csv.size());
-    append_row(converted.csv);
+    const auto before = static_cast<std::ptrdiff_t>(out.size());
+    append_row(out);
     // A text may have line ends.
-    const auto lines = std::count(converted.csv.begin() + before, converted.csv.end(), '\n');
-    converted.lines.insert(converted.lines.end(), static_cast<std::size_t>(lines), line);
+    const auto ends = std::count(out.begin() + before, out.end(), '\n');
+    lines.insert(lines.end(), static_cast<std::size_t>(ends), line);
+    return true;
   }
-  if (converted.lines.empty()) {
-    return Error{aqdef::kMalformed, "The document has no measured size"};
-  }
-  return converted;
 }
 
-}  // namespace
+QifRows::QifRows(std::unique_ptr<Converter> converter) : converter_(std::move(converter)) {}
+QifRows::QifRows(QifRows&&) noexcept = default;
+QifRows& QifRows::operator=(QifRows&&) noexcept = default;
+QifRows::~QifRows() = default;
+
+Result<QifRows> QifRows::open(aqdef::Read first, aqdef::Read again, QifOptions options) {
+  auto definitions = Definitions::read(std::move(first), options.length_unit);
+  if (!definitions) return definitions.error();
+  return QifRows(
+      std::make_unique<Converter>(*std::move(definitions), std::move(again), std::move(options)));
+}
+
+std::string QifRows::header() const {
+  return fmt::format("{}\n", fmt::join(sheet::kMeasurementFields, ";"));
+}
+
+Result<bool> QifRows::append(std::string& rows, std::vector<std::uint32_t>& lines) {
+  return converter_->append(rows, lines);
+}
+
+Result<void> QifRows::check() const {
+  if (converter_->has_rows()) return {};
+  return Error{aqdef::kMalformed, "The document has no measured size"};
+}
 
 bool is_qif(std::string_view file_name) { return ascii_lower(file_name).ends_with(".qif"); }
 
 Result<QifText> read_qif(std::string_view text, const QifOptions& options) {
-  const auto definitions = Definitions::read(text, options.length_unit);
-  if (!definitions) return definitions.error();
-  return Converter(*definitions, options).convert(text);
+  auto opened = QifRows::open(aqdef::read_text(text), aqdef::read_text(text), options);
+  if (!opened) return opened.error();
+  QifText read{.csv = opened->header()};
+  for (;;) {
+    const auto more = opened->append(read.csv, read.lines);
+    if (!more) return more.error();
+    if (!*more) break;
+  }
+  if (const auto checked = opened->check(); !checked) return checked.error();
+  return read;
 }
 
 }  // namespace fitgauge::qif

@@ -11,7 +11,8 @@
 namespace fitgauge::qif {
 namespace {
 
-constexpr std::size_t kMostDefinitions = 200'000;  ///< of all kinds
+constexpr std::size_t kMostDefinitions = 100'000;          ///< of all kinds
+constexpr std::size_t kMostBytes = std::size_t{16} << 20;  ///< of their texts
 constexpr std::string_view kNamespace = "http://qifstandards.org/xsd/qif3";
 
 /// Lists whose elements are taken whole.
@@ -44,6 +45,15 @@ void set_field(Fields& fields, std::string_view name, std::string_view text) {
   if (found != names.end()) fields.at(static_cast<std::size_t>(found - names.begin())) = text;
 }
 
+namespace {
+
+bool is_field(std::string_view name) {
+  const auto& names = sheet::kMeasurementFields;
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
 void Definitions::take(std::string_view list, const Element& element) {
   const std::string id = element.attribute("id");
   if (list == "CharacteristicItems") {
@@ -53,7 +63,9 @@ void Definitions::take(std::string_view list, const Element& element) {
     item.nominal = element.text("CharacteristicNominalId");
     item.device = element.text("MeasurementDeviceIds/Id");
     item.part_feature = element.text("FeatureItemIds/Id");
-    for (const auto& [name, text] : element.named_attributes()) set_field(item.fields, name, text);
+    for (auto& [name, text] : element.named_attributes()) {
+      if (is_field(name)) item.attributes.emplace_back(std::move(name), std::move(text));
+    }
   } else if (list == "CharacteristicNominals") {
     nominals_[id] = {.definition = element.text("CharacteristicDefinitionId"),
                      .target = element.text("TargetValue"),
@@ -101,11 +113,12 @@ std::string_view Definitions::feature(const Item& item, const Nominal& nominal) 
   return text(features_, std::string(text(feature_nominals_, of_nominal)));
 }
 
-Result<Definitions> Definitions::read(std::string_view text,
+Result<Definitions> Definitions::read(aqdef::Read document,
                                       std::optional<aqdef::LengthUnit> fallback) {
-  XmlReader reader(text);
+  XmlReader reader(std::move(document));
   Definitions read;
   read.unit_ = fallback;
+  std::size_t bytes = 0;
   for (std::size_t count = 0;;) {
     const auto more = reader.next();
     if (!more) return more.error();
@@ -126,6 +139,13 @@ Result<Definitions> Definitions::read(std::string_view text,
     }
     const auto element = reader.take();
     if (!element) return element.error();
+    bytes += element->own_text().size();
+    if (bytes > kMostBytes) {
+      return aqdef::at_line(reader.line(),
+                            fmt::format("is behind {} MiB of definitions: cut the document into "
+                                        "several",
+                                        kMostBytes >> 20));
+    }
     read.take(*list, *element);
   }
 }

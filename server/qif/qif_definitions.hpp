@@ -6,8 +6,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "aqdef/limits.hpp"
+#include "aqdef/lines.hpp"
 #include "base/result.hpp"
 #include "sheet/measurement_fields.hpp"
 
@@ -27,10 +30,10 @@ class Definitions {
   /// A characteristic that was measured.
   struct Item {
     std::string name{};
-    std::string nominal{};       ///< id
-    std::string device{};        ///< id
-    std::string part_feature{};  ///< id of a feature item
-    Fields fields{};
+    std::string nominal{};                                          ///< id
+    std::string device{};                                           ///< id
+    std::string part_feature{};                                     ///< id of a feature item
+    std::vector<std::pair<std::string, std::string>> attributes{};  ///< by names of fields
   };
   struct Nominal {
     std::string definition{};  ///< id
@@ -48,7 +51,7 @@ class Definitions {
   };
 
   /// Reads all but the measurements. @errors CsvMalformed with the line
-  static Result<Definitions> read(std::string_view text, std::optional<aqdef::LengthUnit> fallback);
+  static Result<Definitions> read(aqdef::Read document, std::optional<aqdef::LengthUnit> fallback);
 
   /// Null where there is none of that id.
   const Item* item(const std::string& id) const { return find(items_, id); }
@@ -76,7 +79,7 @@ class Definitions {
     const auto* const found = find(by_id, id);
     return found == nullptr ? std::string_view() : std::string_view(*found);
   }
-  /// An element of one of the lists.
+  /// An element of one of the lists. Keeps no more of it than is used.
   void take(std::string_view list, const Element& element);
 
   ById<Item> items_{};

@@ -4,9 +4,11 @@
 #include <libxml/tree.h>
 #include <libxml/xmlreader.h>
 
+#include <algorithm>
+#include <optional>
+#include <span>
 #include <utility>
 
-#include "aqdef/lines.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::qif {
@@ -73,27 +75,49 @@ std::vector<std::pair<std::string, std::string>> Element::named_attributes() con
 }
 
 struct XmlReader::State {
+  aqdef::Read read;
   xmlTextReaderPtr reader = nullptr;
   std::string message{};  ///< of the first error
   std::uint32_t line = 0;
-  bool passes_over = false;  ///< what was taken
+  bool passes_over = false;           ///< what was taken
+  std::optional<std::size_t> left{};  ///< bytes that the element which is taken may still have
+
+  void fail(std::string what) {
+    if (message.empty()) message = std::move(what);
+  }
+
+  /// @returns how many bytes; 0 at the end, and below it after a failure.
+  int fill(std::span<char> into) {
+    if (left && *left == 0) {
+      fail(fmt::format("has an element of more than {} MiB", kLargestElement >> 20));
+      return -1;
+    }
+    if (left) into = into.first(std::min(into.size(), *left));
+    const auto count = read(into);
+    if (!count) {
+      fail(count.error().message);
+      return -1;
+    }
+    if (left) *left -= *count;
+    return static_cast<int>(*count);
+  }
 };
 
-XmlReader::XmlReader(std::string_view text) : state_(std::make_unique<State>()) {
-  constexpr int kLargest = 1 << 30;
-  if (text.size() > kLargest) {
-    state_->message = "has more than 1 GiB";
-    return;
-  }
-  state_->reader = xmlReaderForMemory(text.data(), static_cast<int>(text.size()), nullptr, nullptr,
-                                      XML_PARSE_NONET | XML_PARSE_BIG_LINES);
+XmlReader::XmlReader(aqdef::Read read)
+    : state_(std::make_unique<State>(State{.read = std::move(read)})) {
+  state_->reader = xmlReaderForIO(
+      [](void* context, char* into, int size) {
+        return static_cast<State*>(context)->fill({into, static_cast<std::size_t>(size)});
+      },
+      nullptr, state_.get(), nullptr, nullptr, XML_PARSE_NONET | XML_PARSE_BIG_LINES);
+  if (state_->reader == nullptr) return;
   xmlTextReaderSetStructuredErrorHandler(
       state_->reader,
       [](void* context, xmlErrorPtr error) {
         auto& state = *static_cast<State*>(context);
-        if (!state.message.empty() || error->level < XML_ERR_ERROR) return;
+        if (state.line != 0 || error->level < XML_ERR_ERROR) return;
         state.line = static_cast<std::uint32_t>(error->line);
-        state.message = fmt::format("is not well-formed XML: {}", trim(error->message));
+        state.fail(fmt::format("is not well-formed XML: {}", trim(error->message)));
       },
       state_.get());
 }
@@ -151,7 +175,9 @@ void XmlReader::pass_over() { state_->passes_over = true; }
 
 Result<Element> XmlReader::take() {
   pass_over();
+  state_->left = kLargestElement;
   xmlNode* const node = xmlTextReaderExpand(state_->reader);
+  state_->left.reset();
   if (node == nullptr || !state_->message.empty()) return failure();
   return Element(node);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "aqdef/lines.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::qif {
@@ -34,12 +36,14 @@ class Element {
   void* node_;
 };
 
-/// Reads an XML document element by element: memory does not grow with it. A document type is
-/// refused, and with it every entity of its own. Not thread-safe; of no more use after an error.
+/// Reads an XML document element by element: memory does not grow with it, and an element that is
+/// taken has at most kLargestElement bytes. A document type is refused, and with it every entity of
+/// its own. Not thread-safe; of no more use after an error.
 class XmlReader {
  public:
-  /// @param text outlives the reader.
-  explicit XmlReader(std::string_view text);
+  static constexpr std::size_t kLargestElement = std::size_t{4} << 20;
+
+  explicit XmlReader(aqdef::Read read);
   XmlReader(const XmlReader&) = delete;
   XmlReader& operator=(const XmlReader&) = delete;
   ~XmlReader();

@@ -1,6 +1,7 @@
 """QIF 3.0 in watched folders, in lists and in `fitgauge measure`: read by the XML parser of Python, held against the
 schemas where QIF_SCHEMAS names their folder, and the same records when what was written comes in again."""
 
+import decimal
 import os
 import pathlib
 import subprocess
@@ -11,6 +12,7 @@ from connections.test_folders import Folders
 from support.cli import FITGAUGE
 
 SCHEMAS = os.environ.get("QIF_SCHEMAS")
+SAMPLES = os.environ.get("QIF_SAMPLES")  # a folder of documents by others
 T = "{http://qifstandards.org/xsd/qif3}"
 WORDS = {"good": "PASS", "rework": "REWORK", "reject": "FAIL", "indeterminate": "INDETERMINATE"}
 HEAD = """<?xml version="1.0" encoding="UTF-8"?>
@@ -51,7 +53,59 @@ BODY = """<Characteristics><FormalStandardId>1</FormalStandardId><Characteristic
 DOCUMENT = HEAD.replace("UNIT", "mm").replace("FACTOR", "0.001") + BODY
 
 
+SIZES = {"Diameter", "SphericalDiameter", "Width", "Thickness", "Length", "Height", "Depth", "DistanceBetween"}
+
+
+def sizes_of(path):
+    """What a document has measured, in order, as (millimetres, nominal, upper, lower limit), counted here with ElementTree."""
+    root = tree.parse(path).getroot()
+    if not root.tag.startswith(T):
+        return None
+    by_id = {each.get("id"): each for each in root.iter() if each.get("id")}
+    text = lambda element, path: element.findtext("/".join(T + name for name in path.split("/"))) if element is not None else None
+    linear = next(root.iter(T + "LinearUnit"), None)
+    factor = decimal.Decimal(text(linear, "UnitConversion/Factor") or {"m": "1", "meter": "1", "mm": "0.001", "inch": "0.0254", None: "0.001"}[text(linear, "UnitName")]) * 1000
+    found = []
+    for parent in root.iter(T + "CharacteristicMeasurements"):
+        for each in parent:
+            item = by_id.get(text(each, "CharacteristicItemId"))
+            if item is None or not item.tag.endswith("CharacteristicItem"):  # it stands in another document
+                return "measures a characteristic whose item the document lacks"
+            if each.tag.removeprefix(T).removesuffix("CharacteristicMeasurement") not in SIZES or text(each, "Value") is None:
+                continue
+            nominal = by_id.get(text(item, "CharacteristicNominalId"))
+            definition = by_id.get(text(nominal, "CharacteristicDefinitionId"))
+            target, upper, lower = text(nominal, "TargetValue"), text(definition, "Tolerance/MaxValue"), text(definition, "Tolerance/MinValue")
+            if target is None or not (upper or lower or text(definition, "LimitsAndFitsSpecification/Grade")):
+                continue
+            begin = 0 if text(definition, "Tolerance/DefinedAsLimit") in ("true", "1") else decimal.Decimal(target)
+            limit = lambda value: None if value is None else float(round((begin + decimal.Decimal(value)) * factor, 6))
+            found.append((float(round(decimal.Decimal(text(each, "Value")) * factor, 6)), float(round(decimal.Decimal(target) * factor, 6)), limit(upper), limit(lower)))
+    return found
+
+
 class Qif(Folders):
+    @unittest.skipUnless(SAMPLES, "QIF_SAMPLES names no folder")
+    def test_documents_of_others_have_as_many_sizes_as_an_independent_count(self):
+        counted, daemon = 0, self.daemon().start()
+        for number, path in enumerate(sorted(pathlib.Path(SAMPLES).iterdir())):
+            wanted = sizes_of(path)
+            if not wanted:
+                continue
+            copy = self.root / f"{number}.qif"
+            copy.write_bytes(path.read_bytes())
+            with self.subTest(path.name):
+                done = self.measure(daemon, copy, "--state", self.root / f"{number}.state", "--time-zone", "UTC", "--length-unit", "mm", "--set", "feature=hole",
+                                    "--leave-out-others")
+                if isinstance(wanted, str):
+                    self.assertIn(wanted, done.stderr)
+                    continue
+                self.assertEqual(done.returncode & ~3, 0, done.stdout + done.stderr)
+                read = [(row["measured_mm"], row["nominal_mm"], row.get("upper_limit_mm"), row.get("lower_limit_mm")) for row in daemon.stored()[counted:]]
+                counted += len(read)
+                self.assertEqual(read, wanted)
+        self.assertGreater(counted, 0)
+
     def connected(self, **more):
         daemon = self.daemon().start()
         self.connect(daemon, **{"time_zone": "Europe/Berlin", **more})
@@ -69,7 +123,8 @@ class Qif(Folders):
         return [{name: value for name, value in row.items() if name not in ("id", "received_at", "caller")} for row in daemon.stored()]
 
     def measure(self, daemon, path, *more):
-        return subprocess.run([FITGAUGE, "measure", path, "--server", f"http://127.0.0.1:{daemon.port}", "--state", self.root / "state", *more],
+        return subprocess.run([FITGAUGE, "measure", path, "--server", f"http://127.0.0.1:{daemon.port}",
+                               *(() if "--state" in more else ("--state", self.root / "state")), *more],
                               capture_output=True, text=True, check=False)
 
     def test_what_goes_out_is_qif_and_comes_in_again_as_the_same_records(self):
