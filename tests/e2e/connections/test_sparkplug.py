@@ -118,7 +118,7 @@ class Sparkplug(unittest.TestCase):
             self.assertTrue(all("timestamp" in metric for metric in m.metrics))
             if m.type == "NDEATH":
                 self.assertNotIn("seq", m.payload)
-                self.assertEqual([metric["name"] for metric in m.metrics], ["bdSeq"])
+                self.assertEqual([(metric["name"], metric["datatype"]) for metric in m.metrics], [("bdSeq", INT64)])
                 self.assertEqual(value_of(m.metrics[0]), session)
                 born, seq = set(), None
                 continue
@@ -285,6 +285,7 @@ class Host(Sparkplug):
         self.say(False, 11)
         self.wait_told("NDEATH")
         self.assertEqual(self.received()[-1], ("1", "0", NODE.format("NDEATH")))
+        wait_for(lambda: "Received DISCONNECT from fitgauge-" in self.broker.log.split("'spBv1.0/shop/NDEATH/gauge-4'")[-1])
         ids.append(self.measure(3))
         time.sleep(2)
         self.assertEqual(len(self.told("DDATA")), 2)
