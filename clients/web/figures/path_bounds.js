@@ -1,25 +1,26 @@
 /** The box around what matters of a run: the workpiece, the contacts and the probing moves, else every move. */
 
+import { KINDS } from './trace.js';
 import { outlines } from './workpiece_outline.js';
 
 const AXES = ['X', 'Y', 'Z'];
+const PROBE = KINDS.indexOf('probe');
 
-/** {low, high} as points. */
-export function boundsOf(moves, features) {
-  const low = { X: Infinity, Y: Infinity, Z: Infinity };
-  const high = { X: -Infinity, Y: -Infinity, Z: -Infinity };
-  const add = (point) => {
-    for (const axis of AXES) {
-      low[axis] = Math.min(low[axis], point[axis]);
-      high[axis] = Math.max(high[axis], point[axis]);
+/** {low, high} as points. @param trace a Trace */
+export function boundsOf(trace, features) {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  const add = (numbers, from, to) => {
+    for (let at = from; at < to; ++at) {
+      const axis = (at - from) % 3;
+      if (numbers[at] < low[axis]) low[axis] = numbers[at];
+      if (numbers[at] > high[axis]) high[axis] = numbers[at];
     }
   };
-  const ends = (move) => [move.start_mm, move.end_mm].forEach(add);
-  for (const { points } of outlines(features, 'Y')) points.forEach(add);
-  for (const move of moves) {
-    if (move.kind === 'probe') ends(move);
-    if (move.contact_mm) add(move.contact_mm);
-  }
-  if (low.X > high.X) moves.forEach(ends);
-  return { low, high };
+  for (const { points } of outlines(features, 'Y')) for (const point of points) add(AXES.map((axis) => point[axis]), 0, 3);
+  for (let i = 0; i < trace.length; ++i) if (trace.kinds[i] === PROBE) add(trace.ends, 6 * i, 6 * i + 6);
+  add(trace.contacts, 0, trace.contacts.length);
+  if (low[0] > high[0]) add(trace.ends, 0, trace.ends.length);
+  const point = (values) => Object.fromEntries(AXES.map((axis, i) => [axis, values[i]]));
+  return { low: point(low), high: point(high) };
 }

@@ -19,19 +19,18 @@ const ROUND = 64;
 const VIEW_ANGLE = 35;
 const AXES = ['X', 'Y', 'Z'];
 
-/** {element, show, destroy}: `show` puts the stylus to the end of a move. @param context of WebGL @param radius of the ball, in mm */
-export function pathScene(moves, features, { canvas, context, radius = STYLUS_RADIUS_MM }) {
-  const bounds = boundsOf(moves, features);
+/** {element, show, destroy}: `show` puts the stylus to the end of a move. @param trace a Trace; @param context of WebGL @param radius of the ball, in mm */
+export function pathScene(trace, features, { canvas, context, radius = STYLUS_RADIUS_MM }) {
+  const bounds = boundsOf(trace, features);
   const size = Math.max(extentOf(bounds), 1);
   const materials = materialsOf(size);
   const scene = new Scene();
   scene.add(new HemisphereLight(0xffffff, 0x999999, 2.2), lightFrom(1, -2, 3));
-  for (const kind of ['rapid', 'feed', 'arc', 'probe']) scene.add(lines(moves.filter((move) => move.kind === kind), materials[kind]));
-  const contacts = moves.map((move) => move.contact_mm).filter(Boolean);
-  scene.add(new Points(positions(contacts), materials.contact));
+  for (const [kind, ends] of Object.entries(trace.endsByKind)) scene.add(lines(ends, materials[kind]));
+  scene.add(new Points(geometryOf(trace.contacts), materials.contact));
   for (const feature of features) if (feature.type in SOLIDS) scene.add(SOLIDS[feature.type](feature, materials));
   const stylus = stylusOf(radius, materials.stylus);
-  const marked = new LineSegments(positions([moves[0].start_mm, moves[0].end_mm]), materials.here);
+  const marked = new LineSegments(geometryOf(trace.ends.slice(0, 6)), materials.here);
   marked.frustumCulled = false;
   marked.renderOrder = 1;
   scene.add(stylus, marked);
@@ -81,7 +80,7 @@ export function pathScene(moves, features, { canvas, context, radius = STYLUS_RA
   resized.observe(canvas);
   canvas.tabIndex = 0;
   canvas.setAttribute('role', 'img');
-  canvas.setAttribute('aria-label', `${t('programs.space')}: ${t('programs.path_summary', { moves: moves.length, contacts: contacts.length })}`);
+  canvas.setAttribute('aria-label', `${t('programs.space')}: ${t('programs.path_summary', { moves: trace.length, contacts: trace.contacts.length / 3 })}`);
   controls.update();
   paint();
   addEventListener('beforeprint', fit);
@@ -93,7 +92,7 @@ export function pathScene(moves, features, { canvas, context, radius = STYLUS_RA
     ends.needsUpdate = true;
     draw();
   }
-  show(moves.at(-1));
+  show(trace.at(trace.length - 1));
 
   function destroy() {
     cancelAnimationFrame(frame);
@@ -108,14 +107,10 @@ export function pathScene(moves, features, { canvas, context, radius = STYLUS_RA
   return { element: h('figure.scene', canvas, h('figcaption', t('programs.space_hint'))), show, destroy };
 }
 
-const positions = (points) => {
-  const numbers = new Float32Array(3 * points.length);
-  points.forEach(({ X, Y, Z }, i) => { numbers[3 * i] = X; numbers[3 * i + 1] = Y; numbers[3 * i + 2] = Z; });
-  return new BufferGeometry().setAttribute('position', new BufferAttribute(numbers, 3));
-};
+const geometryOf = (numbers) => new BufferGeometry().setAttribute('position', new BufferAttribute(numbers, 3));
 
-function lines(moves, material) {
-  const segments = new LineSegments(positions(moves.flatMap((move) => [move.start_mm, move.end_mm])), material);
+function lines(ends, material) {
+  const segments = new LineSegments(geometryOf(ends), material);
   return material.isLineDashedMaterial ? segments.computeLineDistances() : segments;
 }
 

@@ -4,23 +4,23 @@ import { h } from '../dom.js';
 import { t } from '../i18n.js';
 import { pathFigure, pathLegend } from './path_figure.js';
 
-/** {element, show, destroy}. @param radius of the stylus' ball, in mm */
-export async function pathView(moves, features, radius) {
-  const scene = await sceneOf(moves, features, radius);
-  const legend = pathLegend(moves);
+/** {element, show, destroy}. @param trace a Trace; @param space of prepareSpace; @param radius of the stylus' ball, in mm */
+export async function pathView(trace, features, space, radius) {
+  const scene = space && await sceneOf(trace, features, space, radius);
+  const legend = pathLegend(trace);
   if (!scene) {
-    const { element, show } = pathFigure(moves, features);
+    const { element, show } = pathFigure(trace, features);
     return { element: h('div.path', element, legend), show, destroy() {} };
   }
   const place = h('div', scene.element);
   let drawing;
-  let last = moves.at(-1);
+  let last = trace.at(trace.length - 1);
   const choices = ['space', 'drawing'].map((name) => h('button', { type: 'button', 'aria-pressed': String(name === 'space'), onclick: () => choose(name) }, t(`programs.${name}`)));
 
   function choose(name) {
     choices.forEach((button, i) => button.setAttribute('aria-pressed', (i === 1) === (name === 'drawing')));
     if (name === 'drawing' && !drawing) {
-      drawing = pathFigure(moves, features);
+      drawing = pathFigure(trace, features);
       drawing.show(last);
     }
     place.replaceChildren(name === 'drawing' ? drawing.element : scene.element);
@@ -34,14 +34,18 @@ export async function pathView(moves, features, radius) {
   return { element: h('div.path', h('div.switch', choices), place, legend), show, destroy: scene.destroy };
 }
 
-/** Nothing where there is no WebGL, or the library does not load. */
-async function sceneOf(moves, features, radius) {
+/** Begins to load what draws in space, so that it is there when the moves are; null where there is no WebGL. */
+export function prepareSpace() {
   const canvas = h('canvas');
   const context = canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true });
-  if (!context) return null;
+  return context && { canvas, context, library: import('./path_scene.js').catch(() => null) };
+}
+
+/** Nothing where the library does not load. */
+async function sceneOf(trace, features, { canvas, context, library }, radius) {
   try {
-    const { pathScene } = await import('./path_scene.js');
-    return pathScene(moves, features, { canvas, context, radius });
+    const { pathScene } = await library;
+    return pathScene(trace, features, { canvas, context, radius });
   } catch {
     return null;
   }

@@ -8,20 +8,20 @@ const AXES = ['X', 'Y', 'Z'];
 const place = (point) => AXES.filter((axis) => axis in point).map((axis) => `${axis} ${number(String(point[axis]))}`).join('  ');
 
 export class MoveSlider {
-  /** @param moves of the trace; @param onMove takes the move that is shown */
-  constructor(moves, onMove) {
-    Object.assign(this, { moves, onMove });
+  /** @param trace a Trace; @param onMove takes the move that is shown */
+  constructor(trace, onMove) {
+    Object.assign(this, { trace, onMove });
     this.said = h('output');
-    this.slider = h('input', { type: 'range', min: 0, max: moves.length - 1, 'aria-label': t('programs.move'), oninput: () => this.#show() });
-    this.slider.value = moves.length - 1;
+    this.slider = h('input', { type: 'range', min: 0, max: trace.length - 1, 'aria-label': t('programs.move'), oninput: () => this.#show() });
+    this.slider.value = trace.length - 1;
     this.element = h('div.moves', this.slider, this.said);
   }
 
   /** Goes to the first move that a line of a program commands; another time to the next one. */
   toLine(program, line) {
-    const fits = (move) => move.line === line && fileName(move.program).toLowerCase() === fileName(program).toLowerCase();
-    const after = this.moves.findIndex((move, i) => i > Number(this.slider.value) && fits(move));
-    const found = after >= 0 ? after : this.moves.findIndex(fits);
+    const isOf = (path) => fileName(path).toLowerCase() === fileName(program).toLowerCase();
+    const after = this.trace.indexOf(line, isOf, Number(this.slider.value) + 1);
+    const found = after >= 0 ? after : this.trace.indexOf(line, isOf);
     if (found < 0) return;
     this.slider.value = found;
     this.#show();
@@ -29,9 +29,9 @@ export class MoveSlider {
 
   #show() {
     const at = Number(this.slider.value);
-    const move = this.moves[at];
+    const move = this.trace.at(at);
     const contact = move.contact_mm && `${t('programs.kind.contact')} ${place(move.contact_mm)}`;
-    this.said.textContent = [t('programs.move_of', { at: at + 1, count: this.moves.length }), `${fileName(move.program)} ${t('programs.line', { line: move.line })}`,
+    this.said.textContent = [t('programs.move_of', { at: at + 1, count: this.trace.length }), `${fileName(move.program)} ${t('programs.line', { line: move.line })}`,
       t(`programs.kind.${move.kind}`), place(move.end_mm), move.kind !== 'rapid' && `F ${number(String(move.feed_mm_min))}`, contact].filter(Boolean).join(' · ');
     this.onMove(move);
   }

@@ -1,8 +1,9 @@
 /** What a run did: verdict, messages, screen, measurements, path, parameters, files. */
 
-import { getJson, url } from '../api.js';
+import { get, getJson, url } from '../api.js';
 import { h } from '../dom.js';
-import { pathView } from '../figures/path_view.js';
+import { pathView, prepareSpace } from '../figures/path_view.js';
+import { Trace } from '../figures/trace.js';
 import { explain, number, t } from '../i18n.js';
 import { verdictMark } from '../verdict.js';
 import { fileName } from './disk.js';
@@ -39,11 +40,13 @@ function measured(measurements) {
 
 async function drawPath(run, place, { onMoves, onMove }) {
   try {
-    const [trace, order] = await Promise.all([
-      getJson(url(['runs', run.id, 'trace'])), getJson(url(['runs', run.id, 'request']))]);
-    if (!trace.moves.length) return;
-    const figure = await pathView(trace.moves, order.setup?.workpiece?.features ?? [], radiusOf(order.setup?.machine?.tools));
-    const slider = new MoveSlider(trace.moves, (move) => {
+    const space = prepareSpace();
+    const [bytes, order] = await Promise.all([
+      get(url(['runs', run.id, 'trace'])).then((answer) => answer.arrayBuffer()), getJson(url(['runs', run.id, 'request']))]);
+    const trace = new Trace(new Uint8Array(bytes));
+    if (!trace.length) return;
+    const figure = await pathView(trace, order.setup?.workpiece?.features ?? [], space, radiusOf(order.setup?.machine?.tools));
+    const slider = new MoveSlider(trace, (move) => {
       figure.show(move);
       onMove(move);
     });

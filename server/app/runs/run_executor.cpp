@@ -12,8 +12,8 @@ namespace {
 using interpreter::MessageKind;
 using interpreter::RunStatus;
 
-/// Moves that are kept: about 15 MB as text, which is packed.
-constexpr std::size_t kLongestTrace = 30'000;
+/// Moves that are kept: about 50 MB as text, which is packed.
+constexpr std::size_t kLongestTrace = 100'000;
 
 /// Passes on what a run prints and remembers which block is commanding the machine.
 class Follower final : public interpreter::RunObserver {

@@ -24,16 +24,17 @@ std::string TraceWriter::finish(std::size_t dropped) {
 
 std::string empty_trace(const TraceFormat& format) { return TraceWriter(format, {}).finish(0); }
 
-TraceReader::TraceReader(std::string stored) {
-  if (is_gzip(stored)) {
-    packed_ = std::make_unique<GzipReader>(std::move(stored));
-  } else {
-    text_ = std::move(stored);
-  }
+TraceReader::TraceReader(std::string stored)
+    : is_packed_(is_gzip(stored)), stored_(std::move(stored)) {}
+
+std::optional<std::string> TraceReader::take_packed() {
+  return is_packed_ ? std::optional(std::move(stored_)) : std::nullopt;
 }
 
 Result<std::string> TraceReader::next() {
-  return packed_ ? packed_->next() : std::exchange(text_, {});
+  if (!is_packed_) return std::exchange(stored_, {});
+  if (!reader_) reader_ = std::make_unique<GzipReader>(std::move(stored_));
+  return reader_->next();
 }
 
 }  // namespace fitgauge::app

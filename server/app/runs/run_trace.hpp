@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace fitgauge::app {
 
-/// Writes the trace of a run, packed as it comes: the text of a long one is 15 MB, packed a
+/// Writes the trace of a run, packed as it comes: the text of a long one is 50 MB, packed a
 /// twentieth of it, and a run holds no more than that.
 class TraceWriter {
  public:
@@ -36,12 +37,17 @@ class TraceReader {
  public:
   explicit TraceReader(std::string stored);
 
+  /// The bytes as they are stored, for who reads gzip; none where they are text.
+  /// @pre next() was not called; nothing else is called any more.
+  std::optional<std::string> take_packed();
+
   /// The next piece of the text; empty at its end. @errors StorageCorrupt.
   Result<std::string> next();
 
  private:
-  std::string text_;                    ///< of one that is not packed
-  std::unique_ptr<GzipReader> packed_;  ///< of one that is
+  bool is_packed_;
+  std::string stored_;                  ///< until it is read
+  std::unique_ptr<GzipReader> reader_;  ///< of one that is packed
 };
 
 }  // namespace fitgauge::app

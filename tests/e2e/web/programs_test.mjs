@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { afterEach, before, describe, it } from 'node:test';
 
+import { KINDS, Trace } from '../../../clients/web/figures/trace.js';
 import { close, hashOf, open, openIn, picture } from './support/browser.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
@@ -271,6 +272,30 @@ describe('the programs', () => {
     assert.equal(await page.$('.scene'), null);
     const asked = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
     assert.deepEqual(asked.filter((name) => name.includes('three')), []);
+  });
+
+  it('read the moves of a run from their bytes as JSON has them', async () => {
+    page = await open(browser, daemon, '#/programs');
+    const text = await (await fetch(`${daemon.url}/v1/runs/${await run8255()}/trace`)).text();
+    const move = (i) => `{"kind":"${KINDS[i % 4]}","block":null,"line":${i},"program":"TNC:\\\\\u00e4 \\"${i % 2}\\".h",`
+      + `"start_mm":{"X":${-i / 7},"Y":0,"Z":1e-7},"start_deg":{"C":9},"end_mm":{"X":-0.5,"Y":1e+3,"Z":${i}},"contact_mm":${i % 3 ? 'null' : `{"X":1.25,"Y":-2,"Z":${i}}`}}`;
+    const made = `{"moves":[\n${Array.from({ length: 40 }, (_, i) => move(i)).join(',\n')}\n],"dropped":3}`;
+    for (const json of [text, made, '{"moves":[\n\n],"dropped":0}', JSON.stringify(JSON.parse(text))]) {
+      const { moves } = JSON.parse(json);
+      const trace = new Trace(new TextEncoder().encode(json));
+      assert.equal(trace.length, moves.length);
+      assert.deepEqual(moves.map((_, i) => trace.at(i)), moves);
+      assert.deepEqual([...trace.kinds].map((kind) => KINDS[kind]), moves.map(({ kind }) => kind));
+      assert.deepEqual([...trace.lines], moves.map(({ line }) => line));
+      assert.deepEqual([...trace.programAt].map((at) => trace.programs[at]), moves.map(({ program }) => program));
+      const numbers = (points) => points.flatMap(({ X, Y, Z }) => [X, Y, Z]).map(Math.fround);
+      assert.deepEqual([...trace.ends], numbers(moves.flatMap((one) => [one.start_mm, one.end_mm])));
+      assert.deepEqual([...trace.contacts], numbers(moves.map((one) => one.contact_mm).filter(Boolean)));
+      if (json === made) assert.deepEqual([trace.indexOf(7, (path) => path.includes('1')), trace.indexOf(7, () => true, 8)], [7, -1]);
+    }
+    const packed = await fetch(`${daemon.url}/v1/runs/${await run8255()}/trace`, { headers: { 'Accept-Encoding': 'gzip' } });
+    assert.equal(packed.headers.get('content-encoding'), 'gzip');
+    assert.equal(await packed.text(), text);
   });
 
   it('show 100,000 moves', async (test) => {
