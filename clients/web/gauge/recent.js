@@ -7,16 +7,21 @@ import { distanceText, measuredText, noteText, verdictMark, verdictShape } from 
 
 const MOST = 100;
 const KEPT = 'recent';
+/** The list is kept for a reload: not before each verdict, which somebody waits for. */
+const KEEP_MS = 150;
 
 export class Recent {
-  /** @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id` */
-  constructor({ onCorrect }) {
+  /** @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id`; @param leaving ends it */
+  constructor({ onCorrect, leaving }) {
     this.onCorrect = onCorrect;
+    addEventListener('pagehide', () => this.#keepNow(), { signal: leaving });
+    leaving.addEventListener('abort', () => this.#keepNow());
     this.rows = readJson(KEPT, [], 'session');
     this.list = h('ol');
     this.element = h('section.recent', { 'aria-labelledby': 'recent-title' },
       h('h2', { id: 'recent-title' }, t('recent.title')), this.list);
-    this.#draw();
+    this.list.append(...this.rows.map((row) => this.#item(row)));
+    this.element.hidden = this.rows.length === 0;
   }
 
   /** The last record that can be corrected. */
@@ -27,30 +32,45 @@ export class Recent {
   /** @param row {key, state: waiting | stored | refused | dropped, shown, record, reason} */
   set(row) {
     const at = this.rows.findIndex((other) => other.key === row.key);
-    if (at >= 0) this.rows[at] = { note: this.rows[at].note, ...row };
-    else this.rows.unshift(row);
-    const corrected = this.rows.find((other) => row.record && other.record?.id === row.record.correction_of);
-    if (corrected) corrected.corrected = true;
-    this.rows.length = Math.min(this.rows.length, MOST);
+    if (at >= 0) {
+      this.rows[at] = { note: this.rows[at].note, ...row };
+      this.#redraw(at);
+    } else {
+      this.rows.unshift(row);
+      this.list.prepend(this.#item(row));
+    }
+    const corrected = row.record ? this.rows.findIndex((other) => other.record && other.record.id === row.record.correction_of) : -1;
+    if (corrected >= 0) {
+      this.rows[corrected].corrected = true;
+      this.#redraw(corrected);
+    }
+    for (; this.rows.length > MOST; this.rows.pop()) this.list.lastElementChild.remove();
+    this.element.hidden = false;
     this.#keep();
   }
 
   /** Shows what was noted about a value. */
   noted(key, note) {
-    const row = this.rows.find((other) => other.key === key);
-    if (!row) return;
-    row.note = note;
+    const at = this.rows.findIndex((other) => other.key === key);
+    if (at < 0) return;
+    this.rows[at].note = note;
+    this.#redraw(at);
     this.#keep();
   }
 
   #keep() {
-    store(KEPT, JSON.stringify(this.rows), 'session');
-    this.#draw();
+    this.timer ||= setTimeout(() => this.#keepNow(), KEEP_MS);
   }
 
-  #draw() {
-    this.element.hidden = this.rows.length === 0;
-    this.list.replaceChildren(...this.rows.map((row) => this.#item(row)));
+  #keepNow() {
+    if (!this.timer) return;
+    clearTimeout(this.timer);
+    this.timer = 0;
+    store(KEPT, JSON.stringify(this.rows), 'session');
+  }
+
+  #redraw(at) {
+    this.list.children[at].replaceWith(this.#item(this.rows[at]));
   }
 
   #item(row) {

@@ -50,7 +50,7 @@ export function mount(main, route) {
     designation: route.path[0] ?? '', options: route.options, choices: [soundChoice(), pad.choice, serial.element],
     onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
   });
-  const recent = new Recent({ onCorrect: (record, what) => entry.correct(record, what) });
+  const recent = new Recent({ onCorrect: (record, what) => entry.correct(record, what), leaving: leaving.signal });
   const arrivals = new Arrivals(leaving.signal);
   const unkept = h('p.unkept', { role: 'status' });
 

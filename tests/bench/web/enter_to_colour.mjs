@@ -1,5 +1,6 @@
 /**
- * How long from Enter to the colour of the verdict, while 64 other clients post as fast as they can.
+ * How long from Enter to the colour of the verdict: as a multiple of a raw POST from the same page, in turns (asked: 2),
+ * then while 64 other clients post as fast as they can (asked: 100 ms).
  * FITGAUGED=build/release/bin/fitgauged tests/e2e/web/run tests/bench/web/enter_to_colour.mjs [VALUES]
  * Prints milliseconds from the key to the frame that shows the colour.
  */
@@ -44,6 +45,30 @@ function watch() {
   }).observe(document.querySelector('.verdict'), { childList: true });
 }
 
+/** In the page: milliseconds from a raw POST to its answer. */
+async function rawPost() {
+  const begin = performance.now();
+  const answer = await fetch('/v1/measurements', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"designation":"25 H7","measured_mm":25.0131,"characteristic":"raw"}' });
+  await answer.json();
+  return performance.now() - begin;
+}
+
+const sorted = (numbers) => [...numbers].sort((one, other) => one - other);
+const at = (numbers, share) => sorted(numbers)[Math.min(numbers.length - 1, Math.floor(share * numbers.length))];
+
+/** One value typed, one posted, again and again. */
+async function compare(page, count) {
+  const raw = [];
+  for (let i = 0; i < count; ++i) {
+    await page.keyboard.type(`25.0${String(100 + (i % 150))}\n`);
+    await page.waitForFunction((done) => globalThis.times.length === done, i + 1);
+    raw.push(await page.evaluate(rawPost));
+  }
+  const painted = await page.evaluate(() => globalThis.times.splice(0));
+  console.log(`enter to colour, ${count} values alone: median ${at(painted, 0.5).toFixed(1)} ms, a raw POST ${at(raw, 0.5).toFixed(1)} ms: `
+    + `${(at(painted, 0.5) / at(raw, 0.5)).toFixed(1)} times; 95 % ${at(painted, 0.95).toFixed(1)} and ${at(raw, 0.95).toFixed(1)} ms`);
+}
+
 async function measure(count) {
   const { close, launch, open } = await import('../../e2e/web/support/browser.mjs');
   const { Daemon, sleep } = await import('../../e2e/web/support/daemon.mjs');
@@ -52,6 +77,7 @@ async function measure(count) {
   const page = await open(browser, daemon, '#/gauge/25H7');
   await page.waitForSelector('.echo .figures');
   await page.evaluate(watch);
+  await compare(page, count);
   const others = new Worker(new URL(import.meta.url), { workerData: { port: daemon.port } });
   await sleep(1000);
   const answered = () => new Promise((resolve) => {
@@ -65,14 +91,13 @@ async function measure(count) {
     await page.waitForFunction((done) => globalThis.times.length === done, i + 1);
   }
   const rate = (await answered() - before) / (Date.now() - begun) * 1000;
-  const times = (await page.evaluate(() => globalThis.times)).sort((one, other) => one - other);
+  const times = await page.evaluate(() => globalThis.times);
   await close(page);
   await others.terminate();
   await browser.close();
   await daemon.cleanup();
-  const at = (share) => times[Math.min(times.length - 1, Math.floor(share * times.length))].toFixed(1);
   console.log(`enter to colour, ${count} values, ${CLIENTS} clients posting ${rate.toFixed(0)} values a second: `
-    + `median ${at(0.5)} ms, 95 % ${at(0.95)} ms, longest ${at(1)} ms`);
+    + `median ${at(times, 0.5).toFixed(1)} ms, 95 % ${at(times, 0.95).toFixed(1)} ms, longest ${at(times, 1).toFixed(1)} ms`);
 }
 
 if (isMainThread) await measure(Number(process.argv[2] ?? 100));
