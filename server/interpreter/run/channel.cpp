@@ -16,7 +16,8 @@ Channel::Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment
       output(run_options.limits.output_bytes),
       log(output, run_environment.observer),
       files(run_environment.disk, output, run_options.limits.files),
-      calls(std::move(main), run_options.limits) {}
+      calls(std::move(main), run_options.limits),
+      tables(files, parameters, allowance) {}
 
 NcResult<void> Channel::programmed_stop(std::string reason) {
   machine().stop(reason);

@@ -76,7 +76,7 @@ void ChannelCycleHost::touched(const machine::ContactPoint& contact) {
 
 probing::CycleResult<void> ChannelCycleHost::write_datum(int row,
                                                          const machine::AxisWords& values) {
-  return reported(channel_.tables.write_datum(channel_, row, values));
+  return reported(channel_.tables.write_datum(row, values));
 }
 
 probing::CycleResult<probing::KinematicsRecords> ChannelCycleHost::kinematics_records() {

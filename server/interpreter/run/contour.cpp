@@ -3,29 +3,12 @@
 #include <utility>
 
 #include "machine/tolerance.hpp"
-#include "run/channel.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Path;
 using machine::Vec3;
-
-/// Whether RND or CHF is the next block that is not a comment.
-bool corner_follows(const Channel& channel) {
-  const auto blocks = channel.program().blocks();
-  for (std::size_t i = channel.block + 1; i < blocks.size(); ++i) {
-    const auto& statement = blocks[i].statement;
-    if (std::holds_alternative<klartext::Empty>(statement) ||
-        std::holds_alternative<klartext::Structure>(statement)) {
-      continue;
-    }
-    const auto* motion = std::get_if<klartext::Motion>(&statement);
-    if (motion == nullptr || (blocks[i].skip && channel.options.block_skip)) return false;
-    return motion->path == Path::Rnd || motion->path == Path::Chf;
-  }
-  return false;
-}
 
 void set_sweep(Curve& curve) {
   if (!curve.is_arc()) return;
@@ -66,8 +49,8 @@ std::optional<Vec3> end_direction(const Element& element) {
 
 }  // namespace
 
-WorkingPlane working_plane(const Channel& channel) {
-  return WorkingPlane::across(channel.machine().state().tool_axis());
+WorkingPlane working_plane(const machine::Machine& machine) {
+  return WorkingPlane::across(machine.state().tool_axis());
 }
 
 void Contour::compensate(klartext::RadiusCompensation compensation) {
@@ -81,8 +64,8 @@ void Contour::compensate(klartext::RadiusCompensation compensation) {
                                                               : 0;
 }
 
-machine::Position Contour::position(const Channel& channel) const {
-  machine::Position position = channel.machine().position();
+machine::Position Contour::position(const machine::Machine& machine) const {
+  machine::Position position = machine.position();
   if (beside_ && (cutter_.is_pending() || position == beside_->tool)) {
     position = beside_->programmed;
   }
@@ -96,40 +79,40 @@ machine::Position Contour::position(const Channel& channel) const {
 }
 
 /// Gives an element to the cutter and keeps where the programmed path then is.
-NcResult<void> Contour::cut(Channel& channel, const Element& element) {
+NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
   const bool is_beside = element.side != 0 || cutter_.side() != 0;
-  if (!is_beside) return CutterPath::move(channel, element);
-  machine::Position programmed = position(channel);
+  if (!is_beside) return CutterPath::move(machine, element);
+  machine::Position programmed = position(machine);
   for (const machine::Axis axis : machine::kAllAxes) {
     if (const auto& value = element.target[axis]) programmed[axis] = *value;
   }
   programmed.linear = element.plane.with(programmed.linear, element.curve.end);
-  if (auto done = cutter_.add(channel, element); !done) return done;
-  beside_ = Beside{programmed, channel.machine().position()};
+  if (auto done = cutter_.add(machine, element); !done) return done;
+  beside_ = Beside{programmed, machine.position()};
   return {};
 }
 
-NcResult<void> Contour::add(Channel& channel, Element element) {
+NcResult<void> Contour::add(machine::Machine& machine, Element element, bool corner_follows) {
   if (element.system != machine::CoordinateSystem::Input) {
-    if (auto done = finish(channel); !done) return done;
-    return CutterPath::move(channel, element);
+    if (auto done = finish(machine); !done) return done;
+    return CutterPath::move(machine, element);
   }
-  if (element.side != 0 && !(element.plane == working_plane(channel))) {
+  if (element.side != 0 && !(element.plane == working_plane(machine))) {
     return nc_error(
         "RL and RR hold in the working plane alone: a circle in another plane takes R0");
   }
   if (approach_) {
-    if (auto done = approach(channel, element); !done) return done;
+    if (auto done = approach(machine, element); !done) return done;
   } else if (kept_) {
-    if (auto done = turn_corner(channel, element); !done) return done;
+    if (auto done = turn_corner(machine, element); !done) return done;
   }
   if (const auto end = end_direction(element)) direction = end;
-  if (corner_follows(channel)) {
+  if (corner_follows) {
     set_plane_target(element, element.curve.end);
     kept_ = element;
     return {};
   }
-  return cut(channel, element);
+  return cut(machine, element);
 }
 
 NcResult<void> Contour::set_corner(double size, bool is_chamfer,
@@ -141,17 +124,17 @@ NcResult<void> Contour::set_corner(double size, bool is_chamfer,
 }
 
 /// Moves along the kept element up to the corner and around it; `next` begins behind it.
-NcResult<void> Contour::turn_corner(Channel& channel, Element& next) {
+NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
   Element before = *std::exchange(kept_, std::nullopt);
   const auto corner = std::exchange(corner_, std::nullopt);
-  if (!corner) return cut(channel, before);
+  if (!corner) return cut(machine, before);
   turn_into_plane(before, next.plane);
   turn_into_plane(next, before.plane);
   const auto arriving = before.curve.end_direction();
   const auto leaving = next.curve.start_direction();
   if (arriving && leaving && std::abs(cross(*arriving, *leaving)) < tolerance::kParallel &&
       dot(*arriving, *leaving) > 0) {
-    return cut(channel, before);  // no corner
+    return cut(machine, before);  // no corner
   }
   const auto between = !(before.plane == next.plane) ? std::nullopt
                        : corner->is_chamfer ? chamfer(before.curve, next.curve, corner->size)
@@ -166,19 +149,19 @@ NcResult<void> Contour::turn_corner(Channel& channel, Element& next) {
   set_sweep(next.curve);
   next.from = next.plane.with(next.from, between->end);
   const machine::Feed feed = corner->feed.value_or(before.feed);
-  if (auto done = cut(channel, before); !done) return done;
-  return cut(channel, along(*between, before, feed));
+  if (auto done = cut(machine, before); !done) return done;
+  return cut(machine, along(*between, before, feed));
 }
 
-NcResult<void> Contour::add(Channel& channel, Approach approach) {
-  if (auto done = finish(channel); !done) return done;
+NcResult<void> Contour::add(machine::Machine& machine, Approach approach) {
+  if (auto done = finish(machine); !done) return done;
   cutter_.leave();
   approach_ = approach;
   return {};
 }
 
 /// Moves the centre of the tool to the begin of the contour, which `next` goes on with.
-NcResult<void> Contour::approach(Channel& channel, const Element& next) {
+NcResult<void> Contour::approach(machine::Machine& machine, const Element& next) {
   const auto contour_direction = next.curve.start_direction();
   if (!contour_direction) {
     return nc_error(1024, "the contour after APPR does not begin in the working plane");
@@ -186,7 +169,7 @@ NcResult<void> Contour::approach(Channel& channel, const Element& next) {
   const Approach approach = *std::exchange(approach_, std::nullopt);
   const int side = approach.to_start.side;
   const double left = side < 0 ? -1 : 1;
-  const double distance = side * CutterPath::radius(channel);
+  const double distance = side * CutterPath::radius(machine);
   const Vec2 first = approach.to_start.curve.end + left_of(*contour_direction) * distance;
   const double turn = left * approach.radius;
   const Vec2 centre = first + left_of(*contour_direction) * turn;
@@ -211,26 +194,26 @@ NcResult<void> Contour::approach(Channel& channel, const Element& next) {
   }
   Element to_auxiliary = approach.to_start;
   set_plane_target(to_auxiliary, auxiliary);
-  if (auto done = CutterPath::move(channel, to_auxiliary); !done) return done;
+  if (auto done = CutterPath::move(machine, to_auxiliary); !done) return done;
   Curve to_first{auxiliary, first, std::nullopt, 0};
   if (is_arc) {
     to_first.centre = centre;
     to_first.sweep_deg = sweep(auxiliary, first, centre, turn > 0);
   }
-  auto done = CutterPath::move(channel, along(to_first, approach.to_start, approach.to_start.feed));
+  auto done = CutterPath::move(machine, along(to_first, approach.to_start, approach.to_start.feed));
   if (!done) return done;
   if (side != 0) cutter_.begin(first, side);
   return {};
 }
 
-NcResult<Vec2> Contour::depart(Channel& channel, const WorkingPlane& plane) {
-  if (auto done = finish(channel); !done) return done.error();
+NcResult<Vec2> Contour::depart(machine::Machine& machine, const WorkingPlane& plane) {
+  if (auto done = finish(machine); !done) return done.error();
   cutter_.leave();
   beside_.reset();
-  return plane.project(channel.machine().position().linear);
+  return plane.project(machine.position().linear);
 }
 
-NcResult<void> Contour::finish(Channel& channel) {
+NcResult<void> Contour::finish(machine::Machine& machine) {
   if (approach_) {
     approach_.reset();
     return nc_error(1024, "APPR must be followed by the first contour element");
@@ -240,11 +223,11 @@ NcResult<void> Contour::finish(Channel& channel) {
     if (std::exchange(corner_, std::nullopt)) {
       return nc_error(1022, "RND or CHF must be followed by a contour element");
     }
-    if (auto done = cut(channel, last); !done) return done;
+    if (auto done = cut(machine, last); !done) return done;
   }
   if (!cutter_.is_pending()) return {};
-  if (auto done = cutter_.finish(channel); !done) return done;
-  if (beside_) beside_->tool = channel.machine().position();
+  if (auto done = cutter_.finish(machine); !done) return done;
+  if (beside_) beside_->tool = machine.position();
   return {};
 }
 

@@ -33,18 +33,18 @@ class Contour {
 
   /// Where the last block ends, in input coordinates, also when the machine is not there yet or
   /// the tool stands beside the contour.
-  machine::Position position(const Channel& channel) const;
+  machine::Position position(const machine::Machine& machine) const;
 
-  /// Moves along an element, or keeps it when a corner follows.
-  NcResult<void> add(Channel& channel, Element element);
+  /// Moves along an element, or keeps it when a corner follows (RND, CHF).
+  NcResult<void> add(machine::Machine& machine, Element element, bool corner_follows);
   /// RND (`size` is the radius) or CHF (the side, decision 30) after the last element.
   NcResult<void> set_corner(double size, bool is_chamfer, std::optional<machine::Feed> feed);
-  NcResult<void> add(Channel& channel, Approach approach);
+  NcResult<void> add(machine::Machine& machine, Approach approach);
   /// DEP: goes to the end of the contour. @returns where the centre of the tool is.
-  NcResult<Vec2> depart(Channel& channel, const WorkingPlane& plane);
+  NcResult<Vec2> depart(machine::Machine& machine, const WorkingPlane& plane);
   /// Before anything but a positioning block: moves what was kept.
   /// @errors 1022, 1024 when the element that RND, CHF or APPR refers to is missing.
-  NcResult<void> finish(Channel& channel);
+  NcResult<void> finish(machine::Machine& machine);
 
   /// RL, RR, R0, R+, R- of a block; it holds for those after it.
   void compensate(klartext::RadiusCompensation compensation);
@@ -70,9 +70,9 @@ class Contour {
     machine::Position tool;
   };
 
-  NcResult<void> cut(Channel& channel, const Element& element);
-  NcResult<void> turn_corner(Channel& channel, Element& next);
-  NcResult<void> approach(Channel& channel, const Element& first);
+  NcResult<void> cut(machine::Machine& machine, const Element& element);
+  NcResult<void> turn_corner(machine::Machine& machine, Element& next);
+  NcResult<void> approach(machine::Machine& machine, const Element& first);
 
   CutterPath cutter_;
   std::optional<Element> kept_;
@@ -84,6 +84,6 @@ class Contour {
 };
 
 /// The working plane of the tool in the spindle.
-WorkingPlane working_plane(const Channel& channel);
+WorkingPlane working_plane(const machine::Machine& machine);
 
 }  // namespace fitgauge::interpreter

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "machine/tolerance.hpp"
-#include "run/channel.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -36,12 +35,9 @@ void remove_plane_target(Element& element) {
 
 }  // namespace
 
-double CutterPath::radius(const Channel& channel) {
-  return channel.machine().state().tool_radius();
-}
+double CutterPath::radius(const machine::Machine& machine) { return machine.state().tool_radius(); }
 
-NcResult<void> CutterPath::move(Channel& channel, const Element& element) {
-  machine::Machine& machine = channel.machine();
+NcResult<void> CutterPath::move(machine::Machine& machine, const Element& element) {
   if (!element.curve.is_arc()) {
     return checked(machine.move({element.target, element.feed, element.system}));
   }
@@ -58,43 +54,43 @@ void CutterPath::begin(Vec2 centre, int side) {
   begun_ = centre;
 }
 
-NcResult<void> CutterPath::add(Channel& channel, const Element& next) {
-  if (next.side == 0 && side_ == 0) return move(channel, next);
+NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
+  if (next.side == 0 && side_ == 0) return move(machine, next);
   if (!next.moves_in_plane() && next.side == side_) {
     Element beside = next;
     remove_plane_target(beside);
-    if (!last_) return move(channel, beside);
+    if (!last_) return move(machine, beside);
     if (aside_.size() < kMostAside) {
       aside_.push_back(beside);
       return {};
     }
-    if (auto done = finish(channel); !done) return done;
-    return move(channel, beside);
+    if (auto done = finish(machine); !done) return done;
+    return move(machine, beside);
   }
   if (next.side != side_) {
-    if (auto done = finish(channel); !done) return done;
+    if (auto done = finish(machine); !done) return done;
     side_ = next.side;
-    if (side_ != 0) return enter(channel, next);
+    if (side_ != 0) return enter(machine, next);
     Element leaving = next;
     if (next.moves_in_plane()) set_plane_target(leaving, next.curve.end);
-    return move(channel, leaving);
+    return move(machine, leaving);
   }
-  return join(channel, next);
+  return join(machine, next);
 }
 
-NcResult<void> CutterPath::enter(Channel& channel, const Element& next) {
+NcResult<void> CutterPath::enter(machine::Machine& machine, const Element& next) {
   if (next.curve.is_arc()) return nc_error(1021, "RL and RR begin with a straight block");
-  if (!next.moves_in_plane()) return move(channel, next);
+  if (!next.moves_in_plane()) return move(machine, next);
   last_ = next;
   is_entry_ = true;
   return {};
 }
 
-NcResult<void> CutterPath::join(Channel& channel, const Element& next) {
-  const double distance = side_ * radius(channel);
+NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) {
+  const double distance = side_ * radius(machine);
   const auto leaving = next.curve.start_direction();  // the element moves in the plane
   if (const auto offset = offset_curve(next.curve, distance); !offset) {
-    return too_large(radius(channel), next.curve.end, "arc");
+    return too_large(radius(machine), next.curve.end, "arc");
   }
   const Vec2 corner = next.curve.start;
   Vec2 begin = corner + left_of(*leaving) * distance;
@@ -104,9 +100,9 @@ NcResult<void> CutterPath::join(Channel& channel, const Element& next) {
     // A block of another kind came between; there the tool stands square to the element before.
     Element across{next.plane, {corner, begin, std::nullopt, 0}, next.from, {}, next.feed};
     set_plane_target(across, begin);
-    if (auto done = move(channel, across); !done) return done;
+    if (auto done = move(machine, across); !done) return done;
   } else if (is_entry_) {
-    if (auto done = move_to(channel, begin); !done) return done;
+    if (auto done = move_to(machine, begin); !done) return done;
   } else {
     const Vec2 arriving = *last_->curve.end_direction();
     const double turn = cross(arriving, *leaving);
@@ -115,20 +111,20 @@ NcResult<void> CutterPath::join(Channel& channel, const Element& next) {
     if (!is_straight && turn * distance > 0) {
       const auto met = inner_corner(last_->curve, next.curve, distance);
       if (!met || !goes_forward(last_->curve, at_, *met)) {
-        return too_large(radius(channel), corner, "corner");
+        return too_large(radius(machine), corner, "corner");
       }
       begin = *met;
-      if (auto done = move_to(channel, begin); !done) return done;
+      if (auto done = move_to(machine, begin); !done) return done;
     } else {
       const Vec2 end = corner + left_of(arriving) * distance;
-      if (auto done = move_to(channel, end); !done) return done;
+      if (auto done = move_to(machine, end); !done) return done;
       if (!is_straight && norm(begin - end) > tolerance::kSamePoint) {
         Element around{next.plane,
                        {end, begin, corner, sweep(end, begin, corner, distance < 0)},
                        next.from,
                        {},
                        next.feed};
-        if (auto done = move(channel, around); !done) return done;
+        if (auto done = move(machine, around); !done) return done;
       }
     }
   }
@@ -138,11 +134,11 @@ NcResult<void> CutterPath::join(Channel& channel, const Element& next) {
   return {};
 }
 
-NcResult<void> CutterPath::move_to(Channel& channel, Vec2 end) {
+NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
   Element element = *std::exchange(last_, std::nullopt);
   if (!is_entry_) {
     if (!goes_forward(element.curve, at_, end)) {
-      return too_large(radius(channel), element.curve.end, "corner");
+      return too_large(radius(machine), element.curve.end, "corner");
     }
     element.curve.start = at_;
     element.curve.end = end;
@@ -157,18 +153,18 @@ NcResult<void> CutterPath::move_to(Channel& channel, Vec2 end) {
   }
   set_plane_target(element, end);
   if (element.curve.is_arc() && element.curve.sweep_deg == 0) element.curve.centre.reset();
-  if (auto done = move(channel, element); !done) return done;
+  if (auto done = move(machine, element); !done) return done;
   for (const Element& beside : std::exchange(aside_, {})) {
-    if (auto done = move(channel, beside); !done) return done;
+    if (auto done = move(machine, beside); !done) return done;
   }
   return {};
 }
 
-NcResult<void> CutterPath::finish(Channel& channel) {
+NcResult<void> CutterPath::finish(machine::Machine& machine) {
   if (!last_) return {};
   const auto direction = last_->curve.end_direction();
-  const Vec2 end = last_->curve.end + left_of(*direction) * (side_ * radius(channel));
-  return move_to(channel, end);
+  const Vec2 end = last_->curve.end + left_of(*direction) * (side_ * radius(machine));
+  return move_to(machine, end);
 }
 
 }  // namespace fitgauge::interpreter

@@ -8,8 +8,6 @@
 
 namespace fitgauge::interpreter {
 
-class Channel;
-
 /// Leads the centre of the cutter along a contour: on it, or with RL and RR at the tool's radius
 /// (R + DR) beside it. The path begins and ends square to the first and last point of the contour,
 /// goes around outer corners on an arc, and meets inner corners where the two offset curves cross.
@@ -17,9 +15,9 @@ class Channel;
 class CutterPath {
  public:
   /// @errors 1003 the tool does not fit into a corner or arc; 1021 RL or RR begins with an arc.
-  NcResult<void> add(Channel& channel, const Element& next);
+  NcResult<void> add(machine::Machine& machine, const Element& next);
   /// Moves along what was kept, up to the point square to its end.
-  NcResult<void> finish(Channel& channel);
+  NcResult<void> finish(machine::Machine& machine);
   /// The tool stands at the offset start of the contour that the next element begins (APPR).
   void begin(Vec2 centre, int side);
   /// The tool has left the contour (DEP).
@@ -29,15 +27,15 @@ class CutterPath {
   int side() const { return side_; }
 
   /// Moves along an element as it is.
-  static NcResult<void> move(Channel& channel, const Element& element);
-  static double radius(const Channel& channel);
+  static NcResult<void> move(machine::Machine& machine, const Element& element);
+  static double radius(const machine::Machine& machine);
 
  private:
-  NcResult<void> enter(Channel& channel, const Element& next);
-  NcResult<void> join(Channel& channel, const Element& next);
+  NcResult<void> enter(machine::Machine& machine, const Element& next);
+  NcResult<void> join(machine::Machine& machine, const Element& next);
   /// Moves along the kept element, which ends at `end` for the centre of the tool, and along what
   /// stood between it and the next one.
-  NcResult<void> move_to(Channel& channel, Vec2 end);
+  NcResult<void> move_to(machine::Machine& machine, Vec2 end);
 
   int side_ = 0;
   std::optional<Element> last_;

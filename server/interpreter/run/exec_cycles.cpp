@@ -189,7 +189,7 @@ NcResult<Next> call_active_cycle(Channel& channel) {
   if (std::holds_alternative<IgnoredCycle>(definition)) return Next{};
   const auto* machining = std::get_if<MachiningDefinition>(&definition);
   if (machining == nullptr) return nc_error(1027);
-  if (auto done = channel.contour.finish(channel); !done) return done.error();
+  if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
   const MovedByCycle moved(channel, channel.active_cycle.number);
   if (auto done = machine_here(channel, *machining); !done) return done.error();
   return Next{};

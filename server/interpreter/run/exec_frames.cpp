@@ -149,7 +149,7 @@ NcResult<void> execute_datum_table(Channel& channel, const klartext::Trans& tran
     if (!written) return written.error();
     const auto path = channel.resolve(*written);
     if (!path) return path.error();
-    if (auto done = channel.tables.select_datum_table(channel, *path); !done) return done;
+    if (auto done = channel.tables.select_datum_table(*path); !done) return done;
   }
   return shift_datum_to_row(channel, static_cast<std::int64_t>(get(words, Letter::Row)));
 }

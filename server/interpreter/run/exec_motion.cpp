@@ -18,6 +18,22 @@ using klartext::Path;
 using klartext::RadiusCompensation;
 using machine::CoordinateSystem;
 
+/// Whether RND or CHF is the next block that is not a comment.
+bool corner_follows(const Channel& channel) {
+  const auto blocks = channel.program().blocks();
+  for (std::size_t i = channel.block + 1; i < blocks.size(); ++i) {
+    const auto& statement = blocks[i].statement;
+    if (std::holds_alternative<klartext::Empty>(statement) ||
+        std::holds_alternative<klartext::Structure>(statement)) {
+      continue;
+    }
+    const auto* motion = std::get_if<Motion>(&statement);
+    if (motion == nullptr || (blocks[i].skip && channel.options.block_skip)) return false;
+    return motion->path == Path::Rnd || motion->path == Path::Chf;
+  }
+  return false;
+}
+
 /// The geometry of one positioning block.
 class Positioning {
  public:
@@ -25,7 +41,7 @@ class Positioning {
       : channel_(channel),
         motion_(motion),
         words_(words),
-        position_(channel.contour.position(channel)),
+        position_(channel.contour.position(channel.machine())),
         plane_(plane()),
         start_(plane_.project(position_.linear)) {}
 
@@ -77,7 +93,7 @@ class Positioning {
   WorkingPlane plane() const {
     const auto& pole = channel_.contour.pole;
     if (pole && (is_polar() || motion_.path == Path::C)) return pole->plane;
-    const WorkingPlane working = working_plane(channel_);
+    const WorkingPlane working = working_plane(channel_.machine());
     if (motion_.path != Path::Cr && motion_.path != Path::Ct) return working;
     const std::size_t tool_axis = machine::index(working.normal);
     const bool first = words_.axes[working.first].has_value();
@@ -128,10 +144,14 @@ class Positioning {
     return element;
   }
 
+  NcResult<void> move_along(Element element) {
+    return contour().add(channel_.machine(), std::move(element), corner_follows(channel_));
+  }
+
   NcResult<void> add(const Curve& curve) {
     auto made = element(curve);
     if (!made) return made.error();
-    return contour().add(channel_, *std::move(made));
+    return move_along(*std::move(made));
   }
 
   /// A pole is not moved to, so decision 3 holds for its coordinates.
@@ -144,7 +164,7 @@ class Positioning {
     for (std::size_t axis = 0; axis < 3; ++axis) named[axis] = words_.axes[axis].has_value();
     const auto count = std::count(named.begin(), named.end(), true);
     if (count == 3) return nc_error("CC names the two axes of a plane, not three");
-    const WorkingPlane working = working_plane(channel_);
+    const WorkingPlane working = working_plane(channel_.machine());
     const auto& before = contour().pole;
     Pole pole{working, {}};
     if (count == 2) {
@@ -176,12 +196,11 @@ class Positioning {
 
   /// M91, M92: coordinates of the spindle nose from the machine datum.
   NcResult<void> machine_line() {
-    if (auto done = contour().finish(channel_); !done) return done;
+    if (auto done = contour().finish(channel_.machine()); !done) return done;
     const auto feed = use_feed(channel_, words_.feed);
     if (!feed) return feed.error();
     const auto from = channel_.machine().position(CoordinateSystem::Reference);
-    return contour().add(
-        channel_, {plane_, {}, from.linear, target(from), *feed, CoordinateSystem::Reference});
+    return move_along({plane_, {}, from.linear, target(from), *feed, CoordinateSystem::Reference});
   }
 
   NcResult<void> line() {
@@ -200,14 +219,14 @@ class Positioning {
   NcResult<void> lengthened_line(Vec2 end) {
     auto made = element({start_, end, std::nullopt, 0});
     if (!made) return made.error();
-    const double by = contour().lengthening() * CutterPath::radius(channel_);
+    const double by = contour().lengthening() * CutterPath::radius(channel_.machine());
     for (const std::size_t axis : {plane_.first, plane_.second}) {
       auto& value = made->target.values[axis];
       const double travel = value ? *value - position_.linear[axis] : 0;
       if (travel != 0) *value += std::copysign(by, by * travel);
     }
     made->curve.end = plane_.project(plane_.with(position_.linear, end));
-    return contour().add(channel_, *std::move(made));
+    return move_along(*std::move(made));
   }
 
   NcResult<void> arc() {
@@ -280,8 +299,9 @@ class Positioning {
     if (!to_start) return to_start.error();
     set_plane_target(*to_start, *end);
     return contour().add(
-        channel_, Contour::Approach{cartesian(), *std::move(to_start), words_.len.value_or(0),
-                                    words_.cca.value_or(0), words_.r.value_or(0)});
+        channel_.machine(),
+        Contour::Approach{cartesian(), *std::move(to_start), words_.len.value_or(0),
+                          words_.cca.value_or(0), words_.r.value_or(0)});
   }
 
   Path cartesian() const {
@@ -298,7 +318,7 @@ class Positioning {
     const auto travel = arriving();
     if (!travel) return nc_error("DEP needs a contour element before it");
     const double left_side = side();
-    const auto tool = contour().depart(channel_, plane_);
+    const auto tool = contour().depart(channel_.machine(), plane_);
     if (!tool) return tool.error();
     contour().compensate(RadiusCompensation::R0);
     const Vec2 from = *tool;
@@ -334,7 +354,7 @@ class Positioning {
     if (!feed) return feed.error();
     Element element{plane_, curve, channel_.machine().position().linear, {}, *feed};
     set_plane_target(element, curve.end);
-    return contour().add(channel_, element);
+    return move_along(element);
   }
 
   Channel& channel_;

@@ -31,25 +31,25 @@ NcResult<Cells> cells(Channel& channel, const klartext::Expr& expr) {
 NcResult<void> execute(Channel& channel, const klartext::TableOpen& open) {
   const auto file = path(channel, open.path);
   if (!file) return file.error();
-  return channel.tables.open(channel, *file);
+  return channel.tables.open(*file);
 }
 
 NcResult<void> execute(Channel& channel, const klartext::TableWrite& write) {
   const auto place = cells(channel, write.cell);
   if (!place) return place.error();
-  return channel.tables.write(channel, write.first, place->row, place->columns);
+  return channel.tables.write(write.first, place->row, place->columns, channel.length_unit());
 }
 
 NcResult<void> execute(Channel& channel, const klartext::TableRead& read) {
   const auto place = cells(channel, read.cell);
   if (!place) return place.error();
-  return channel.tables.read(channel, read.first, place->row, place->columns);
+  return channel.tables.read(read.first, place->row, place->columns, channel.length_unit());
 }
 
 NcResult<void> execute(Channel& channel, const klartext::SelectTable& select) {
   const auto file = path(channel, select.path);
   if (!file) return file.error();
-  return channel.tables.select_datum_table(channel, *file);
+  return channel.tables.select_datum_table(*file);
 }
 
 }  // namespace fitgauge::interpreter

@@ -207,7 +207,7 @@ const Instruction* Executor<kFollowed>::statement(const Instruction* pc) {
 template <bool kFollowed>
 const Instruction* Executor<kFollowed>::end_block(const Instruction* pc) {
   enter(pc);
-  if (auto done = channel_.contour.finish(channel_); !done) return fail(done.error());
+  if (auto done = channel_.contour.finish(channel_.machine()); !done) return fail(done.error());
   return end_program();
 }
 

@@ -90,7 +90,7 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
     return call.number <= 2 || call.number == 30 || call.number == 140;
   });
   if (stands) {
-    if (auto done = channel.contour.finish(channel); !done) return done.error();
+    if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
   }
   for (const MCall& call : words.m) {
     switch (call.number) {

@@ -54,7 +54,7 @@ class Dispatcher {
 NcResult<Next> execute_statement(Channel& channel, const Instruction& instruction) {
   const klartext::Statement& statement = channel.place().source().statement;
   if (!std::holds_alternative<klartext::Motion>(statement)) {
-    if (auto done = channel.contour.finish(channel); !done) return done.error();
+    if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
   }
   auto next = std::visit(Dispatcher(channel, instruction), statement);
   if (next && channel.stop_after_block) {

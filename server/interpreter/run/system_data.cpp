@@ -383,7 +383,7 @@ NcResult<void> write_system_data(Channel& channel, klartext::NodeIndex node, dou
       if (!axis) return unknown(*address);
       machine::AxisWords words;
       words[*axis] = value;
-      return channel.tables.write_datum(channel, address->nr, words);
+      return channel.tables.write_datum(address->nr, words);
     }
     case 503: return write_preset(channel, *address, value);
     default: return unknown(*address);

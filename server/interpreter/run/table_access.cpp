@@ -7,7 +7,6 @@
 
 #include "base/text.hpp"
 #include "program/cycle_arguments.hpp"
-#include "run/channel.hpp"
 #include "tabfile/tab_reader.hpp"
 #include "tabfile/tab_writer.hpp"
 
@@ -45,12 +44,12 @@ NcResult<std::vector<ColumnTarget>> targets(std::string_view columns, QRef first
 }
 
 /// Program units in one unit of the table, for columns that hold lengths.
-double unit_of(const Channel& channel, const TabTable& table, std::string_view column) {
+double unit_of(const TabTable& table, std::string_view column, double length_unit) {
   const auto index = table.find_column(column);
   if (!index) return 1;
   const std::string& type = table.columns()[*index].type;
   if (type != "L" && type != "LENGTH") return 1;
-  return (table.header().unit == "INCH" ? kMillimetresPerInch : 1) / channel.length_unit();
+  return (table.header().unit == "INCH" ? kMillimetresPerInch : 1) / length_unit;
 }
 
 NcError no_table_error() { return nc_error("no table is open: FN 26: TABOPEN stands before this"); }
@@ -59,9 +58,8 @@ constexpr std::array<std::string_view, machine::kAxes> kAxisColumns{"X", "Y", "Z
 
 }  // namespace
 
-NcResult<TableAccess::Table> TableAccess::load(Channel& channel, const ControlPath& path,
-                                               std::string_view what) {
-  auto file = channel.files.find(path);
+NcResult<TableAccess::Table> TableAccess::load(const ControlPath& path, std::string_view what) {
+  auto file = files_.find(path);
   if (!file) return nc_error(fmt::format("{} {} does not exist", what, path.text()));
   if (std::none_of(opened_.begin(), opened_.end(),
                    [&](const OpenedTable& table) { return table.path == path; })) {
@@ -71,7 +69,7 @@ NcResult<TableAccess::Table> TableAccess::load(Channel& channel, const ControlPa
   if (known.content == nullptr || known.revision != file->revision) {
     known = {file->revision, file->table};
     if (known.content == nullptr) {
-      auto read = tabfile::read_tab_file(*file->bytes, channel.budget.allowance());
+      auto read = tabfile::read_tab_file(*file->bytes, allowance_);
       if (read.has_error()) {
         return nc_error(
             fmt::format("{} {} cannot be read: {}", what, path.text(), read.error().message));
@@ -82,10 +80,10 @@ NcResult<TableAccess::Table> TableAccess::load(Channel& channel, const ControlPa
   return Table{file->path, known.content};
 }
 
-NcResult<void> TableAccess::save(Channel& channel, std::optional<Table>& table) {
+NcResult<void> TableAccess::save(std::optional<Table>& table) {
   if (!table || table->changed == nullptr) return {};
   table->changed.reset();
-  return channel.files.write(table->path, tabfile::write_tab(*table->content));
+  return files_.write(table->path, tabfile::write_tab(*table->content));
 }
 
 TabTable& TableAccess::editable(Table& table) {
@@ -96,17 +94,17 @@ TabTable& TableAccess::editable(Table& table) {
   return *table.changed;
 }
 
-NcResult<void> TableAccess::open(Channel& channel, const ControlPath& path) {
-  if (auto saved = save(channel, open_); !saved) return saved;
+NcResult<void> TableAccess::open(const ControlPath& path) {
+  if (auto saved = save(open_); !saved) return saved;
   open_.reset();
-  auto table = load(channel, path, "table");
+  auto table = load(path, "table");
   if (!table) return table.error();
   open_ = *std::move(table);
   return {};
 }
 
-NcResult<void> TableAccess::read(Channel& channel, QRef first, std::int64_t row,
-                                 std::string_view columns) const {
+NcResult<void> TableAccess::read(QRef first, std::int64_t row, std::string_view columns,
+                                 double length_unit) const {
   if (!open_) return no_table_error();
   const auto named = targets(columns, first);
   if (!named) return named.error();
@@ -118,32 +116,32 @@ NcResult<void> TableAccess::read(Channel& channel, QRef first, std::int64_t row,
     if (parameter.is_string()) {
       const auto cell = table.text(row, column);
       if (!cell) return failed(cell.error());
-      if (auto set = channel.parameters.set_string(parameter.number, std::string(*cell)); !set) {
+      if (auto set = parameters_.set_string(parameter.number, std::string(*cell)); !set) {
         return set;
       }
       continue;
     }
     const auto value = table.number(row, column);
     if (!value) return failed(value.error());
-    const double scaled = *value * unit_of(channel, table, column);
-    if (auto set = channel.parameters.set(parameter, scaled); !set) return set;
+    const double scaled = *value * unit_of(table, column, length_unit);
+    if (auto set = parameters_.set(parameter, scaled); !set) return set;
   }
   return {};
 }
 
-NcResult<void> TableAccess::write(Channel& channel, QRef first, std::int64_t row,
-                                  std::string_view columns) {
+NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view columns,
+                                  double length_unit) {
   if (!open_) return no_table_error();
   const auto named = targets(columns, first);
   if (!named) return named.error();
   TabTable& table = editable(*open_);
   for (const auto& [column, parameter] : *named) {
-    if (!channel.parameters.is_defined(parameter)) return undefined_error(parameter);
+    if (!parameters_.is_defined(parameter)) return undefined_error(parameter);
     const auto set = parameter.is_string()
-                         ? table.set_text(row, column, *channel.parameters.string(parameter.number))
+                         ? table.set_text(row, column, *parameters_.string(parameter.number))
                          : table.set_number(row, column,
-                                            *channel.parameters.number(parameter) /
-                                                unit_of(channel, table, column));
+                                            *parameters_.number(parameter) /
+                                                unit_of(table, column, length_unit));
     if (!set) {
       return nc_error(fmt::format("table {}: {}", open_->path.text(), set.error().message));
     }
@@ -151,10 +149,10 @@ NcResult<void> TableAccess::write(Channel& channel, QRef first, std::int64_t row
   return {};
 }
 
-NcResult<void> TableAccess::select_datum_table(Channel& channel, const ControlPath& path) {
-  if (auto saved = save(channel, datum_); !saved) return saved;
+NcResult<void> TableAccess::select_datum_table(const ControlPath& path) {
+  if (auto saved = save(datum_); !saved) return saved;
   datum_.reset();
-  auto table = load(channel, path, "datum table");
+  auto table = load(path, "datum table");
   if (!table) return table.error();
   datum_ = *std::move(table);
   return {};
@@ -174,8 +172,7 @@ NcResult<machine::AxisWords> TableAccess::datum(std::int64_t row) const {
   return values;
 }
 
-NcResult<void> TableAccess::write_datum(Channel& channel, std::int64_t row,
-                                        const machine::AxisWords& values) {
+NcResult<void> TableAccess::write_datum(std::int64_t row, const machine::AxisWords& values) {
   if (!datum_) return nc_error(1043, "SEL TABLE stands before this");
   for (const machine::Axis axis : machine::kAllAxes) {
     if (!values[axis]) continue;
@@ -185,12 +182,12 @@ NcResult<void> TableAccess::write_datum(Channel& channel, std::int64_t row,
       return nc_error(fmt::format("datum table {}: {}", datum_->path.text(), set.error().message));
     }
   }
-  return save(channel, datum_);
+  return save(datum_);
 }
 
-NcResult<void> TableAccess::close(Channel& channel) {
-  if (auto saved = save(channel, open_); !saved) return saved;
-  return save(channel, datum_);
+NcResult<void> TableAccess::close() {
+  if (auto saved = save(open_); !saved) return saved;
+  return save(datum_);
 }
 
 }  // namespace fitgauge::interpreter

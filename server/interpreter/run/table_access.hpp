@@ -6,41 +6,47 @@
 #include <string>
 #include <vector>
 
+#include "base/allowance.hpp"
 #include "klartext/expression.hpp"
 #include "machine/axis.hpp"
 #include "program/control_path.hpp"
 #include "run/nc_error.hpp"
+#include "run/q_parameters.hpp"
+#include "run/run_files.hpp"
 #include "run/run_result.hpp"
 #include "tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {
-
-class Channel;
 
 /// The tables of a run: the freely definable one that FN 26 has open (one at a time) and the datum
 /// table. Each file is read once in a run; what FN 27 writes goes to the run's files when the table
 /// is closed. Not thread-safe.
 class TableAccess {
  public:
+  /// All must outlive this object.
+  TableAccess(RunFiles& files, QParameters& parameters, Allowance& allowance)
+      : files_(files), parameters_(parameters), allowance_(allowance) {}
+
   /// FN 26; closes the one that is open. @errors missing or malformed file, limit.
-  NcResult<void> open(Channel& channel, const ControlPath& path);
-  /// FN 28. @errors no table open, missing row or column, empty or non-numeric cell.
-  NcResult<void> read(Channel& channel, klartext::QRef first, std::int64_t row,
-                      std::string_view columns) const;
+  NcResult<void> open(const ControlPath& path);
+  /// FN 28. @param length_unit mm in one unit of the program's lengths. @errors no table open,
+  /// missing row or column, empty or non-numeric cell.
+  NcResult<void> read(klartext::QRef first, std::int64_t row, std::string_view columns,
+                      double length_unit) const;
   /// FN 27. @errors as read.
-  NcResult<void> write(Channel& channel, klartext::QRef first, std::int64_t row,
-                       std::string_view columns);
+  NcResult<void> write(klartext::QRef first, std::int64_t row, std::string_view columns,
+                       double length_unit);
 
   /// SEL TABLE. @errors as open.
-  NcResult<void> select_datum_table(Channel& channel, const ControlPath& path);
+  NcResult<void> select_datum_table(const ControlPath& path);
   bool has_datum_table() const { return datum_.has_value(); }
   /// The values of a row that are not blank: mm and degrees. @errors 1043, missing row.
   NcResult<machine::AxisWords> datum(std::int64_t row) const;
   /// @errors 1043, missing row or column.
-  NcResult<void> write_datum(Channel& channel, std::int64_t row, const machine::AxisWords& values);
+  NcResult<void> write_datum(std::int64_t row, const machine::AxisWords& values);
 
   /// Writes what has changed. @errors limit.
-  NcResult<void> close(Channel& channel);
+  NcResult<void> close();
   const std::vector<OpenedTable>& opened() const { return opened_; }
 
  private:
@@ -54,11 +60,14 @@ class TableAccess {
     std::shared_ptr<const tabfile::TabTable> content;
   };
 
-  NcResult<Table> load(Channel& channel, const ControlPath& path, std::string_view what);
-  NcResult<void> save(Channel& channel, std::optional<Table>& table);
+  NcResult<Table> load(const ControlPath& path, std::string_view what);
+  NcResult<void> save(std::optional<Table>& table);
   /// The content to change: a copy of the file's.
   static tabfile::TabTable& editable(Table& table);
 
+  RunFiles& files_;
+  QParameters& parameters_;
+  Allowance& allowance_;
   std::optional<Table> open_;
   std::optional<Table> datum_;
   std::map<std::string, Known> known_;  // by key
