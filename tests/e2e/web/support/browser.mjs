@@ -67,7 +67,7 @@ export async function picture(page, name, options = {}) {
   await page.screenshot({ path: path.join(SCREENSHOTS, `${name}.png`), ...options });
 }
 
-/** What axe-core finds serious or critical, as readable lines. */
+/** What axe-core finds, as readable lines. */
 export async function findings(page) {
   // Evaluated by the debugger, so that the page's own policy need not allow it.
   await page.evaluate(AXE);
@@ -75,6 +75,5 @@ export async function findings(page) {
     runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'],
   }));
   return violations
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
     .flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html.slice(0, 160)} ${node.failureSummary}`));
 }
