@@ -52,8 +52,13 @@ PGconn* open(const std::string& address) {
 Connection::Connection(const std::string& address)
     : sql::Connection(kDialect), connection_(open(address)) {
   if (PQstatus(handle()) != CONNECTION_OK) throw_failure(handle(), nullptr);
+  PQsetNoticeReceiver(handle(), on_notice, this);
   execute(kSettings);
   if (PQenterPipelineMode(handle()) != 1) throw_failure(handle(), nullptr);
+}
+
+void Connection::on_notice(void* connection, const PGresult* notice) {
+  static_cast<Connection*>(connection)->warning_ = PQresultErrorMessage(notice);
 }
 
 Connection::~Connection() { measurements_.reset(); }

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sql/connection.hpp"
@@ -72,6 +73,9 @@ class Connection final : public sql::Connection {
 
   PGconn* handle() const { return connection_.get(); }
 
+  /// What the server warned of since the last call; empty for nothing.
+  std::string take_warning() { return std::exchange(warning_, {}); }
+
   Head head;                         ///< in a transaction
   bool parts_may_be_undone = false;  ///< set by an undo: parts made since may not be there
 
@@ -79,6 +83,8 @@ class Connection final : public sql::Connection {
   struct Finish {
     void operator()(PGconn* connection) const { PQfinish(connection); }
   };
+
+  static void on_notice(void* connection, const PGresult* notice);
 
   void require_sent(int sent);
   void check(const PGresult* result);
@@ -90,6 +96,7 @@ class Connection final : public sql::Connection {
   std::set<std::string> prepared_;   ///< names the server knows
   std::vector<std::string> unused_;  ///< names it need not know any more
   std::uint64_t names_ = 0;
+  std::string warning_;
   std::unique_ptr<sql::MeasurementTable> measurements_;
 };
 

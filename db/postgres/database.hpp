@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
@@ -14,5 +15,9 @@ namespace fitgauge::store::postgres {
 /// @errors StorageUnavailable while the server cannot be reached, or has no such schema and access
 ///   is Attach; DatabaseForeign, DatabaseNewer.
 Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock);
+
+/// Whether a daemon could start on it: it takes connections and writes, and has this build's schema
+/// or none yet. Changes nothing. @errors StorageUnavailable, DatabaseNewer, DatabaseForeign.
+Result<void> check_server(const std::string& address);
 
 }  // namespace fitgauge::store::postgres

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/digest.hpp"
+#include "postgres/database.hpp"
 #include "sql/statement.hpp"
+#include "store/storage_failure.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {
@@ -29,7 +31,27 @@ Result<void> check(Connection& connection) {
                            rows.get<std::int64_t>(0))};
 }
 
+bool has_schema(Connection& connection) {
+  sql::Statement find(connection, "SELECT count(*) FROM pg_namespace WHERE nspname = ?");
+  return find.returning<std::int64_t>(std::string_view("fitgauge")) > 0;
+}
+
 }  // namespace
+
+Result<void> check_server(const std::string& address) {
+  try {
+    Connection connection(address);
+    if (has_schema(connection)) return check(connection);
+    sql::Statement may(connection,
+                       "SELECT has_database_privilege(current_database(), 'CREATE')::int8");
+    if (may.returning<std::int64_t>() == 1) return {};
+    return Error{ErrorCode::StorageUnavailable,
+                 "the database has no schema fitgauge, and this user may not make it: GRANT CREATE "
+                 "ON DATABASE, or let one who may start a daemon once"};
+  } catch (const StorageFailure& failure) {
+    return failure.error();
+  }
+}
 
 Result<void> prepare_schema(const std::string& address, bool may_create, std::int64_t now_ns) {
   Connection connection(address);
@@ -37,8 +59,7 @@ Result<void> prepare_schema(const std::string& address, bool may_create, std::in
   connection.send("BEGIN");
   connection.send("SELECT pg_advisory_xact_lock(7379538914411767653)");
   connection.wait();
-  sql::Statement find(connection, "SELECT count(*) FROM pg_namespace WHERE nspname = ?");
-  const bool is_there = find.returning<std::int64_t>(std::string_view("fitgauge")) > 0;
+  const bool is_there = has_schema(connection);
   if (!is_there && !may_create) {
     return Error{ErrorCode::StorageUnavailable,
                  "the database has no schema fitgauge: start the daemon on it first"};

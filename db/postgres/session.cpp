@@ -53,11 +53,18 @@ void Session::commit() {
     if (head.last_id != begun_.last_id) set_head_.run(head.last_id, head.own_rows);
     connection_.send("SELECT pg_notify('fitgauge', '')");
   }
+  connection_.take_warning();
   connection_.send("COMMIT");
   const ResultPtr committed = connection_.wait();
   // Of a transaction that failed before, COMMIT makes a ROLLBACK and calls it so.
   if (std::string_view(PQcmdStatus(committed.get())) != "COMMIT") {
     throw StorageFailure({ErrorCode::StorageUnavailable, "PostgreSQL has undone the transaction"});
+  }
+  // The one it has: the wait for a standby was ended, by an operator or by statement_timeout. What
+  // is on this server alone is not acknowledged.
+  if (const std::string warning = connection_.take_warning(); !warning.empty()) {
+    throw StorageFailure({ErrorCode::StorageUnavailable,
+                          fmt::format("PostgreSQL: {}", warning.substr(0, warning.find('\n')))});
   }
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/service/database_check.hpp"
 #include "daemon/admin_key.hpp"
 #include "daemon/connections.hpp"
 
@@ -88,6 +89,9 @@ Result<void> preflight(const Config& config, const std::string& port_file) {
   }
   if (!config.admin_key_file.empty()) {
     if (const auto key = read_admin_key(config.admin_key_file); !key) return key.error();
+  }
+  if (!config.database.empty()) {
+    if (const auto usable = app::check_database(config.database); !usable) return usable.error();
   }
   if (const auto data = check_folder("data", nearest_existing(config.data)); !data)
     return data.error();

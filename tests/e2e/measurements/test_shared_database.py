@@ -1,6 +1,7 @@
-"""Three daemons behind nginx share a PostgreSQL: one of them is killed every two seconds, the database is ended at
-once and comes back. Every acknowledged value is there exactly once, and whoever follows the list or the events sees
-each record exactly once and in order.
+"""Three daemons behind nginx share a PostgreSQL that has a synchronous standby: one of them is killed every two
+seconds, the database is ended at once and comes back, later it is ended for good and its standby takes over. Every
+acknowledged value is there exactly once, and whoever follows the list or the events sees each record exactly once and
+in order.
 
 $SHARED_SECONDS sets how long, 12 when absent and 60 in the long form; $SEED repeats whom the kills meet.
 """
@@ -14,17 +15,19 @@ import threading
 import time
 import unittest
 
-from support.daemon import Daemon, command
+from support.daemon import SANITIZED, Daemon, command
 from support.postgres import Cluster, FrontDoor
 from support.writers import Writers, compare
 
-SECONDS = float(os.environ.get("SHARED_SECONDS", "60" if os.environ.get("FITGAUGE_DEEP") else "12"))
+DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
+SECONDS = float(os.environ.get("SHARED_SECONDS", "60" if DEEP else "12"))
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
+LEAST_A_SECOND = 100  # acknowledged values, in the long form, whose outages are not most of it
 
 
-def daemons_on(cluster, count, *flags):
+def daemons_on(address, count, *flags):
     """Started daemons, each to be started again on the same port."""
-    made = [Daemon("--database", cluster.address(), *flags) for _ in range(count)]
+    made = [Daemon("--database", address, *flags) for _ in range(count)]
     for daemon in made:
         daemon.start()
         daemon.listen = f"127.0.0.1:{daemon.port}"
@@ -106,8 +109,8 @@ class Shared(unittest.TestCase):
         self.cluster = Cluster().start()
         self.addCleanup(self.cluster.cleanup)
 
-    def daemons(self, count, *flags):
-        made = daemons_on(self.cluster, count, *flags)
+    def daemons(self, count, *flags, address=None):
+        made = daemons_on(address or self.cluster.address(), count, *flags)
         for daemon in made:
             self.addCleanup(daemon.cleanup)
         return made
@@ -115,7 +118,10 @@ class Shared(unittest.TestCase):
     def test_nothing_is_lost_doubled_or_passed_over(self):
         print(f"seed {SEED}, {SECONDS} s")
         generator = random.Random(SEED)
-        daemons = self.daemons(3)
+        standby = self.cluster.standby()
+        self.addCleanup(standby.cleanup)
+        both = self.cluster.address("postgres", standby)
+        daemons = self.daemons(3, address=both)
         front = FrontDoor(daemons).start()
         self.addCleanup(front.cleanup)
         front.measure({"designation": "25 H7", "measured_mm": "25.013", "part_id": "first"})
@@ -124,19 +130,16 @@ class Shared(unittest.TestCase):
         for follower in followers:
             follower.start()
         begin = time.monotonic()
-        restarted = False
+        outages = [self.restart, lambda living: self.fail_over(living, standby)]
         with Writers(front, count=16) as writers:
-            while time.monotonic() - begin < SECONDS:
+            while time.monotonic() - begin < SECONDS or outages:
                 time.sleep(2)
                 victim = generator.choice(daemons)
                 victim.kill()
-                if not restarted and time.monotonic() - begin > SECONDS / 2:
-                    restarted = True
-                    self.cluster.stop("immediate")
-                    ready = [daemon.get("/readyz") for daemon in daemons if daemon is not victim]
-                    self.assertNotIn(500, [answer.status for answer in ready])
-                    self.cluster.start()
+                if outages and time.monotonic() - begin > SECONDS * (3 - len(outages)) / 3:
+                    outages.pop(0)([daemon for daemon in daemons if daemon is not victim])
                 victim.start()
+            took = time.monotonic() - begin
         self.assertEqual(writers.refused, [])
         stored = daemons[0].stored()
         lost, doubled = compare(writers.acknowledged, stored)
@@ -148,9 +151,53 @@ class Shared(unittest.TestCase):
             self.assertEqual(follower.seen, ids, type(follower).__name__)
         for daemon in daemons:
             self.assertIsNone(daemon.process.poll(), "a daemon has ended")
-        verified = command("verify", "--database", self.cluster.address(), "--data", daemons[0].data)
+        verified = command("verify", "--database", both, "--data", daemons[0].data)
         self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
-        print(f"{len(writers.acknowledged)} acknowledged values in {SECONDS} s, all there once and seen once")
+        rate = len(writers.acknowledged) / took
+        print(f"{len(writers.acknowledged)} acknowledged values in {took:.0f} s, all there once and seen once")
+        if DEEP and not SANITIZED:
+            self.assertGreater(rate, LEAST_A_SECOND)
+
+    def restart(self, living):
+        self.cluster.stop("immediate")
+        self.assertNotIn(500, [daemon.get("/readyz").status for daemon in living])
+        self.cluster.start()
+        self.cluster.wait_for_standby()
+
+    def fail_over(self, living, standby):
+        self.cluster.stop("immediate")
+        self.wait_until_ready(living, 503)  # each tells the load balancer, and why
+        for daemon in living:
+            self.assertIn("PostgreSQL", daemon.get("/readyz").text)
+        standby.promote()
+        self.wait_until_ready(living, 200)
+
+    def wait_until_ready(self, daemons, status, patience=60):
+        deadline = time.monotonic() + patience
+        while [daemon.get("/readyz").status for daemon in daemons] != [status] * len(daemons):
+            self.assertLess(time.monotonic(), deadline, [daemon.get("/readyz") for daemon in daemons])
+            time.sleep(0.1)
+
+    def test_a_commit_that_the_standby_does_not_have_is_not_acknowledged(self):
+        """An operator ends the wait for a standby: the row is here alone, and a fail-over would lose it."""
+        daemon, = self.daemons(1)
+        self.cluster.query("ALTER SYSTEM SET synchronous_standby_names = 'away'")
+        self.cluster.query("SELECT pg_reload_conf()")
+        answers = []
+        body = {"designation": "25 H7", "measured_mm": "25.013", "part_id": "alone"}
+        posting = threading.Thread(target=lambda: answers.append(daemon.measure(body, {"Idempotency-Key": "k"})))
+        posting.start()
+        waiting = "SELECT pg_cancel_backend(pid) FROM pg_stat_activity WHERE wait_event = 'SyncRep'"
+        while posting.is_alive():
+            self.cluster.query(waiting)
+            posting.join(0.1)
+        self.assertEqual(answers[0].status, 503, answers)
+        # With its standby back, the same request finds the row it stored.
+        self.cluster.query("ALTER SYSTEM RESET synchronous_standby_names")
+        self.cluster.query("SELECT pg_reload_conf()")
+        self.wait_until_ready([daemon], 200)
+        self.assertEqual(daemon.measure(body, {"Idempotency-Key": "k"}).status, 201)
+        self.assertEqual(len(daemon.stored("part_id=alone")), 1)
 
     def test_an_acknowledgement_before_the_commit_is_caught(self):
         """The same comparison finds what a server loses that does not wait for its disk."""
@@ -165,6 +212,20 @@ class Shared(unittest.TestCase):
             early = dict(writers.acknowledged)
         lost, _ = compare(early, daemon.stored())
         self.assertNotEqual(lost, [])
+
+    def test_keys_taken_in_the_order_they_come_in_are_caught(self):
+        """Two batches with the same keys in opposite orders: one of them fails, unless both sort, or wait for one row
+        first as the daemons do."""
+        self.cluster.query("CREATE TABLE keys (key text PRIMARY KEY); CREATE TABLE head (id int); INSERT INTO head VALUES (1)")
+        def take(before, batches):
+            script = "BEGIN; {} INSERT INTO keys VALUES ('{}'); SELECT pg_sleep(1); INSERT INTO keys VALUES ('{}'); ROLLBACK;"
+            taking = [subprocess.Popen(["psql", "-qX", "-v", "ON_ERROR_STOP=1", "-d", self.cluster.address(), "-c",
+                                        script.format(before, *keys)], text=True, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.PIPE) for keys in batches]
+            return "".join(process.communicate(timeout=60)[1] for process in taking)
+        self.assertIn("deadlock", take("", ("ab", "ba")))
+        self.assertEqual(take("", ("ab", "ab")), "")
+        self.assertEqual(take("SELECT id FROM head FOR UPDATE;", ("ab", "ba")), "")
 
     def test_a_cursor_over_numbers_given_out_early_is_caught(self):
         """Follows a bigserial with four writers: rows whose commit comes late are passed over."""
@@ -189,7 +250,7 @@ class Together(unittest.TestCase):
     def setUpClass(cls):
         cls.cluster = Cluster("fsync=off").start()
         cls.addClassCleanup(cls.cluster.cleanup)
-        cls.one, cls.other = daemons_on(cls.cluster, 2)
+        cls.one, cls.other = daemons_on(cls.cluster.address(), 2)
         cls.addClassCleanup(cls.one.cleanup)
         cls.addClassCleanup(cls.other.cleanup)
 
@@ -225,7 +286,7 @@ class Together(unittest.TestCase):
         self.assertEqual(self.other.get(f"/v1/runs/{run.json['id']}").json["status"], "completed")
 
     def test_the_run_of_a_killed_daemon_is_run_again_by_another(self):
-        killed, = daemons_on(self.cluster, 1)
+        killed, = daemons_on(self.cluster.address(), 1)
         self.addCleanup(killed.cleanup)
         self.one.request("PUT", "/v1/files/nc_prog/E.H",
                          "BEGIN PGM E MM\nLBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM E MM\n",
@@ -242,6 +303,23 @@ class Together(unittest.TestCase):
             time.sleep(0.2)
         self.assertEqual(run["status"], "limit_exceeded", run)
         self.assertEqual(run, self.one.get(place).json)
+
+    def test_checking_the_configuration_connects(self):
+        def check(address):
+            return command("--check-config", "--listen", "127.0.0.1:0", "--database", address, "--data", self.one.data)
+        self.assertEqual(check(self.cluster.address()).returncode, 0)
+        self.cluster.query("CREATE DATABASE empty")
+        self.assertEqual(check(self.cluster.address("empty")).returncode, 0)
+        self.assertEqual(self.cluster.query("SELECT count(*) FROM pg_namespace WHERE nspname = 'fitgauge'", "empty"),
+                         [["0"]], "it makes nothing")
+        self.cluster.query("CREATE SCHEMA fitgauge; CREATE TABLE fitgauge.schema_migrations (number int8, checksum bytea)",
+                           "empty")
+        for address, says in ((self.cluster.address("empty"), "lists no migration"),
+                              (self.cluster.address("absent"), '"absent" does not exist'),
+                              ("postgresql:///x?host=/nonexistent", "/nonexistent")):
+            refused = check(address)
+            self.assertNotEqual(refused.returncode, 0)
+            self.assertIn(says, refused.stderr)
 
     def test_what_is_for_a_data_folder_says_what_to_use(self):
         backup = command("backup", "copy", "--database", self.cluster.address(), "--data", self.one.data)

@@ -24,11 +24,35 @@ class Cluster:
         subprocess.run([SCRIPT, "start", self.folder, *self.settings], check=True, timeout=90)
         return self
 
+    def standby(self):
+        """Another server that follows this one: from now on a commit is not told before it is there too."""
+        other = Cluster()
+        subprocess.run([SCRIPT, "standby", other.folder, self.folder], check=True, timeout=90)
+        other.start()
+        self.query("ALTER SYSTEM SET synchronous_standby_names = '*'")
+        self.query("SELECT pg_reload_conf()")
+        self.wait_for_standby()
+        return other
+
+    def wait_for_standby(self, patience=60):
+        """Until the standby holds all that this server does."""
+        deadline = time.monotonic() + patience
+        while self.query("SELECT count(*) FROM pg_stat_replication WHERE state = 'streaming' AND "
+                         "sync_state = 'sync'") != [["1"]]:
+            if time.monotonic() > deadline:
+                raise TimeoutError("the standby does not follow")
+            time.sleep(0.1)
+
+    def promote(self):
+        subprocess.run([SCRIPT, "promote", self.folder], check=True, timeout=90)
+
     def stop(self, how="immediate"):
         subprocess.run([SCRIPT, "stop", self.folder, how], check=True, timeout=90)
 
-    def address(self, database="postgres"):
-        return f"postgresql:///{database}?host={self.folder}&user=postgres"
+    def address(self, database="postgres", *others):
+        """Of this server, or of that one among `others` which takes writes."""
+        hosts = ",".join(str(cluster.folder) for cluster in (self, *others))
+        return f"postgresql:///{database}?host={hosts}&user=postgres&target_session_attrs=read-write"
 
     def query(self, sql, database="postgres"):
         """Rows as lists of texts."""
