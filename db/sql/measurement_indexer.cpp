@@ -7,6 +7,7 @@
 
 #include "sql/connection.hpp"
 #include "sql/measurement_query.hpp"
+#include "store/value_block.hpp"
 
 namespace fitgauge::store {
 namespace {
@@ -20,7 +21,22 @@ constexpr std::array<std::size_t, kLevels> kMostValues = {256, 4'096, 10'000, 10
 
 /// The columns of a block's rows before its texts.
 struct BlockColumn {
-  enum : int { MeasuredAt, ReceivedAt, Measured, Verdict, Source, Nominal, Run, Current, Texts };
+  enum : int {
+    MeasuredAt,
+    ReceivedAt,
+    Measured,
+    Verdict,
+    Source,
+    Nominal,
+    Run,
+    Corrected,
+    Lower,
+    Upper,
+    CorrectionOf,
+    Origin,
+    Current,
+    Texts
+  };
 };
 
 std::string block_sql() {
@@ -28,7 +44,9 @@ std::string block_sql() {
   for (const TextColumn& column : kTextColumns) columns += fmt::format(", m.{}", column.column);
   return fmt::format(
       "SELECT m.measured_at, m.received_at, m.measured_nm, m.verdict, m.source, m.nominal_nm, "
-      "m.run_id, {}{} FROM measurements m WHERE m.id BETWEEN ? AND ? ORDER BY m.id",
+      "m.run_id, coalesce(m.corrected_nm, m.measured_nm), m.nominal_nm + m.lower_deviation_nm, "
+      "m.nominal_nm + m.upper_deviation_nm, m.correction_of, coalesce(m.origin, 0), {}{} FROM "
+      "measurements m WHERE m.id BETWEEN ? AND ? ORDER BY m.id",
       CurrentCondition(std::to_string(kLastId)).both(), columns);
 }
 
@@ -50,6 +68,7 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
       block_(c, block_sql()),
       insert_node_(c, "INSERT INTO measurement_nodes VALUES (?, ?, ?, ?, ?, ?, 0)"),
       insert_posting_(c, "INSERT INTO measurement_postings VALUES (?, ?, ?, ?)"),
+      insert_values_(c, "INSERT INTO measurement_values VALUES (?, ?)"),
       insert_aggregate_(c,
                         fmt::format("INSERT INTO measurement_aggregates VALUES (?, ?, ?, {}, ?, ?)",
                                     AggregatedValue(c).parameter)),
@@ -78,10 +97,12 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
              "max_received_at, stale FROM measurement_nodes ORDER BY level, node"),
       posting_(c,
                "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND block = ?"),
+      values_(c, "SELECT bytes FROM measurement_values WHERE block = ?"),
       node_aggregates_(c, fmt::format("SELECT field, value, kind, statistics, {} FROM "
                                       "measurement_aggregates WHERE level = ? AND node = ?",
                                       AggregatedValue(c).is_none)),
-      count_postings_(c, "SELECT count(*) FROM measurement_postings") {}
+      count_postings_(c, "SELECT count(*) FROM measurement_postings"),
+      count_values_(c, "SELECT count(*) FROM measurement_values") {}
 
 bool MeasurementIndexer::step() {
   std::optional<IndexNode> stale;
@@ -126,6 +147,8 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   const IdSpan ids = node.ids();
   std::int64_t row = 0;
   std::array<Values, kTextColumns.size()> values;
+  ValueBlockWriter block;
+  bool is_plain = true;
   for (Rows rows = block_.query(ids.first, ids.last); rows.next(); ++row) {
     const auto measured_at = rows.get<std::int64_t>(BlockColumn::MeasuredAt);
     const auto received_at = rows.get<std::int64_t>(BlockColumn::ReceivedAt);
@@ -137,6 +160,13 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
     index.max_measured_at = std::max(index.max_measured_at, measured_at);
     index.min_received_at = std::min(index.min_received_at, received_at);
     index.max_received_at = std::max(index.max_received_at, received_at);
+    is_plain = is_plain && rows.get<std::int64_t>(BlockColumn::Origin) == 0 &&
+               !rows.get<std::optional<std::int64_t>>(BlockColumn::CorrectionOf);
+    block.add({.measured_nm = rows.get<std::int64_t>(BlockColumn::Corrected),
+               .lower_limit_nm = rows.get<std::int64_t>(BlockColumn::Lower),
+               .upper_limit_nm = rows.get<std::int64_t>(BlockColumn::Upper),
+               .subgroup = rows.get<std::optional<std::string_view>>(
+                   BlockColumn::Texts + static_cast<int>(index_of(TextField::Subgroup)))});
     const auto source = rows.get<int>(BlockColumn::Source);
     const auto verdict = rows.get<int>(BlockColumn::Verdict);
     const auto post = [&](int field, std::string value) {
@@ -169,6 +199,7 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
       drop_field(index, number_of(column.field));
     }
   }
+  if (is_plain) index.values = block.encode();
   return index;
 }
 
@@ -229,6 +260,7 @@ void MeasurementIndexer::insert(const IndexNode& node, const NodeIndex& index) {
   for (const auto& [key, rows] : index.postings) {
     insert_posting_.run(key.first, key.second, node.node, Blob{rows.encode()});
   }
+  if (index.values) insert_values_.run(node.node, Blob{*index.values});
   insert_aggregates(node, index);
 }
 
@@ -256,9 +288,11 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
     node.stale = rows.get<bool>(6);
   }
   std::int64_t postings = 0;
+  std::int64_t values = 0;
   for (const Stored& node : stored) {
     const NodeIndex index = derive(node.node);
     postings += static_cast<std::int64_t>(index.postings.size());
+    values += index.values ? 1 : 0;
     const std::array<std::int64_t, 4> times{index.min_measured_at, index.max_measured_at,
                                             index.min_received_at, index.max_received_at};
     if (times == node.times && is_stored(node.node, index, node.stale)) continue;
@@ -266,7 +300,8 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
     note(fmt::format("the index of measurements {} to {} (level {}) is not what they make it",
                      ids.first, ids.last, node.node.level));
   }
-  const auto surplus = count_postings_.returning<std::int64_t>() - postings;
+  const auto surplus = count_postings_.returning<std::int64_t>() - postings +
+                       count_values_.returning<std::int64_t>() - values;
   if (surplus != 0) note(fmt::format("the index has {} values that no measurement has", surplus));
 }
 
@@ -274,6 +309,10 @@ bool MeasurementIndexer::is_stored(const IndexNode& node, const NodeIndex& index
   for (const auto& [key, rows] : index.postings) {
     Rows found = posting_.query(key.first, key.second, node.node);
     if (!found.next() || found.get<Blob>(0).bytes != rows.encode()) return false;
+  }
+  if (index.values) {
+    Rows found = values_.query(node.node);
+    if (!found.next() || found.get<Blob>(0).bytes != *index.values) return false;
   }
   if (stale) return true;
   std::size_t count = 0;

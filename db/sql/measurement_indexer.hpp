@@ -28,10 +28,13 @@ struct NodeIndex {
   /// By field, value and kind (8 * source + verdict) of the rows that no other row corrects.
   using AggregateKey = std::tuple<int, std::optional<std::string>, int>;
   std::map<AggregateKey, ExactStatistics> aggregates;
+  /// The values of a block as store::ValueBlock reads them; none where a row is a correction or of
+  /// another folder, and for other nodes.
+  std::optional<std::string> values;
 };
 
-/// Makes the index of the measurements: nodes, postings and aggregates. Used by the writer's
-/// maintenance, and by the verifier to derive all of it again.
+/// Makes the index of the measurements: nodes, postings, aggregates and values. Used by the
+/// writer's maintenance, and by the verifier to derive all of it again.
 class MeasurementIndexer {
  public:
   explicit MeasurementIndexer(sql::Connection& connection);
@@ -61,6 +64,7 @@ class MeasurementIndexer {
   sql::Statement block_;
   sql::Statement insert_node_;
   sql::Statement insert_posting_;
+  sql::Statement insert_values_;
   sql::Statement insert_aggregate_;
   sql::Statement child_times_;
   sql::Statement child_aggregates_;
@@ -71,8 +75,10 @@ class MeasurementIndexer {
   sql::Statement make_fresh_;
   sql::Statement nodes_;
   sql::Statement posting_;
+  sql::Statement values_;
   sql::Statement node_aggregates_;
   sql::Statement count_postings_;
+  sql::Statement count_values_;
 };
 
 }  // namespace fitgauge::store

@@ -64,6 +64,12 @@ void for_each_time_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.received_to_ns) add("b.min_received_at < ?", *filter.received_to_ns);
 }
 
+/// Whether postings tell the rows that match, but for those that were corrected.
+bool is_said_by_index(const MeasurementFilter& filter) {
+  return !filter.has_times() && !filter.cause && !filter.has_notes &&
+         (!filter.run_id || filter.run_origin == 0);
+}
+
 std::string_view direction(ListOrder order) {
   return order == ListOrder::NewestFirst ? " DESC" : "";
 }
@@ -109,32 +115,36 @@ MeasurementQuery::MeasurementQuery(sql::Connection& connection, std::string colu
                   "block = ?"),
       corrected_(connection,
                  "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of IS NOT NULL "
-                 "AND id <= ? LIMIT 1) AS found") {}
+                 "AND id <= ? LIMIT 1) AS found"),
+      corrected_among_(connection,
+                       "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of "
+                       "BETWEEN ? AND ? LIMIT 1) AS found") {}
 
 bool MeasurementQuery::run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
-                           const Visitor& visit) {
-  const std::int64_t last = filter.as_of_id.value_or(kLastId);
-  if (filter.history || corrected_.returning<std::int64_t>(last) != 0) {
-    return run_current(filter, ids, order, visit);
-  }
+                           const Visitor& visit, const BlockReader& read_block) {
+  static const BlockReader none;
   MeasurementFilter all = filter;
-  all.history = true;
-  return run_current(all, ids, order, visit);
+  const std::int64_t last = filter.as_of_id.value_or(kLastId);
+  all.history = filter.history || corrected_.returning<std::int64_t>(last) == 0;
+  return run_current({.filter = all,
+                      .order = order,
+                      .visit = visit,
+                      .read_block = is_said_by_index(all) ? read_block : none},
+                     ids);
 }
 
-bool MeasurementQuery::run_current(const MeasurementFilter& filter, const IdSpan& ids,
-                                   ListOrder order, const Visitor& visit) {
+bool MeasurementQuery::run_current(const Reading& reading, const IdSpan& ids) {
   if (statements_.size() > kMostKept) statements_.clear();
+  const auto& [filter, order, visit, read_block] = reading;
   const std::int64_t indexed = indexed_to(last_block_);
   const IdSpan all = intersection(ids, {.first = 1, .last = filter.as_of_id.value_or(kLastId)});
   const IdSpan known = intersection(all, {.first = 1, .last = indexed});
   const IdSpan newer = intersection(all, {.first = indexed + 1, .last = kLastId});
   Statement& matching = matching_rows(filter, order);
   if (order == ListOrder::NewestFirst) {
-    return scan(matching, newer, order, visit) &&
-           run_indexed(filter, matching, known, order, visit);
+    return scan(matching, newer, order, visit) && run_indexed(reading, matching, known);
   }
-  return run_indexed(filter, matching, known, order, visit) && scan(matching, newer, order, visit);
+  return run_indexed(reading, matching, known) && scan(matching, newer, order, visit);
 }
 
 /// The rows between two ids that match, all bound but the ids.
@@ -206,12 +216,14 @@ std::vector<MeasurementQuery::Posting> MeasurementQuery::postings_of(
   return postings;
 }
 
-bool MeasurementQuery::run_indexed(const MeasurementFilter& filter, Statement& matching,
-                                   const IdSpan& ids, ListOrder order, const Visitor& visit) {
+bool MeasurementQuery::run_indexed(const Reading& reading, Statement& matching, const IdSpan& ids) {
   if (ids.empty()) return true;
-  if (filter.cause || filter.has_notes) return run_noted(filter, matching, ids, order, visit);
+  const auto& [filter, order, visit, read_block] = reading;
+  if (filter.cause || filter.has_notes) return run_noted(reading, matching, ids);
   const std::vector<Posting> postings = postings_of(filter);
-  if (postings.empty() && !filter.has_times()) return scan(matching, ids, order, visit);
+  if (postings.empty() && !filter.has_times() && !read_block) {
+    return scan(matching, ids, order, visit);
+  }
   std::string sql =
       postings.empty()
           ? "SELECT b.node FROM measurement_nodes b WHERE b.level = 0 AND b.node BETWEEN ? AND ?"
@@ -237,19 +249,21 @@ bool MeasurementQuery::run_indexed(const MeasurementFilter& filter, Statement& m
   for (Rows rows(blocks); rows.next();) {
     const auto block = rows.get<std::int64_t>(0);
     RowSet wanted = postings.empty() ? RowSet::all() : RowSet::decode(rows.get<Blob>(1).bytes);
-    if (!postings.empty()) keep_rows_of(std::span(postings).subspan(1), block, wanted);
-    if (!run_block(matching, ids, wanted, block, order, visit)) return false;
+    if (!postings.empty()) {
+      keep_rows_of(std::span(postings).subspan(1), read_block != nullptr, block, wanted);
+    }
+    if (!run_block(reading, matching, ids, wanted, block)) return false;
   }
   return true;
 }
 
 /// Notes are few, as people write them: from one block with some to the next.
-bool MeasurementQuery::run_noted(const MeasurementFilter& filter, Statement& matching,
-                                 const IdSpan& ids, ListOrder order, const Visitor& visit) {
+bool MeasurementQuery::run_noted(const Reading& reading, Statement& matching, const IdSpan& ids) {
+  const MeasurementFilter& filter = reading.filter;
   const std::vector<Posting> postings = postings_of(filter);
   const std::string where = fmt::format("FROM notes WHERE measurement BETWEEN ? AND ?{}",
                                         filter.cause ? " AND cause = ?" : "");
-  const bool newest = order == ListOrder::NewestFirst;
+  const bool newest = reading.order == ListOrder::NewestFirst;
   Statement& next =
       statement(fmt::format("SELECT {}(measurement) {}", newest ? "max" : "min", where));
   Statement& in_block = statement("SELECT measurement " + where);
@@ -268,8 +282,8 @@ bool MeasurementQuery::run_noted(const MeasurementFilter& filter, Statement& mat
     in_block.bind(2, whole.last);
     RowSet wanted;
     for (Rows rows(in_block); rows.next();) wanted.add(rows.get<std::int64_t>(0) - whole.first);
-    keep_rows_of(postings, block.node, wanted);
-    if (!run_block(matching, ids, wanted, block.node, order, visit)) return false;
+    keep_rows_of(postings, false, block.node, wanted);
+    if (!run_block(reading, matching, ids, wanted, block.node)) return false;
     if (newest) {
       left.last = whole.first - 1;
     } else {
@@ -279,12 +293,12 @@ bool MeasurementQuery::run_noted(const MeasurementFilter& filter, Statement& mat
   return true;
 }
 
-/// Takes the rows of a block that lack a value out of `wanted`.
-void MeasurementQuery::keep_rows_of(std::span<const Posting> postings, std::int64_t block,
+/// Takes the rows of a block that lack a value out of `wanted`. A source is mostly looked at in the
+/// rows: nearly all have the one that is asked for. @param all a source too
+void MeasurementQuery::keep_rows_of(std::span<const Posting> postings, bool all, std::int64_t block,
                                     RowSet& wanted) {
   for (const Posting& posting : postings) {
-    // A source is looked at in the rows: most have the one that is asked for.
-    if (wanted.empty() || posting.field == number_of(IndexField::Source)) return;
+    if (wanted.empty() || (!all && posting.field == number_of(IndexField::Source))) return;
     wanted &= rows_in_block(posting, block);
   }
 }
@@ -296,11 +310,15 @@ RowSet MeasurementQuery::rows_in_block(const Posting& posting, std::int64_t bloc
 
 /// Reads the rows of a block, those that follow each other at once; what the index would leave out
 /// between them does not match either, and is cheaper to pass over than to ask a server anew.
-bool MeasurementQuery::run_block(Statement& matching, const IdSpan& ids, const RowSet& rows,
-                                 std::int64_t block, ListOrder order, const Visitor& visit) {
-  std::vector<IdSpan> runs;
+bool MeasurementQuery::run_block(const Reading& reading, Statement& matching, const IdSpan& ids,
+                                 const RowSet& rows, std::int64_t block) {
   const IdSpan whole = IndexNode{0, block}.ids();
   const IdSpan looked_at = intersection(ids, whole);
+  if (reading.read_block && (reading.filter.history || !has_corrected(whole))) {
+    const BlockRead read = reading.read_block(block, rows, looked_at);
+    if (read != BlockRead::Passed) return read == BlockRead::Taken;
+  }
+  std::vector<IdSpan> runs;
   for (std::int64_t id = looked_at.first; id <= looked_at.last; ++id) {
     if (!rows.contains(id - whole.first)) continue;
     if (!runs.empty() && (runs.back().last == id - 1 || !connection_.dialect().streams)) {
@@ -309,9 +327,14 @@ bool MeasurementQuery::run_block(Statement& matching, const IdSpan& ids, const R
       runs.push_back({id, id});
     }
   }
-  if (order == ListOrder::NewestFirst) std::reverse(runs.begin(), runs.end());
-  return std::all_of(runs.begin(), runs.end(),
-                     [&](const IdSpan& run) { return scan(matching, run, order, visit); });
+  if (reading.order == ListOrder::NewestFirst) std::reverse(runs.begin(), runs.end());
+  return std::all_of(runs.begin(), runs.end(), [&](const IdSpan& run) {
+    return scan(matching, run, reading.order, reading.visit);
+  });
+}
+
+bool MeasurementQuery::has_corrected(const IdSpan& block) {
+  return corrected_among_.returning<std::int64_t>(block.first, block.last) != 0;
 }
 
 Statement& MeasurementQuery::statement(const std::string& sql) {

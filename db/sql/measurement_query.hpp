@@ -48,10 +48,16 @@ class MeasurementQuery {
   /// Called for each row; false ends the query.
   using Visitor = std::function<bool(const sql::Rows&)>;
 
+  enum class BlockRead : std::uint8_t { Passed, Taken, Ended };
+  /// Offered an indexed block whose index says all: of its rows among `ids` those in `rows` match.
+  /// Passed: they are to be read and visited one by one; Ended ends the query.
+  using BlockReader =
+      std::function<BlockRead(std::int64_t block, const RowSet& rows, const IdSpan& ids)>;
+
   /// Visits the matching rows among `ids`. @returns false when the visitor ended the query.
   /// Where nothing was corrected yet, no row is asked whether it was.
   bool run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
-           const Visitor& visit);
+           const Visitor& visit, const BlockReader& read_block = {});
 
  private:
   /// A value that the index knows the rows of.
@@ -61,17 +67,24 @@ class MeasurementQuery {
   };
   static std::vector<Posting> postings_of(const MeasurementFilter& filter);
 
+  /// What a run hands down to its parts.
+  struct Reading {
+    const MeasurementFilter& filter;
+    ListOrder order;
+    const Visitor& visit;
+    const BlockReader& read_block;  ///< empty where the index does not say all
+  };
+
   sql::Statement& matching_rows(const MeasurementFilter& filter, ListOrder order);
-  bool run_current(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
-                   const Visitor& visit);
+  bool run_current(const Reading& reading, const IdSpan& ids);
   bool scan(sql::Statement& matching, const IdSpan& ids, ListOrder order, const Visitor& visit);
-  bool run_indexed(const MeasurementFilter& filter, sql::Statement& matching, const IdSpan& ids,
-                   ListOrder order, const Visitor& visit);
-  bool run_noted(const MeasurementFilter& filter, sql::Statement& matching, const IdSpan& ids,
-                 ListOrder order, const Visitor& visit);
-  void keep_rows_of(std::span<const Posting> postings, std::int64_t block, RowSet& wanted);
-  bool run_block(sql::Statement& matching, const IdSpan& ids, const RowSet& rows,
-                 std::int64_t block, ListOrder order, const Visitor& visit);
+  bool run_indexed(const Reading& reading, sql::Statement& matching, const IdSpan& ids);
+  bool run_noted(const Reading& reading, sql::Statement& matching, const IdSpan& ids);
+  bool run_block(const Reading& reading, sql::Statement& matching, const IdSpan& ids,
+                 const RowSet& rows, std::int64_t block);
+  bool has_corrected(const IdSpan& block);
+  void keep_rows_of(std::span<const Posting> postings, bool all, std::int64_t block,
+                    RowSet& wanted);
   RowSet rows_in_block(const Posting& posting, std::int64_t block);
   sql::Statement& statement(const std::string& sql);
 
@@ -81,6 +94,7 @@ class MeasurementQuery {
   sql::Statement last_block_;
   sql::Statement block_rows_;
   sql::Statement corrected_;
+  sql::Statement corrected_among_;
   std::map<std::string, sql::Statement> statements_;  ///< by their text
 };
 

@@ -16,6 +16,7 @@
 namespace fitgauge::store {
 namespace {
 
+using sql::Blob;
 using sql::Rows;
 using sql::Statement;
 
@@ -48,22 +49,39 @@ MeasuredValue read_value(const Rows& rows) {
           .number = rows.get<std::int64_t>(6)};
 }
 
-/// Visits a page of the rows that match. @param read visits a row and gives its id
-/// @returns the cursor for the next page, or none when this was the last
-template <class Read>
-std::optional<std::int64_t> read_page(MeasurementQuery& query, const MeasurementFilter& filter,
-                                      const IdSpan& ids, std::size_t limit, ListOrder order,
-                                      const Read& read) {
-  std::int64_t last = 0;
-  std::size_t count = 0;
-  bool more = false;
-  query.run(filter, ids, order, [&](const Rows& rows) {
-    // One row more than the page tells that there is a next one.
-    more = count++ == limit;
-    if (!more) last = read(rows);
-    return !more;
-  });
-  return more ? std::optional(last) : std::nullopt;
+/// Counts the rows of a page.
+class Page {
+ public:
+  explicit Page(std::size_t limit) : limit_(limit) {}
+
+  /// @returns whether the row `id` still belongs to it; one that does not tells of a next page.
+  bool take(std::int64_t id) {
+    more_ = count_++ == limit_;
+    if (!more_) last_ = id;
+    return !more_;
+  }
+  /// The cursor for the next page, or none when this was the last.
+  std::optional<std::int64_t> next() const { return more_ ? std::optional(last_) : std::nullopt; }
+
+ private:
+  const std::size_t limit_;
+  std::size_t count_ = 0;
+  std::int64_t last_ = 0;
+  bool more_ = false;
+};
+
+/// Takes the values of a block's `rows` among `ids`, if it has them in one piece.
+/// @param take called with each; false ends the query
+template <class Take>
+MeasurementQuery::BlockRead read_values(Rows found, ValueBlock& block, const RowSet& rows,
+                                        const IdSpan& whole, const IdSpan& ids, const Take& take) {
+  using BlockRead = MeasurementQuery::BlockRead;
+  if (!found.next() || !block.read(found.get<Blob>(0).bytes)) return BlockRead::Passed;
+  for (std::int64_t id = ids.first; id <= ids.last; ++id) {
+    const std::int64_t row = id - whole.first;
+    if (rows.contains(row) && !take(block.value(id, row))) return BlockRead::Ended;
+  }
+  return BlockRead::Taken;
 }
 
 }  // namespace
@@ -101,6 +119,7 @@ struct MeasurementsStore::Statements {
         whole_rows(c, measurement_columns()),
         values(c, fmt::format("{}{}", kValueColumns, kPlaceColumns)),
         own_values(c, fmt::format("{}{}", kValueColumns, kOwnPlaceColumns)),
+        block_values(c, "SELECT bytes FROM measurement_values WHERE block = ?"),
         forwarded_rows(c,
                        "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE origin IS NOT NULL "
                        "LIMIT 1) AS found"),
@@ -215,6 +234,7 @@ struct MeasurementsStore::Statements {
   MeasurementQuery whole_rows;
   MeasurementQuery values;
   MeasurementQuery own_values;
+  Statement block_values;
   Statement forwarded_rows;
   MeasurementQuery ids;
   std::map<TextField, MeasurementSummary> summaries;
@@ -306,11 +326,13 @@ std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& fil
     if (after == kLastId) return std::nullopt;
     ids.first = after + 1;
   }
-  return read_page(statements_->whole_rows, filter, ids, limit, order, [&](const Rows& rows) {
-    const MeasurementRow row = read_row(rows);
-    visit(row);
-    return row.id;
+  Page page(limit);
+  statements_->whole_rows.run(filter, ids, order, [&](const Rows& rows) {
+    if (!page.take(rows.get<std::int64_t>(0))) return false;
+    visit(read_row(rows));
+    return true;
   });
+  return page.next();
 }
 
 std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilter& filter,
@@ -320,11 +342,21 @@ std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilt
   const IdSpan ids{.first = after + 1, .last = kLastId};
   const bool all_own = statements_->forwarded_rows.returning<std::int64_t>() == 0;
   MeasurementQuery& values = all_own ? statements_->own_values : statements_->values;
-  return read_page(values, filter, ids, limit, ListOrder::OldestFirst, [&](const Rows& rows) {
-    const MeasuredValue value = read_value(rows);
+  Page page(limit);
+  const auto take = [&](const MeasuredValue& value) {
+    if (!page.take(value.id)) return false;
     visit(value);
-    return value.id;
-  });
+    return true;
+  };
+  ValueBlock block;
+  const auto read_block = [&](std::int64_t node, const RowSet& rows, const IdSpan& among) {
+    return read_values(statements_->block_values.query(node), block, rows, IndexNode{0, node}.ids(),
+                       among, take);
+  };
+  values.run(
+      filter, ids, ListOrder::OldestFirst, [&](const Rows& rows) { return take(read_value(rows)); },
+      read_block);
+  return page.next();
 }
 
 std::optional<std::int64_t> MeasurementsStore::first_of_newest(const MeasurementFilter& filter,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "store/measured_value.hpp"
 #include "store/measurement_filter.hpp"
 #include "store/measurement_row.hpp"
 #include "store/measurement_summary.hpp"
@@ -20,17 +21,6 @@ namespace fitgauge::store {
 namespace sql {
 class Connection;
 }
-
-/// What figures are computed from: a measured value, its limits and what it is grouped by.
-struct MeasuredValue {
-  std::int64_t id = 0;
-  std::int64_t measured_nm = 0;  ///< at 20 °C where it was corrected
-  std::int64_t lower_limit_nm = 0;
-  std::int64_t upper_limit_nm = 0;
-  std::optional<std::string_view> subgroup{};  ///< the database's own while a visitor runs
-  std::int64_t origin = 0;                     ///< 0: of this folder
-  std::int64_t number = 0;                     ///< in its public id
-};
 
 /// Measurements, kept for ever: the database refuses UPDATE and DELETE.
 class MeasurementsStore {

@@ -115,20 +115,12 @@ PercentileCapability by_percentiles(std::span<const Wide> sorted, int scale,
   return result;
 }
 
-/// @param rising is no more needed: a million values are not kept twice
-NormalityTest normality_of(std::vector<Wide> rising, int scale, const Exact& mean,
-                           double standard_deviation) {
-  // Differences from the smallest value, so that leading digits all share cost nothing.
-  const long double unit = nearest(Exact(power_of_ten(scale)));
-  const Wide least = rising.front();
-  std::vector<double> differences;
-  differences.reserve(rising.size());
-  for (const Wide value : rising) {
-    differences.push_back(static_cast<double>(static_cast<long double>(value - least) / unit));
-  }
-  rising = {};
-  const Exact from_least = mean - Exact(Integer(least), power_of_ten(scale));
-  return test_normality(differences, static_cast<double>(nearest(from_least)), standard_deviation);
+NormalityTest normality_of(std::span<const Wide> rising, int scale, const Exact& mean,
+                           long double standard_deviation) {
+  const Exact unit(power_of_ten(scale));
+  const Exact from_least = mean * unit - Exact(Integer(rising.front()));
+  return test_normality(rising, static_cast<double>(nearest(from_least)),
+                        static_cast<double>(standard_deviation * nearest(unit)));
 }
 
 void describe_distribution(Capability& capability, const Subgroups& data, const Exact& mean,
@@ -139,8 +131,8 @@ void describe_distribution(Capability& capability, const Subgroups& data, const 
     capability.percentile = by_percentiles(rising, scale, limits);
   }
   if (rising.size() < kFewestForNormality) return;
-  capability.normality =
-      normality_of(std::move(rising), scale, mean, static_cast<double>(capability.overall));
+  capability.normality = normality_of(rising, scale, mean, capability.overall);
+  rising = {};  // a million values are not kept twice
   capability.model = choose_model(data, *capability.normality);
 }
 

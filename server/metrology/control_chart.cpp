@@ -51,13 +51,15 @@ class Source {
   }
   /// sum / of, as a point.
   double point(Wide sum, std::size_t of) const {
-    return static_cast<double>(short_unit_ != 0 ? ratio(sum, short_unit_ * static_cast<Wide>(of))
-                                                : in_units(Integer(sum), of));
+    return short_unit_ != 0 ? quotient(sum, short_unit_ * static_cast<Wide>(of))
+                            : nearest_double(Exact(Integer(sum), unit_ * Integer(of)));
   }
 
-  long double mean() const {
+  Exact mean() const {
     const Counts used = counts().subspan(phase_.from * size(), (phase_.to - phase_.from) * size());
-    return nearest(moments(used, data_.values.scale()).mean);
+    ExactSum sum;
+    for (const Wide value : used) sum.add(value);
+    return {sum.value(), unit_ * Integer(used.size())};
   }
   long double mean_range() const {
     ExactSum sum;
@@ -161,16 +163,22 @@ Chart spread_chart(Spread spread, long double sigma) {
   return chart;
 }
 
-/// The centre rounded as the points are: values without spread then never leave it, not by a bit.
-long double centre_of_points(long double centre) { return static_cast<double>(centre); }
+/// The centre of the points, and the same rounded as they are: values without spread then never
+/// leave it, not by a bit.
+struct Centre {
+  explicit Centre(const Exact& value) : exactly(nearest(value)), as_point(nearest_double(value)) {}
 
-Chart ewma_chart(const std::vector<double>& points, long double centre, long double point_sigma,
+  long double exactly;
+  double as_point;
+};
+
+Chart ewma_chart(const std::vector<double>& points, const Centre& centre, long double point_sigma,
                  double lambda) {
-  Chart chart{.name = "ewma", .centre = centre};
+  Chart chart{.name = "ewma", .centre = centre.exactly};
   const long double width = kWidth * point_sigma * std::sqrt(lambda / (2 - lambda));
-  chart.lower_limit = centre - width;
-  chart.upper_limit = centre + width;
-  long double weighted = centre_of_points(centre);
+  chart.lower_limit = centre.exactly - width;
+  chart.upper_limit = centre.exactly + width;
+  long double weighted = centre.as_point;
   chart.points.reserve(points.size());
   for (const double point : points) {
     weighted += lambda * (point - weighted);
@@ -179,13 +187,13 @@ Chart ewma_chart(const std::vector<double>& points, long double centre, long dou
   return chart;
 }
 
-Chart cusum_chart(const std::vector<double>& points, long double centre, long double point_sigma,
+Chart cusum_chart(const std::vector<double>& points, const Centre& centre, long double point_sigma,
                   const ChartPlan& plan) {
   Chart chart{.name = "cusum"};
   chart.upper_limit = plan.decision_interval * point_sigma;
   chart.lower_limit = -chart.upper_limit;
   const long double slack = plan.reference_value * point_sigma;
-  const long double target = centre_of_points(centre);
+  const long double target = centre.as_point;
   long double up = 0;
   long double down = 0;
   for (const double point : points) {
@@ -201,28 +209,32 @@ Chart cusum_chart(const std::vector<double>& points, long double centre, long do
 /// deviation are decimals, and so exact: a value that lies on one is not beyond it.
 class Location {
  public:
-  Location(const ChartPlan& plan, std::size_t group_size, long double centre,
-           long double point_sigma) {
+  Location(const ChartPlan& plan, std::size_t group_size, const Centre& centre,
+           long double point_sigma)
+      : zones_{.centre = centre.as_point} {
     const bool exact = plan.centre && plan.standard_deviation && group_size == 1;
     for (int i = -3; i <= 3; ++i) {
-      lines_[static_cast<std::size_t>(i + 3)] =
-          exact ? nearest(*plan.centre + Exact(i) * *plan.standard_deviation)
-                : centre + i * point_sigma;
+      double& zone = i == 0  ? zones_.centre
+                     : i > 0 ? zones_.above.at(static_cast<std::size_t>(i - 1))
+                             : zones_.below.at(static_cast<std::size_t>(-i - 1));
+      long double& line = lines_.at(static_cast<std::size_t>(i + 3));
+      if (exact) {
+        const Exact there = *plan.centre + Exact(i) * *plan.standard_deviation;
+        line = nearest(there);
+        zone = nearest_double(there);
+      } else {
+        line = centre.exactly + i * point_sigma;
+        zone = i == 0 || point_sigma == 0 ? centre.as_point : static_cast<double>(line);
+      }
     }
   }
 
   long double at(int deviations) const { return lines_[static_cast<std::size_t>(deviations + 3)]; }
-  ZoneLines zones() const {
-    ZoneLines zones{.centre = static_cast<double>(at(0))};
-    for (int i = 1; i <= 3; ++i) {
-      zones.above[static_cast<std::size_t>(i - 1)] = static_cast<double>(at(i));
-      zones.below[static_cast<std::size_t>(i - 1)] = static_cast<double>(at(-i));
-    }
-    return zones;
-  }
+  const ZoneLines& zones() const { return zones_; }
 
  private:
   std::array<long double, 7> lines_{};
+  ZoneLines zones_;
 };
 
 /// Rule 1 of a chart that has no zones.
@@ -277,7 +289,7 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
   const long double sigma =
       plan.standard_deviation ? nearest(*plan.standard_deviation) : spread.mean / spread.per_mean;
   const long double point_sigma = sigma / std::sqrt(static_cast<long double>(data.size));
-  const long double centre = plan.centre ? nearest(*plan.centre) : source.mean();
+  const Centre centre(plan.centre ? *plan.centre : source.mean());
   std::vector<double> points = source.means();
 
   ControlCharts made{.charts = {},
@@ -302,7 +314,7 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
     made.violations.push_back({needs_groups ? "xbar" : "i", found.rule, found.index});
   }
   made.charts.push_back({.name = needs_groups ? "xbar" : "i",
-                         .centre = centre,
+                         .centre = centre.exactly,
                          .lower_limit = location.at(-3),
                          .upper_limit = location.at(3),
                          .points = std::move(points)});

@@ -2,6 +2,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstddef>
+#include <cstdint>
 
 namespace fitgauge::metrology {
 
@@ -22,17 +23,42 @@ inline Exact whole(std::size_t count) { return {Integer(count)}; }
 
 /// The nearest `long double`, which holds 19 digits; ties to even.
 long double nearest(const Exact& value);
-/// numerator / denominator, rounded once. @pre denominator > 0
-long double ratio(Wide numerator, Wide denominator);
+/// The nearest `double`, which is not always that of the nearest `long double`: that was rounded.
+double nearest_double(const Exact& value);
+/// Whether products of two such numbers fit in 128 bits.
+constexpr bool is_short(Wide value) {
+  constexpr Wide kShort = Wide{1} << 62;
+  return -kShort < value && value < kShort;
+}
+
+/// numerator / denominator as the nearest `double`. @pre denominator > 0
+inline double quotient(Wide numerator, Wide denominator) {
+  constexpr Wide kExact = Wide{1} << 53;  // as doubles
+  if (-kExact <= numerator && numerator <= kExact && denominator <= kExact) {
+    return static_cast<double>(static_cast<std::int64_t>(numerator)) /
+           static_cast<double>(static_cast<std::int64_t>(denominator));
+  }
+  return nearest_double(Exact(Integer(numerator), Integer(denominator)));
+}
 
 /// A sum that never overflows: 128 bits while they reach, then any number.
 class ExactSum {
  public:
-  void add(Wide value);
-  void add_product(Wide a, Wide b);
+  void add(Wide value) {
+    Wide sum = 0;
+    if (__builtin_add_overflow(low_, value, &sum)) return carry(value);
+    low_ = sum;
+  }
+  void add_product(Wide a, Wide b) {
+    if (is_short(a) && is_short(b)) return add(a * b);
+    add_long_product(a, b);
+  }
   Integer value() const { return high_ + Integer(low_); }
 
  private:
+  void carry(Wide value);
+  void add_long_product(Wide a, Wide b);
+
   Wide low_ = 0;
   Integer high_ = 0;
 };

@@ -25,17 +25,18 @@ double p_of(double a) {
 
 }  // namespace
 
-NormalityTest test_normality(const std::vector<double>& sorted, double mean,
-                             double standard_deviation) {
-  const std::size_t count = sorted.size();
+NormalityTest test_normality(std::span<const Wide> rising, double mean, double standard_deviation) {
+  const std::size_t count = rising.size();
   const auto n = static_cast<double>(count);
   const auto square = [](std::size_t value) {
     return static_cast<double>(value) * static_cast<double>(value);
   };
   double sum = 0;
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
-    while (end < count && sorted[end] == sorted[begin]) ++end;
-    const double z = (sorted[begin] - mean) / standard_deviation;
+    while (end < count && rising[end] == rising[begin]) ++end;
+    // From the least value, so that leading digits all share cost nothing.
+    const double z =
+        (static_cast<double>(rising[begin] - rising.front()) - mean) / standard_deviation;
     // ln F(x_i) has the weight 2i + 1, ln(1 - F(x_i)) that of its place from the other end: of
     // equal values, of which measured ones are full, these are differences of squares.
     sum += (square(end) - square(begin)) * log_below(z) +

@@ -41,19 +41,22 @@ Groups in_groups(const Subgroups& data) {
 }
 
 /// Distances from the median of their group, doubled so that they stay whole numbers.
-Groups distances_from_medians(const Groups& groups) {
+Groups distances_from_medians(const Subgroups& data, std::vector<std::size_t> ends) {
   std::vector<Wide> distances;
-  distances.reserve(groups.values.size());
+  distances.reserve(ends.back());
   std::vector<Wide> sorted;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    sorted.assign(groups[i].begin(), groups[i].end());
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    const auto group = data.values.counts().subspan(begin, end - begin);
+    sorted.assign(group.begin(), group.end());
     std::sort(sorted.begin(), sorted.end());
     const Wide twice = sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2];
-    for (const Wide value : groups[i]) {
+    for (const Wide value : group) {
       distances.push_back(2 * value > twice ? 2 * value - twice : twice - 2 * value);
     }
+    begin = end;
   }
-  return {Decimals(std::move(distances), groups.values.scale()), groups.ends};
+  return {Decimals(std::move(distances), data.values.scale()), std::move(ends)};
 }
 
 /// Whether the means rise or fall with their index: the probability of so steep a slope by chance;
@@ -102,20 +105,23 @@ std::string_view meaning(ProcessModel model) {
 }
 
 std::optional<ModelChoice> choose_model(const Subgroups& data, const NormalityTest& normality) {
-  const Groups groups = in_groups(data);
-  if (groups.size() < kFewestGroups) return std::nullopt;
+  Groups groups = in_groups(data);
+  const std::size_t count = groups.size();
+  if (count < kFewestGroups) return std::nullopt;
   ModelChoice choice;
   const Course course = course_of(groups);
-  choice.tests = {.location = analyse_variance(groups).value().test.p,
-                  .dispersion = analyse_variance(distances_from_medians(groups)).value().test.p,
-                  .trend = course.trend,
-                  .subgroup_size = groups[0].size()};
+  choice.tests.trend = course.trend;
+  choice.tests.subgroup_size = groups[0].size();
+  choice.tests.location = analyse_variance(groups).value().test.p;
+  groups.values = {};  // a million values are not kept three times
+  const Groups distances = distances_from_medians(data, std::move(groups.ends));
+  choice.tests.dispersion = analyse_variance(distances).value().test.p;
   // An undefined probability (no spread within) is not below the significance.
   const bool moves = choice.tests.location < kModelSignificance;
   const bool widens = choice.tests.dispersion < kModelSignificance;
   const bool normal = normality.p >= kModelSignificance;
   // Two standard errors of the r(1) of a random series.
-  const double random_bound = 2 / std::sqrt(static_cast<double>(groups.size()));
+  const double random_bound = 2 / std::sqrt(static_cast<double>(count));
   if (moves && widens) {
     choice.model = ProcessModel::D;
   } else if (widens) {

@@ -90,8 +90,7 @@ double zone_rules_run_length(ZoneRules rules) {
           (zone == 3 ? 1.0 : normal_below(zone + 1.0)) - normal_below(zone + 0.0);
       for (const int side : {-1, 1}) {
         ZoneHistory next = histories[from];
-        const auto completed = next.add({side * zone, side}, rules);
-        if (std::find(completed.begin(), completed.end(), true) != completed.end()) continue;
+        if (!(next.add({side * zone, side}) & rules).empty()) continue;
         next.reduce(rules);
         const auto [found, is_new] = numbers.try_emplace(next, histories.size());
         if (is_new) histories.push_back(next);

@@ -4,36 +4,6 @@
 #include <bit>
 
 namespace fitgauge::metrology {
-namespace {
-
-constexpr int kRun = 8;
-
-}  // namespace
-
-std::array<bool, ZoneRules::kCount> ZoneHistory::add(Point point, ZoneRules rules) {
-  std::array<bool, ZoneRules::kCount> completed{};
-  for (const int sign : {1, -1}) {
-    Side& side = sides_[sign > 0 ? 0 : 1];
-    const int zone = sign * point.zone;
-    const bool beyond_2 = zone >= 2;
-    const bool beyond_1 = zone >= 1;
-    const bool on_side = point.side == sign;
-    if (zone >= 3) completed[0] = true;
-    if (beyond_2 && side.beyond_2 != 0) completed[1] = true;
-    if (beyond_1 && std::popcount(side.beyond_1) >= 3) completed[2] = true;
-    if (on_side && side.run + 1 >= kRun) completed[3] = true;
-    side.beyond_2 =
-        static_cast<std::uint8_t>((unsigned{side.beyond_2} << 1U | unsigned{beyond_2}) & 0b11U);
-    side.beyond_1 =
-        static_cast<std::uint8_t>((unsigned{side.beyond_1} << 1U | unsigned{beyond_1}) & 0b1111U);
-    side.run = static_cast<std::uint8_t>(on_side ? std::min(side.run + 1, kRun - 1) : 0);
-  }
-  for (int rule = 1; rule <= ZoneRules::kCount; ++rule) {
-    completed[static_cast<std::size_t>(rule - 1)] &= rules.has(rule);
-  }
-  return completed;
-}
-
 void ZoneHistory::reduce(ZoneRules rules) {
   for (Side& side : sides_) {
     if (!rules.has(2)) side.beyond_2 = 0;
@@ -60,10 +30,11 @@ std::vector<RuleViolation> find_violations(std::span<const double> points, const
     for (std::size_t k = 0; k < lines.above.size(); ++k) {
       zone += int{x > lines.above[k]} - int{x < lines.below[k]};
     }
-    const auto completed =
-        history.add({zone, int{x > lines.centre} - int{x < lines.centre}}, rules);
+    const ZoneRules completed =
+        history.add({zone, int{x > lines.centre} - int{x < lines.centre}}) & rules;
+    if (completed.empty()) continue;
     for (int rule = 1; rule <= ZoneRules::kCount; ++rule) {
-      if (completed[static_cast<std::size_t>(rule - 1)]) violations.push_back({rule, i});
+      if (completed.has(rule)) violations.push_back({rule, i});
     }
   }
   return violations;

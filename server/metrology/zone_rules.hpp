@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,11 +19,20 @@ class ZoneRules {
   constexpr ZoneRules() = default;
   static constexpr ZoneRules all() { return ZoneRules(0b1111); }
   static constexpr ZoneRules only_first() { return ZoneRules(1); }
+  /// Each of the four.
+  static constexpr ZoneRules of(bool first, bool second, bool third, bool fourth) {
+    return ZoneRules(static_cast<std::uint8_t>(unsigned{first} | unsigned{second} << 1U |
+                                               unsigned{third} << 2U | unsigned{fourth} << 3U));
+  }
 
   /// @pre 1 <= rule <= kCount, here and below
   constexpr void add(int rule) { bits_ = static_cast<std::uint8_t>(bits_ | (1U << (rule - 1))); }
   constexpr bool has(int rule) const { return ((bits_ >> (rule - 1)) & 1U) != 0; }
   constexpr bool empty() const { return bits_ == 0; }
+
+  friend constexpr ZoneRules operator&(ZoneRules a, ZoneRules b) {
+    return ZoneRules(static_cast<std::uint8_t>(a.bits_ & b.bits_));
+  }
 
  private:
   explicit constexpr ZoneRules(std::uint8_t bits) : bits_(bits) {}
@@ -41,7 +51,24 @@ class ZoneHistory {
   };
 
   /// Takes the next point. @returns the rules whose pattern it completes, itself beyond the zone.
-  std::array<bool, ZoneRules::kCount> add(Point point, ZoneRules rules);
+  ZoneRules add(Point point) {
+    std::array<bool, ZoneRules::kCount> completed{};
+    for (const int sign : {1, -1}) {
+      Side& side = sides_[sign > 0 ? 0 : 1];
+      const int zone = sign * point.zone;
+      const bool on_side = point.side == sign;
+      completed[0] |= zone >= 3;
+      completed[1] |= zone >= 2 && side.beyond_2 != 0;
+      completed[2] |= zone >= 1 && (kThreeOfFour >> side.beyond_1 & 1U) != 0;
+      completed[3] |= on_side && side.run == kRun - 1;
+      side.beyond_2 =
+          static_cast<std::uint8_t>((unsigned{side.beyond_2} << 1U | (zone >= 2)) & 0b11U);
+      side.beyond_1 =
+          static_cast<std::uint8_t>((unsigned{side.beyond_1} << 1U | (zone >= 1)) & 0b1111U);
+      side.run = static_cast<std::uint8_t>(on_side ? std::min(side.run + 1, kRun - 1) : 0);
+    }
+    return ZoneRules::of(completed[0], completed[1], completed[2], completed[3]);
+  }
 
   /// Forgets what no later pattern of `rules` can need; histories that then are equal have one
   /// future.
@@ -50,6 +77,9 @@ class ZoneHistory {
   friend constexpr auto operator<=>(const ZoneHistory&, const ZoneHistory&) = default;
 
  private:
+  static constexpr int kRun = 8;
+  static constexpr unsigned kThreeOfFour = 0b1110'1000'1000'0000;  ///< the masks of three and four
+
   struct Side {
     std::uint8_t beyond_2 = 0;  ///< of the last two points, the newest in bit 0
     std::uint8_t beyond_1 = 0;  ///< of the last four

@@ -159,9 +159,11 @@ char* write_decimal(char* to, std::int64_t value, int scale) {
     *to++ = '-';
     magnitude = 0 - magnitude;
   }
+  constexpr int kUsual = 6;  // nanometres in mm: divided by a constant, in a third of the time
   const std::uint64_t unit = kPowersOfTen[static_cast<std::size_t>(scale)];
-  to = std::to_chars(to, to + kMostDigits, magnitude / unit).ptr;
-  std::uint64_t fraction = magnitude % unit;
+  const std::uint64_t whole = scale == kUsual ? magnitude / kPowersOfTen[kUsual] : magnitude / unit;
+  to = std::to_chars(to, to + kMostDigits, whole).ptr;
+  std::uint64_t fraction = magnitude - whole * unit;
   if (fraction == 0) return to;
   *to++ = '.';
   char* end = to + scale;

@@ -40,6 +40,7 @@ std::vector<Standard> make_all() {
                        .designation = "25 ISO 2768-m",
                        .sources = {"DIN ISO 2768-1 as a manufacturer prints it",
                                    "GB/T 1804-2000, its equivalent", "a supplier's table"},
+                       .left_out = {},
                        .tables = {},
                        .revision = {}},
                       {{"linear", "iso2768_linear"},
@@ -51,6 +52,7 @@ std::vector<Standard> make_all() {
                        .designation = "M10-6H",
                        .sources = {"DIN 13-14 as a program has it", "limits of M threads by size",
                                    "the formulas of the standard"},
+                       .left_out = "positions a to d: no second source that is public was found",
                        .tables = {},
                        .revision = {}},
                       {{"pitch_diameters", "iso965_pitch_diameters"},
@@ -61,17 +63,20 @@ std::vector<Standard> make_all() {
                        .title = "Parallel keys and keyways, deep pattern",
                        .designation = {},
                        .sources = {"the sheet of August 1968", "catalogues of two manufacturers"},
+                       .left_out = {},
                        .tables = {},
                        .revision = {}},
                       {{"keyways", "din6885_keyways"}}));
-  made.push_back(make({.name = "iso492",
-                       .edition = "ISO 492:2014",
-                       .title = "Radial bearings but tapered roller bearings: mean diameters",
-                       .designation = {},
-                       .sources = {"JIS B 1514-1:2017", "catalogues of three manufacturers"},
-                       .tables = {},
-                       .revision = {}},
-                      {{"bores", "iso492_bores"}, {"outer_rings", "iso492_outer_rings"}}));
+  made.push_back(
+      make({.name = "iso492",
+            .edition = "ISO 492:2014",
+            .title = "Radial bearings but tapered roller bearings: mean diameters",
+            .designation = {},
+            .sources = {"JIS B 1514-1:2017", "catalogues of three manufacturers"},
+            .left_out = "diameters over 630 mm: no second source that is public was found",
+            .tables = {},
+            .revision = {}},
+           {{"bores", "iso492_bores"}, {"outer_rings", "iso492_outer_rings"}}));
   return made;
 }
 

@@ -16,6 +16,7 @@ struct Standard {
   std::string_view title;
   std::string_view designation;  ///< an example; empty where the standard has none for limits
   std::vector<std::string_view> sources;  ///< the numbers were compared with
+  std::string_view left_out;  ///< what it has too, and why it is not here; empty for nothing
   std::vector<Table> tables;
   /// The edition with the first digits of the digest of its numbers, `ISO 2768-1:1989-1f2e3d4c`:
   /// what records name, so that they can be judged again.

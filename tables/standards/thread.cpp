@@ -149,6 +149,13 @@ Result<Length> deviation_of(const Thread& thread) {
                  fmt::format("ISO 965-1 has no position {} for a pitch of {} mm", position,
                              format_mm(thread.pitch))};
   }
+  if (position >= "a" && position <= "d") {
+    return Error{ErrorCode::ClassUnknown,
+                 fmt::format("the position {} of ISO 965-1 is left out: no second source of its "
+                             "deviations that is public was found; state them: nominal_mm, "
+                             "feature, upper_um, lower_um",
+                             position)};
+  }
   return Error{ErrorCode::ClassUnknown,
                fmt::format("the position {} is not known: internal threads have G and H, external "
                            "ones e, f, g and h",

@@ -227,6 +227,10 @@ CREATE TABLE measurement_postings (
   rows  BYTEA NOT NULL,
   PRIMARY KEY (field, value, block)
 );
+CREATE TABLE measurement_values (
+  block  BIGINT PRIMARY KEY,
+  bytes  BYTEA NOT NULL
+);
 CREATE TABLE measurement_aggregates (
   level      BIGINT NOT NULL,
   node       BIGINT NOT NULL,

@@ -71,7 +71,9 @@ void add_standards(Schemas& schemas) {
       {"edition", schema::text(), "ISO 2768-1:1989"},
       {"title", schema::text(), ""},
       {"revision", schema::text(), "The table_revision of what is judged by it"},
-      {"designation", schema::text(), "An example; absent where it has none for limits", false}};
+      {"designation", schema::text(), "An example; absent where it has none for limits", false},
+      {"left_out", schema::text(), "What the standard has beside this, and why it is not here",
+       false}};
   const std::string standard =
       schema::object(identity + schema::Fields{
                                     {"tables", schema::array(schema::text()), ""},

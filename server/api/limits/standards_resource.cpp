@@ -21,6 +21,7 @@ void write_identity(JsonWriter& json, const Standard& standard) {
       .member("title", standard.title)
       .member("revision", std::string_view(standard.revision));
   if (!standard.designation.empty()) json.member("designation", standard.designation);
+  if (!standard.left_out.empty()) json.member("left_out", standard.left_out);
 }
 
 http::Response response_of(std::string body, std::string etag) {

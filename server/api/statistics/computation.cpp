@@ -14,8 +14,13 @@ http::Route route_of(const Services& services, Computation computation) {
     const auto shared = share(std::move(responder));
     services.runs.prepare(
         [compute, &request, shared] {
-          const auto body = parse_json(request.body());
-          if (!body) return shared->fail(body.error());
+          auto body = parse_json(request.body());
+          if (!body) {
+            Error error = body.error();
+            if (error.code == ErrorCode::BodyTooLarge)
+              error.message.append(": ").append(kOfManyValues);
+            return shared->fail(std::move(error));
+          }
           auto answer = compute(*body);
           if (!answer) return shared->fail(answer.error());
           shared->answer({200, "application/json", *std::move(answer)});
@@ -27,6 +32,7 @@ http::Route route_of(const Services& services, Computation computation) {
   route.body = {.use = http::BodyUse::Required,
                 .media_types = {"application/json"},
                 .limit = kLargestValuesBody,
+                .when_too_large = std::string(kOfManyValues),
                 .schema = std::move(computation.reads)};
   route.operation = std::move(computation.operation);
   route.tag = std::move(computation.tag);

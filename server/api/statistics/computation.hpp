@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/services.hpp"
@@ -26,5 +27,9 @@ http::Route route_of(const Services& services, Computation computation);
 
 /// Bodies of values are as large as those of measurements.
 inline constexpr std::size_t kLargestValuesBody = std::size_t{32} << 20;
+/// What is done with more values than a body may have.
+inline constexpr std::string_view kOfManyValues =
+    "store the values with POST /v1/measurements and take the figures of what is stored from GET "
+    "/v1/measurements/summary, /capability and /chart";
 
 }  // namespace fitgauge::api

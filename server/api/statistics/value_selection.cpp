@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace fitgauge::api {
 namespace {
@@ -30,10 +31,19 @@ metrology::Exact exact_mm(Length length) {
   return {metrology::Integer(length.count()), metrology::power_of_ten(kDecimals)};
 }
 
+void MeasurementIds::add(std::int64_t number, std::string_view origin) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  const auto fits = [&](const Part& part) {
+    return part.origin == origin && number >= part.base && number - part.base <= kMost;
+  };
+  if (parts_.empty() || !fits(parts_.back())) parts_.push_back({offsets_.size(), number, origin});
+  offsets_.push_back(static_cast<std::uint32_t>(number - parts_.back().base));
+}
+
 std::string MeasurementIds::text(std::size_t index) const {
-  const auto later = [](std::size_t at, const auto& origin) { return at < origin.first; };
-  const auto next = std::upper_bound(origins_.begin(), origins_.end(), index, later);
-  return app::measurement_id_text(numbers_.at(index), std::prev(next)->second);
+  const auto later = [](std::size_t at, const Part& part) { return at < part.begin; };
+  const Part& part = *std::prev(std::upper_bound(parts_.begin(), parts_.end(), index, later));
+  return app::measurement_id_text(part.base + offsets_.at(index), part.origin);
 }
 
 std::string ValueSelection::text_of(const Limits& limits) {

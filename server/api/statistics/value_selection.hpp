@@ -15,24 +15,26 @@ namespace fitgauge::api {
 
 metrology::Exact exact_mm(Length length);
 
-/// The ids of measurements, in eight bytes each: those that follow each other are of one folder.
+/// The ids of measurements, in four bytes each: those that follow each other are mostly of one
+/// folder, and their numbers rise.
 class MeasurementIds {
  public:
-  void add(std::int64_t number, std::string_view origin) {
-    if (origins_.empty() || origins_.back().second != origin) {
-      origins_.emplace_back(numbers_.size(), origin);
-    }
-    numbers_.push_back(number);
-  }
-  std::size_t size() const { return numbers_.size(); }
+  void add(std::int64_t number, std::string_view origin);
+  std::size_t size() const { return offsets_.size(); }
   std::size_t bytes() const {
-    return numbers_.size() * sizeof(std::int64_t) + origins_.size() * sizeof(origins_.front());
+    return offsets_.size() * sizeof(offsets_.front()) + parts_.size() * sizeof(parts_.front());
   }
   std::string text(std::size_t index) const;
 
  private:
-  std::vector<std::int64_t> numbers_;
-  std::vector<std::pair<std::size_t, std::string_view>> origins_;  ///< from which index on
+  struct Part {
+    std::size_t begin = 0;  ///< its first index
+    std::int64_t base = 0;  ///< what the offsets of its numbers are from
+    std::string_view origin;
+  };
+
+  std::vector<std::uint32_t> offsets_;
+  std::vector<Part> parts_;
 };
 
 /// The stored values a figure is computed from, in mm, with the limits all of them have.
@@ -48,7 +50,7 @@ struct SelectedValues {
   std::string last_id{};
 };
 
-/// Collects values as they are read. Its memory is bounded: 24 bytes a value, and the names of the
+/// Collects values as they are read. Its memory is bounded: 20 bytes a value, and the names of the
 /// subgroups.
 class ValueSelection {
  public:

@@ -164,6 +164,8 @@ Result<std::string> MeasurementService::read_values(const MeasurementQuery& quer
   store::MeasurementFilter filter = measurement_filter(query);
   std::optional<std::int64_t> after = 0;
   std::string newest = measurement_id_text(query.as_of.value_or(0), origins_.own());
+  std::int64_t origin = 0;  // of the value before, mostly that of the next
+  std::string_view digits = origins_.digits(origin);
   while (after) {
     auto next = database_.readers().wait(
         [&](const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
@@ -184,7 +186,8 @@ Result<std::string> MeasurementService::read_values(const MeasurementQuery& quer
               filter, *after, kRowsAJob, [&](const store::MeasuredValue& value) {
                 if (!taken) return;
                 MeasuredValue measured = measured_value(value);
-                measured.origin = origins_.digits(value.origin);
+                if (value.origin != origin) digits = origins_.digits(origin = value.origin);
+                measured.origin = digits;
                 taken = visit(measured);
               });
           if (!taken) return taken.error();

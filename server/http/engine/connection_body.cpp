@@ -78,7 +78,10 @@ bool Connection::step_body() {
   switch (parsed) {
     case RequestParser::Step::NeedMore: return false;
     case RequestParser::Step::Complete: return finish_body();
-    case RequestParser::Step::Refused: refuse(parser_->refusal()); return true;
+    case RequestParser::Step::Refused:
+      refuse(parser_->refusal().code == ErrorCode::BodyTooLarge ? exchange_.body_too_large()
+                                                                : parser_->refusal());
+      return true;
     default: pending_piece_ = parser_->piece(); return true;
   }
 }
@@ -91,10 +94,7 @@ bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
       wait_begun_ = thread_.now();
       thread_.shared().budget.begin_wait();
       return false;
-    case BodyReader::Outcome::TooLarge:
-      refuse({413, ErrorCode::BodyTooLarge,
-              "The body is larger than this route takes, after decompression."});
-      return true;
+    case BodyReader::Outcome::TooLarge: refuse(exchange_.body_too_large()); return true;
     case BodyReader::Outcome::Malformed:
       refuse({400, ErrorCode::RequestMalformed, "The body is not a gzip stream."});
       return true;

@@ -281,10 +281,17 @@ std::optional<Refusal> Exchange::check_body() {
     return Refusal{415, ErrorCode::EncodingUnsupported, "The one Content-Encoding read is gzip."};
   }
   if (head_->content_length.value_or(0) > rules.limit) {
-    return Refusal{413, ErrorCode::BodyTooLarge,
-                   fmt::format("The body may have {} bytes.", rules.limit)};
+    return body_too_large();
   }
   return std::nullopt;
+}
+
+Refusal Exchange::body_too_large() const {
+  const BodyRules& rules = request_.route_->body;
+  return {413, ErrorCode::BodyTooLarge,
+          fmt::format("The body may have {} bytes{}{}{}.", rules.limit,
+                      gzip_ ? " after decompression" : "", rules.when_too_large.empty() ? "" : ": ",
+                      rules.when_too_large)};
 }
 
 BodyReader::Plan Exchange::body_plan() const {

@@ -32,6 +32,7 @@ class Exchange {
   Response refuse(RequestHead& head, std::uint64_t id, const Refusal& refusal);
 
   BodyReader::Plan body_plan() const;
+  Refusal body_too_large() const;
   /// The client waits for 100 (Continue) before it sends the body.
   bool wants_continue() const { return wants_continue_; }
   /// @param body with what Request::kBodyPadding asks for behind it, unless it is empty.

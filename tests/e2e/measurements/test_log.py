@@ -230,7 +230,8 @@ class Tampered(StorageTest):
     def test_rows_cut_off_with_all_that_the_folder_knows_of_them(self):
         (self.daemon.data / "fitgauge.checkpoint").unlink()
         alter(self.daemon.database, *UNTRIGGERED, "DELETE FROM measurements WHERE id > 256", "UPDATE log SET size = 256, seal = NULL",
-              "DELETE FROM measurement_nodes", "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates")
+              "DELETE FROM measurement_nodes", "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates",
+              "DELETE FROM measurement_values")
         self.assertNotIn("cut off", self.verify().stdout, "the folder alone cannot tell")
         self.assert_found("the newest were cut off", self.kept)
 
@@ -303,7 +304,8 @@ class Tamperings(StorageTest):
         """Does one thing to a copy of the folder. @returns what."""
         row, other = chance.sample(range(1, self.ROWS), 2)
         hide = ("UPDATE log SET size = (SELECT max(id) FROM measurements), seal = NULL", "DELETE FROM measurement_nodes",
-                "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates")
+                "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates",
+                "DELETE FROM measurement_values")
         swap = [f"UPDATE measurements SET id = {to} WHERE id = {at}" for at, to in ((row, 900), (other, row), (900, other))]
         change = f"UPDATE measurements SET {chance.choice(self.CHANGES)} WHERE id = {row}"
         if what in ("older", "rewrite"):

@@ -102,6 +102,13 @@ class Standards(DaemonTest):
         answer = self.daemon.get("/v1/standards/iso1")
         self.assertEqual((answer.status, answer.json["code"]), (404, "resource.not_found"))
         self.assertEqual(self.daemon.get("/v1/standards/iso492?table=x").status, 400)
+        # What is left out is said where one would look for it.
+        large = self.limits("/v1/standards/iso492?size_mm=700")
+        self.assertEqual((large["rows"], large["left_out"][:21]), ([], "diameters over 630 mm"))
+        self.assertIn("positions a to d", self.limits("/v1/standards/iso965-1?size_mm=10")["left_out"])
+        refused = self.daemon.get("/v1/limits/M10-6a")
+        self.assert_problem(refused, 404, "class.unknown")
+        self.assertIn("no second source", refused.json["detail"])
         first = self.daemon.get("/v1/standards/iso492")
         again = self.daemon.get("/v1/standards/iso492", If_None_Match=first.headers["etag"])
         self.assertEqual(again.status, 304)

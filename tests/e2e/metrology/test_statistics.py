@@ -151,8 +151,13 @@ class Statistics(DaemonTest):
                 self.assert_problem(answer, 422, "request.invalid")
                 self.assertEqual(answer.json["errors"][0]["code"], code, answer)
         self.assert_problem(self.send("summary", b'{"values":[NaN]}'), 400, "json.malformed")
-        ten_million = b'{"values":[' + b"1," * 9_999_999 + b"1]}"
-        self.assert_problem(self.send("summary", ten_million), 413, "request.body_too_large")
+        # Ten million: too many values, or too many bytes before they are counted; both say what to do.
+        for value, limit in ((b"1,", "more than 500000 values"), (b"25.0105,", "may have 33554432 bytes")):
+            ten_million = b'{"values":[' + value * 9_999_999 + b"1]}"
+            answer = self.send("summary", ten_million)
+            self.assert_problem(answer, 413, "request.body_too_large")
+            self.assertIn(limit, answer.json["detail"])
+            self.assertIn("GET /v1/measurements/summary", answer.json["detail"])
 
 
 class Uncertainty(DaemonTest):

@@ -67,6 +67,14 @@ class Stored(DaemonTest):
         self.assertAlmostEqual(off["cpm"]["value"], off["pp"]["value"] / math.hypot(1, away), places=12)
         self.assertGreater(off["cp"]["lower"], found["cp"]["lower"])
 
+    def test_points_are_the_decimals_that_were_measured(self):
+        """Rounded once: through more digits than a double has, these would end in …40999999999998."""
+        values = ["25.009741", "25.008521", "25.011398", "25.009741"]
+        self.store("exact", values, {"nominal_mm": 25, "feature": "hole", "upper_um": 21, "lower_um": 0})
+        text = self.daemon.get("/v1/measurements/chart?characteristic=exact").text
+        self.assertIn('"points":[' + ",".join(values) + "]", text)
+        self.assertIn('"points":[0.00122,0.002877,0.001657]', text)
+
     def test_values_one_by_one(self):
         values = ["74", "74.001", "74", "74.001", "74", "74.001", "74", "74.03", "74", "74.001"]
         answer = self.store("jump", values)

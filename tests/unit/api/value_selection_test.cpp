@@ -52,10 +52,16 @@ TEST_CASE("ids keep the folder each was stored in") {
   ids.add(2, "aaaaaaaaaaaaaaaa");
   ids.add(1, "bbbbbbbbbbbbbbbb");
   ids.add(3, "aaaaaaaaaaaaaaaa");
+  ids.add(2, "aaaaaaaaaaaaaaaa");  // back
+  ids.add(9'000'000'000'000, "aaaaaaaaaaaaaaaa");
+  ids.add(9'000'000'000'007, "aaaaaaaaaaaaaaaa");
   CHECK(ids.text(0) == "m1-aaaaaaaaaaaaaaaa");
   CHECK(ids.text(1) == "m2-aaaaaaaaaaaaaaaa");
   CHECK(ids.text(2) == "m1-bbbbbbbbbbbbbbbb");
   CHECK(ids.text(3) == "m3-aaaaaaaaaaaaaaaa");
+  CHECK(ids.text(4) == "m2-aaaaaaaaaaaaaaaa");
+  CHECK(ids.text(5) == "m9000000000000-aaaaaaaaaaaaaaaa");
+  CHECK(ids.text(6) == "m9000000000007-aaaaaaaaaaaaaaaa");
 }
 
 TEST_CASE("subgroups stand in the order they begin in, their values in that of storing") {
@@ -93,7 +99,7 @@ TEST_CASE("values with other limits are not of one selection") {
 }
 
 TEST_CASE("a selection is bounded in bytes, the names of its subgroups among them") {
-  constexpr std::size_t kBytes = 24'000;  // 24 of each value
+  constexpr std::size_t kBytes = 20'020;  // 20 of each value, and some for the folder
   ValueSelection values(kBytes);
   for (int i = 0; i < 1000; ++i) REQUIRE(values.add(value(i, i)).has_value());
   CHECK(values.add(value(1000, 0)).error().code == ErrorCode::StatisticsTooMany);

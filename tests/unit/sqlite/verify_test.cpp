@@ -194,6 +194,12 @@ TEST_CASE("what is derived from the measurements is derived again") {
         "UPDATE measurement_aggregates SET statistics = zeroblob(64) WHERE level = 0 "
         "AND node = 1 AND field = 1");
   }
+  SUBCASE("another value among those for figures") {
+    fixture.tamper("UPDATE measurement_values SET bytes = zeroblob(1030) WHERE block = 1");
+  }
+  SUBCASE("values of a block that is not there") {
+    fixture.tamper("INSERT INTO measurement_values VALUES (7, x'00')");
+  }
   SUBCASE("other times") {
     fixture.tamper("UPDATE measurement_nodes SET max_measured_at = 1 WHERE node = 1");
   }

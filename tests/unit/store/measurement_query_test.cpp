@@ -237,6 +237,31 @@ std::vector<std::int64_t> newest_first(Fixture& fixture, const MeasurementFilter
   return ids;
 }
 
+/// The rows a filter finds as figures read them, page by page, against those that lists give.
+void check_values(Fixture& fixture, const MeasurementFilter& filter, std::size_t page) {
+  std::vector<std::string> expected;
+  fixture.read([&](const Stores& stores) -> Result<bool> {
+    stores.measurements.list(filter, 0, 1'000'000, [&](const MeasurementRow& row) {
+      expected.push_back(fmt::format("{} {} {} {} {}", row.id, row.measured_nm,
+                                     row.lower_limit_nm(), row.upper_limit_nm(),
+                                     row.subgroup.value_or("none")));
+    });
+    return true;
+  });
+  std::vector<std::string> found;
+  std::optional<std::int64_t> after = 0;
+  while (after) {
+    after = *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
+      return stores.measurements.list_values(filter, *after, page, [&](const MeasuredValue& value) {
+        found.push_back(fmt::format("{} {} {} {} {}", value.id, value.measured_nm,
+                                    value.lower_limit_nm, value.upper_limit_nm,
+                                    value.subgroup.value_or("none")));
+      });
+    });
+  }
+  CHECK(found == expected);
+}
+
 bool index_step(Fixture& fixture) {
   return *fixture.write(
       [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); });
@@ -247,6 +272,7 @@ void check_filters(Fixture& fixture, const Sample& sample, std::mt19937& random,
     const MeasurementFilter filter = any_filter(random, sample.rows.size());
     std::vector<std::int64_t> expected = sample.ids(filter);
     CHECK(fixture.list(filter, 1 + random() % 2000) == expected);
+    check_values(fixture, filter, 1 + random() % 2000);
     const std::size_t last = 1 + random() % 50;
     const auto first =
         *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
