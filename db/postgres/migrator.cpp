@@ -43,7 +43,7 @@ Result<void> check_server(const std::string& address) {
     Connection connection(address);
     if (has_schema(connection)) return check(connection);
     sql::Statement may(connection,
-                       "SELECT has_database_privilege(current_database(), 'CREATE')::int8");
+                       "SELECT has_database_privilege(current_database(), 'CREATE')::int::int8");
     if (may.returning<std::int64_t>() == 1) return {};
     return Error{ErrorCode::StorageUnavailable,
                  "the database has no schema fitgauge, and this user may not make it: GRANT CREATE "
