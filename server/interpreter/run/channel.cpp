@@ -17,6 +17,7 @@ Channel::Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment
       log(output, run_environment.observer),
       files(run_environment.disk, output, run_options.limits.files),
       calls(std::move(main), run_options.limits),
+      printer(files, output),
       tables(files, parameters, allowance) {}
 
 NcResult<void> Channel::programmed_stop(std::string reason) {

@@ -36,8 +36,7 @@ NcResult<Vec2> first_point(Channel& channel, const WorkingPlane& plane,
 
 }  // namespace
 
-NcResult<void> mill_contours(Machining& cycle) {
-  Channel& channel = cycle.channel;
+NcResult<void> mill_contours(Channel& channel, Machining& cycle) {
   ToolMotion& motion = cycle.motion;
   if (!channel.active_cycle.contour_data || channel.active_cycle.contours.empty()) {
     return nc_error(1017, "cycles 14 CONTOUR and 20 CONTOUR DATA stand before it");

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/channel.hpp"
 #include "run/machining.hpp"
 
 /// Cycles along the tool axis, as the control's manuals describe their steps.
@@ -131,7 +130,7 @@ class Drilling {
 /// The feed of a thread: its pitch at the speed of the spindle.
 Feed thread_feed(const Machining& cycle, double factor = 1) {
   if (cycle.value(239) == 0) return cycle.feed(206);
-  const double rpm = cycle.channel.machine().state().modes.spindle_rpm;
+  const double rpm = cycle.motion.state().modes.spindle_rpm;
   return Feed::at(std::abs(cycle.value(239)) * rpm * factor);
 }
 

@@ -30,7 +30,7 @@ RunStatus status_of(NcErrorKind kind) {
 
 /// What a control does at the end of a run, also after an error: collected output is written.
 NcResult<void> close_files(Channel& channel) {
-  auto printed = channel.printer.close(channel);
+  auto printed = channel.printer.close();
   auto tables = channel.tables.close();
   channel.cycle_memory.end_program();
   return printed ? tables : printed;

@@ -9,16 +9,14 @@ namespace fitgauge::interpreter {
 namespace {
 
 /// Cycle 240 may give the diameter of the countersink instead of its depth.
-double depth(const Channel& channel, const MachiningDefinition& definition) {
+double depth(const MachiningDefinition& definition, const machine::Tool* tool) {
   if (definition.value(343) != 1) return definition.value(201);
-  const machine::Tool* tool = channel.machine().state().active_tool();
   const double point = tool == nullptr ? 0 : tool->point_angle;
   if (point <= 0 || point >= 180) return 0;
   return -std::abs(definition.value(344)) / 2 / std::tan(machine::radians(point / 2));
 }
 
-Heights heights_of(const Channel& channel, const MachiningDefinition& definition,
-                   const ToolMotion& motion) {
+Heights heights_of(const MachiningDefinition& definition, const ToolMotion& motion) {
   Heights heights;
   if (definition.cycle->descriptor.dotted) {
     // The old cycles begin at their clearance: the surface lies below the tool.
@@ -30,7 +28,7 @@ Heights heights_of(const Channel& channel, const MachiningDefinition& definition
     heights.clearance = heights.surface + definition.value(200);
     heights.second = std::max(heights.clearance, heights.surface + definition.value(204));
   }
-  heights.bottom = heights.surface + depth(channel, definition);
+  heights.bottom = heights.surface + depth(definition, motion.state().active_tool());
   return heights;
 }
 
@@ -40,8 +38,8 @@ machine::Feed feed_of(double rate) {
   return std::isinf(rate) ? machine::Feed::rapid() : machine::Feed::at(rate);
 }
 
-Machining::Machining(Channel& run, const MachiningDefinition& defined)
-    : channel(run), definition(defined), motion(run), heights(heights_of(run, defined, motion)) {}
+Machining::Machining(const ToolMotion& tool, const MachiningDefinition& defined)
+    : definition(defined), motion(tool), heights(heights_of(defined, tool)) {}
 
 machine::Feed Machining::feed(int parameter) const { return feed_of(value(parameter)); }
 
@@ -62,7 +60,7 @@ NcResult<void> Machining::leave() {
 }
 
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition) {
-  Machining cycle(channel, definition);
+  Machining cycle({channel.machine(), channel.budget}, definition);
   switch (definition.cycle->shape) {
     case MachiningShape::Drilling: return drill(cycle);
     case MachiningShape::Boring: return bore(cycle);
@@ -75,7 +73,7 @@ NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definit
     case MachiningShape::CircularSlot: return mill_circular_slot(cycle);
     case MachiningShape::ThreadMilling: return mill_thread(cycle);
     case MachiningShape::Engraving: return engrave(cycle);
-    case MachiningShape::Contour: return mill_contours(cycle);
+    case MachiningShape::Contour: return mill_contours(channel, cycle);
     case MachiningShape::PolarPattern:
     case MachiningShape::LinearPattern:
     case MachiningShape::ContourLabels:

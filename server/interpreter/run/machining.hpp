@@ -21,12 +21,11 @@ struct Heights {
 
 /// What one execution of a cycle works with.
 struct Machining {
-  Channel& channel;
   const MachiningDefinition& definition;
   ToolMotion motion;
   Heights heights;
 
-  Machining(Channel& run, const MachiningDefinition& defined);
+  Machining(const ToolMotion& tool, const MachiningDefinition& defined);
   double value(int parameter) const { return definition.value(parameter); }
   machine::Feed feed(int parameter) const;
   /// Q208; where the block says 0, the feed of plunging (decision 30); rapid without it.
@@ -54,7 +53,7 @@ NcResult<void> engrave(Machining& cycle);
 
 // contour_pocket.cpp
 /// 21 to 24. @errors 1017 without cycles 14 and 20.
-NcResult<void> mill_contours(Machining& cycle);
+NcResult<void> mill_contours(Channel& channel, Machining& cycle);
 
 // patterns.cpp
 /// 220 and 221: runs the cycle before it at each point.

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "machine/tolerance.hpp"
-#include "run/channel.hpp"
 #include "run/machining.hpp"
 
 /// Pockets, slots, bores and threads: the finished contour of the centre of the tool at each depth.
@@ -143,7 +142,7 @@ NcResult<void> drill_core(Machining& cycle) {
   MachiningDefinition core = cycle.definition;
   core.values[201] = cycle.value(356);
   if (core.value(201) == 0) return {};
-  Machining drilling(cycle.channel, core);
+  Machining drilling(cycle.motion, core);
   return drill(drilling);
 }
 

@@ -65,7 +65,7 @@ NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern)
   const double between = pattern.value(301) == 1 ? height : pattern.value(203) + pattern.value(200);
   const auto points = is_circle ? circle_points(pattern) : grid_points(pattern);
   const Vec2 centre{pattern.value(216), pattern.value(217)};
-  ToolMotion motion(channel);
+  ToolMotion motion(channel.machine(), channel.budget);
   bool is_first = true;
   for (const Vec2 point : points) {
     auto done = motion.to_height(is_first ? height : between, Feed::rapid());
@@ -91,7 +91,7 @@ NcResult<void> run_points(Channel& channel) {
     return nc_error(1017, "CYCL CALL PAT needs a PATTERN DEF before it");
   }
   const auto points = channel.active_cycle.pattern;
-  ToolMotion motion(channel);
+  ToolMotion motion(channel.machine(), channel.budget);
   for (const machine::Vec3& point : points) {
     MachiningDefinition cycle = *active;
     cycle.values[203] = active->value(203) + point.z;

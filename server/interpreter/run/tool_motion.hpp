@@ -3,17 +3,17 @@
 #include "machine/machine.hpp"
 #include "run/nc_error.hpp"
 #include "run/plane_geometry.hpp"
+#include "run/run_budget.hpp"
 
 namespace fitgauge::interpreter {
-
-class Channel;
 
 /// The moves of a machining cycle: in the working plane, and at heights along the tool axis, in mm
 /// of the input system. Each looks at the run's budget first;
 /// a move to where the tool stands is none.
 class ToolMotion {
  public:
-  explicit ToolMotion(Channel& channel);
+  /// Both must outlive this object. The plane is that of the tool in the spindle now.
+  ToolMotion(machine::Machine& machine, RunBudget& budget);
 
   NcResult<void> to_height(double height, const machine::Feed& feed);
   NcResult<void> to_point(Vec2 point, const machine::Feed& feed);
@@ -26,10 +26,12 @@ class ToolMotion {
   Vec2 point() const;
   double height() const;
   const WorkingPlane& plane() const { return plane_; }
-  double tool_radius() const;
+  const machine::MachineState& state() const { return machine_.state(); }
+  double tool_radius() const { return state().tool_radius(); }
 
  private:
-  Channel& channel_;
+  machine::Machine& machine_;
+  RunBudget& budget_;
   const WorkingPlane plane_;
 };
 
