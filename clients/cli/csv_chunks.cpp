@@ -84,17 +84,17 @@ Outcome<void> CsvChunks::read_header() {
   header_ = buffer_.substr(0, header->size);
   header_lines_ = header->lines;
   pass(header->size);
-  position_ = {.bytes = header->size, .lines = header_lines_, .sha256 = digest_.digest()};
+  position_ = {.bytes = header->size, .lines = header_lines_, .sha256 = to_hex(digest_.so_far())};
   return {};
 }
 
 void CsvChunks::begin_with_rows() {
   separator_ = kNoCells;
-  position_.sha256 = digest_.digest();
+  position_.sha256 = to_hex(digest_.so_far());
 }
 
 void CsvChunks::pass(std::size_t size) {
-  digest_.add(std::string_view(buffer_).substr(0, size));
+  digest_.update(std::string_view(buffer_).substr(0, size));
   buffer_.erase(0, size);
 }
 
@@ -104,7 +104,7 @@ CsvChunk CsvChunks::take(std::size_t size, std::size_t rows, std::uint64_t lines
   pass(size);
   position_ = {.bytes = position_.bytes + size,
                .lines = position_.lines + lines,
-               .sha256 = digest_.digest()};
+               .sha256 = to_hex(digest_.so_far())};
   chunk.end = position_;
   return chunk;
 }
@@ -121,7 +121,7 @@ Outcome<CsvMatch> CsvChunks::skip_to(const CsvPosition& place) {
     pass(size);
     left -= size;
   }
-  position_ = {.bytes = place.bytes, .lines = place.lines, .sha256 = digest_.digest()};
+  position_ = {.bytes = place.bytes, .lines = place.lines, .sha256 = to_hex(digest_.so_far())};
   if (position_ != place) return CsvMatch::Different;
   if (at_line_end) return CsvMatch::Same;
   if (const auto filled = fill_empty(); !filled) return filled.error();

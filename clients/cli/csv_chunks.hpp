@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/digest.hpp"
 #include "cli/outcome.hpp"
-#include "cli/sha256.hpp"
 
 namespace fitgauge::cli {
 

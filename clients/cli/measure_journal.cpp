@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/digest.hpp"
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
-#include "cli/sha256.hpp"
 #include "cli/terminal.hpp"
 
 namespace fitgauge::cli {
@@ -187,11 +187,11 @@ Outcome<std::string> journal_path(const std::string& input, const std::string& s
   }
   std::error_code ignored;  // an input that is not there fails when it is opened
   const auto absolute = std::filesystem::absolute(input, ignored);
-  Sha256 digest;
-  digest.add(server + '\n' + std::filesystem::weakly_canonical(absolute, ignored).string());
+  const std::string digest =
+      to_hex(sha256(server + '\n' + std::filesystem::weakly_canonical(absolute, ignored).string()));
   folder += "/fitgauge";
   forget_oldest_states(folder);
-  return folder + "/" + digest.digest().substr(0, kKeyDigits) + ".state";
+  return folder + "/" + digest.substr(0, kKeyDigits) + ".state";
 }
 
 }  // namespace fitgauge::cli

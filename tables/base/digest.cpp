@@ -55,6 +55,14 @@ Digest Sha256::finish() {
   return digest;
 }
 
+Digest Sha256::so_far() const {
+  const Context copy;
+  require(EVP_MD_CTX_copy_ex(copy.state, context_->state) == 1);
+  Digest digest;
+  require(EVP_DigestFinal_ex(copy.state, digest.data(), nullptr) == 1);
+  return digest;
+}
+
 Digest sha256(std::string_view text) { return Sha256().update(text).finish(); }
 
 std::string to_hex(std::span<const std::uint8_t> bytes) {

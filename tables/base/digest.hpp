@@ -27,6 +27,9 @@ class Sha256 {
   /// The digest of everything since the last one; the next begins empty.
   Digest finish();
 
+  /// The digest of the same, which goes on.
+  Digest so_far() const;
+
  private:
   struct Context;
   std::unique_ptr<Context> context_;

@@ -9,7 +9,8 @@ TEST_CASE("digests are SHA-256") {
   CHECK(to_hex(sha256("abc")) ==
         "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   Sha256 hash;
-  CHECK(to_hex(hash.update("ab").update("c").finish()) == to_hex(sha256("abc")));
+  CHECK(hash.update("ab").so_far() == sha256("ab"));
+  CHECK(to_hex(hash.update("c").finish()) == to_hex(sha256("abc")));
   CHECK(to_hex(hash.finish()) ==
         "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
