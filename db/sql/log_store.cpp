@@ -14,7 +14,7 @@ using sql::Rows;
 
 struct LogStore::Statements {
   explicit Statements(sql::Connection& c)
-      : state(c, fmt::format("SELECT origin, name, chained, size, {} FROM log WHERE id = 1",
+      : state(c, fmt::format("SELECT origin, name, size, {} FROM log WHERE id = 1",
                              kLog.is_sound(c))),
         set_name(c, "UPDATE log SET name = ?"),
         set_size(c, "UPDATE log SET size = ?1 WHERE size < ?1"),
@@ -48,13 +48,12 @@ LogStore::State LogStore::state() const {
   if (!rows.next()) {
     throw StorageFailure({ErrorCode::StorageCorrupt, "the database has lost the head of its log"});
   }
-  require_sound(rows, 4, kLog);
+  require_sound(rows, 3, kLog);
   State state;
   const std::string_view origin = rows.get<sql::Blob>(0).bytes;
   std::copy_n(origin.begin(), std::min(origin.size(), state.origin.size()), state.origin.begin());
   state.name = rows.get<std::optional<std::string>>(1);
-  state.chained = rows.get<std::int64_t>(2);
-  state.size = rows.get<std::int64_t>(3);
+  state.size = rows.get<std::int64_t>(2);
   return state;
 }
 

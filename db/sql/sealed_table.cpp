@@ -75,11 +75,11 @@ std::string SealedTable::is_sound(const sql::Connection& connection, std::string
   for (const std::string_view column : names_of(columns)) {
     prefixed += fmt::format("{}{}{}", prefixed.empty() ? "" : ", ", prefix, column);
   }
-  return fmt::format("coalesce({}seal = row_digest({}), 1)", prefix, prefixed);
+  return fmt::format("{}seal IS row_digest({})", prefix, prefixed);
 }
 
 std::string SealedTable::altered() const {
-  return fmt::format("SELECT {} FROM {} WHERE NOT coalesce(seal = row_digest({}), 1)", key, name,
+  return fmt::format("SELECT {} FROM {} WHERE seal IS NOT row_digest({})", key, name,
                      columns);
 }
 

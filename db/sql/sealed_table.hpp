@@ -46,7 +46,7 @@ inline constexpr SealedTable kRuns{
     "runs", "id", "status, program, program_key, request, result, created_at, finished_at, caller"};
 inline constexpr SealedTable kRunTraces{"run_traces", "run", "run, trace"};
 inline constexpr SealedTable kRunFiles{"run_files", "run", "run, name_key, path, content"};
-inline constexpr SealedTable kLog{"log", "id", "origin, name, chained, size"};
+inline constexpr SealedTable kLog{"log", "id", "origin, name, size"};
 inline constexpr SealedTable kLogKeys{"log_keys", "number", "vkey, created_at"};
 inline constexpr SealedTable kOrigins{"origins", "number", "digits, first_row, size, checkpoint"};
 inline constexpr SealedTable kOriginKeys{"origin_keys", "number", "origin, vkey, created_at"};

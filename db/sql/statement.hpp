@@ -38,6 +38,16 @@ constexpr Kind kind_of_value() {
   }
 }
 
+/// Refuses what no enumerator has. @throws StorageFailure (StorageCorrupt)
+[[noreturn]] void refuse_code(std::int64_t stored);
+
+/// An enumeration is stored by its codes, from 1 to that of `last_of(Code)`, which stands beside it.
+template <class Code>
+Code code_of(std::int64_t stored) {
+  if (stored < 1 || stored > static_cast<std::int64_t>(last_of(Code{}))) refuse_code(stored);
+  return static_cast<Code>(stored);
+}
+
 /// Binds an integer, enumeration, text, Digest, Blob, or an optional of these.
 template <class Statement, class T>
 void bind_value(Statement& statement, int index, const T& value) {
@@ -128,7 +138,9 @@ class Rows {
     if constexpr (kIsOptional<T>) {
       if (prepared_->is_null(column)) return std::nullopt;
       return get<typename T::value_type>(column);
-    } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
+    } else if constexpr (std::is_enum_v<T>) {
+      return code_of<T>(prepared_->integer(column));
+    } else if constexpr (std::is_integral_v<T>) {
       return static_cast<T>(prepared_->integer(column));
     } else if constexpr (std::is_same_v<T, Digest>) {
       Digest digest{};

@@ -9,7 +9,6 @@
 
 #include "sql/sealed_table.hpp"
 #include "sqlite/session.hpp"
-#include "store/measurement_hash.hpp"
 #include "store/verify.hpp"
 
 namespace fitgauge::store {
@@ -45,10 +44,7 @@ class Verifier {
   const MeasurementCheck& check_;
   VerifyReport report_;
   std::set<std::int64_t> revisions_;
-  MeasurementHasher hasher_;
-  std::int64_t chained_ = 0;  ///< rows up to this one form a chain; later ones are the log's
   std::int64_t last_id_ = 0;
-  Digest last_hash_{};
 };
 
 }  // namespace fitgauge::store

@@ -42,7 +42,7 @@ class Database {
   virtual Result<void> backup(const std::filesystem::path& file) const = 0;
 
   /// Checks the file (every page, index and reference), the schema against this build's, each table
-  /// revision against its digest, the chain of the hashes from before the log, and with `check`
+  /// revision against its digest, and with `check`
   /// what only the caller can judge of each measurement. Blocks.
   virtual Result<VerifyReport> verify(const MeasurementCheck& check) const = 0;
   Result<VerifyReport> verify() const { return verify({}); }

@@ -23,6 +23,7 @@ enum class DocumentKind : std::uint8_t {
   ConnectionProgress = 6,
   Catalogue = 7,
 };
+constexpr DocumentKind last_of(DocumentKind) { return DocumentKind::Catalogue; }
 
 struct Document {
   DocumentKind kind = DocumentKind::Uncertainty;

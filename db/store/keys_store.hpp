@@ -19,6 +19,7 @@ class Connection;
 
 // The codes are stored: never change one, never use one again.
 enum class Role : std::uint8_t { Viewer = 1, Operator = 2, Admin = 3, Station = 4 };
+constexpr Role last_of(Role) { return Role::Station; }
 
 struct ApiKey {
   std::int64_t id = 0;

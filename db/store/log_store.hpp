@@ -29,8 +29,7 @@ class LogStore {
   struct State {
     std::array<std::uint8_t, 16> origin{};  ///< random, made with the database, for ever its own
     std::optional<std::string> name{};      ///< what its checkpoints begin with; none yet
-    std::int64_t chained = 0;  ///< rows up to this id carry the hash of a chain instead of a leaf
-    std::int64_t size = 0;     ///< rows that are in the tree
+    std::int64_t size = 0;                  ///< rows that are in the tree
   };
   State state() const;
 

@@ -9,9 +9,8 @@ namespace fitgauge::store {
 
 /// Calls `field(column, value)` for what a measurement says, all but its id and hash. The one place
 /// where rows and columns meet.
-/// The order is part of the hash: a new column goes to the end, to for_each_later_field.
 template <class Row, class Field>
-void for_each_first_field(Row&& row, Field&& field) {
+void for_each_field(Row&& row, Field&& field) {
   field("source", row.source);
   field("measured_at", row.measured_at_ns);
   field("received_at", row.received_at_ns);
@@ -44,11 +43,6 @@ void for_each_first_field(Row&& row, Field&& field) {
   field("cycle", row.cycle);
   field("correction_of", row.correction_of);
   field("correction_reason", row.correction_reason);
-}
-
-/// What rows of the first version did not have: always optional, so that they keep their hash.
-template <class Row, class Field>
-void for_each_later_field(Row&& row, Field&& field) {
   field("subgroup", row.subgroup);
   field("probability", row.probability);
   field("conformance", row.conformance);
@@ -66,12 +60,6 @@ void for_each_later_field(Row&& row, Field&& field) {
   field("corrected_number", row.corrected_number);
   field("uncertainty_budget", row.uncertainty_budget);
   field("calibration_due", row.calibration_due);
-}
-
-template <class Row, class Field>
-void for_each_field(Row&& row, Field&& field) {
-  for_each_first_field(row, field);
-  for_each_later_field(row, field);
 }
 
 /// `id, source, …, hash`

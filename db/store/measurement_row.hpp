@@ -15,6 +15,13 @@ enum class Basis : std::uint8_t { Iso286 = 1, Custom = 2, Explicit = 3, Standard
 enum class Verdict : std::uint8_t { Good = 1, Rework = 2, Reject = 3, Indeterminate = 4 };
 enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2, Conformance = 3 };
 
+// The greatest code of each: one that is read may not be above it.
+constexpr Source last_of(Source) { return Source::Simulation; }
+constexpr Feature last_of(Feature) { return Feature::Shaft; }
+constexpr Basis last_of(Basis) { return Basis::Standard; }
+constexpr Verdict last_of(Verdict) { return Verdict::Indeterminate; }
+constexpr Rule last_of(Rule) { return Rule::Conformance; }
+
 /// One measurement as it is stored. Lengths in nm, times in ns since 1970 (UTC), scaled numbers in
 /// millionths. Texts are views: of the caller's memory until the job that appends them is done, or
 /// of the database's own while a visitor runs.
@@ -85,7 +92,7 @@ struct MeasurementRow {
   std::optional<std::int64_t> corrected_origin{};
   std::optional<std::int64_t> corrected_number{};
 
-  Digest hash{};  ///< of its leaf in the log; of rows from before the log, MeasurementHasher's
+  Digest hash{};  ///< of its leaf in the log
 
   bool is_forwarded() const { return origin.value_or(0) > 0; }
   /// Where it stands in the log of its origin, from 1 on.

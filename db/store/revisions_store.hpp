@@ -25,6 +25,7 @@ enum class RevisionKind : std::uint8_t {
   Correction = 5,
   Catalogue = 7
 };
+constexpr RevisionKind last_of(RevisionKind) { return RevisionKind::Catalogue; }
 
 /// What a centre has changed, for its stations; and what a station has of its centre. Changes of
 /// tables, keys, setups, plans and catalogues number themselves; corrections are numbered by

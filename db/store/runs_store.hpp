@@ -27,6 +27,7 @@ enum class RunStatus : std::uint8_t {
   LimitExceeded = 6,
   Cancelled = 7,
 };
+constexpr RunStatus last_of(RunStatus) { return RunStatus::Cancelled; }
 
 constexpr bool is_finished(RunStatus status) { return status >= RunStatus::Completed; }
 

@@ -288,11 +288,8 @@ RevisionIntake Application::revision_intake(RevisionIntake::Tell tell) {
 }
 
 std::optional<std::string> Application::check_leaf(const store::MeasurementRow& row) const {
-  if (row.id <= log_->chained() ||
-      LeafMaker()(from_store(row, row_names(*tables_, log_->origins()))) == row.hash) {
-    return std::nullopt;
-  }
-  return altered_finding();
+  const Digest leaf = LeafMaker()(from_store(row, row_names(*tables_, log_->origins())));
+  return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
 }
 
 Result<Application::Verification> Application::verify(

@@ -53,10 +53,7 @@ std::optional<std::string> LogCheck::add(const store::MeasurementRow& row) {
                                       row.id, at->second.place));
     }
   }
-  if (row.id > facts_.chained && leaf != row.hash) {
-    return altered_finding();
-  }
-  return std::nullopt;
+  return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
 }
 
 /// A record that was altered together with its leaf shows in the nodes above.

@@ -12,17 +12,8 @@ namespace fitgauge::app {
 std::vector<tlog::Hash> LogReader::leaves(std::int64_t after, std::int64_t count) {
   std::vector<tlog::Hash> leaves;
   leaves.reserve(static_cast<std::size_t>(count));
-  if (after < chained_) {
-    stores_.measurements.list_log(origin_, after, std::min(count, chained_ - after),
-                                  [&](const store::MeasurementRow& row) {
-                                    leaves.push_back(leaf_(from_store(row, names_)));
-                                  });
-  }
-  const auto made = static_cast<std::int64_t>(leaves.size());
-  if (made < count) {
-    stores_.measurements.log_hashes(origin_, std::max(after, chained_), count - made,
-                                    [&](const Digest& leaf) { leaves.push_back(leaf); });
-  }
+  stores_.measurements.log_hashes(origin_, after, count,
+                                  [&](const Digest& leaf) { leaves.push_back(leaf); });
   return leaves;
 }
 

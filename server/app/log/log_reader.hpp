@@ -18,10 +18,7 @@ class LogReader {
  public:
   /// @param origin 0: this folder.
   LogReader(const store::Stores& stores, const RowNames& names, std::int64_t origin = 0)
-      : stores_(stores),
-        names_(names),
-        origin_(origin),
-        chained_(origin == 0 ? stores.log.state().chained : 0) {}
+      : stores_(stores), names_(names), origin_(origin) {}
 
   /// The leaves of the rows after `after`, at most `count`.
   std::vector<tlog::Hash> leaves(std::int64_t after, std::int64_t count);
@@ -45,8 +42,6 @@ class LogReader {
   const store::Stores& stores_;
   const RowNames& names_;
   const std::int64_t origin_;
-  const std::int64_t chained_;  ///< rows up to here do not carry their leaf: it is made again
-  LeafMaker leaf_;
   tlog::TreeHasher hasher_;
 };
 

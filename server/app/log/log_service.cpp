@@ -78,7 +78,6 @@ Result<void> LogService::load() {
   // What is damaged is for verify to tell.
   if (options_.attach && !loaded && loaded.error().code == ErrorCode::StorageCorrupt) return {};
   if (!loaded) return loaded.error();
-  chained_ = loaded->state.chained;
   if (options_.attach) return {};
   frontier_ = loaded->frontier;
   name_ = loaded->state.name.value_or(
@@ -362,14 +361,12 @@ Result<LogService::Logs> LogService::logs(store::Database& database) {
     const store::LogStore::State state = stores.log.state();
     Logs logs;
     logs[0] = {.name = state.name.value_or(""),
-               .chained = state.chained,
                .size = state.size,
                .keys = parsed(stores.log.keys()),
                .checkpoint = {}};
     for (const auto& origin : stores.origins.list()) {
       const auto keys = parsed(stores.origins.keys(origin.number));
       logs[origin.number] = {.name = keys.empty() ? origin.digits : keys.front().name(),
-                             .chained = 0,
                              .size = origin.size,
                              .keys = keys,
                              .checkpoint = origin.checkpoint,

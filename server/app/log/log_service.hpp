@@ -58,8 +58,6 @@ class LogService {
   std::string_view origin() const { return origins_.own(); }
   /// Of all folders whose records stand here.
   Origins& origins() { return origins_; }
-  /// Rows up to this id, from before the log, do not carry their leaf.
-  std::int64_t chained() const { return chained_; }
 
   /// Starts the thread that lets the tree grow, and tells the head once a day from then on.
   void start();
@@ -110,7 +108,6 @@ class LogService {
   /// What verification needs to know of the log, as it is now.
   struct Facts {
     std::string name;
-    std::int64_t chained = 0;
     std::int64_t size = 0;
     std::vector<tlog::VerifierKey> keys;
     std::string checkpoint;  ///< the newest that is kept in the database; of forwarded logs
@@ -162,7 +159,6 @@ class LogService {
   const LogOptions options_;
   Origins origins_;
   std::string name_;
-  std::int64_t chained_ = 0;
   std::atomic<std::int64_t> size_at_centre_{0};  ///< where that is more than there is here
   std::vector<tlog::SigningKey> signers_;        ///< the key in use, and once the one before
   std::optional<tlog::SigningKey> signer_;       ///< the key in use

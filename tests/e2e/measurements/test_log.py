@@ -12,8 +12,9 @@ import tempfile
 import time
 import unittest
 
-from measurements.test_storage import PART, StorageTest, alter
+from measurements.test_storage import PART, StorageTest
 from support.daemon import ROOT, Daemon, DaemonTest, command
+from support.seals import alter, sealed_anew
 
 sys.path.insert(0, str(ROOT / "clients" / "python"))
 
@@ -229,7 +230,7 @@ class Tampered(StorageTest):
 
     def test_rows_cut_off_with_all_that_the_folder_knows_of_them(self):
         (self.daemon.data / "fitgauge.checkpoint").unlink()
-        alter(self.daemon.database, *UNTRIGGERED, "DELETE FROM measurements WHERE id > 256", "UPDATE log SET size = 256, seal = NULL",
+        alter(self.daemon.database, *UNTRIGGERED, "DELETE FROM measurements WHERE id > 256", "UPDATE log SET size = 256", sealed_anew("log"),
               "DELETE FROM measurement_nodes", "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates",
               "DELETE FROM measurement_values")
         self.assertNotIn("cut off", self.verify().stdout, "the folder alone cannot tell")
@@ -303,7 +304,7 @@ class Tamperings(StorageTest):
     def tamper(self, chance, what, data, older, twin):
         """Does one thing to a copy of the folder. @returns what."""
         row, other = chance.sample(range(1, self.ROWS), 2)
-        hide = ("UPDATE log SET size = (SELECT max(id) FROM measurements), seal = NULL", "DELETE FROM measurement_nodes",
+        hide = ("UPDATE log SET size = (SELECT max(id) FROM measurements)", sealed_anew("log"), "DELETE FROM measurement_nodes",
                 "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates",
                 "DELETE FROM measurement_values")
         swap = [f"UPDATE measurements SET id = {to} WHERE id = {at}" for at, to in ((row, 900), (other, row), (900, other))]

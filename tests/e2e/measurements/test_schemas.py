@@ -1,15 +1,21 @@
-"""The schema of SQLite and the one of PostgreSQL have the same tables, columns and named indexes.
+"""The schema of SQLite and the one of PostgreSQL have the same tables, columns and named indexes, and are frozen.
 
 Each engine has migrations of its own, so a table or column that is put into one of them alone shows here. What
 differs on purpose stands in the constants."""
 
 import contextlib
+import hashlib
 import sqlite3
 import unittest
 
-from support.daemon import Daemon
+from support.daemon import ROOT, Daemon
 from support.postgres import Cluster
 
+# What was released is never changed: a change of the schema is a further migration. `sha256sum db/migrations/*/*.sql`
+RELEASED = {
+    "sqlite/0001_service.sql": "5a277f5f1ab5fb987e020f84205779e7363857f090c1509bba45e3d6bfb4e614",
+    "postgres/0001_service.sql": "de5c6334c873daf3a74b0b66b9e0609eb3d27306e148cc6b8eff9054b876000f",
+}
 ONLY_SQLITE = {"storage_probe"}  # whether the file takes a write again
 ONLY_POSTGRES = {"head"}  # of several daemons: who writes next
 SEAL = "seal"  # shows a changed row of a file; a server has rights for that
@@ -58,6 +64,11 @@ class Schemas(unittest.TestCase):
     def setUpClass(cls):
         cls.file, cls.file_indexes = of_sqlite()
         cls.server, cls.server_indexes = of_postgres()
+
+    def test_a_released_migration_is_not_changed(self):
+        for path, digest in RELEASED.items():
+            text = (ROOT / "db" / "migrations" / path).read_bytes()
+            self.assertEqual(hashlib.sha256(text).hexdigest(), digest, path)
 
     def test_both_have_the_same_tables(self):
         self.assertEqual(set(self.file) - set(self.server), ONLY_SQLITE)

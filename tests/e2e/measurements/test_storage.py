@@ -1,6 +1,5 @@
 """The database: which files are refused, backup, verify, altered rows and tables, the end."""
 
-import contextlib
 import json
 import pathlib
 import sqlite3
@@ -9,16 +8,9 @@ import time
 import unittest
 
 from support.daemon import Daemon, DaemonTest, command
+from support.seals import alter
 
 PART = {"designation": "25 H7", "measured_mm": 25.013, "part_id": "SN-1"}
-
-
-def alter(database, *statements):
-    """Writes past the service, triggers or not."""
-    with contextlib.closing(sqlite3.connect(database)) as connection:
-        for statement in statements:
-            connection.execute(statement)
-        connection.commit()
 
 
 class StorageTest(unittest.TestCase):

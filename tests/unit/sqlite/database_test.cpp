@@ -98,7 +98,7 @@ TEST_CASE("a newer schema and altered migrations are refused") {
     check_refused_untouched(directory, ErrorCode::DatabaseNewer);
   }
   SUBCASE("altered") {
-    alter(directory, "UPDATE schema_migrations SET checksum = randomblob(32) WHERE number = 2");
+    alter(directory, "UPDATE schema_migrations SET checksum = randomblob(32) WHERE number = 1");
     check_refused_untouched(directory, ErrorCode::DatabaseForeign);
   }
   SUBCASE("missing") {

@@ -57,39 +57,6 @@ TEST_CASE("an upgrade keeps the rows and leaves a backup of the state before") {
   CHECK(older.error().code == ErrorCode::DatabaseNewer);
 }
 
-TEST_CASE("setups of before become documents, and one that does not fit its seal is still found") {
-  constexpr std::size_t kBefore = 10;
-  TempDirectory directory;
-  OpenOptions options;
-  options.directory = directory.path();
-  REQUIRE(prepare_file(options, sqlite::migrations().first(kBefore), 7).has_value());
-  {
-    sqlite::Connection connection(directory.file(), sqlite::Mode::Write);
-    connection.execute(
-        "INSERT INTO documents VALUES (2, 'G-07', '{}', 5, NULL, row_digest(2, 'G-07', '{}', 5, "
-        "NULL));"
-        "INSERT INTO setups (name, text, modified_at, caller, seal) VALUES "
-        "('sealed', '{}', 5, 'press-3', row_digest('sealed', '{}', 5, 'press-3')),"
-        "('unsealed', '{}', 5, NULL, NULL),"
-        "('altered', '{1}', 5, NULL, row_digest('altered', '{}', 5, NULL))");
-  }
-  REQUIRE(prepare_file(options, sqlite::migrations(), 8).has_value());
-  ManualClock clock;
-  auto database = sqlite::open_database(options, clock);
-  REQUIRE(database.has_value());
-  const auto text_of = [&](DocumentKind kind, const char* name) {
-    return (*database)->readers().wait([=](const Stores& stores) -> Result<std::string> {
-      const auto found = stores.documents.find(kind, name);
-      return found ? found->text + found->caller.value_or("") : "none";
-    });
-  };
-  CHECK(text_of(DocumentKind::Setup, "sealed").value() == "{}press-3");
-  CHECK(text_of(DocumentKind::Setup, "unsealed").value() == "{}");
-  CHECK(text_of(DocumentKind::GaugeInUse, "G-07").value() == "{}");
-  CHECK(text_of(DocumentKind::Plan, "sealed").value() == "none");
-  CHECK(text_of(DocumentKind::Setup, "altered").error().code == ErrorCode::StorageCorrupt);
-}
-
 TEST_CASE("an upgrade that fails leaves the old state") {
   Fixture fixture;
   REQUIRE(fixture.append(sample_row()).has_value());

@@ -1,0 +1,57 @@
+"""The data folder of each release is taken over whole: records, proofs, answers, and it goes on."""
+
+import json
+import sys
+import unittest
+
+from support import releases
+from support.daemon import ROOT, Daemon
+
+sys.path.insert(0, str(ROOT / "clients" / "python"))
+
+import check_proof  # noqa: E402
+
+
+class Releases(unittest.TestCase):
+    def daemon_on(self, name):
+        daemon = Daemon()
+        self.addCleanup(daemon.cleanup)
+        return daemon, releases.unpack(name, daemon)
+
+    def test_what_a_release_answered_is_answered_again(self):
+        self.assertTrue(releases.names())
+        for name in releases.names():
+            with self.subTest(name):
+                daemon, then = self.daemon_on(name)
+                daemon.start()
+                keys = daemon.get("/v1/log/key").text.split()
+                self.assertEqual(keys, (then / "keys").read_text().split())
+                records = (then / "records.ndjson").read_text().splitlines()
+                self.assertGreater(len(records), 9)
+                self.assertEqual(len(daemon.stored()), len(records))
+                proofs = json.loads((then / "proofs.json").read_text())
+                for record in records:
+                    each = json.loads(record)["id"]
+                    self.assertEqual(daemon.get(f"/v1/measurements/{each}").text, record)
+                    self.assertIsNone(check_proof.check(record, proofs[each], keys))
+                    self.assertIsNone(check_proof.check(record, daemon.get(f"/v1/measurements/{each}/proof").json, keys))
+                for path, answer in json.loads((then / "answers.json").read_text()).items():
+                    self.assertEqual(daemon.get(path).text, answer, path)
+                self.assertEqual(daemon.measure({"designation": "25 H7", "measured_mm": "25.013"}).status, 201)
+                self.assertEqual(daemon.stop(), 0)
+                verified = daemon.command("verify")
+                self.assertEqual(verified.returncode, 0, verified.stdout)
+                self.assertIn(" 0 findings", verified.stdout)
+
+    def test_a_record_that_is_another_than_then_is_noticed(self):
+        daemon, then = self.daemon_on(releases.names()[0])
+        daemon.start()
+        record = (then / "records.ndjson").read_text().splitlines()[0]
+        proof = json.loads((then / "proofs.json").read_text())[json.loads(record)["id"]]
+        other = record.replace("25.013", "25.012")
+        self.assertNotEqual(record, other)
+        self.assertIsNotNone(check_proof.check(other, proof, daemon.get("/v1/log/key").text.split()))
+
+
+if __name__ == "__main__":
+    unittest.main()
