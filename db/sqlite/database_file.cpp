@@ -99,13 +99,9 @@ class LeavesNoLog {
   bool kept_;
 };
 
-/// The first schema with a log.
-constexpr int kLogSchema = 12;
-
 /// Rows that are in the tree and no longer in the table were cut off: their ids would be given out
 /// again.
-Result<void> has_whole_log(sqlite::Connection& connection, const fs::path& file, int version) {
-  if (version < kLogSchema) return {};
+Result<void> has_whole_log(sqlite::Connection& connection, const fs::path& file) {
   const std::int64_t signed_rows = connection.query_integer("SELECT size FROM log");
   const std::int64_t rows =
       connection.query_integer("SELECT coalesce(max(id), 0) FROM measurements");
@@ -136,7 +132,7 @@ Result<int> checked_version(const OpenOptions& options, const fs::path& file,
     }
     if (foreign) return *foreign;
     if (options.access == Access::Serve) {
-      if (auto whole = has_whole_log(connection, file, version); !whole) return whole.error();
+      if (auto whole = has_whole_log(connection, file); !whole) return whole.error();
     }
     return version;
   } catch (const StorageFailure& failure) {
