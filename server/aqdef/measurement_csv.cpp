@@ -227,7 +227,10 @@ Result<bool> MeasurementCsv::append(std::string& rows, std::vector<std::uint32_t
   for (const Value& value : set_.values) {
     const auto made = prepared(value.characteristic);
     if (!made) return made.error();
-    if ((*made)->is_left_out) continue;
+    if ((*made)->is_left_out) {
+      has_left_out_ = true;
+      continue;
+    }
     const auto measured = is_measured(set_, value);
     if (!measured) return measured.error();
     if (!*measured) continue;
@@ -242,6 +245,12 @@ Result<bool> MeasurementCsv::append(std::string& rows, std::vector<std::uint32_t
 
 Result<void> MeasurementCsv::check() const {
   if (const auto checked = reader_.check(); !checked) return checked;
+  if (!has_values_ && has_left_out_) {
+    return Error{
+        kMalformed,
+        "All values were left out: no characteristic of the file is a length with a nominal "
+        "size and limits"};
+  }
   if (!has_values_) {
     return Error{kMalformed,
                  "The file has no measured value. A DFD is read together with its DFX, of the same "

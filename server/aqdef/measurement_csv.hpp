@@ -89,6 +89,7 @@ class MeasurementCsv {
   std::string last_time_;              ///< as the file has it, and as it was read
   std::string last_instant_;
   bool has_values_ = false;
+  bool has_left_out_ = false;
 };
 
 }  // namespace fitgauge::aqdef

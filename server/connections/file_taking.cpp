@@ -70,7 +70,8 @@ Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& 
                             const std::string& description) {
   const auto tables = around.app.tables().tables();
   if (!tables) return tables.error();
-  const std::string body = description + bytes;
+  const std::string pair = description.empty() ? std::string() : description + bytes;
+  const std::string& body = description.empty() ? bytes : pair;
   const std::string key = to_hex(sha256(body));
   DfqText dfq;
   std::string text;
