@@ -12,6 +12,7 @@
 #include "sql/measurement_summary.hpp"
 #include "sql/statement.hpp"
 #include "store/measurement_fields.hpp"
+#include "store/value_block.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -66,13 +66,11 @@ bool is_of_storage(const Error& error) {
 }
 
 Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& around,
-                            std::string_view file_name, const std::string& bytes,
+                            std::string_view file_name, std::string bytes,
                             const std::string& description) {
   const auto tables = around.app.tables().tables();
   if (!tables) return tables.error();
-  const std::string pair = description.empty() ? std::string() : description + bytes;
-  const std::string& body = description.empty() ? bytes : pair;
-  const std::string key = to_hex(sha256(body));
+  const std::string key = to_hex(Sha256().update(description).update(bytes).finish());
   DfqText dfq;
   std::string text;
   if (is_dfq(file_name)) {
@@ -90,6 +88,7 @@ Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& 
     if (!read) return read.error();
     text = *std::move(read);
   }
+  bytes = std::string();  // of what may be long, one form at a time
   text.reserve(text.size() + http::Request::kBodyPadding);
   const auto gauges = around.gauges.book();
   api::MeasurementBatch batch;
@@ -106,7 +105,7 @@ Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& 
                                     .method = "FOLDER",
                                     .path = "folder_in",
                                     .key = key,
-                                    .body = body,
+                                    .body = key,
                                     .is_kept_for_ever = true};
   const auto is_new = std::make_shared<bool>(false);
   std::promise<Result<app::Answer>> promise;

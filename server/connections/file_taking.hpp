@@ -18,7 +18,7 @@ struct TakenFile {
 /// @param description of a DFX: the bytes of its DFD; else empty.
 /// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
 Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& around,
-                            std::string_view file_name, const std::string& bytes,
+                            std::string_view file_name, std::string bytes,
                             const std::string& description = {});
 
 /// What is wrong with a file, for the one who wrote it: lines, and what to do.

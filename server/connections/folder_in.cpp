@@ -15,6 +15,7 @@
 #include <set>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include "base/guarded.hpp"
 #include "base/text.hpp"
@@ -286,7 +287,8 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
     contents.push_back(**std::move(bytes));
   }
   contents.resize(2);
-  const auto taken = take_file(options_, around_, name, contents[0], contents[1]);
+  const std::size_t size = contents[0].size() + contents[1].size();
+  const auto taken = take_file(options_, around_, name, std::move(contents[0]), contents[1]);
   if (!taken) {
     if (is_of_storage(taken.error())) return taken.error().message;
     return fail(names, taken.error());
@@ -295,7 +297,7 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
     state.measurements += taken->measurements;
     if (taken->was_taken_before) return;
     ++state.files;
-    state.bytes += contents[0].size() + contents[1].size();
+    state.bytes += size;
   });
   if (taken->was_taken_before) {
     around_.tell("file_taken_before", fmt::format("{}: {}: the same bytes are stored; it is moved "
