@@ -20,6 +20,7 @@ const { metafile } = await build({
   format: 'esm',
   target: 'es2022',
   legalComments: 'none',
+  loader: { '.css': 'text' },
   banner: { js: '// Libraries with their own licences: licences.txt beside this file.' },
   metafile: true,
   logLevel: 'warning',

@@ -1,46 +1,36 @@
-/** Touching a figure picks a point; drawing across it chooses a stretch. */
-
-import { s } from '../dom.js';
+/** Touching a chart picks a point; drawing across it, with a finger too, chooses a stretch. */
 
 /** Shorter than this, in pixels, a stroke is a touch. */
 const SHORTEST = 8;
 
-/**
- * @param indexAt gives the index of a point for an x in CSS pixels of the screen
- * @param onPick takes an index; @param onStretch takes the first and the last index
- */
-export function brush(svg, { indexAt, top, height, onPick, onStretch }) {
+/** @param onPick takes an index; @param onStretch takes the first and the last index */
+export function brush(plot, { onPick, onStretch }) {
+  const { over } = plot;
   let start = null;
-  const band = s('rect.brush', { y: top, height });
-  const place = (event) => {
-    const { left, width } = svg.getBoundingClientRect();
-    const scale = svg.viewBox.baseVal.width / width;
-    return [start, event.clientX].map((x) => (x - left) * scale).sort((one, other) => one - other);
+  const band = ([left, right]) => plot.setSelect({ left, width: right - left, top: 0, height: over.clientHeight }, false);
+  const strokeTo = ({ clientX }) => {
+    const { left, width } = over.getBoundingClientRect();
+    return [start, clientX].map((x) => Math.min(Math.max(x - left, 0), width)).sort((one, other) => one - other);
   };
-  const end = () => {
-    start = null;
-    band.remove();
-  };
-  svg.addEventListener('pointerdown', (event) => {
+  over.addEventListener('pointerdown', (event) => {
     if (event.button) return;
     start = event.clientX;
-    svg.setPointerCapture(event.pointerId);
+    over.setPointerCapture(event.pointerId);
   });
-  svg.addEventListener('pointermove', (event) => {
-    if (start === null || Math.abs(event.clientX - start) < SHORTEST) return;
-    const [from, to] = place(event);
-    band.setAttribute('x', from);
-    band.setAttribute('width', to - from);
-    if (!band.parentNode) svg.append(band);
+  over.addEventListener('pointermove', (event) => {
+    if (start !== null && Math.abs(event.clientX - start) >= SHORTEST) band(strokeTo(event));
   });
-  svg.addEventListener('pointerup', (event) => {
+  over.addEventListener('pointerup', (event) => {
     if (start === null) return;
-    const stretch = [start, event.clientX].sort((one, other) => one - other).map(indexAt);
     const touched = Math.abs(event.clientX - start) < SHORTEST;
-    end();
+    const stretch = strokeTo(event).map((x) => plot.posToIdx(x));
+    start = null;
+    band([0, 0]);
     if (touched) onPick(stretch[0]);
     else onStretch(...stretch);
   });
-  svg.addEventListener('pointercancel', end);
-  return svg;
+  over.addEventListener('pointercancel', () => {
+    start = null;
+    band([0, 0]);
+  });
 }

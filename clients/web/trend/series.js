@@ -45,15 +45,18 @@ export function meanPoint(members) {
   };
 }
 
+const greatest = (values) => values.reduce((most, value) => Math.max(most, value), -Infinity);
+const least = (values) => values.reduce((most, value) => Math.min(most, value), Infinity);
+
 /** The range of the vertical axis, with the limits, of which one may be infinite. @param others values in nm that are to be seen too */
 export function rangeOf(points, others = []) {
-  const upper = Math.max(...points.map((point) => point.upper));
-  const lower = Math.min(...points.map((point) => point.lower));
+  const upper = greatest(points.map((point) => point.upper));
+  const lower = least(points.map((point) => point.lower));
   const limits = [lower, upper].filter(Number.isFinite);
   const tolerance = Math.max(limits.length === 2 ? upper - lower : Math.abs(limits[0]), 1);
   const near = [...points.map(({ deviation }) => deviation), ...others].map((deviation) => Math.min(Math.max(deviation, lower - FARTHEST * tolerance), upper + FARTHEST * tolerance));
-  const high = Math.max(...limits, ...near);
-  const low = Math.min(...limits, ...near);
+  const high = greatest([...limits, ...near]);
+  const low = least([...limits, ...near]);
   const margin = Math.max((high - low) / 12, 1);
   return { high: high + margin, low: low - margin, upper, lower };
 }

@@ -8,15 +8,16 @@ import { umText } from '../exact.js';
 import { dateTime, explain, number, signed, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
-import { ControlChart, rulesAt } from '../trend/control_chart.js';
+import { ControlChart, PAPER, rulesAt } from '../trend/control_chart.js';
 import { capability, controlChart } from '../trend/figures.js';
+import { inFigures } from '../trend/in_figures.js';
 import { newestValues } from '../trend/recent_values.js';
 import { Stretch } from '../trend/stretch.js';
 import { meanPoint, pointOf, sizeOf, subgroupsOf } from '../trend/series.js';
 import { capabilityTiles, countTiles } from '../trend/tiles.js';
 import { distanceText, measuredText, verdictMark } from '../verdict.js';
 
-const COUNTS = [50, 100, 200, 500, 1000, 5000, 10000];
+const COUNTS = [50, 100, 200, 500, 1000, 5000, 10000, 100000];
 const RULES = [1, 2, 3, 4];
 const KINDS = ['i_mr', 'xbar_r', 'xbar_s'];
 const ROWS = 12;
@@ -43,6 +44,7 @@ export function mount(main, route) {
   const tiles = h('dl.tiles');
   const indices = h('div.indices');
   const detail = h('div.detail', { role: 'status' });
+  const figured = h('details.in-figures', { hidden: true });
   const note = h('p.note', { role: 'alert' });
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('recent.title') });
   const offered = new Set();
@@ -59,7 +61,9 @@ export function mount(main, route) {
   let timer = 0;
   let frame = 0;
   let width = 0;
+  let onPaper = false;
   let shown = null;
+  let stale = true;
   let told = null;
 
   count.append(...COUNTS.map((each) => option(each, String(each), each === (Number(options.count) || 100))));
@@ -70,7 +74,7 @@ export function mount(main, route) {
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('field.characteristic'), characteristic),
       field(t('job.designation'), designation), field(t('trend.count'), count), kindField),
     note, h('div.sums', tiles, indices),
-    h('div.sheet', chart, stretch.element, detail,
+    h('div.sheet', chart, stretch.element, detail, figured,
       h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
     table));
 
@@ -152,27 +156,37 @@ export function mount(main, route) {
     const computable = Boolean(figures.chart);
     freeze.disabled = !computable && !frozen;
     freeze.textContent = t(frozen ? 'trend.thaw' : 'trend.freeze');
+    figured.hidden = !points.length;
     if (!points.length) {
       chart.replaceChildren(h('p.empty', t('trend.empty')));
-      for (const place of [tiles, indices, detail, table]) place.replaceChildren();
+      for (const place of [tiles, indices, detail, figured, table]) place.replaceChildren();
       told = null;
       return;
     }
     width ||= Math.max(chart.clientWidth, 300);
-    drawChart();
+    redraw();
+    refill(figured, inFigures(drawn, figures.chart, goTo));
     tiles.replaceChildren(...countTiles(points));
     indices.replaceChildren(...capabilityTiles(figures.indices, points, figures.chart, drawn));
     table.replaceChildren(lastRows(points));
   }
 
   function drawChart() {
-    if (!points.length || chart.querySelector('.brush')) return; // not under the finger
-    if (!shown?.isOf(drawn, figures.chart, width) || !shown.element.isConnected) {
-      shown = new ControlChart(drawn, points, figures.chart, { width, onPick: pick, onStretch: (from, to) => stretch.choose(from, to) });
-      chart.replaceChildren(shown.element);
+    if (!points.length || shown?.isTouched) return; // not under the finger
+    if (stale || !shown.element.isConnected) {
+      shown?.destroy();
+      chart.classList.toggle('on-paper', onPaper);
+      shown = new ControlChart(chart, drawn, points, figures.chart, { ...(onPaper ? PAPER : { width }), onPick: pick, onStretch: (from, to) => stretch.choose(from, to) });
+      stale = false;
     }
     shown.show(stretch.of(drawn.length), picked);
     if (told?.picked !== picked || told.drawn !== drawn || told.chart !== figures.chart) tell();
+  }
+
+  /** Of other values, in another width or other colours, on paper and back. */
+  function redraw() {
+    stale = true;
+    drawChart();
   }
 
   /** What there is to say of the point that was picked. */
@@ -202,9 +216,12 @@ export function mount(main, route) {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!step || !drawn.length) return;
     event.preventDefault();
-    const next = Math.min(Math.max((picked ?? drawn.length) + step, 0), drawn.length - 1);
-    stretch.reveal(next);
-    pick(next);
+    goTo(Math.min(Math.max((picked ?? drawn.length) + step, 0), drawn.length - 1));
+  }
+
+  function goTo(index) {
+    stretch.reveal(index);
+    pick(index);
   }
 
   function toggleFrozen() {
@@ -262,10 +279,20 @@ export function mount(main, route) {
 
   // Asked for in every frame, the width would make the browser lay out the page once more in each.
   const resized = new ResizeObserver(() => {
-    width = Math.max(chart.clientWidth, 300);
-    drawChart();
+    const now = Math.max(chart.clientWidth, 300);
+    if (now === width) return;
+    width = now;
+    redraw();
   });
   resized.observe(chart);
+  const { signal } = leaving;
+  for (const [event, isPaper] of [['beforeprint', true], ['afterprint', false]]) {
+    addEventListener(event, () => {
+      onPaper = isPaper;
+      redraw();
+    }, { signal });
+  }
+  for (const look of ['(prefers-color-scheme: dark)', '(forced-colors: active)']) matchMedia(look).addEventListener('change', redraw, { signal });
   characteristic.append(option('', t('trend.all'), true));
   offerOne(options.characteristic);
   characteristic.value = options.characteristic ?? '';
@@ -274,6 +301,7 @@ export function mount(main, route) {
   return () => {
     leaving.abort();
     resized.disconnect();
+    shown?.destroy();
     clearTimeout(timer);
     cancelAnimationFrame(frame);
   };

@@ -7,6 +7,7 @@ import path from 'node:path';
 import { after, before, describe, it } from 'node:test';
 
 import { browserName, close, findings, launch, open, picture } from './support/browser.mjs';
+import { untilPoints } from './support/chart.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
 
 const FOLDER = 'clients/web';
@@ -23,7 +24,7 @@ const MODES = { dark: { colorScheme: 'dark' }, ...(browserName === 'chromium' &&
   light: { colorScheme: 'light', ...(browserName === 'chromium' && { forcedColors: 'none' }) } };
 
 /** Libraries come when a view wants them, and from the build (bundled/): the rest is what is in the tree. */
-const LIBRARIES = ['codemirror', 'three'];
+const LIBRARIES = ['codemirror', 'three', 'uplot'];
 const files = fs.readdirSync(FOLDER, { recursive: true, withFileTypes: true })
   .filter((entry) => entry.isFile())
   .map((entry) => path.relative(FOLDER, path.join(entry.parentPath ?? entry.path, entry.name)))
@@ -66,7 +67,7 @@ describe('the page', () => {
       await page.waitForSelector('.recent .mark-of');
     }
     if (view === 'fit') await page.waitForSelector('.class-zones :checked');
-    if (view === 'trend') await page.waitForSelector('.point');
+    if (view === 'trend') await page.waitForSelector('.control-chart');
     if (view === 'overview') await page.waitForSelector('.overview [data-settled]');
     if (view === 'parts') await page.waitForSelector('.records tbody tr');
     if (view === 'tables') await page.waitForSelector('.grid');
@@ -131,7 +132,7 @@ describe('the page', () => {
     for (const name of Object.keys(JSON.parse(fs.readFileSync(path.join(FOLDER, 'package.json'), 'utf8')).dependencies)) {
       assert.match(licences, new RegExp(`^${name} \\d+\\.\\d+\\.\\d+ \\(MIT\\)$`, 'm'));
     }
-    assert.equal(licences.match(/Permission is hereby granted/g).length, licences.match(/ \(MIT\)$/gm).length);
+    assert.equal(licences.match(/Permission is hereby granted/g).length, licences.match(/^\S+ \d+\.\d+\.\d+ \(MIT\)$/gm).length);
     const page = await openView('parts');
     await page.evaluate(() => { location.hash = '#/fit'; });
     await page.waitForSelector('.class-zones :checked');
@@ -267,7 +268,7 @@ describe('the page', () => {
       await page.press('dialog input', 'Enter');
       await page.waitForSelector('.verdict[data-verdict="good"]');
       await page.click('#views a[href^="#/trend"]');
-      await page.waitForFunction(() => document.querySelectorAll('.point').length === 2);
+      await untilPoints(page, 2);
       const stored = await page.evaluate(() => [Object.values(localStorage), Object.values(sessionStorage)].map((values) => values.join()));
       assert.ok(!stored[0].includes(key) && stored[1].includes(key));
       const answer = await fetch(`${locked.url}/v1/measurements`, {
@@ -275,7 +276,7 @@ describe('the page', () => {
         headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` },
       });
       assert.equal(answer.status, 201);
-      await page.waitForFunction(() => document.querySelectorAll('.point').length === 3);
+      await untilPoints(page, 3);
       await close(page);
     } finally {
       await locked.cleanup();

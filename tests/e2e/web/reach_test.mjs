@@ -5,6 +5,7 @@ import fs from 'node:fs';
 import { after, before, describe, it } from 'node:test';
 
 import { close, launch, open, picture } from './support/browser.mjs';
+import { leastLettering, openChart } from './support/chart.mjs';
 import { Daemon } from './support/daemon.mjs';
 
 const SMALLEST_LETTERING = 12;
@@ -13,7 +14,7 @@ const VIEWS = {
   gauge: '#/gauge/25H7?part_id=SN-1&order=WO-17&operator=42', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', overview: '#/overview', parts: '#/parts?order=WO-17',
   programs: '#/programs/nc_prog/8255.h?setup=bore', tables: '#/tables/hole?find=25+H',
 };
-const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.point', overview: '.overview [data-settled]', parts: '.records tbody tr', programs: '.cm-line', tables: '.grid' };
+const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.control-chart', overview: '.overview [data-settled]', parts: '.records tbody tr', programs: '.cm-line', tables: '.grid' };
 
 describe('the reach of the page', () => {
   let browser;
@@ -34,7 +35,7 @@ describe('the reach of the page', () => {
   });
 
   async function openView(view, options) {
-    const page = await open(browser, daemon, VIEWS[view], options);
+    const page = await (view === 'trend' ? openChart : open)(browser, daemon, VIEWS[view], options);
     await page.waitForSelector(READY[view]);
     return page;
   }
@@ -51,6 +52,7 @@ describe('the reach of the page', () => {
           .map((text) => ({ text: text.textContent, size: parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a }))
           .filter(({ size }) => size < least - 0.05), SMALLEST_LETTERING);
         assert.deepEqual(small, [], locale);
+        if (view === 'trend') assert.ok(await leastLettering(page) >= SMALLEST_LETTERING, `${locale}: the chart`);
         const cut = await page.evaluate(() => [...document.querySelectorAll('.class-zones')]
           .filter((strip) => {
             const place = strip.querySelector(':checked')?.parentElement.getBoundingClientRect();

@@ -5,6 +5,7 @@ import { afterEach, describe, it } from 'node:test';
 
 import { judge, mmText, nmFromMm } from '../../../clients/web/exact.js';
 import { close, findings, open, picture } from './support/browser.mjs';
+import { untilPoints } from './support/chart.mjs';
 import { sleep } from './support/daemon.mjs';
 import { PAIR_MS, scan as scanInto } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
@@ -109,7 +110,7 @@ describe('other standards at the station', () => {
   it('are charted by their designation', async () => {
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({ designation: 'M10-6H', measured_mm: `9.1${10 + (i * 7) % 20}`, characteristic: 'pitch' })));
     page = await open(browser, daemon, '#/trend?characteristic=pitch');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 30);
+    await untilPoints(page, 30);
     assert.equal(await page.textContent('#trend-designation option:checked'), 'M10-6H');
   });
 });

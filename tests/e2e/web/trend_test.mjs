@@ -4,7 +4,8 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, afterEach, before, describe, it } from 'node:test';
 
-import { close, findings, hashOf, open, openIn, picture } from './support/browser.mjs';
+import { browserName, close, findings, hashOf, open, openIn, picture } from './support/browser.mjs';
+import { leastLettering, lettering, marksOf, openChart, untilPoints } from './support/chart.mjs';
 import { sleep } from './support/daemon.mjs';
 import { Gate } from './support/gate.mjs';
 import { browser, daemon } from './support/stage.mjs';
@@ -66,7 +67,7 @@ describe('the trend', () => {
     await daemon.send('POST', '/v1/measurements', { designation: '31 H7', measured_mm: '31.002' });
     await hide(false);
     await untilStreams(1);
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 1);
+    await untilPoints(page, 1);
   });
 
   it('shares one stream among all tabs of a browser: eight of them load and go on', async () => {
@@ -77,7 +78,7 @@ describe('the trend', () => {
     for (const tab of tabs) await tab.waitForSelector('.trend .empty');
     await untilStreams(1);
     await daemon.send('POST', '/v1/measurements', { designation: '32 H7', measured_mm: '32.002' });
-    for (const tab of [page, ...tabs]) await tab.waitForFunction(() => document.querySelectorAll('.point').length === 1);
+    for (const tab of [page, ...tabs]) await untilPoints(tab, 1);
     for (const tab of tabs) await tab.close();
     await untilStreams(1);
   });
@@ -90,9 +91,9 @@ describe('the trend', () => {
     page = await open(browser, daemon, '');
     page.on('request', (request) => request.url().includes('/v1/measurements?') && asked.push(request.url()));
     await page.goto(`${daemon.url}/#/trend?characteristic=old&count=50`);
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 50);
+    await untilPoints(page, 50);
     assert.equal(asked.length, 1);
-    assert.match(await page.textContent('.trend tbody tr'), /33\.002 mm/);
+    assert.match(await page.textContent('.trend > .scroll tbody tr'), /33\.002 mm/);
   });
 
   it('shows the last values and those that come', async () => {
@@ -100,14 +101,16 @@ describe('the trend', () => {
     await daemon.send('POST', '/v1/measurements', values.map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'bore-A' })));
     await daemon.send('POST', '/v1/measurements', { designation: '10 f7', measured_mm: '9.98' });
     page = await open(browser, daemon, '#/trend?characteristic=bore-A&count=50');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 30);
+    await untilPoints(page, 30);
+    assert.deepEqual([(await marksOf(page, 'good')).length, (await marksOf(page, 'reject')).length], [21, 9]);
     const counts = () => page.$$eval('.tiles dd', (tiles) => tiles.slice(0, 3).map((tile) => Number(tile.textContent)));
     assert.deepEqual(await counts(), [21, 0, 9]);
     await daemon.send('POST', '/v1/measurements', [
       { designation: '25 H7', measured_mm: '24.999', characteristic: 'bore-A' },
       { designation: '25 H7', measured_mm: '24.998', characteristic: 'bore-B' }]);
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 31);
+    await untilPoints(page, 31);
     assert.deepEqual(await counts(), [21, 1, 9]);
+    assert.equal((await marksOf(page, 'rework')).length, 1);
     const [corrected] = (await daemon.json('/v1/measurements?characteristic=bore-A&verdict=rework')).measurements;
     await daemon.send('POST', `/v1/measurements/${corrected.id}/corrections`, { measured_mm: '25.01', reason: 'test' });
     await page.waitForFunction(() => document.querySelector('.tiles dd').textContent === '22');
@@ -128,7 +131,7 @@ describe('the trend', () => {
       await sleep(500);
       await route.fulfill({ response: answer });
     });
-    const points = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.point').length === wanted, count);
+    const points = (count) => untilPoints(page, count);
     await page.evaluate(() => { location.hash = '#/trend?characteristic=slow-list&designation=25+H7'; });
     await points(2);
     await page.selectOption('#trend-count', '200');
@@ -139,7 +142,7 @@ describe('the trend', () => {
   it('stays at the size that was shown first, whatever another station measures', async () => {
     await daemon.send('POST', '/v1/measurements', ['25.01', '25.011'].map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'hops' })));
     page = await open(browser, daemon, '#/trend?characteristic=hops');
-    const points = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.point').length === wanted, count);
+    const points = (count) => untilPoints(page, count);
     await points(2);
     const measure = (designation, measured) => daemon.send('POST', '/v1/measurements', { designation, measured_mm: measured, characteristic: 'hops' });
     await measure('25 H7', '25.0115');
@@ -155,7 +158,7 @@ describe('the trend', () => {
     await daemon.send('POST', '/v1/measurements', [groove('12.01', 30), groove('12.02', 30), groove('12.03', 50)]);
     page = await open(browser, daemon, '#/trend?characteristic=groove');
     const offered = (name) => page.$$eval(`#trend-${name} option`, (all) => all.map(({ value }) => value));
-    const points = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.point').length === wanted, count);
+    const points = (count) => untilPoints(page, count);
     await points(1);
     assert.deepEqual(await offered('designation'), ['12 +30/0 µm', '12 +50/0 µm']);
     await page.selectOption('#trend-designation', '12 +30/0 µm');
@@ -178,55 +181,67 @@ describe('the trend', () => {
     await daemon.send('POST', '/v1/measurements', viscosity.map((value, i) => ({
       nominal_mm: 33, feature: 'hole', upper_um: 36, lower_um: 31, measured_mm: (33 + value / 1000).toFixed(5), characteristic: 'paint', part_id: `P-${i + 1}`,
     })));
-    page = await open(browser, daemon, '#/trend?characteristic=paint');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 15);
-    const texts = () => page.$$eval('.control-chart text', (all) => all.map((text) => text.textContent));
-    for (const label of ['33.52', '34.8', '32.24', '0.48']) assert.ok((await texts()).some((text) => Math.abs(Number(text) - Number(label)) < 0.011), `${label} in ${await texts()}`);
-    assert.equal(await page.$('.control-chart .broken'), null);
+    page = await openChart(browser, daemon, '#/trend?characteristic=paint');
+    await untilPoints(page, 15);
+    const near = (texts, value) => texts.some((text) => Math.abs(parseFloat(text) - value) < 0.011);
+    for (const value of [33.52, 34.8, 32.24, 0.48]) {
+      assert.ok(near(await lettering(page), value), `${value} in ${await lettering(page)}`);
+      assert.ok(near(await page.$$eval('.in-figures td', (cells) => cells.map((cell) => cell.textContent)), value), `${value} in figures`);
+    }
+    const broken = async () => Number(/\d+$/.exec(await page.textContent('.in-figures summary')));
+    assert.equal(await broken(), 0);
+    assert.ok(!(await lettering(page)).includes('1'));
     assert.match(await page.textContent('.stability.doubt'), /n = 15/);
     await page.click('.rules button');
     await page.waitForFunction(() => /centre=33\.5/.test(location.hash));
     await daemon.send('POST', '/v1/measurements', { nominal_mm: 33, feature: 'hole', upper_um: 36, lower_um: 31, measured_mm: '33.0358', characteristic: 'paint', part_id: 'P-16' });
-    await page.waitForSelector('.control-chart .broken');
+    await page.waitForFunction(() => /1$/.test(document.querySelector('.in-figures summary').textContent));
+    assert.ok((await lettering(page)).includes('1'), 'the rule stands at the point');
     assert.match(await page.textContent('.stability.doubt'), /Not stable: rule 1 at P-16/);
-    assert.ok((await texts()).some((text) => Math.abs(Number(text) - 33.52) < 0.011), 'frozen limits stay');
+    assert.ok(near(await lettering(page), 33.52), 'frozen limits stay');
     assert.ok(await page.$('.tiles.in-doubt'));
     await page.focus('.trend figure');
     await page.keyboard.press('ArrowLeft');
     assert.match(await page.textContent('.detail'), /P-16.*breaks rule 1/);
+    await page.keyboard.press('ArrowLeft');
+    assert.match(await page.textContent('.detail'), /P-15/);
+    await page.click('.in-figures summary');
+    assert.match(await page.textContent('.in-figures .scroll tbody'), /P-16\+35\.8 µm1/);
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'trend-in-figures', { fullPage: true });
+    await page.click('.in-figures button');
+    assert.match(await page.textContent('.detail'), /P-16.*breaks rule 1/);
     await page.uncheck('.rules input[value="1"]');
-    await page.waitForFunction(() => !document.querySelector('.control-chart .broken'));
+    await page.waitForFunction(() => /0$/.test(document.querySelector('.in-figures summary').textContent));
+    assert.ok(!(await lettering(page)).includes('1'));
     await picture(page, 'trend-control', { fullPage: true });
   });
 
   it('shows 10,000 values, a stretch of them that is drawn across, and the record of a point in it', async () => {
     const size = (i) => (25.01 + ((i * 7919) % 1000) / 200_000 + (i === 9000 ? 0.02 : 0)).toFixed(6);
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 10_000 }, (_, i) => ({ designation: '25 H7', measured_mm: size(i), characteristic: 'many', part_id: `T-${i}` })));
-    page = await open(browser, daemon, '#/trend?characteristic=many&count=10000');
+    page = await openChart(browser, daemon, '#/trend?characteristic=many&count=10000');
     await page.waitForFunction(() => document.querySelector('.tiles dd')?.textContent === '9999');
-    assert.equal((await page.$$('.point')).length, 1); // where they are dense the good are a line
+    assert.equal((await marksOf(page, 'reject')).length, 1);
+    assert.equal((await marksOf(page, 'good')).length, 0); // where they are dense the good are a line
     assert.ok(await page.isHidden('.stretch'));
-    assert.equal(await page.$$eval('.control-chart text', (texts) => texts.map((text) => text.textContent).slice(1, 4).join()), '+21,0,+10.5');
-    const { x, y, width, height } = await (await page.$('.control-chart')).boundingBox();
+    const texts = await lettering(page);
+    assert.deepEqual(['µm', '+21', '0', '+10.5'].filter((text) => !texts.includes(text)), []);
+    const plot = await (await page.$('.control-chart .u-over')).boundingBox();
     const drawAcross = async (from, to) => {
-      await page.mouse.move(x + from * width, y + height / 2);
+      const y = plot.y + plot.height / 2;
+      await page.mouse.move(plot.x + from * plot.width, y);
       await page.mouse.down();
-      await page.mouse.move(x + to * width, y + height / 2, { steps: 3 });
+      await page.mouse.move(plot.x + to * plot.width, y, { steps: 3 });
+      assert.ok((await (await page.$('.control-chart .u-select')).boundingBox()).width > 5, 'what is chosen is shown');
       await page.mouse.up();
     };
-    const { left, right } = await page.$eval('.control-chart .time .axis', (line) => {
-      const at = line.getBoundingClientRect();
-      const chart = line.ownerSVGElement.getBoundingClientRect();
-      return { left: (at.left - chart.left) / chart.width, right: (at.right - chart.left) / chart.width };
-    });
-    const place = (share) => left + (right - left) * share;
-    await drawAcross(place(0.875), place(0.9));
+    await drawAcross(0.875, 0.9);
     await page.waitForSelector('.stretch:visible');
     const [from, to, of] = (await page.textContent('.stretch span')).match(/\d+/g).map(Number);
     assert.ok(of === 10_000 && from < 9001 && to > 9001 && to - from < 500, `${from} ${to}`);
-    const [point] = await page.$$('.point[data-verdict="reject"]');
-    const at = await point.boundingBox();
-    await page.mouse.click(at.x + at.width / 2, at.y + at.height / 2);
+    const [point] = await marksOf(page, 'reject');
+    await page.mouse.click(point.x, point.y);
     await page.waitForFunction(() => /T-9000/.test(document.querySelector('.detail').textContent));
     assert.match(await page.textContent('.detail'), /Reject25\.03\d* mm/);
     await page.$eval('.stretch input', (slider) => { slider.value = 0; slider.dispatchEvent(new Event('input')); });
@@ -237,12 +252,63 @@ describe('the trend', () => {
     await page.waitForSelector('.stretch', { state: 'hidden' });
   });
 
+  it('is drawn in the colours of the page, and anew where these change', async () => {
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({ designation: '25 H7', measured_mm: i % 10 ? '25.01' : '25.03', characteristic: 'colours' })));
+    page = await openChart(browser, daemon, '#/trend?characteristic=colours', { colorScheme: 'light' });
+    await untilPoints(page, 30);
+    const marks = async () => [(await marksOf(page, 'good')).length, (await marksOf(page, 'reject')).length];
+    assert.deepEqual(await marks(), [27, 3]);
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await page.waitForTimeout(200);
+    assert.deepEqual(await marks(), [27, 3]);
+    if (browserName === 'chromium') {
+      await page.emulateMedia({ forcedColors: 'active' });
+      await page.waitForTimeout(200);
+      assert.ok((await marks())[1] >= 3, 'in the text colour of the system');
+      assert.deepEqual(await findings(page), []);
+      await picture(page, 'trend-forced', { fullPage: true });
+    }
+  });
+
+  it('prints in black and white with the dots of a printer, and fits A4 and Letter', async () => {
+    page = await openChart(browser, daemon, '#/trend?characteristic=colours', { colorScheme: 'dark' });
+    await untilPoints(page, 30);
+    const look = () => page.$eval('.control-chart canvas', (canvas) => {
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      let colour = 0;
+      for (let at = 0; at < data.length; at += 4) if (data[at + 3] === 255) colour = Math.max(colour, Math.abs(data[at] - data[at + 1]), Math.abs(data[at + 1] - data[at + 2]));
+      const { left, right } = canvas.closest('.control-chart').getBoundingClientRect();
+      return { dots: canvas.width / canvas.getBoundingClientRect().width, hasColour: colour > 40, left, right, inside: document.querySelector('.trend figure').getBoundingClientRect().right };
+    });
+    const onScreen = await look();
+    assert.ok(onScreen.dots === 1 && onScreen.hasColour, JSON.stringify(onScreen));
+    for (const [format, width] of [['A4', 658], ['Letter', 680]]) {
+      await page.setViewportSize({ width, height: 900 });
+      await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+      await page.emulateMedia({ media: 'print' });
+      const printed = await look();
+      assert.ok(printed.dots >= 4 && !printed.hasColour, JSON.stringify(printed));
+      assert.ok(printed.left >= 0 && printed.right <= printed.inside && printed.inside <= width, `${format}: ${JSON.stringify(printed)}`);
+      assert.ok(await leastLettering(page) >= 12, `${await leastLettering(page)} pixels`);
+      assert.equal((await marksOf(page, 'reject')).length >= 3, true);
+      await picture(page, `trend-on-${format}`, { fullPage: true });
+      await page.emulateMedia({ media: 'screen' });
+      await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+    }
+    await page.setViewportSize({ width: 1280, height: 800 });
+    await page.waitForFunction((right) => document.querySelector('.control-chart').getBoundingClientRect().right === right, onScreen.right);
+    assert.deepEqual(await look(), onScreen);
+  });
+
   it('draws a drawing with one limit', async () => {
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({ nominal_mm: 8, feature: 'hole', upper_um: 36, measured_mm: `8.0${10 + (i * 7) % 20}`, characteristic: 'one-limit' })));
-    page = await open(browser, daemon, '#/trend?characteristic=one-limit');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 30);
-    assert.equal((await page.$$('.control-chart g:first-child > .limit')).length, 1);
-    assert.equal(await page.$('.control-chart .target'), null);
+    page = await openChart(browser, daemon, '#/trend?characteristic=one-limit');
+    await untilPoints(page, 30);
+    const texts = await lettering(page);
+    assert.deepEqual(texts.slice(texts.indexOf('µm')).slice(0, 2), ['µm', '+36']);
+    assert.deepEqual(texts.filter((text) => text.startsWith('+')), ['+36'], 'no target');
+    const named = await page.textContent('.in-figures table');
+    assert.ok(/Upper limit/.test(named) && !/Lower limit/.test(named), named);
     assert.match(await page.textContent('.indices'), /Cpk/);
     assert.doesNotMatch(await page.textContent('.trend'), /NaN|undefined|Infinity/);
   });
@@ -253,15 +319,15 @@ describe('the trend', () => {
     const samples = fs.readFileSync('tests/reference/piston_rings.txt', 'utf8').trim().split('\n').slice(0, 25).map((line) => line.trim().split(/\s+/));
     const ring = (measured_mm, subgroup) => ({ nominal_mm: 74, feature: 'hole', upper_um: 50, lower_um: -50, measured_mm, characteristic: 'ring', subgroup });
     await daemon.send('POST', '/v1/measurements', [...samples.flatMap((sample, i) => sample.map((value) => ring(value, `S-${i + 1}`))), ring('74.001', 'S-26')]);
-    page = await open(browser, daemon, '#/trend?characteristic=ring&count=200');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 126);
-    const near = (label) => page.waitForFunction((wanted) => [...document.querySelectorAll('.control-chart text')]
-      .some((text) => Math.abs(Number(text.textContent.replace('−', '-')) - wanted) < 0.06), label);
+    page = await openChart(browser, daemon, '#/trend?characteristic=ring&count=200');
+    await untilPoints(page, 126);
+    const near = (label) => page.waitForFunction((wanted) => globalThis.lettering.get(document.querySelector('.control-chart canvas'))
+      .some(({ text }) => Math.abs(Number(text.replace('−', '-')) - wanted) < 0.06), label);
     await page.selectOption('#trend-kind', 'xbar_r');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 25);
+    await untilPoints(page, 25);
     for (const label of [1.18, 14.31, -11.95, 22.76, 48.12]) await near(label);
     assert.match(await page.textContent('.detail'), /1 values of incomplete subgroups/);
-    assert.ok(await page.$('.ranges .unit:text("R")'));
+    assert.ok((await lettering(page)).includes('R'));
     await page.focus('.trend figure');
     await page.keyboard.press('ArrowLeft');
     await page.waitForFunction(() => /S-25.*74\.013/.test(document.querySelector('.detail').textContent));
@@ -270,10 +336,10 @@ describe('the trend', () => {
     for (const label of [1.18, 14.36, -12.01, 9.24, 19.3]) await near(label);
     assert.match(hash(), /kind=xbar_s/);
     await daemon.send('POST', '/v1/measurements', ['74.002', '74.003', '74.001', '74.0'].map((value) => ring(value, 'S-26')));
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 26);
+    await untilPoints(page, 26);
     await close(page);
     page = await open(browser, daemon, '#/trend?characteristic=ring&count=200&kind=xbar_s');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 26);
+    await untilPoints(page, 26);
   });
 });
 
@@ -297,7 +363,7 @@ describe('the overview', () => {
     await order(['ov-fine', 'ov-new']);
     assert.match(await page.textContent('.overview tbody tr:last-child'), /No values yet/);
     await page.click('.overview tbody a');
-    await page.waitForFunction(() => document.querySelectorAll('.point').length === 45);
+    await untilPoints(page, 45);
     assert.match(hash(), /^#\/trend\?characteristic=ov-fine/);
   });
 });

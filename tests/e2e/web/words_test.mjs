@@ -87,7 +87,7 @@ describe('the words', () => {
     'a class that is none': ['#/gauge/25H77', (page) => page.waitForSelector('.echo.wrong')],
     'the fit': ['#/fit/25H7/k6?hole=25.013', (page) => page.waitForSelector('.class-zones :checked')],
     'the trend': ['#/trend', async (page) => {
-      await page.waitForSelector('.point');
+      await page.waitForSelector('.control-chart');
       await page.focus('.trend figure');
       await page.keyboard.press('ArrowLeft');
     }],

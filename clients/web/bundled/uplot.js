@@ -1,0 +1,5 @@
+/** What the page takes from uPlot; the build puts the library itself into this module (scripts/cmake/bundle_web.mjs). */
+
+export { default as uPlot } from 'uplot';
+/** Its style sheet, as text. */
+export { default as style } from 'uplot/dist/uPlot.min.css';
