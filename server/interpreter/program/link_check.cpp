@@ -79,12 +79,6 @@ class BlockCheck {
     if (!is_available(part.family, part.number, true)) warn_unavailable(part.family, part.number);
   }
 
-  void check_tcpm(const klartext::FunctionTcpm& tcpm) {
-    if (program_.text(tcpm.options).find("AXIS SPAT") == std::string_view::npos) return;
-    report(Severity::Warning, DiagnosticCode::FeatureUnsupported, block_.written,
-           "FUNCTION TCPM with AXIS SPAT is not available here: the program stops at this block");
-  }
-
   void check_words(klartext::Slice<klartext::Word> words) {
     for (const klartext::Word& word : program_.view(words)) {
       const auto* number = std::get_if<double>(&word.value);
@@ -213,8 +207,6 @@ void check_block(const klartext::Program& program, std::uint32_t index,
     check.check_words(stop->words);
   } else if (const auto* call = std::get_if<klartext::CycleCall>(&block.statement)) {
     check.check_words(call->words);
-  } else if (const auto* tcpm = std::get_if<klartext::FunctionTcpm>(&block.statement)) {
-    check.check_tcpm(*tcpm);
   }
 }
 

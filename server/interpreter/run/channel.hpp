@@ -19,6 +19,7 @@
 #include "run/run_files.hpp"
 #include "run/run_log.hpp"
 #include "run/table_access.hpp"
+#include "run/tool_orientation.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -66,6 +67,7 @@ class Channel {
   std::uint32_t block = 0;  ///< index of the one that runs
 
   Contour contour;
+  std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are those of AXIS SPAT
   ActiveCycle active_cycle;
   /// What PREDEF takes, by the number of the Q parameter: mm, degrees, mm/min (GLOBAL DEF).
   std::map<int, double> predefined;

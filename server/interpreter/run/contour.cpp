@@ -193,6 +193,7 @@ NcResult<void> Contour::approach(machine::Machine& machine, const Element& next)
     }
   }
   Element to_auxiliary = approach.to_start;
+  to_auxiliary.feed = approach.before;
   set_plane_target(to_auxiliary, auxiliary);
   if (auto done = CutterPath::move(machine, to_auxiliary); !done) return done;
   Curve to_first{auxiliary, first, std::nullopt, 0};

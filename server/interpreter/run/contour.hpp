@@ -24,11 +24,12 @@ class Contour {
  public:
   /// APPR LT, LN, CT, LCT: moves when the first contour element is known.
   struct Approach {
-    klartext::Path path{};  ///< of the Cartesian spelling
-    Element to_start;       ///< a line to the first point of the contour
-    double length = 0;      ///< LEN
-    double angle = 0;       ///< CCA
-    double radius = 0;      ///< R; negative: to the other side (APPR CT)
+    klartext::Path path{};   ///< of the Cartesian spelling
+    Element to_start;        ///< a line to the first point of the contour
+    double length = 0;       ///< LEN
+    double angle = 0;        ///< CCA
+    double radius = 0;       ///< R; negative: to the other side (APPR CT)
+    machine::Feed before{};  ///< of the block before: the way to where APPR LT, LN and CT begin
   };
 
   /// Where the last block ends, in input coordinates, also when the machine is not there yet or
@@ -55,6 +56,7 @@ class Contour {
   std::optional<Pole> pole;                ///< CC
   Vec2 last_polar;                         ///< PR, PA of the last polar block, for IPR and IPA
   std::optional<machine::Vec3> direction;  ///< of travel at the end of the last element
+  std::optional<machine::Feed> last_feed;  ///< of the last positioning block, FMAX among them
   double tool_feed = 0;                    ///< F AUTO: the feed of TOOL CALL
   bool feed_per_revolution = false;        ///< M136
 

@@ -212,11 +212,8 @@ NcResult<void> execute(Channel& channel, const klartext::FunctionMode& mode) {
 NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
   const std::string_view options = channel.program().text(tcpm.options);
   const auto says = [&](std::string_view words) { return options.find(words) != options.npos; };
-  if (says("AXIS SPAT")) {
-    return nc_error(
-        "FUNCTION TCPM with AXIS SPAT is not available: rotary words would be spatial "
-        "angles; write AXIS POS, or tilt with PLANE SPATIAL");
-  }
+  channel.spatial_angles.reset();
+  if (says("AXIS SPAT")) channel.spatial_angles.emplace();
   if (says("PATHCTRL VECTOR")) {
     auto noted = channel.note(
         "PATHCTRL VECTOR: the rotary axes move evenly, as with PATHCTRL AXIS; "

@@ -8,6 +8,7 @@
 #include "run/m_functions.hpp"
 #include "run/motion_words.hpp"
 #include "run/statements.hpp"
+#include "run/tool_orientation.hpp"
 #include "run/values.hpp"
 
 namespace fitgauge::interpreter {
@@ -73,6 +74,12 @@ class Positioning {
  private:
   Contour& contour() { return channel_.contour; }
 
+  NcResult<machine::Feed> block_feed() {
+    const auto feed = use_feed(channel_, words_.feed);
+    if (feed) contour().last_feed = *feed;
+    return feed;
+  }
+
   static double resolved(const Coordinate& word, double last) {
     return word.incremental ? last + word.value : word.value;
   }
@@ -136,7 +143,7 @@ class Positioning {
   }
 
   NcResult<Element> element(const Curve& curve) {
-    const auto feed = use_feed(channel_, words_.feed);
+    const auto feed = block_feed();
     if (!feed) return feed.error();
     Element element{plane_, curve, position_.linear, target(position_), *feed};
     element.side = contour().side();
@@ -197,7 +204,7 @@ class Positioning {
   /// M91, M92: coordinates of the spindle nose from the machine datum.
   NcResult<void> machine_line() {
     if (auto done = contour().finish(channel_.machine()); !done) return done;
-    const auto feed = use_feed(channel_, words_.feed);
+    const auto feed = block_feed();
     if (!feed) return feed.error();
     const auto from = channel_.machine().position(CoordinateSystem::Reference);
     return move_along({plane_, {}, from.linear, target(from), *feed, CoordinateSystem::Reference});
@@ -206,7 +213,7 @@ class Positioning {
   NcResult<void> line() {
     if (!words_.names_axes()) {
       // `L FMAX M99`, or every coordinate undefined: the feed may change, nothing moves.
-      const auto feed = use_feed(channel_, words_.feed);
+      const auto feed = block_feed();
       return feed ? NcResult<void>() : feed.error();
     }
     const auto end = end_point();
@@ -295,13 +302,17 @@ class Positioning {
   NcResult<void> approach() {
     const auto end = end_point();
     if (!end) return end.error();
+    const auto before = contour().last_feed;
     auto to_start = element({start_, *end, std::nullopt, 0});
     if (!to_start) return to_start.error();
     set_plane_target(*to_start, *end);
+    // F of APPR LCT is that of its whole way, of the others that of its second part.
+    const bool is_whole = !before || cartesian() == Path::ApprLct;
+    const machine::Feed first_part = is_whole ? to_start->feed : *before;
     return contour().add(
         channel_.machine(),
         Contour::Approach{cartesian(), *std::move(to_start), words_.len.value_or(0),
-                          words_.cca.value_or(0), words_.r.value_or(0)});
+                          words_.cca.value_or(0), words_.r.value_or(0), first_part});
   }
 
   Path cartesian() const {
@@ -350,7 +361,7 @@ class Positioning {
 
   /// A move of the working plane alone.
   NcResult<void> leave(const Curve& curve) {
-    const auto feed = use_feed(channel_, words_.feed);
+    const auto feed = block_feed();
     if (!feed) return feed.error();
     Element element{plane_, curve, channel_.machine().position().linear, {}, *feed};
     set_plane_target(element, curve.end);
@@ -374,31 +385,24 @@ NcResult<void> note_what_has_no_effect(Channel& channel, const Motion& motion,
   }
   if (motion.path != Path::Ln) return {};
   const auto view = channel.program().view(motion.words);
-  const auto names = [&](klartext::Letter first, klartext::Letter last) {
-    return std::any_of(view.begin(), view.end(), [=](const klartext::Word& word) {
-      return word.letter >= first && word.letter <= last;
-    });
-  };
-  if (names(klartext::Letter::Tx, klartext::Letter::Tz)) {
-    auto noted = channel.note(
-        "LN: the tool vector TX TY TZ does not turn the tool; write the positions of the rotary "
-        "axes, or tilt with PLANE VECTOR");
-    if (!noted) return noted;
-  }
+  const bool has_normal = std::any_of(view.begin(), view.end(), [](const klartext::Word& word) {
+    return word.letter >= klartext::Letter::Nx && word.letter <= klartext::Letter::Nz;
+  });
   const machine::Tool* tool = channel.machine().state().active_tool();
   const double oversize = channel.machine().state().tool.dr + (tool == nullptr ? 0 : tool->dr);
-  if (oversize == 0 || !names(klartext::Letter::Nx, klartext::Letter::Nz)) return {};
+  if (oversize == 0 || !has_normal) return {};
   return channel.note("LN: DR does not move the path along the normal NX NY NZ");
 }
 
 }  // namespace
 
 NcResult<Next> execute(Channel& channel, const Motion& motion) {
-  const auto words = read_words(channel, motion.words);
+  auto words = read_words(channel, motion.words);
   if (!words) return words.error();
   channel.contour.compensate(motion.compensation);
   if (auto noted = note_what_has_no_effect(channel, motion, *words); !noted) return noted.error();
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  if (auto done = orient_tool(channel, motion, *words); !done) return done.error();
   if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
   return end_m_functions(channel, *words);
 }

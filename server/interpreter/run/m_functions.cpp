@@ -69,8 +69,11 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
       case 8: modes.coolant = true; break;
       case 116: modes.feed_at_circumference = true; break;
       case 117: modes.feed_at_circumference = false; break;
-      case 128: modes.tcpm = true; break;
-      case 129: modes.tcpm = false; break;
+      case 128:
+      case 129:
+        modes.tcpm = call.number == 128;
+        channel.spatial_angles.reset();
+        break;
       case 144: modes.kinematics_in_display = true; break;
       case 145: modes.kinematics_in_display = false; break;
       case 136: channel.contour.feed_per_revolution = true; break;

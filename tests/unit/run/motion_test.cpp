@@ -238,12 +238,12 @@ TEST_CASE("APPR and DEP by lines and arcs") {
   Mill mill;
   mill.setup.machine.tools.back().row.r = 0;  // the path is the contour
   CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nAPPR LN X+10 Y+10 LEN5 RL F100\nL X+30\nDEP LN LEN6") ==
-        Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+10.0000 Y+15.0000 Z+0.0000 F100",
+        Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+10.0000 Y+15.0000 Z+0.0000 FMAX",
               "L X+10.0000 Y+10.0000 Z+0.0000 F100", "L X+30.0000 Y+10.0000 Z+0.0000 F100",
               "L X+30.0000 Y+16.0000 Z+0.0000 F100"});
   CHECK(mill.moves("L X+0 Y+0 Z+0 FMAX\nAPPR CT X+10 Y+10 CCA90 R5 RL F100\nL X+30\n"
                    "DEP CT CCA90 R5") ==
-        Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+5.0000 Y+15.0000 Z+0.0000 F100",
+        Lines{"L X+0.0000 Y+0.0000 Z+0.0000 FMAX", "L X+5.0000 Y+15.0000 Z+0.0000 FMAX",
               "ARC X+10.0000 Y+10.0000 Z+0.0000 CC X+10.0000 Y+15.0000 Z+0.0000 +90.0000 F100",
               "L X+30.0000 Y+10.0000 Z+0.0000 F100",
               "ARC X+35.0000 Y+15.0000 Z+0.0000 CC X+30.0000 Y+15.0000 Z+0.0000 +90.0000 F100"});
@@ -254,6 +254,9 @@ TEST_CASE("APPR and DEP by lines and arcs") {
               "L X+30.0000 Y+10.0000 Z+0.0000 F100",
               "ARC X+35.0000 Y+15.0000 Z+0.0000 CC X+30.0000 Y+15.0000 Z+0.0000 +90.0000 F100",
               "L X+35.0000 Y+40.0000 Z+0.0000 F100"});
+  // The way to the auxiliary point runs at the feed of the block before, that of LCT at its own.
+  CHECK(mill.moves("L X+0 Y+0 Z+0 F700\nAPPR LT X+10 Y+10 LEN5 RL F100\nL X+30")[1] ==
+        "L X+5.0000 Y+10.0000 Z+0.0000 F700");
 }
 
 TEST_CASE("PLANE turns the axes and the coordinates") {

@@ -87,11 +87,11 @@ TEST_CASE("incremental words count from the programmed contour") {
 TEST_CASE("APPR and DEP begin and end beside the contour") {
   Mill mill;
   CHECK(mill.path("APPR LT X+10 Y+10 LEN5 RL F100\nL X+30\nDEP LT LEN6") ==
-        Lines{"L X+5 Y+14 F100", "L X+10 Y+14 F100", "L X+30 Y+14 F100", "L X+36 Y+14 F100"});
+        Lines{"L X+5 Y+14 FMAX", "L X+10 Y+14 F100", "L X+30 Y+14 F100", "L X+36 Y+14 F100"});
   CHECK(mill.path("APPR LN X+10 Y+10 LEN5 RR F100\nL X+30\nDEP LN LEN6") ==
-        Lines{"L X+10 Y+1 F100", "L X+10 Y+6 F100", "L X+30 Y+6 F100", "L X+30 Y+0 F100"});
+        Lines{"L X+10 Y+1 FMAX", "L X+10 Y+6 F100", "L X+30 Y+6 F100", "L X+30 Y+0 F100"});
   CHECK(mill.path("APPR CT X+10 Y+10 CCA90 R5 RL F100\nL X+30\nDEP CT CCA90 R5") ==
-        Lines{"L X+5 Y+19 F100", "ARC X+10 Y+14 CC X+10 Y+19 +90 F100", "L X+30 Y+14 F100",
+        Lines{"L X+5 Y+19 FMAX", "ARC X+10 Y+14 CC X+10 Y+19 +90 F100", "L X+30 Y+14 F100",
               "ARC X+35 Y+19 CC X+30 Y+19 +90 F100"});
   CHECK(mill.path("APPR CT X+10 Y+10 CCA90 R5 RR F100\nL X+30\nL X+50\nDEP LT LEN1").back() ==
         "L X+51 Y+6 F100");

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "klartext/statement.hpp"
+#include "run/motion_words.hpp"
+
+namespace fitgauge::interpreter {
+
+/// A, B and C as spatial angles of the tool (FUNCTION TCPM AXIS SPAT), each as it was programmed
+/// last.
+using SpatialAngles = std::array<std::optional<double>, 3>;
+
+/// Puts the positions of the rotary axes into a block that says how the tool stands in the input
+/// system: LN by its tool vector, any line by spatial angles. Of the positions in the range of the
+/// axes the nearest is taken.
+/// @errors 1013 no position of the axes reaches it; a vector without length; the first block under
+///   AXIS SPAT that turns the tool leaves out an angle.
+NcResult<void> orient_tool(Channel& channel, const klartext::Motion& motion, MotionWords& words);
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,120 @@
+#include <array>
+#include <cmath>
+
+#include "workshop.hpp"
+
+/// Blocks that say how the tool stands: tool vectors and spatial angles. Which way the tool points
+/// on a machine is written down here once more.
+namespace fitgauge::interpreter {
+namespace {
+
+using machine::Axis;
+using machine::Vec3;
+
+double sine(double degrees) { return std::sin(degrees * std::acos(-1.0) / 180); }
+double cosine(double degrees) { return std::cos(degrees * std::acos(-1.0) / 180); }
+
+/// A trunnion A that carries a table C, or a fork head C that carries A: either turns the tool on
+/// the workpiece by A around X, then by C around Z.
+Vec3 tool_at(double a, double c) { return {sine(a) * sine(c), -sine(a) * cosine(c), cosine(a)}; }
+
+std::string vector_words(const Vec3& v) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "TX%+.9f TY%+.9f TZ%+.9f", v.x, v.y, v.z);
+  return text.data();
+}
+
+class FiveAxes : public Workshop {
+ public:
+  explicit FiveAxes(machine::AxisMount mount = machine::AxisMount::Table) {
+    for (const Axis axis : {Axis::A, Axis::C}) {
+      auto& added = setup.machine.axes[machine::index(axis)];
+      added.emplace(machine::AxisSetup::of(axis));
+      added->mount = mount;
+      if (mount == machine::AxisMount::Head) added->centre = {0, 0, 40};
+      added->min = -200;
+      added->max = 200;
+    }
+  }
+
+  /// A, B and C after that body, whose last block ends at X+1 Y+2 Z+3.
+  Vec3 rotary_after(const std::string& body) {
+    path(body);
+    CAPTURE(body);
+    REQUIRE(outcome(last) == "completed");
+    const machine::Position end = machine->state().position();
+    CHECK(norm(end.linear - Vec3{1, 2, 3}) < 1e-7);
+    return machine->state().nose.rotary;
+  }
+};
+
+bool is_near(const Vec3& a, const Vec3& b) { return norm(a - b) < 1e-6; }
+
+TEST_CASE("LN stands the tool along its vector, the tip where it is programmed") {
+  const std::string begin = "M128\nLN X+1 Y+2 Z+3 F1000 ";
+  for (const auto mount : {machine::AxisMount::Table, machine::AxisMount::Head}) {
+    FiveAxes mill(mount);
+    CHECK(is_near(mill.rotary_after(begin + vector_words(tool_at(30, 40))), {30, 0, 40}));
+    // Of (-25, 0, 150) and (25, 0, -30) the second is nearer to 0.
+    CHECK(is_near(mill.rotary_after(begin + vector_words(tool_at(-25, 150))), {25, 0, -30}));
+    // Upright: C stays.
+    CHECK(is_near(mill.rotary_after("L C+70 FMAX\n" + begin + "TX+0 TY+0 TZ+1"), {0, 0, 70}));
+  }
+  // On from C 170 to 190 rather than back to -170.
+  FiveAxes mill;
+  CHECK(is_near(mill.rotary_after("L A+20 C+170 FMAX\n" + begin + vector_words(tool_at(20, 190))),
+                {20, 0, 190}));
+  // The limits: 210 is out of range, -150 is not.
+  CHECK(is_near(mill.rotary_after("L A+20 C+190 FMAX\n" + begin + vector_words(tool_at(20, 210))),
+                {-20, 0, 30}));
+}
+
+TEST_CASE("a vector counts in the tilted, rotated and mirrored system of the block") {
+  FiveAxes mill;
+  // The plane's X is the workpiece's Y: its vector (s, 0, c) points to (0, s, c).
+  CHECK(is_near(mill.rotary_after("PLANE SPATIAL SPA+0 SPB+0 SPC+90 STAY\nM128\n"
+                                  "LN X+1 Y+2 Z+3 F1000 " +
+                                  vector_words({sine(20), 0, cosine(20)})),
+                {-20, 0, 0}));
+  CHECK(is_near(mill.rotary_after("TRANS ROTATION ROT+90\nM128\nLN X+1 Y+2 Z+3 F1000 " +
+                                  vector_words({sine(20), 0, cosine(20)})),
+                {-20, 0, 0}));
+  CHECK(is_near(mill.rotary_after("TRANS MIRROR AXIS Y\nM128\nLN X+1 Y+2 Z+3 F1000 " +
+                                  vector_words({0, -sine(20), cosine(20)})),
+                {-20, 0, 0}));
+}
+
+TEST_CASE("AXIS SPAT: A, B and C are spatial angles of the tool") {
+  const std::string begin = "FUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS\nL X+1 Y+2 Z+3 F1000 ";
+  FiveAxes mill;
+  CHECK(is_near(mill.rotary_after(begin + "A+30 B+0 C+0"), {30, 0, 0}));
+  CHECK(is_near(mill.rotary_after(begin + "A+30 B+0 C+40"), {30, 0, 40}));
+  // Around Y: the tool points to +X.
+  CHECK(is_near(mill.rotary_after("L A+5 C+5 FMAX\n" + begin + "A+0 B+25 C+0"), {25, 0, 90}));
+  // Around X, then around the fixed Y: (sin b cos a, -sin a, cos b cos a).
+  const Vec3 tool{sine(25) * cosine(10), -sine(10), cosine(25) * cosine(10)};
+  const Vec3 rotary = mill.rotary_after(begin + "A+10 B+25 C+0");
+  CHECK(norm(tool_at(rotary.x, rotary.z) - tool) < 1e-8);
+  // What a block leaves out stays; increments add up.
+  CHECK(is_near(mill.rotary_after(begin + "A+30 B+0 C+0\nL C+40 F1000"), {30, 0, 40}));
+  CHECK(is_near(mill.rotary_after(begin + "A+30 B+0 C+10\nL IC+30 F1000"), {30, 0, 40}));
+  // M128 and FUNCTION TCPM AXIS POS: positions of the axes again.
+  CHECK(is_near(mill.rotary_after(begin + "A+0 B+25 C+0\nM128\nL A+5 C+6 F1000"), {5, 0, 6}));
+  mill.path(begin + "A+30 C+0");
+  CHECK(outcome(mill.last).find("B is missing") != std::string::npos);
+}
+
+TEST_CASE("what the rotary axes do not reach, and vectors that turn nothing, are said") {
+  FiveAxes mill;
+  mill.path("M128\nLN X+1 Y+2 Z+3 TX+0 TY+0 TZ+0 F1000");
+  CHECK(outcome(mill.last).find("has no length") != std::string::npos);
+  mill.path("LN X+1 Y+2 Z+3 TX+0.1 TY+0 TZ+0.995 F1000");
+  REQUIRE(mill.last.messages.size() == 1);
+  CHECK(mill.last.messages[0].text.find("M128 or FUNCTION TCPM only") != std::string::npos);
+  Workshop three_axes;
+  three_axes.path("M128\nLN X+1 Y+2 Z+3 TX+0.1 TY+0 TZ+0.995 F1000");
+  CHECK(three_axes.last.messages.back().number == 1013);
+}
+
+}  // namespace
+}  // namespace fitgauge::interpreter
