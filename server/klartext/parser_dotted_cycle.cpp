@@ -66,6 +66,11 @@ void parse_loose_letters(BlockReader& in, bool bare_axes) {
   const std::optional<Letter> letter = find_letter(incremental ? name.substr(1) : name);
   in.move_to(name.data() + name.size());
   const char behind = in.peek();
+  if (letter == Letter::Dr && (behind == '+' || behind == '-')) {  // DR+, DR-: a direction
+    in.move_to(in.at() + 1);
+    in.add_word({.value = behind == '-' ? -1.0 : 1.0, .letter = Letter::Dr});
+    return;
+  }
   const bool part_of_text =
       behind == '.' || behind == ':' || behind == '_' || static_cast<unsigned char>(behind) >= 0x80;
   if (!letter || !kLooseWords.contains(*letter) || part_of_text) return;

@@ -60,19 +60,20 @@ struct OldWord {
 };
 
 constexpr OldWord kOldWords[] = {
-    {1, 1, Letter::Value, 200},  {1, 2, Letter::Value, 201},  {1, 3, Letter::Value, 202},
-    {1, 4, Letter::Value, 211},  {1, 5, Letter::F, 206},      {2, 1, Letter::Value, 200},
-    {2, 2, Letter::Value, 201},  {2, 3, Letter::Value, 211},  {2, 4, Letter::F, 206},
-    {3, 1, Letter::Value, 200},  {3, 2, Letter::Value, 201},  {3, 3, Letter::Value, 202},
-    {3, 3, Letter::F, 206},      {3, 4, Letter::X, 218},      {3, 4, Letter::Y, 218},
-    {3, 5, Letter::X, 219},      {3, 5, Letter::Y, 219},      {3, 6, Letter::F, 207},
-    {4, 1, Letter::Value, 200},  {4, 2, Letter::Value, 201},  {4, 3, Letter::Value, 202},
-    {4, 3, Letter::F, 206},      {4, 4, Letter::X, 218},      {4, 4, Letter::Y, 219},
-    {4, 5, Letter::X, 218},      {4, 5, Letter::Y, 219},      {4, 6, Letter::F, 207},
-    {4, 6, Letter::Value, 220},  {5, 1, Letter::Value, 200},  {5, 2, Letter::Value, 201},
-    {5, 3, Letter::Value, 202},  {5, 3, Letter::F, 206},      {5, 4, Letter::Value, 223, 2},
-    {5, 5, Letter::F, 207},      {17, 1, Letter::Value, 200}, {17, 2, Letter::Value, 201},
-    {17, 3, Letter::Value, 239}, {18, 1, Letter::Value, 201}, {18, 2, Letter::Value, 239},
+    {1, 1, Letter::Value, 200},  {1, 2, Letter::Value, 201},    {1, 3, Letter::Value, 202},
+    {1, 4, Letter::Value, 211},  {1, 5, Letter::F, 206},        {2, 1, Letter::Value, 200},
+    {2, 2, Letter::Value, 201},  {2, 3, Letter::Value, 211},    {2, 4, Letter::F, 206},
+    {3, 1, Letter::Value, 200},  {3, 2, Letter::Value, 201},    {3, 3, Letter::Value, 202},
+    {3, 3, Letter::F, 206},      {3, 4, Letter::X, 218},        {3, 4, Letter::Y, 218},
+    {3, 5, Letter::X, 219},      {3, 5, Letter::Y, 219},        {3, 6, Letter::F, 207},
+    {4, 1, Letter::Value, 200},  {4, 2, Letter::Value, 201},    {4, 3, Letter::Value, 202},
+    {4, 3, Letter::F, 206},      {4, 4, Letter::X, 218},        {4, 4, Letter::Y, 219},
+    {4, 5, Letter::X, 218},      {4, 5, Letter::Y, 219},        {4, 6, Letter::F, 207},
+    {4, 6, Letter::Value, 220},  {4, 6, Letter::Dr, 351},       {5, 5, Letter::Dr, 351},
+    {5, 1, Letter::Value, 200},  {5, 2, Letter::Value, 201},    {5, 3, Letter::Value, 202},
+    {5, 3, Letter::F, 206},      {5, 4, Letter::Value, 223, 2}, {5, 5, Letter::F, 207},
+    {17, 1, Letter::Value, 200}, {17, 2, Letter::Value, 201},   {17, 3, Letter::Value, 239},
+    {18, 1, Letter::Value, 201}, {18, 2, Letter::Value, 239},
 };
 
 const OldWord* find_old(int cycle, int part, Letter letter) {
@@ -165,8 +166,9 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const Machin
         const auto value = number(channel, word.value);
         if (!value) return value.error();
         double result = *value * row->scale * unit_of(channel, row->parameter);
-        // Depth, length and pitch have a direction, the others are sizes.
-        const bool has_direction = row->parameter == 201 || row->parameter == 239;
+        // Depth, pitch and rotation have a direction, the others are sizes.
+        const bool has_direction =
+            row->parameter == 201 || row->parameter == 239 || row->parameter == 351;
         if (row->parameter == 218) {  // the slot runs along that axis, in that direction
           definition.values[374] = (word.letter == Letter::Y ? 90 : 0) + (result < 0 ? 180 : 0);
         }

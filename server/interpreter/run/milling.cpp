@@ -23,12 +23,19 @@ double bottom_of(const Machining& cycle) {
   return cycle.heights.bottom + (cycle.value(215) == 1 ? cycle.value(369) : 0);
 }
 
+/// Drilling may go up, into a part from below; a cutter that mills goes down.
+NcResult<void> check_depth(const Machining& cycle) {
+  if (cycle.heights.bottom <= cycle.heights.surface) return {};
+  return nc_error(1012, "the depth Q201 is negative: milling goes down from the surface");
+}
+
 /// Calls `mill` at each depth, plunging at `where` before.
 template <class Mill>
 NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
   ToolMotion& motion = cycle.motion;
   const double bottom = bottom_of(cycle);
   const double infeed = cycle.value(202) > 0 ? cycle.value(202) : std::abs(cycle.value(201));
+  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
   if (auto done = cycle.start(); !done) return done;
   for (double depth = cycle.heights.surface; depth > bottom;) {
     const double next = depth - bottom <= infeed ? bottom : depth - infeed;
@@ -170,6 +177,7 @@ NcResult<void> mill_bore(Machining& cycle) {
   const double radius = cycle.value(335) / 2 - motion.tool_radius();
   if (radius < 0) return does_not_fit(1003, motion.tool_radius());
   if (cycle.value(334) <= 0) return nc_error(1011, "Q334 is 0");
+  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
   if (auto done = cycle.start(); !done) return done;
   const Feed feed = cycle.feed(206);
   if (radius < tolerance::kSamePoint) {  // a hole of the tool's own diameter is drilled
@@ -242,11 +250,12 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
   const double pitch = cycle.value(375) / 2;
   const double length = cycle.value(248);
   if (pitch - width <= 0) return nc_error(1003, "the slot lies across the centre of its circle");
-  constexpr std::array<double, 4> kParts{0, 0, 0.5, 1};  // Q367: where on the slot the tool stands
+  // Q367: where on the slot the tool stands; Q376 is the angle of that place.
+  constexpr std::array<double, 4> kParts{0, 0, 0.5, 1};
   const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 3.0));
-  const double angle = cycle.value(376);
+  const double angle = cycle.value(376) - kParts[place] * length;
   const Vec2 centre = place == 0 ? Vec2{cycle.value(216), cycle.value(217)}
-                                 : motion.point() - polar(pitch, angle + kParts[place] * length);
+                                 : motion.point() - polar(pitch, cycle.value(376));
   const Feed feed = cycle.feed(207);
   const auto slots = static_cast<int>(std::max(1.0, cycle.value(377)));
   for (int i = 0; i < slots; ++i) {
@@ -286,15 +295,17 @@ NcResult<void> mill_thread(Machining& cycle) {
   const double radius =
       number == 267 ? nominal + motion.tool_radius() : nominal - motion.tool_radius();
   if (radius <= 0) return does_not_fit(1003, motion.tool_radius());
+  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
   if (number == 264) {
     if (auto done = drill_core(cycle); !done) return done;
   }
   if (auto done = cycle.start(); !done) return done;
   if (auto done = countersink(cycle); !done) return done;
   const Vec2 centre = motion.point();
-  // Climb milling of an inner right-hand thread goes up, out of the hole.
-  // 265 drills the thread on its way down.
-  const bool up = number != 265 && (cycle.value(351) < 0) == (cycle.value(239) < 0);
+  // Climb milling turns counter-clockwise inside and clockwise outside: a right-hand thread goes up
+  // in a hole and down on a bolt. 265 drills the thread on its way down.
+  const bool follows_hand = (cycle.value(351) < 0) == (cycle.value(239) < 0);
+  const bool up = number != 265 && follows_hand == (number != 267);
   // 265 has no Q355 and mills the whole depth; 263 and 264 take one turn at it, for a tool whose
   // teeth cut all threads.
   const double per_step = number == 265 ? 1 : cycle.value(355);

@@ -122,8 +122,72 @@ TEST_CASE("263 to 267 countersink or drill, and mill their thread") {
 
   // Outside the tool goes around the bolt: 10 + 4 mm from its axis.
   const Lines outside = mill.path("CYCL DEF 267 THREAD Q355=1" + kThread + "\nCYCL CALL");
-  CHECK(has(outside, "ARC X+24 Y+10 Z+0 CC X+10 Y+10 Z+0 +1440 F200"));
+  // Climb milling turns clockwise there: a right-hand thread goes down.
+  CHECK(has(outside, "ARC X+24 Y+10 Z-6 CC X+10 Y+10 Z-6 -1440 F200"));
   CHECK(outside.back() == "L X+10 Y+10 Z+2 FMAX");
+  const auto helix = [&](const std::string& hand) {
+    return turns(mill.path("CYCL DEF 267 THREAD Q355=1 Q335=20 Q201=-6 Q253=750 Q200=2 Q203=+0 "
+                           "Q204=0 Q207=200 " +
+                           hand + "\nCYCL CALL"))
+        .front();
+  };
+  CHECK(helix("Q239=+1.5 Q351=-1") == "ARC X+24 Y+10 Z+0 CC X+10 Y+10 Z+0 +1440 F200");
+  CHECK(helix("Q239=-1.5 Q351=+1") == "ARC X+24 Y+10 Z+0 CC X+10 Y+10 Z+0 -1440 F200");
+  CHECK(helix("Q239=-1.5 Q351=-1") == "ARC X+24 Y+10 Z-6 CC X+10 Y+10 Z-6 +1440 F200");
+}
+
+TEST_CASE("DR- of the old pockets turns clockwise") {
+  Workshop mill;
+  const std::string begin =
+      "CYCL DEF 5.0 CIRCULAR POCKET\nCYCL DEF 5.1 SET UP -2\nCYCL DEF 5.2 "
+      "DEPTH -3\nCYCL DEF 5.3 PECKG -3 F80\nCYCL DEF 5.4 RADIUS 15\n";
+  CHECK(has(mill.path(begin + "CYCL DEF 5.5 F100 DR-\nL Z+2 FMAX M99"),
+            "ARC X+21 Y+10 Z-3 CC X+10 Y+10 Z-3 -360 F100"));
+  const Lines pocket = mill.path(
+      "CYCL DEF 4.0 POCKET MILLING\nCYCL DEF 4.1 SET UP -2\nCYCL DEF 4.2 DEPTH -4\n"
+      "CYCL DEF 4.3 PECKG -4 F80\nCYCL DEF 4.4 X+40\nCYCL DEF 4.5 Y+20\n"
+      "CYCL DEF 4.6 F300 DR- RADIUS 6\nL Z+2 FMAX M99");
+  CHECK(has(pocket, "ARC X+24 Y+4 Z-4 CC X+24 Y+6 Z-4 -90 F300"));
+}
+
+TEST_CASE("1 stops a fiftieth of the hole above what is drilled, from 0.6 to 7 mm") {
+  Workshop mill;
+  const auto hole = [&](const std::string& depth, const std::string& infeed) {
+    return mill.hole("CYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SET UP -2\nCYCL DEF 1.2 DEPTH " + depth +
+                     "\nCYCL DEF 1.3 PECKG " + infeed +
+                     "\nCYCL DEF 1.4 DWELL 0\n"
+                     "CYCL DEF 1.5 F100\nL Z+2 FMAX");
+  };
+  CHECK(has(hole("-30", "-20"), "L Z-19.4000 FMAX"));
+  CHECK(has(hole("-60", "-40"), "L Z-38.8000 FMAX"));
+  CHECK(has(hole("-400", "-300"), "L Z-293 FMAX"));
+}
+
+TEST_CASE("254: Q376 is the angle of the place on which the tool stands") {
+  Workshop mill;
+  // 90 degrees of a pitch circle of 80, the tool over its X+10 Y+10.
+  const auto slot = [&](const std::string& place) {
+    return mill.path(
+        "CYCL DEF 254 SLOT Q219=10 Q375=80 Q376=90 Q248=90 Q207=300 Q206=100 Q201=-4 "
+        "Q202=4 Q200=2 Q203=+0 Q204=0 Q367=" +
+        place + "\nCYCL CALL");
+  };
+  // The tool always stands 40 mm above the centre, at X+10 Y-30; the slot lies around it.
+  CHECK(has(slot("1"), "ARC X-31 Y-30 Z-4 CC X+10 Y-30 Z-4 +90 F300"));
+  CHECK(has(slot("3"), "ARC X+10 Y+11 Z-4 CC X+10 Y-30 Z-4 +90 F300"));
+  CHECK(has(slot("2"), "ARC X-18.9914 Y-1.0086 Z-4 CC X+10 Y-30 Z-4 +90 F300"));
+}
+
+TEST_CASE("a cutter does not mill up from the surface") {
+  Workshop mill;
+  for (const std::string cycle :
+       {"251 POCKET Q218=40 Q219=20 Q207=300 Q206=100", "252 POCKET Q223=30 Q207=300 Q206=100",
+        "253 SLOT Q218=30 Q219=10 Q207=300 Q206=100", "208 BORE Q335=20 Q334=1 Q206=100",
+        "262 THREAD Q335=20 Q239=1 Q207=300"}) {
+    mill.path("CYCL DEF " + cycle + " Q201=+4 Q200=2 Q203=+0\nCYCL CALL");
+    CAPTURE(cycle);
+    CHECK(mill.last.messages.back().number == 1012);
+  }
 }
 
 TEST_CASE("21, 23 and 24 go to the first point of each contour") {
