@@ -4,6 +4,8 @@ import { toJson } from './exact.js';
 import { forget, readStored, store } from './stored.js';
 
 const KEY = 'key';
+/** What somebody stands and waits for, in ms: then what is kept has to do. */
+export const PATIENCE_MS = 4000;
 
 /** A problem document (RFC 9457). */
 export class Problem extends Error {

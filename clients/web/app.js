@@ -9,13 +9,21 @@ import { enterKey } from './key_dialog.js';
 import { queue } from './queue.js';
 import { currentRoute, lastOf, remember } from './route.js';
 import { forget, readStored, store } from './stored.js';
+import { mount as connections } from './views/connections.js';
+import { mount as fit } from './views/fit.js';
+import { mount as gauge } from './views/gauge.js';
+import { mount as overview } from './views/overview.js';
+import { mount as parts } from './views/parts.js';
+import { mount as tables } from './views/tables.js';
 
-const BAR = ['gauge', 'fit', 'trend', 'overview', 'parts', 'programs', 'tables'];
 /** Behind the state of the connection stand those to the world outside. */
-const VIEWS = [...BAR, 'connections'];
+const VIEWS = { gauge, fit, overview, parts, tables, connections };
+/** Those with libraries of their own come when they are opened. */
+const LATER = { trend: () => import('./views/trend.js'), programs: () => import('./views/programs.js') };
+const BAR = ['gauge', 'fit', 'trend', 'overview', 'parts', 'programs', 'tables'];
 const main = document.getElementById('main');
 const printed = document.getElementById('printed');
-const viewOf = (route) => (VIEWS.includes(route.view) ? route.view : VIEWS[0]);
+const viewOf = ({ view }) => (Object.hasOwn(VIEWS, view) || Object.hasOwn(LATER, view) ? view : BAR[0]);
 let leave = () => {};
 let shown = '';
 
@@ -23,7 +31,7 @@ async function show() {
   const route = currentRoute();
   const view = viewOf(route);
   remember(view);
-  const { mount } = await viewModule(view);
+  const mount = VIEWS[view] ?? await later(view);
   if (viewOf(currentRoute()) !== view) return;
   const moved = shown && shown !== view;
   shown = view;
@@ -35,11 +43,11 @@ async function show() {
 }
 
 /** A page that stayed open over an update of the service asks for files that are gone: it loads anew, once. */
-async function viewModule(view) {
+async function later(view) {
   try {
-    const module = await import(`./views/${view}.js`);
+    const { mount } = await LATER[view]();
     forget('reloaded', 'session');
-    return module;
+    return mount;
   } catch (problem) {
     if (readStored('reloaded', 'session')) throw problem;
     store('reloaded', 'yes', 'session');

@@ -1,9 +1,10 @@
 /** What happens at the service: one stream for all tabs of a browser, none for a tab nobody sees. */
 
 import { get, keyInUse } from './api.js';
+import { pageFile } from './page_files.js';
 import { eventsOf, followStream } from './stream.js';
 
-const WORKER = new URL('./stream_worker.js', import.meta.url);
+const WORKER = pageFile('stream_worker.js');
 /** A worker that is not there by then never comes: its file may be blocked. */
 const WORKER_START_MS = 4000;
 

@@ -4,6 +4,13 @@ import en from './lang/en.js';
 import { readStored, store } from './stored.js';
 
 export const LANGUAGES = { en: 'English', de: 'Deutsch', nl: 'Nederlands', it: 'Italiano' };
+/** What the service says is English already. */
+const TEXTS = {
+  en: () => [],
+  de: () => [import('./lang/de_codes.js'), import('./lang/de.js')],
+  nl: () => [import('./lang/nl_codes.js'), import('./lang/nl.js')],
+  it: () => [import('./lang/it_codes.js'), import('./lang/it.js')],
+};
 
 let words = en;
 export let language = 'en';
@@ -19,9 +26,7 @@ function preferred() {
 const locale = () => (language === 'en' ? 'en-GB' : language);
 
 export async function loadLanguage(wanted = preferred()) {
-  // What the service says is English already.
-  const files = wanted === 'en' ? [] : [`./lang/${wanted}_codes.js`, `./lang/${wanted}.js`];
-  const texts = await Promise.all(files.map((file) => import(file)));
+  const texts = await Promise.all(TEXTS[wanted]());
   words = Object.assign({}, en, ...texts.map((text) => text.default));
   language = wanted;
   document.documentElement.lang = wanted;

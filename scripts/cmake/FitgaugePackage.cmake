@@ -34,7 +34,7 @@ install(FILES docs/deploy/alerts.yml docs/deploy/grafana-dashboard.json
   DESTINATION "${CMAKE_INSTALL_DATADIR}/fitgauge")
 install_compressed(CHANGELOG.md "${CMAKE_INSTALL_DOCDIR}" changelog)
 install_compressed(docs/deploy/debian/changelog "${CMAKE_INSTALL_DOCDIR}" changelog.Debian)
-install(FILES docs/deploy/debian/copyright "${CMAKE_BINARY_DIR}/web/bundled/licences.txt" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES docs/deploy/debian/copyright "${CMAKE_BINARY_DIR}/web/page/licences.txt" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 set(FITGAUGE_MAINTAINER "fitgauge maintainers <maintainers@fitgauge.example>"
   CACHE STRING "The maintainer of the Debian package")

@@ -1,18 +1,18 @@
-# The page (clients/web), compiled in: its files as they are, but those of bundled/, into which esbuild puts the
-# libraries that package-lock.json pins; and the example programs of clients/nc, as examples/.
+# The page (clients/web), compiled in as esbuild bundles it with the libraries that package-lock.json pins; and the
+# example programs of clients/nc, as examples/.
 
 find_program(FITGAUGE_NODE NAMES node nodejs)
 find_program(FITGAUGE_NPM npm)
 if(NOT FITGAUGE_NODE OR NOT FITGAUGE_NPM)
   message(FATAL_ERROR
-    "fitgauge needs node and npm to bundle the libraries of its page: install them with "
+    "fitgauge needs node and npm to bundle its page: install them with "
     "`apt-get install nodejs npm`, or everything at once with scripts/install.")
 endif()
 
 set(page_root "${CMAKE_SOURCE_DIR}/clients/web")
 set(page_packages "${CMAKE_BINARY_DIR}/web")
-set(page_bundled "${page_packages}/bundled")
-file(GLOB_RECURSE page_files RELATIVE "${page_root}" CONFIGURE_DEPENDS
+set(page_built "${page_packages}/page")
+file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS
      "${page_root}/*.html" "${page_root}/*.css" "${page_root}/*.js" "${page_root}/*.svg")
 
 # Each package is what its SHA-512 says, whoever delivers it.
@@ -41,23 +41,14 @@ add_custom_command(
   COMMENT "Fetching the libraries of the page"
   VERBATIM)
 
-set(bundle_entries ${page_files})
-list(FILTER bundle_entries INCLUDE REGEX "^bundled/")
-set(bundle_sources ${bundle_entries})
-list(TRANSFORM bundle_sources PREPEND "${page_root}/")
-set(bundle_outputs ${bundle_entries} bundled/licences.txt)
-list(TRANSFORM bundle_outputs PREPEND "${page_packages}/")
 set(bundle_web "${CMAKE_SOURCE_DIR}/scripts/cmake/bundle_web.mjs")
 add_custom_command(
-  OUTPUT ${bundle_outputs}
-  COMMAND ${FITGAUGE_NODE} "${bundle_web}" "${page_packages}" "${page_bundled}" ${bundle_sources}
-  DEPENDS "${page_packages}/installed" ${bundle_sources} "${bundle_web}"
-  COMMENT "Bundling the libraries of the page"
+  OUTPUT "${page_built}/index.html" "${page_built}/licences.txt"
+  COMMAND ${FITGAUGE_NODE} "${bundle_web}" "${page_packages}" "${page_root}" "${page_built}"
+  DEPENDS "${page_packages}/installed" ${page_sources} "${bundle_web}"
+  COMMENT "Bundling the page"
   VERBATIM)
 
-set(page_sources ${page_files})
-list(FILTER page_sources EXCLUDE REGEX "^bundled/")
-list(TRANSFORM page_sources PREPEND "${page_root}/")
 # The example programs, which the page puts on the control's disk.
 set(page_examples "${CMAKE_SOURCE_DIR}/clients/nc")
 file(GLOB example_files RELATIVE "${page_examples}" CONFIGURE_DEPENDS
@@ -70,8 +61,7 @@ set(embed_web "${CMAKE_SOURCE_DIR}/scripts/cmake/embed_web.cmake")
 add_custom_command(
   OUTPUT page_assets.S page_assets.cpp
   COMMAND ${CMAKE_COMMAND} -D "OUT=${CMAKE_CURRENT_BINARY_DIR}"
-          -D "ROOT=${page_root}" -D "BUNDLED=${page_packages}" -D "EXAMPLES=${page_examples}"
-          -D "FILES=${page_files};bundled/licences.txt;${example_files}" -P "${embed_web}"
-  DEPENDS ${page_sources} ${example_sources} ${bundle_outputs} "${embed_web}"
+          -D "PAGE=${page_built}" -D "EXAMPLES=${page_examples}" -D "EXAMPLE_FILES=${example_files}" -P "${embed_web}"
+  DEPENDS "${page_built}/index.html" "${page_built}/licences.txt" ${example_sources} "${embed_web}"
   COMMENT "Embedding the page"
   VERBATIM)

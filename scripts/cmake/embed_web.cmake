@@ -1,8 +1,8 @@
-# cmake -DOUT=<folder> -DROOT=<folder> -DBUNDLED=<folder> -DEXAMPLES=<folder> -DFILES=<names> -P embed_web.cmake
-# Writes OUT/page_assets.S, which has the bytes, and OUT/page_assets.cpp, the table of server/api/service/page_assets.hpp: every file of the page as it is and gzipped, with its
-# media type and an entity tag made of its content. index.html names the other files below the build's name,
-# a digest of them all: what stands there never changes and may be kept for ever. Names below bundled/ are taken
-# from BUNDLED, those below examples/ from EXAMPLES, all others from ROOT.
+# cmake -DOUT=<folder> -DPAGE=<folder> -DEXAMPLES=<folder> -DEXAMPLE_FILES=<names> -P embed_web.cmake
+# Writes OUT/page_assets.S, which has the bytes, and OUT/page_assets.cpp, the table of server/api/service/page_assets.hpp:
+# every file of PAGE, and the example files as examples/, as it is and gzipped, with its media type and an entity tag made
+# of its content. index.html names the other files below the build's name, a digest of them all: what stands there never
+# changes and may be kept for ever.
 
 set(type_html "text/html; charset=utf-8")
 set(type_css "text/css; charset=utf-8")
@@ -14,22 +14,19 @@ set(type_a "${type_txt}")
 set(type_tab "${type_txt}")
 set(type_json "${type_txt}")
 
-# Where the bytes of a file of the page are.
-function(source_of name variable)
-  set(root "${ROOT}")
-  if(name MATCHES "^bundled/")
-    set(root "${BUNDLED}")
-  elseif(name MATCHES "^examples/")
-    set(root "${EXAMPLES}")
-    string(REGEX REPLACE "^examples/" "" name "${name}")
-  endif()
-  set(${variable} "${root}/${name}" PARENT_SCOPE)
-endfunction()
+file(GLOB_RECURSE FILES RELATIVE "${PAGE}" "${PAGE}/*")
+foreach(name IN LISTS EXAMPLE_FILES)
+  string(REGEX REPLACE "^examples/" "" from "${name}")
+  set("source_${name}" "${EXAMPLES}/${from}")
+endforeach()
+foreach(name IN LISTS FILES)
+  set("source_${name}" "${PAGE}/${name}")
+endforeach()
+list(APPEND FILES ${EXAMPLE_FILES})
 
 set(digests "")
 foreach(name IN LISTS FILES)
-  source_of("${name}" source)
-  file(SHA256 "${source}" digest)
+  file(SHA256 "${source_${name}}" digest)
   string(APPEND digests "${name} ${digest}\n")
 endforeach()
 string(SHA256 build "${digests}")
@@ -52,7 +49,7 @@ foreach(name IN LISTS FILES)
   if(NOT DEFINED type_${extension})
     message(FATAL_ERROR "embed_web: no media type is known for ${name}")
   endif()
-  source_of("${name}" source)
+  set(source "${source_${name}}")
   if(name STREQUAL "index.html")
     file(READ "${source}" text)
     string(REPLACE "\"/web/" "\"/web/${build}/" text "${text}")

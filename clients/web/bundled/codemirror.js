@@ -1,4 +1,4 @@
-/** What the page takes from CodeMirror; the build puts the libraries themselves into this module (scripts/cmake/bundle_web.mjs). */
+/** What the page takes from CodeMirror (scripts/cmake/bundle_web.mjs). */
 
 export { defaultKeymap, history, historyKeymap } from '@codemirror/commands';
 export { HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';

@@ -1,4 +1,4 @@
-/** What the page takes from three.js; the build puts the library itself into this module (scripts/cmake/bundle_web.mjs). */
+/** What the page takes from three.js (scripts/cmake/bundle_web.mjs). */
 
 export {
   BackSide, BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, Color, CylinderGeometry, DirectionalLight, Group, HemisphereLight,

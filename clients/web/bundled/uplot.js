@@ -1,4 +1,4 @@
-/** What the page takes from uPlot; the build puts the library itself into this module (scripts/cmake/bundle_web.mjs). */
+/** What the page takes from uPlot (scripts/cmake/bundle_web.mjs). */
 
 export { default as uPlot } from 'uplot';
 /** Its style sheet, as text. */

@@ -69,6 +69,11 @@ export class Entry {
 
   /** A line that came another way: a gauge that typed into the dialog for keys. */
   take(text) {
+    if (this.input.readOnly) {
+      // What is measured now is still being asked: the value belongs to nothing.
+      if (parseMeasured(text) !== null) this.onDropped(parseMeasured(text));
+      return this.unread(t('entry.busy'));
+    }
     this.input.value = text;
     this.#typed();
     this.#enter();
@@ -88,6 +93,7 @@ export class Entry {
 
   #enter(event) {
     event?.preventDefault();
+    if (this.input.readOnly) return;
     const now = performance.now();
     const second = now - this.lastEnter < SECOND_ENTER_MS;
     this.lastEnter = now;

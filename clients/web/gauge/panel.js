@@ -26,9 +26,13 @@ export class Panel {
     this.#show('idle', [word(text), limits && limitStrip(limits)]);
   }
 
-  /** A value is kept but has no answer yet. @param verdict by the limits this page holds, or null */
+  /**
+   * A value is kept but has no answer yet. Where the page holds its limits it is judged by them at once, on a hatched
+   * ground: what is stored has a plain one.
+   * @param shown its `verdict` is by the limits held, or null
+   */
   waiting(shown, away) {
-    if (away && shown.verdict) return this.#provisional(shown);
+    if (shown.verdict) return this.#provisional(shown, away);
     return this.#show('waiting', [
       verdictShape('waiting'),
       h('div.said', word(t(away ? 'panel.kept' : 'panel.waiting')), about(shown),
@@ -37,19 +41,22 @@ export class Panel {
     ]);
   }
 
-  #provisional(shown) {
-    if (this.sounded !== shown) sound(shown.verdict);
-    this.sounded = shown;
+  /** While the service is away this is all there is to hear; else the sound waits for the record. */
+  #provisional(shown, away) {
+    if (away && this.sounded !== shown) sound(shown.verdict);
+    if (away) this.sounded = shown;
     this.#show(shown.verdict, [
       verdictShape(shown.verdict),
       h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown),
-        h('p.measured', `${number(shown.measured)} mm`), h('p.distance', t('panel.provisional'))),
+        h('p.measured', `${number(shown.measured)} mm`), h('p.distance', t(away ? 'panel.provisional' : 'panel.waiting_how'))),
       limitStrip({ ...shown.limits, measured_mm: shown.measured }),
-    ], true);
+    ], away ? 'away' : 'storing');
   }
 
-  judged(record) {
+  /** A value is stored. @param overtaken whether a newer one stands here already: then it is only heard */
+  judged(record, overtaken = false) {
     sound(record.verdict);
+    if (overtaken) return;
     this.#show(record.verdict, [
       verdictShape(record.verdict),
       h('div.said', word(t(`verdict.${record.verdict}`)), about(record),
@@ -75,10 +82,13 @@ export class Panel {
     ]);
   }
 
-  #show(state, children, provisional = false) {
+  /** @param provisional why it is not stored: `away`, or `storing`, which passes before it can be read out */
+  #show(state, children, provisional) {
     this.state = state;
     this.element.dataset.verdict = state;
-    this.element.toggleAttribute('data-provisional', provisional);
+    if (provisional) this.element.dataset.provisional = provisional;
+    else delete this.element.dataset.provisional;
+    this.element.ariaBusy = provisional === 'storing' ? 'true' : null;
     this.element.replaceChildren(...children.filter(Boolean));
   }
 }

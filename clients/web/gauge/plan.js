@@ -1,6 +1,6 @@
 /** What is measured at a part, in order: the plan of a part number, which of its characteristics is next, and how each was. */
 
-import { getJson, url } from '../api.js';
+import { getJson, PATIENCE_MS, url } from '../api.js';
 import { h, refill } from '../dom.js';
 import { designationText } from '../designation.js';
 import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
@@ -34,10 +34,23 @@ export function ownLimits(one) {
   };
 }
 
+/** The plan the service gives, or gave last where it is away; undefined where there is none. */
+async function planOf(part) {
+  const kept = `${KEPT_PLAN}.${part}`;
+  try {
+    const plan = await getJson(url(['plans', part]), { timeout: PATIENCE_MS });
+    store(kept, JSON.stringify(plan));
+    return plan;
+  } catch (problem) {
+    return problem.status === undefined ? readJson(kept, undefined) : undefined;
+  }
+}
+
 export class Plan {
   /** @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none */
   constructor({ onStep, onChoose }) {
     this.onStep = onStep;
+    this.known = readJson(KEPT_LIST, []);
     this.at = 0;
     this.verdicts = [];
     this.select = h('select', { onchange: () => onChoose(this.select.value), 'aria-label': t('plan.label') });
@@ -46,20 +59,20 @@ export class Plan {
     this.element = h('section.plan', { 'aria-label': t('plan.label'), hidden: true }, h('div.line', this.select, this.progress), this.tiles);
   }
 
-  /** Asks which plans there are; keeps the list for when the service is away. */
+  /** Asks which plans there are; keeps the list for when the service is away, and until it has answered. */
   async list() {
     try {
       this.known = (await getJson(url(['plans']), { asks: false })).plans;
       store(KEPT_LIST, JSON.stringify(this.known));
     } catch {
-      this.known = readJson(KEPT_LIST, []);
+      // what was kept has to do
     }
     this.#draw();
   }
 
   /** Whether a text that was typed or scanned is a part number with a plan. */
   knows(text) {
-    return (this.known ?? []).some((plan) => plan.part === text);
+    return this.known.some((plan) => plan.part === text);
   }
 
   get part() {
@@ -76,17 +89,21 @@ export class Plan {
     return this.plan?.characteristics[this.at];
   }
 
-  /** Takes up the plan of a part number; without one there is none. @returns whether there is one */
+  /** Whether it is being asked what is measured: a value that comes now belongs to nothing. */
+  get loading() {
+    return this.asked !== undefined;
+  }
+
+  /** Takes up the plan of a part number; without one there is none. @returns whether it has: another may be asked for meanwhile */
   async load(part) {
-    const kept = `${KEPT_PLAN}.${part}`;
-    try {
-      this.plan = part ? await getJson(url(['plans', part])) : undefined;
-      if (part) store(kept, JSON.stringify(this.plan));
-    } catch (problem) {
-      this.plan = problem.status === undefined ? readJson(kept, undefined) : undefined;
-    }
+    const asked = Symbol(part);
+    this.asked = asked;
+    const plan = part ? await planOf(part) : undefined;
+    if (this.asked !== asked) return false;
+    this.asked = undefined;
+    this.plan = plan;
     this.begin();
-    return Boolean(this.plan);
+    return true;
   }
 
   /** Another part: from the first characteristic on. */
@@ -118,7 +135,7 @@ export class Plan {
   }
 
   #draw() {
-    const known = this.known ?? [];
+    const { known } = this;
     this.element.hidden = known.length === 0 && !this.plan;
     refill(this.select, h('option', { value: '' }, t('plan.none')),
       known.map(({ part, name }) => h('option', { value: part, selected: part === this.part }, [part, name].filter(Boolean).join(' · '))));

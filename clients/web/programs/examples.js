@@ -1,6 +1,7 @@
 /** Programs to try at once: the files and the setup of clients/nc, which the service brings with its page. */
 
 import { get } from '../api.js';
+import { pageFile } from '../page_files.js';
 import { writeFile, writeSetup } from './disk.js';
 
 /** @type program, files and the setup of each, below clients/nc */
@@ -12,7 +13,7 @@ export const EXAMPLES = [
   { name: '451', files: ['451.h', '4511.a', '4512.a'], setup: 'off-centre' },
 ];
 
-const example = async (path) => (await get(new URL(`../examples/${path}`, import.meta.url))).text();
+const example = async (path) => (await get(pageFile(`examples/${path}`))).text();
 
 /** What is there already stays as it is: somebody may have changed it. */
 const unlessThere = (problem) => { if (problem.status !== 412) throw problem; };

@@ -8,7 +8,8 @@ import { Arrivals } from '../gauge/arrivals.js';
 import { Badge } from '../gauge/badge.js';
 import { followTables } from '../events.js';
 import { Entry } from '../gauge/entry.js';
-import { FIELDS, Job } from '../gauge/job.js';
+import { FIELDS } from '../gauge/fields.js';
+import { Job } from '../gauge/job.js';
 import { NumberPad } from '../gauge/number_pad.js';
 import { Panel } from '../gauge/panel.js';
 import { ownLimits, Plan } from '../gauge/plan.js';
@@ -21,18 +22,20 @@ import { isKept } from '../kept_page.js';
 import { queue } from '../queue.js';
 import { go, remember } from '../route.js';
 
-/** An answer that takes no longer replaces the last verdict without a gap. */
+/** What the page cannot judge itself leaves the last verdict for so long: most answers come sooner. */
 const GAP_MS = 120;
 
 export function mount(main, route) {
   const leaving = new AbortController();
   let partBefore = route.options.part_id ?? '';
   const panel = new Panel();
+  /** Why no value is taken now; '' where one is. */
+  const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '');
   const badge = new Badge();
   const reactions = new Reactions({ onDone: () => entry.focus(), onNote: (said) => note(said) });
   const entry = new Entry({
-    job: () => (reactions.reason ? { reason: reactions.reason } : job.current()),
-    prefixes: () => job.prefixes,
+    job: () => (reason() ? { reason: reason() } : job.current()),
+    prefixes: () => job.prefixes.texts,
     onValue: (value) => post(value),
     onJob: (designation) => job.adopt(designation),
     onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text }) : setField(name, text)),
@@ -63,7 +66,7 @@ export function mount(main, route) {
   };
 
   async function choosePlan(part) {
-    await plan.load(part);
+    if (!await plan.load(part)) return;
     reactions.prepare(plan.catalogues);
     stepped = false;
     jobChanged(true);
@@ -94,19 +97,18 @@ export function mount(main, route) {
     const { limits } = job;
     return {
       measured, part_id, characteristic, designation: limits?.designation ?? job.designation, at: connection.now(), limits,
-      verdict: limits && judge(nmFromMm(measured), limits, job.guard),
+      verdict: limits && judge(nmFromMm(measured), limits, job.rule.guard),
     };
   }
 
   function bodyOf(text) {
-    const { text: designation, own, uncertainty, feature } = job.current();
-    const given = FIELDS.map((name) => [name, job.inputs[name].value.trim()]).filter(([, value]) => value);
-    const rule = uncertainty ? { rule: 'guard_band', uncertainty_um: new Decimal(uncertainty) } : {};
+    const { text: designation, own, feature } = job.current();
+    const given = FIELDS.map((name) => [name, job.fields.of(name)]).filter(([, value]) => value);
     const exact = (value) => (value === undefined ? undefined : new Decimal(String(value)));
     const limits = own ? {
       nominal_mm: exact(own.nominal_mm), feature: own.feature, upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
     } : { designation, feature };
-    return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...rule };
+    return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...job.rule.body };
   }
 
   function post({ text, correcting }) {
@@ -133,8 +135,10 @@ export function mount(main, route) {
 
   function send(path, body, shown, timed) {
     const { key } = queue.add(path, toJson(body), { ...shown, late: !connection.up }, timed);
+    if (shown.verdict) panel.waiting(shown, !connection.up);
     recent.set({ key, state: 'waiting', shown });
     reactions.judged(key, shown, shown.verdict);
+    if (shown.verdict) return;
     setTimeout(() => {
       if (queue.entries.some((waiting) => waiting.key === key)) panel.waiting(shown, !connection.up);
     }, GAP_MS);
@@ -150,7 +154,7 @@ export function mount(main, route) {
     reactions.judged(key, shown, record.verdict);
     if (shown.late) arrivals.stored(record);
     // A verdict that comes late is no verdict of the part that lies there now.
-    if (!shown.late) panel.judged(record);
+    if (!shown.late) panel.judged(record, queue.values.some((waiting) => waiting.shown.verdict));
     else if (!queue.values.length) next();
   }, { signal });
   queue.addEventListener('refused', ({ detail: { entry: { key, of, shown }, problem } }) => {
@@ -188,11 +192,10 @@ export function mount(main, route) {
     plan.list();
     job.keyed();
   }, { signal });
+  if (route.options.plan) choosePlan(route.options.plan);
   plan.list().then(() => {
-    if (route.options.plan) return choosePlan(route.options.plan);
     // Where there are plans, a station begins with the scan of one.
     if (plan.known.length && document.activeElement === job.input && !job.designation) entry.focus();
-    return undefined;
   });
   if (job.designation) entry.focus();
   else job.input.focus();

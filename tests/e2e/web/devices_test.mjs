@@ -54,7 +54,7 @@ describe('a number pad', () => {
     assert.equal(await page.inputValue('#value'), '25,013');
     assert.deepEqual(await page.evaluate(() => [document.activeElement.id, document.activeElement.inputMode]), ['value', 'none']);
     await page.tap('.entry .primary');
-    await page.waitForSelector('.verdict[data-verdict="good"]');
+    await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
     assert.deepEqual((await daemon.stored()).map((record) => record.measured_mm), [25.013]);
     const seen = () => page.$eval('.verdict', (panel) => panel.getBoundingClientRect().bottom <= innerHeight);
     assert.ok(await seen());
@@ -155,7 +155,7 @@ describe('a station with sound', () => {
       await page.waitForSelector('.echo .figures');
       await page.focus('#value');
       await page.keyboard.type(`${text}\n`);
-      await page.waitForSelector(`.verdict[data-verdict="${verdict}"]`);
+      await page.waitForSelector(`.verdict[data-verdict="${verdict}"]:not([data-provisional])`);
       return page.evaluate(() => globalThis.heard.splice(0));
     };
     assert.deepEqual(await measure('25.01', 'good'), []);

@@ -27,7 +27,7 @@ try {
   await daemon.send('PUT', '/v1/catalogues/turning', CATALOGUE);
   const page = await open(browser, daemon, '#/gauge?order=WO-4711', SCREEN);
   const take = (name) => page.screenshot({ path: path.join(FOLDER, `station-${name}.png`) });
-  const verdict = (state) => page.waitForSelector(`.verdict[data-verdict="${state}"]`);
+  const verdict = (state) => page.waitForSelector(`.verdict[data-verdict="${state}"]:not([data-provisional])`);
   const measure = async (characteristic, value) => {
     await page.waitForFunction((name) => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes(name), characteristic);
     await scan(page, value);
@@ -49,7 +49,7 @@ try {
   await page.click('text=Insert changed');
   await daemon.stop();
   await measure('slot', '8.017');
-  await page.waitForSelector('.verdict[data-provisional]');
+  await page.waitForSelector('.verdict[data-provisional="away"]');
   await page.waitForSelector('.link[data-state="away"]');
   await take('outage');
   await daemon.start();

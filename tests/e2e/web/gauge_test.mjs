@@ -31,7 +31,7 @@ describe('the gauging station', () => {
   const typeValue = (text, delay = 0) => page.keyboard.type(`${text}\n`, { delay });
   const settled = () => page.waitForSelector('.link[data-state="up"]');
   const measured = async () => (await daemon.stored()).map((record) => record.measured_mm);
-  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
+  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
   const arrived = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.arrived:not([hidden])')?.textContent), text.source);
   const hasFocus = () => page.evaluate(() => document.activeElement.id === 'value');
 
@@ -55,6 +55,34 @@ describe('the gauging station', () => {
     assert.equal(await page.textContent('#entry-note'), '');
   });
 
+  it('judges at once by the limits it holds, hatched until the service has stored the value', async () => {
+    const held = [];
+    await page.route('**/v1/measurements', async (route) => {
+      await new Promise((resolve) => { held.push(resolve); });
+      await route.continue();
+    });
+    const answer = async () => {
+      while (!held.length) await sleep(5);
+      held.shift()();
+    };
+    await typeValue('25.0215');
+    await page.waitForSelector('.verdict[data-verdict="reject"][data-provisional="storing"]');
+    assert.match(await page.textContent('.verdict'), /25\.0215 mm.*The service is storing the value/);
+    assert.equal(await page.getAttribute('.verdict', 'aria-busy'), 'true');
+    assert.equal((await daemon.stored()).length, 0);
+    // What is typed meanwhile stays in sight: the answer for the value before does not push it away.
+    await typeValue('25.0131');
+    await page.waitForSelector('.verdict[data-verdict="good"][data-provisional="storing"]');
+    await answer();
+    await page.waitForSelector('.recent .stored:has-text("25.0215")');
+    assert.match(await page.textContent('.verdict'), /25\.0131 mm.*The service is storing the value/);
+    await answer();
+    await verdict('good');
+    assert.match(await page.textContent('.verdict'), /7\.9 µm below the upper limit/);
+    assert.equal(await page.getAttribute('.verdict', 'aria-busy'), null);
+    assert.deepEqual(await measured(), [25.0215, 25.0131]);
+  });
+
   it('keeps values while the service is away, and they arrive once', async () => {
     await typeValue('25.001');
     await verdict('good');
@@ -62,7 +90,7 @@ describe('the gauging station', () => {
     const back = sleep(5000).then(() => daemon.start());
     const values = [25.002, 25.003, 25.004, 25.005];
     for (const value of values) await typeValue(value, 20);
-    await page.waitForSelector('.verdict[data-provisional][data-verdict="good"]');
+    await page.waitForSelector('.verdict[data-provisional="away"][data-verdict="good"]');
     await page.waitForSelector('.link[data-state="away"]');
     assert.match(await page.textContent('#link'), /4/);
     await picture(page, 'gauge-away');
@@ -76,7 +104,7 @@ describe('the gauging station', () => {
     await daemon.stop();
     await typeValue('25.002');
     await typeValue('25.003');
-    await page.waitForSelector('.verdict[data-provisional]');
+    await page.waitForSelector('.verdict[data-provisional="away"]');
     const context = page.context();
     assert.deepEqual(page.errors, []);
     await page.close();

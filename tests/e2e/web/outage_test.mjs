@@ -26,14 +26,14 @@ describe('while the service is away', () => {
   it('the page itself loads, in its language, judges, and sends afterwards', async () => {
     page = await open(browser, daemon, '#/gauge/25H7', { serviceWorkers: 'allow', locale: 'de-DE' });
     await page.waitForSelector('.echo .figures');
-    for (const file of ['/', '/app.js', '/lang/de.js', '/views/gauge.js']) await kept(file);
+    for (const file of ['/', '/app.js', '/lang/de.js', '/style/page.css']) await kept(file);
     await daemon.kill();
     const again = await page.context().newPage();
     await again.goto(`${daemon.url}/#/gauge/25H7`);
     await again.waitForSelector('.echo .figures');
     await again.focus('#value');
     await scan(again, '25.03');
-    await again.waitForSelector('.verdict[data-provisional][data-verdict="reject"]');
+    await again.waitForSelector('.verdict[data-provisional="away"][data-verdict="reject"]');
     assert.match(await again.textContent('#link'), /nicht erreichbar · 1/);
     assert.equal(await again.textContent('.unkept'), '');
     await picture(again, 'outage');

@@ -29,7 +29,7 @@ describe('a plan', () => {
 
   const line = (text) => scan(page, text);
   const progress = (text) => page.waitForFunction((wanted) => document.querySelector('.plan .progress')?.textContent === wanted, text);
-  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
+  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
 
   it('is taken up by a scan of its part number, and each value steps on', async () => {
     page = await open(browser, daemon, '#/gauge?gauge=own-gauge');
@@ -76,7 +76,7 @@ describe('a plan', () => {
     page = await open(browser, daemon, '#/gauge?plan=FLAT-1');
     await progress('1 of 2');
     assert.deepEqual(await page.$$eval('.tiles-of-plan .aside', (all) => all.map((each) => each.textContent)), ['≤ 2.050 mm', '≥ 11.900 mm']);
-    const measure = async (name, value, word, provisional = '') => {
+    const measure = async (name, value, word, provisional = ':not([data-provisional])') => {
       await page.waitForFunction((wanted) => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes(wanted), name);
       await line(value);
       await page.waitForSelector(`.verdict[data-verdict="${word}"]${provisional}`);
@@ -87,14 +87,63 @@ describe('a plan', () => {
     await measure('depth', '11.899', 'rework');
     await page.click('.tiles-of-plan li:first-child button');
     await daemon.stop();
-    await measure('flange', '2.051', 'rework', '[data-provisional]');
-    await measure('depth', '11.9', 'good', '[data-provisional]');
+    await measure('flange', '2.051', 'rework', '[data-provisional="away"]');
+    await measure('depth', '11.9', 'good', '[data-provisional="away"]');
     await daemon.start();
     await page.waitForSelector('.link[data-state="up"]');
     assert.deepEqual((await daemon.stored()).slice(-4).map(({ characteristic, verdict: word }) => [characteristic, word]),
       [['flange', 'good'], ['depth', 'rework'], ['flange', 'rework'], ['depth', 'good']]);
     assert.doesNotMatch(await page.textContent('main'), /NaN|undefined|Infinity/);
     page.errors.length = 0;
+    await close(page);
+  });
+
+  it('judges by its own rule and factor, which the record has too', async () => {
+    await daemon.send('PUT', '/v1/plans/RULES-1', { characteristics: [
+      { name: 'wide', designation: '25 H7', rule: 'guard_band', uncertainty_um: 1, coverage_factor: 3 },
+      { name: 'likely', designation: '25 H7', rule: 'conformance', uncertainty_um: 1 }] });
+    page = await open(browser, daemon, '#/gauge?plan=RULES-1');
+    await progress('1 of 2');
+    await page.waitForSelector('.echo .figures');
+    const before = (await daemon.stored()).length;
+    // 2.5 and 1.8 u below the limit: within 3 u of it, and above 95 % to be good.
+    await line('25.0185');
+    await verdict('indeterminate');
+    await progress('2 of 2');
+    await page.waitForSelector('.echo .figures');
+    await line('25.0192');
+    await verdict('good');
+    assert.deepEqual((await daemon.stored()).slice(before).map(({ rule, coverage_factor, verdict: word }) => [rule, coverage_factor, word]),
+      [['guard_band', 3, 'indeterminate'], ['conformance', undefined, 'good']]);
+    await close(page);
+  });
+
+  it('takes no value for something else while it is being fetched, and the last that was asked for counts', async () => {
+    await daemon.send('PUT', '/v1/plans/OTHER-1', { characteristics: [{ name: 'journal', designation: '25 k6' }] });
+    page = await open(browser, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.plan select:visible');
+    await page.waitForSelector('.echo .figures');
+    const before = (await daemon.stored()).length;
+    const held = {};
+    await page.route('**/v1/plans/*', async (route) => {
+      await new Promise((resolve) => { held[route.request().url().split('/').at(-1)] = resolve; });
+      await route.continue().catch(() => {});
+    });
+    const asked = async (part) => { while (!held[part]) await page.waitForTimeout(5); };
+    await line('4711-A');
+    await asked('4711-A');
+    await line('25.01');
+    assert.match(await page.textContent('#entry-note'), /Nothing is stored/);
+    await line('OTHER-1');
+    await asked('OTHER-1');
+    held['OTHER-1']();
+    await progress('1 of 1');
+    held['4711-A']();
+    await page.waitForFunction(() => /25 k6/.test(document.querySelector('.echo strong')?.textContent));
+    await line('25.01');
+    await verdict('good');
+    assert.deepEqual((await daemon.stored()).slice(before).map(({ characteristic, measured_mm }) => [characteristic, measured_mm]), [['journal', 25.01]]);
+    assert.equal(await page.textContent('.plan .progress'), 'All 1 measured');
     await close(page);
   });
 
@@ -201,7 +250,7 @@ describe('a plan', () => {
     await page.focus('#value');
     await daemon.stop();
     await line('8.036');
-    await page.waitForSelector('.verdict[data-provisional]');
+    await page.waitForSelector('.verdict[data-provisional="away"]');
     await progress('3 of 3');
     await daemon.start();
     await page.waitForSelector('.link[data-state="up"]');
@@ -235,7 +284,7 @@ describe('a gauge in use', () => {
     await page.waitForSelector('.echo .figures');
     await page.focus('#value');
     await page.keyboard.type('25.0205\n'); // nearer to the limit than 2 u
-    await page.waitForSelector('.verdict[data-verdict="indeterminate"]');
+    await page.waitForSelector('.verdict[data-verdict="indeterminate"]:not([data-provisional])');
     await page.click('.more summary');
     await page.waitForFunction(() => [...document.querySelectorAll('#offered-gauge option')].map((name) => name.value).join() === 'G-07,G-08');
     await page.fill('[name="gauge"]', 'G-08');
@@ -266,7 +315,7 @@ describe('a gauge in use', () => {
       await page.keyboard.type('25.01\n');
       await page.fill('dialog input', key);
       await page.press('dialog input', 'Enter');
-      await page.waitForSelector('.verdict[data-verdict="good"]');
+      await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
       await page.waitForSelector('.plan select:visible');
       await page.waitForFunction(() => /G-09 calibrated/.test(document.querySelector('.gauge-note').textContent));
       await page.click('.more summary');

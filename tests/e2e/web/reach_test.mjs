@@ -93,7 +93,7 @@ describe('the reach of the page', () => {
   it('shows a whole verdict on a phone', async () => {
     const page = await openView('gauge', { viewport: PHONE });
     await page.keyboard.type('25.0131\n');
-    await page.waitForSelector('.verdict[data-verdict="good"]');
+    await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
     const { bottom } = await page.$eval('.verdict', (panel) => panel.getBoundingClientRect().toJSON());
     assert.ok(bottom <= PHONE.height, `${bottom}`);
     await close(page);
@@ -112,7 +112,7 @@ describe('the reach of the page', () => {
       }
       await page.focus('#value');
       await page.keyboard.type('25.0305\n');
-      await page.waitForSelector('.verdict[data-verdict="reject"] .distance');
+      await page.waitForSelector('.verdict[data-verdict="reject"]:not([data-provisional]) .distance');
       const bottom = (selector) => page.$eval(selector, (element) => element.getBoundingClientRect().bottom);
       const free = viewport === PHONE ? await page.$eval('.pad', (element) => element.getBoundingClientRect().top) : viewport.height;
       assert.ok(await page.evaluate(() => scrollY) === 0);

@@ -16,7 +16,7 @@ afterEach(() => close(page));
 
 const scan = (text) => scanInto(page, text);
 const measure = async (text) => { await page.keyboard.type(`${text}\n`, { delay: 45 }); await sleep(PAIR_MS); };
-const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
+const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
 const echo = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.echo').textContent), pattern);
 const stored = async (part) => (await daemon.stored(`part_id=${part}`)).map(({ designation, feature, measured_mm, verdict: word }) => [designation, feature, measured_mm, word]);
 
@@ -81,7 +81,7 @@ describe('other standards at the station', () => {
     await page.focus('#value');
     await daemon.kill();
     await measure('9.2061');
-    await page.waitForSelector('.verdict[data-verdict="reject"][data-provisional]');
+    await page.waitForSelector('.verdict[data-verdict="reject"][data-provisional="away"]');
     await daemon.start();
     await page.waitForSelector('.arrived li');
     assert.deepEqual(await stored('AWAY'), [['M10-6H', 'hole', 9.2061, 'reject']]);

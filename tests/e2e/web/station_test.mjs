@@ -26,7 +26,7 @@ describe('a station with a scanner', () => {
 
   const slow = async (text) => { await page.keyboard.type(`${text}\n`, { delay: 45 }); await sleep(PAIR_MS); };
   const stored = async () => (await daemon.stored()).map(({ part_id, measured_mm }) => [part_id, measured_mm]);
-  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]`);
+  const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
   const part = () => page.inputValue('[name="part_id"]');
   const settled = () => page.waitForSelector('.link[data-state="up"]');
 
@@ -126,7 +126,7 @@ describe('a station with a scanner', () => {
     await daemon.stop();
     const values = Array.from({ length: 20 }, (_, i) => ([2, 5, 6].includes(i) ? `25.03${i}` : `25.00${i % 10}`));
     for (const value of values) await page.keyboard.type(`${value}\n`);
-    await page.waitForSelector('.verdict[data-provisional]');
+    await page.waitForSelector('.verdict[data-provisional="away"]');
     await daemon.start();
     const text = /20 stored after the outage: 17 good, 3 reject/;
     await page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.arrived').textContent), text.source);
@@ -146,7 +146,7 @@ describe('a station with a scanner', () => {
     await daemon.stop();
     for (const [value, word] of [['25.021', 'good'], ['25.021001', 'reject'], ['25', 'good'], ['24.999999', 'rework']]) {
       await slow(value);
-      await page.waitForSelector(`.verdict[data-provisional][data-verdict="${word}"]`);
+      await page.waitForSelector(`.verdict[data-provisional="away"][data-verdict="${word}"]`);
     }
     await daemon.start();
     await settled();
@@ -190,7 +190,7 @@ describe('a station in an unfriendly browser', () => {
       const page = await openIn(context, daemon, '#/gauge/25H7');
       await page.waitForSelector('.echo .figures');
       await page.keyboard.type('25.0131\n');
-      await page.waitForSelector('.verdict[data-verdict="good"]');
+      await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
       assert.equal((await daemon.stored()).length, 1);
       await close(page);
       await daemon.cleanup();
@@ -215,7 +215,7 @@ describe('a station in an unfriendly browser', () => {
     const page = await openIn(context, daemon, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
     await page.keyboard.type('25.0131\n');
-    await page.waitForSelector('.verdict[data-verdict="good"]');
+    await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
     const [record] = await daemon.stored();
     assert.ok(Math.abs(Date.parse(record.measured_at) - Date.parse(record.received_at)) < 3000, record.measured_at);
     await close(page);
