@@ -1,5 +1,6 @@
 #include "probing/kinematics/adjustment.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -46,13 +47,12 @@ Adjustment::Adjustment(const AdjustedPoses& poses, std::vector<Unknown> unknowns
 
 std::vector<bool> Adjustment::seen() const {
   constexpr double kPart = 1e-6;
-  const auto& sizes = decomposition_.singularValues();
   std::vector<bool> seen(unknowns_.size(), true);
   // With fewer residuals than unknowns the last directions have no size at all.
   for (Eigen::Index direction = 0; direction < index_of(unknowns_.size()); ++direction) {
-    if (direction < sizes.size() && sizes[direction] > tolerance::kSeen) continue;
+    if (direction < sizes_.size() && sizes_[direction] > tolerance::kSeen) continue;
     for (std::size_t j = 0; j < unknowns_.size(); ++j) {
-      const double part = decomposition_.matrixV()(index_of(j), direction);
+      const double part = directions_(index_of(j), direction);
       if (std::abs(part) > kPart) seen[j] = false;
     }
   }
@@ -129,13 +129,14 @@ Eigen::MatrixXd Adjustment::jacobian(const Eigen::VectorXd& values) const {
 
 void Adjustment::decompose() {
   if (unknowns_.empty()) return;
-  decomposition_.compute(jacobian(values_), Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian(values_), Eigen::ComputeFullV);
+  sizes_ = svd.singularValues();
+  directions_ = svd.matrixV();
 }
 
 Eigen::MatrixXd Adjustment::covariance() const {
   if (unknowns_.empty()) return {};
-  const Eigen::MatrixXd scaled =
-      decomposition_.matrixV() * decomposition_.singularValues().cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd scaled = directions_ * sizes_.cwiseInverse().asDiagonal();
   return scaled * scaled.transpose();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
@@ -74,7 +74,9 @@ class Adjustment {
   AdjustedPoses poses_;
   std::vector<Unknown> unknowns_;
   Eigen::VectorXd values_;
-  Eigen::JacobiSVD<Eigen::MatrixXd> decomposition_;
+  // Of the Jacobian at the values: the directions of the unknowns and how strongly each is seen.
+  Eigen::VectorXd sizes_;
+  Eigen::MatrixXd directions_;
 };
 
 }  // namespace fitgauge::probing

@@ -1,12 +1,13 @@
 #include "probing/kinematics/fit.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <utility>
 
 #include "machine/tolerance.hpp"
+#include "metrology/distributions.hpp"
 #include "probing/kinematics/adjustment.hpp"
 
 namespace fitgauge::probing {
@@ -124,8 +125,7 @@ class Estimate {
 /// scatter.
 double coverage_of(std::size_t freedom) {
   if (freedom == 0) return 0;
-  const boost::math::students_t distribution(static_cast<double>(freedom));
-  return boost::math::quantile(distribution, 0.975);
+  return static_cast<double>(metrology::t_quantile(0.975L, static_cast<long double>(freedom)));
 }
 
 std::vector<AxisErrors> errors_of(const Adjustment& fit, const Kinematics& model,

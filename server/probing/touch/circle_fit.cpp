@@ -1,5 +1,6 @@
 #include "probing/touch/circle_fit.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <optional>
 
@@ -22,12 +23,11 @@ constexpr double kSettled = 1e-10;
 /// Centre x, y and radius of the algebraic fit (Kåsa), exact for points on a circle.
 /// Nothing when the points lie on a line.
 std::optional<Vector3d> algebraic_fit(const Points& points) {
-  Columns3 a(points.rows(), 3);
-  a << points, Eigen::VectorXd::Ones(points.rows());
-  Eigen::ColPivHouseholderQR<Columns3> qr(a);
-  qr.setThreshold(tolerance::kCollinear);
-  if (qr.rank() < 3) return std::nullopt;
-  const Vector3d s = qr.solve(points.rowwise().squaredNorm());
+  Columns3 columns(points.rows(), 3);
+  columns << points, Eigen::VectorXd::Ones(points.rows());
+  const auto found = least_squares(columns, points.rowwise().squaredNorm(), tolerance::kCollinear);
+  if (!found) return std::nullopt;
+  const Vector3d s = *found;
   const Vector2d centre = s.head<2>() / 2;
   return Vector3d(centre.x(), centre.y(), std::sqrt(s.z() + centre.squaredNorm()));
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <limits>
+#include <optional>
 
 namespace fitgauge::probing {
 
@@ -10,6 +11,15 @@ struct Linearised {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
 };
+
+/// The values with which the columns come nearest to `wanted`.
+/// @param threshold of the largest pivot, below which a column adds nothing to the others
+/// @return none when the columns cannot tell the values apart.
+std::optional<Eigen::VectorXd> least_squares(const Eigen::MatrixXd& columns,
+                                             const Eigen::VectorXd& wanted, double threshold);
+
+/// The step to the least squares of a linear problem; where it is not unique, one of them.
+Eigen::VectorXd least_squares_step(const Linearised& at);
 
 /// Searches the least squares of residuals from where `values` stand (Gauss-Newton).
 /// `linearise(values)` gives the Linearised problem there. A search has settled when its step is
@@ -20,8 +30,7 @@ bool gauss_newton(Values& values, double settled, const Linearise& linearise) {
   constexpr int kMostSteps = 50;
   double step = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMostSteps && step > settled; ++k) {
-    const Linearised at = linearise(values);
-    const Values change = at.jacobian.colPivHouseholderQr().solve(-at.residuals);
+    const Values change = least_squares_step(linearise(values));
     if (!change.allFinite()) return false;
     values += change;
     step = change.norm();
