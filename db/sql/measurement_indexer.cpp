@@ -54,6 +54,15 @@ int kind_of(int source, int verdict) { return 8 * source + verdict; }
 
 using Values = std::set<std::optional<std::string>>;
 
+/// What a field's value of the row before leads to: rows that follow each other mostly share it,
+/// and need not look for it again.
+struct FieldPlace {
+  std::optional<std::string> value;
+  RowSet* rows = nullptr;                 ///< those with the value
+  ExactStatistics* statistics = nullptr;  ///< of the value and `kind`
+  int kind = 0;
+};
+
 /// Takes the aggregates of a field with too many values away.
 void drop_field(NodeIndex& index, int field) {
   std::erase_if(index.aggregates,
@@ -147,8 +156,14 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   const IdSpan ids = node.ids();
   std::int64_t row = 0;
   std::array<Values, kTextColumns.size()> values;
+  std::array<FieldPlace, kTextColumns.size()> places;
   ValueBlockWriter block;
   bool is_plain = true;
+  const auto post = [&](int field, std::string value) {
+    RowSet& with = index.postings[{field, std::move(value)}];
+    with.add(row);
+    return &with;
+  };
   for (Rows rows = block_.query(ids.first, ids.last); rows.next(); ++row) {
     const auto measured_at = rows.get<std::int64_t>(BlockColumn::MeasuredAt);
     const auto received_at = rows.get<std::int64_t>(BlockColumn::ReceivedAt);
@@ -169,9 +184,6 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
                    BlockColumn::Texts + static_cast<int>(index_of(TextField::Subgroup)))});
     const auto source = rows.get<int>(BlockColumn::Source);
     const auto verdict = rows.get<int>(BlockColumn::Verdict);
-    const auto post = [&](int field, std::string value) {
-      index.postings[{field, std::move(value)}].add(row);
-    };
     post(number_of(IndexField::Source), std::to_string(source));
     post(number_of(IndexField::Verdict), std::to_string(verdict));
     if (const auto run = rows.get<std::optional<std::int64_t>>(BlockColumn::Run)) {
@@ -179,19 +191,30 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
     }
     for (const TextColumn& column : kTextColumns) {
       const auto field = index_of(column.field);
-      auto value =
-          rows.get<std::optional<std::string>>(BlockColumn::Texts + static_cast<int>(field));
+      FieldPlace& place = places[field];
+      const auto value =
+          rows.get<std::optional<std::string_view>>(BlockColumn::Texts + static_cast<int>(field));
+      const bool is_new = row == 0 || place.value != value;
+      if (is_new) place = {.value = value ? std::optional<std::string>(*value) : std::nullopt};
       if (rows.get<bool>(BlockColumn::Current) && values[field].size() <= kMostValues[0]) {
-        values[field].insert(value);
-        index.aggregates[{number_of(column.field), value, kind_of(source, verdict)}].add(
-            rows.get<std::int64_t>(BlockColumn::Measured));
+        const int kind = kind_of(source, verdict);
+        if (place.statistics == nullptr || place.kind != kind) {
+          values[field].insert(place.value);
+          place.kind = kind;
+          place.statistics = &index.aggregates[{number_of(column.field), place.value, kind}];
+        }
+        place.statistics->add(rows.get<std::int64_t>(BlockColumn::Measured));
       }
       if (!value) continue;
       if (column.field == TextField::ToleranceClass) {
         post(number_of(IndexField::Designation),
              designation_key(rows.get<std::int64_t>(BlockColumn::Nominal), *value));
       }
-      post(number_of(column.field), *std::move(value));
+      if (is_new) {
+        place.rows = post(number_of(column.field), *place.value);
+      } else {
+        place.rows->add(row);
+      }
     }
   }
   for (const TextColumn& column : kTextColumns) {
