@@ -40,16 +40,6 @@ constexpr std::string_view kPlaceColumns =
 /// The same where every row is of this folder: the columns at the far end are dear to reach.
 constexpr std::string_view kOwnPlaceColumns = "0, m.id";
 
-MeasuredValue read_value(const Rows& rows) {
-  return {.id = rows.get<std::int64_t>(0),
-          .measured_nm = rows.get<std::int64_t>(1),
-          .lower_limit_nm = rows.get<std::int64_t>(2),
-          .upper_limit_nm = rows.get<std::int64_t>(3),
-          .subgroup = rows.get<std::optional<std::string_view>>(4),
-          .origin = rows.get<std::int64_t>(5),
-          .number = rows.get<std::int64_t>(6)};
-}
-
 /// Counts the rows of a page.
 class Page {
  public:
@@ -70,20 +60,6 @@ class Page {
   std::int64_t last_ = 0;
   bool more_ = false;
 };
-
-/// Takes the values of a block's `rows` among `ids`, if it has them in one piece.
-/// @param take called with each; false ends the query
-template <class Take>
-MeasurementQuery::BlockRead read_values(Rows found, ValueBlock& block, const RowSet& rows,
-                                        const IdSpan& whole, const IdSpan& ids, const Take& take) {
-  using BlockRead = MeasurementQuery::BlockRead;
-  if (!found.next() || !block.read(found.get<Blob>(0).bytes)) return BlockRead::Passed;
-  for (std::int64_t id = ids.first; id <= ids.last; ++id) {
-    const std::int64_t row = id - whole.first;
-    if (rows.contains(row) && !take(block.value(id, row))) return BlockRead::Ended;
-  }
-  return BlockRead::Taken;
-}
 
 }  // namespace
 
@@ -338,25 +314,39 @@ std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& fil
 
 std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilter& filter,
                                                            std::int64_t after, std::size_t limit,
-                                                           const ValueVisitor& visit) const {
+                                                           const RunVisitor& visit) const {
   if (after == kLastId) return std::nullopt;
   const IdSpan ids{.first = after + 1, .last = kLastId};
   const bool all_own = statements_->forwarded_rows.returning<std::int64_t>() == 0;
   MeasurementQuery& values = all_own ? statements_->own_values : statements_->values;
   Page page(limit);
-  const auto take = [&](const MeasuredValue& value) {
-    if (!page.take(value.id)) return false;
-    visit(value);
-    return true;
+  const auto take = [&](MeasuredRun run) {
+    std::size_t fitting = 0;
+    while (fitting < run.values.size() && page.take(run.values[fitting].id)) ++fitting;
+    const bool all = fitting == run.values.size();
+    run.values = run.values.first(fitting);
+    if (fitting > 0) visit(run);
+    return all;
+  };
+  const auto take_row = [&](const Rows& rows) {
+    const MeasuredRun::Value value{.id = rows.get<std::int64_t>(0),
+                                   .number = rows.get<std::int64_t>(6),
+                                   .measured_nm = rows.get<std::int64_t>(1)};
+    return take({.lower_limit_nm = rows.get<std::int64_t>(2),
+                 .upper_limit_nm = rows.get<std::int64_t>(3),
+                 .subgroup = rows.get<std::optional<std::string_view>>(4),
+                 .origin = rows.get<std::int64_t>(5),
+                 .values = {&value, 1}});
   };
   ValueBlock block;
-  const auto read_block = [&](std::int64_t node, const RowSet& rows, const IdSpan& among) {
-    return read_values(statements_->block_values.query(node), block, rows, IndexNode{0, node}.ids(),
-                       among, take);
+  const auto take_block = [&](std::int64_t node, const RowSet& rows, const IdSpan& among) {
+    using BlockRead = MeasurementQuery::BlockRead;
+    Rows found = statements_->block_values.query(node);
+    if (!found.next() || !block.read(found.get<Blob>(0).bytes)) return BlockRead::Passed;
+    const std::int64_t first = IndexNode{0, node}.ids().first;
+    return block.visit_runs(rows, first, among, take) ? BlockRead::Taken : BlockRead::Ended;
   };
-  values.run(
-      filter, ids, ListOrder::OldestFirst, [&](const Rows& rows) { return take(read_value(rows)); },
-      read_block);
+  values.run(filter, ids, ListOrder::OldestFirst, take_row, take_block);
   return page.next();
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -70,11 +69,14 @@ std::string designation_key(std::int64_t nominal_nm, std::string_view tolerance_
 /// Some of the rows of a block, each by its distance from the block's first.
 class RowSet {
  public:
-  void add(std::int64_t row) { rows_.set(static_cast<std::size_t>(row)); }
-  bool contains(std::int64_t row) const { return rows_.test(static_cast<std::size_t>(row)); }
-  bool empty() const { return rows_.none(); }
+  /// @pre 0 <= row < kBlock, here and below
+  void add(std::int64_t row) { at(row) = static_cast<std::uint8_t>(at(row) | bit(row)); }
+  bool contains(std::int64_t row) const {
+    return (bits_[static_cast<std::size_t>(row) / 8] & bit(row)) != 0;
+  }
+  bool empty() const { return bits_ == Bits{}; }
   RowSet& operator&=(const RowSet& other) {
-    rows_ &= other.rows_;
+    for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] &= other.bits_[i];
     return *this;
   }
 
@@ -85,9 +87,12 @@ class RowSet {
   static RowSet decode(std::string_view bytes);
 
  private:
-  static constexpr std::size_t kBitmapSize = kBlock / 8;
+  using Bits = std::array<std::uint8_t, kBlock / 8>;
 
-  std::bitset<kBlock> rows_;
+  static constexpr unsigned bit(std::int64_t row) { return 1U << static_cast<unsigned>(row % 8); }
+  std::uint8_t& at(std::int64_t row) { return bits_[static_cast<std::size_t>(row) / 8]; }
+
+  Bits bits_{};
 };
 
 }  // namespace fitgauge::store

@@ -74,9 +74,9 @@ class MeasurementsStore {
                                    ListOrder order = ListOrder::OldestFirst) const;
 
   /// list() of no more than figures are computed from, from the oldest on: several times as fast.
-  using ValueVisitor = std::function<void(const MeasuredValue&)>;
+  using RunVisitor = std::function<void(const MeasuredRun&)>;
   std::optional<std::int64_t> list_values(const MeasurementFilter& filter, std::int64_t after,
-                                          std::size_t limit, const ValueVisitor& visit) const;
+                                          std::size_t limit, const RunVisitor& visit) const;
 
   /// The oldest of the newest `count` rows that match; none when none does.
   std::optional<std::int64_t> first_of_newest(const MeasurementFilter& filter,

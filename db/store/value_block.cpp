@@ -105,16 +105,4 @@ bool ValueBlock::read(std::string_view bytes) {
   return in.is_at_end();
 }
 
-MeasuredValue ValueBlock::value(std::int64_t id, std::int64_t row) const {
-  const Row& of = rows_[static_cast<std::size_t>(row)];
-  const Kind& kind = kinds_[of.kind];
-  return {.id = id,
-          .measured_nm = of.measured_nm,
-          .lower_limit_nm = kind.lower_limit_nm,
-          .upper_limit_nm = kind.upper_limit_nm,
-          .subgroup = kind.subgroup,
-          .origin = 0,
-          .number = id};
-}
-
 }  // namespace fitgauge::store

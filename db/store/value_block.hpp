@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "store/measured_value.hpp"
@@ -37,8 +38,23 @@ class ValueBlock {
   /// @returns false where the bytes are not of kBlock values; the rows have to be read then.
   bool read(std::string_view bytes);
 
-  /// Of a row by its distance from the block's first; own, with the id as its number.
-  MeasuredValue value(std::int64_t id, std::int64_t row) const;
+  /// Calls `visit` with the runs of `rows` among `ids`, all of this folder, until it returns false.
+  /// @param first_id of the block's first row
+  /// @returns false when it did.
+  template <class Visit>
+  bool visit_runs(const RowSet& rows, std::int64_t first_id, const IdSpan& ids,
+                  const Visit& visit) {
+    std::size_t count = 0;
+    std::uint32_t kind = 0;
+    for (std::int64_t id = ids.first; id <= ids.last; ++id) {
+      if (!rows.contains(id - first_id)) continue;
+      const Row& row = rows_[static_cast<std::size_t>(id - first_id)];
+      if (count > 0 && row.kind != kind && !visit(run(kind, std::exchange(count, 0)))) return false;
+      kind = row.kind;
+      run_[count++] = {.id = id, .number = id, .measured_nm = row.measured_nm};
+    }
+    return count == 0 || visit(run(kind, count));
+  }
 
  private:
   struct Kind {
@@ -51,8 +67,14 @@ class ValueBlock {
     std::int64_t measured_nm = 0;
   };
 
+  MeasuredRun run(std::uint32_t kind, std::size_t count) const {
+    const Kind& of = kinds_[kind];
+    return {of.lower_limit_nm, of.upper_limit_nm, of.subgroup, 0, {run_.data(), count}};
+  }
+
   std::vector<Kind> kinds_;
   std::array<Row, kBlock> rows_{};
+  std::array<MeasuredRun::Value, kBlock> run_{};
 };
 
 }  // namespace fitgauge::store

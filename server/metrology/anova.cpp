@@ -41,7 +41,7 @@ std::optional<Wide> short_scatter_of(std::span<const Wide> counts) {
 
 /// The sum of squared deviations from the means of the groups. Those of one size are added as whole
 /// numbers: a fraction for each of many groups would take most of the time.
-Exact sum_within(const Groups& groups) {
+Exact sum_within(const GroupedCounts& groups) {
   struct Scatter {
     ExactSum of_short;
     Integer of_others = 0;
@@ -56,7 +56,7 @@ Exact sum_within(const Groups& groups) {
       scatter.of_others += scatter_of(group);
     }
   }
-  const Integer unit = power_of_ten(groups.values.scale());
+  const Integer unit = power_of_ten(groups.scale);
   Exact within = 0;
   for (const auto& [size, scatter] : scatter_by_size) {
     within += Exact(scatter.of_short.value() + scatter.of_others, Integer(size) * unit * unit);
@@ -74,12 +74,12 @@ FTest f_test(const Variation& effect, const Variation& error) {
                        static_cast<long double>(error.degrees_of_freedom))};
 }
 
-Result<Anova> analyse_variance(const Groups& groups) {
+Result<Anova> analyse_variance(const GroupedCounts& groups) {
   if (groups.size() < 2) {
     return Error{ErrorCode::StatisticsTooFew,
                  "an analysis of variance compares two groups or more"};
   }
-  const Moments all = moments(groups.values);
+  const Moments all = moments(groups.counts, groups.scale);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (groups[i].empty()) {
       return Error{ErrorCode::StatisticsTooFew, fmt::format("group {} is empty", i)};

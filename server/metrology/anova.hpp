@@ -30,6 +30,6 @@ struct Anova {
 
 /// One-way analysis of variance; groups may differ in size.
 /// @errors StatisticsTooFew with fewer than two groups, an empty group, or one value in each.
-Result<Anova> analyse_variance(const Groups& groups);
+Result<Anova> analyse_variance(const GroupedCounts& groups);
 
 }  // namespace fitgauge::metrology

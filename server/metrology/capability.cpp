@@ -95,12 +95,12 @@ void set_cpm(Capability& capability, const SpecificationLimits& limits, const Ex
   capability.cpm = intervals.about_target(width / (6 * root), off / capability.overall);
 }
 
-PercentileCapability by_percentiles(std::span<const Wide> sorted, int scale,
+PercentileCapability by_percentiles(const Ranking& ranking, int scale,
                                     const SpecificationLimits& limits) {
   const Exact part = Exact(1) / 100'000;
-  const Exact low = quantile(sorted, scale, 135 * part);
-  const Exact middle = quantile(sorted, scale, 50'000 * part);
-  const Exact high = quantile(sorted, scale, 99'865 * part);
+  const Exact low = quantile(ranking, scale, 135 * part);
+  const Exact middle = quantile(ranking, scale, 50'000 * part);
+  const Exact high = quantile(ranking, scale, 99'865 * part);
   PercentileCapability result{
       .x_0135 = nearest(low), .x_50 = nearest(middle), .x_99865 = nearest(high)};
   if (low == middle || middle == high) return result;
@@ -115,24 +115,23 @@ PercentileCapability by_percentiles(std::span<const Wide> sorted, int scale,
   return result;
 }
 
-NormalityTest normality_of(std::span<const Wide> rising, int scale, const Exact& mean,
+NormalityTest normality_of(const Ranking& ranking, int scale, const Exact& mean,
                            long double standard_deviation) {
   const Exact unit(power_of_ten(scale));
-  const Exact from_least = mean * unit - Exact(Integer(rising.front()));
-  return test_normality(rising, static_cast<double>(nearest(from_least)),
+  const Exact from_least = mean * unit - Exact(Integer(ranking.front()));
+  return test_normality(ranking, static_cast<double>(nearest(from_least)),
                         static_cast<double>(standard_deviation * nearest(unit)));
 }
 
 void describe_distribution(Capability& capability, const Subgroups& data, const Exact& mean,
                            const SpecificationLimits& limits) {
-  std::vector<Wide> rising = sorted(data.values.counts());
+  const Ranking ranking(data.values.counts());
   const int scale = data.values.scale();
-  if (rising.size() >= kFewestForPercentiles) {
-    capability.percentile = by_percentiles(rising, scale, limits);
+  if (ranking.size() >= kFewestForPercentiles) {
+    capability.percentile = by_percentiles(ranking, scale, limits);
   }
-  if (rising.size() < kFewestForNormality) return;
-  capability.normality = normality_of(rising, scale, mean, capability.overall);
-  rising = {};  // a million values are not kept twice
+  if (ranking.size() < kFewestForNormality) return;
+  capability.normality = normality_of(ranking, scale, mean, capability.overall);
   capability.model = choose_model(data, *capability.normality);
 }
 

@@ -40,19 +40,28 @@ Wide moving_range(Counts counts, std::size_t i) {
 class Source {
  public:
   Source(const Subgroups& data, Phase phase)
-      : data_(data), phase_(phase), unit_(power_of_ten(data.values.scale())) {}
+      : data_(data), phase_(phase), unit_(power_of_ten(data.values.scale())) {
+    const Wide most = kExactly / static_cast<Wide>(data.size);
+    const bool is_small = std::ranges::all_of(
+        counts(), [most](Wide count) { return -most <= count && count <= most; });
+    if (is_small && unit_ * Integer(data.size) <= Integer(kExactly)) {
+      unit_of_points_ = static_cast<double>(unit_);
+    }
+  }
 
   std::size_t size() const { return data_.size; }
   std::size_t count() const { return data_.count(); }
+  Phase phase() const { return phase_; }
   Counts counts() const { return data_.values.counts(); }
   Counts group(std::size_t i) const { return counts().subspan(i * size(), size()); }
   long double in_units(const Integer& sum, std::size_t of) const {
     return nearest(Exact(sum, unit_ * Integer(of)));
   }
-  /// sum / of, as a point.
+  /// sum / of, as a point: of at most a group's counts, or a difference of two.
   double point(Wide sum, std::size_t of) const {
-    return short_unit_ != 0 ? quotient(sum, short_unit_ * static_cast<Wide>(of))
-                            : nearest_double(Exact(Integer(sum), unit_ * Integer(of)));
+    if (unit_of_points_ == 0) return nearest_double(Exact(Integer(sum), unit_ * Integer(of)));
+    return static_cast<double>(static_cast<std::int64_t>(sum)) /
+           (unit_of_points_ * static_cast<double>(of));
   }
 
   Exact mean() const {
@@ -65,11 +74,6 @@ class Source {
     ExactSum sum;
     for (std::size_t i = phase_.from; i < phase_.to; ++i) sum.add(range_of(group(i)));
     return in_units(sum.value(), phase_.to - phase_.from);
-  }
-  long double mean_moving_range() const {
-    ExactSum sum;
-    for (std::size_t i = phase_.from + 1; i < phase_.to; ++i) sum.add(moving_range(counts(), i));
-    return in_units(sum.value(), phase_.to - phase_.from - 1);
   }
   long double deviation(std::size_t i) const {
     return moments(group(i), data_.values.scale()).standard_deviation();
@@ -95,8 +99,9 @@ class Source {
   const Subgroups& data_;
   Phase phase_;
   Integer unit_;
-  /// The unit where it is short enough for quick points, else 0.
-  Wide short_unit_ = data_.values.scale() <= 18 ? static_cast<Wide>(unit_) : 0;
+  /// A double of a whole number up to here is exact, and so a quotient of two is rounded once.
+  static constexpr std::int64_t kExactly = std::int64_t{1} << 52;
+  double unit_of_points_ = 0;  ///< the unit, where no point's sum or divisor is above kExactly
 };
 
 /// The spread chart that belongs to a location chart: its points, their mean in control and what
@@ -112,13 +117,17 @@ struct Spread {
 Spread moving_ranges(const Source& source) {
   Spread spread{.name = "mr",
                 .points = {},
-                .mean = source.mean_moving_range(),
                 .per_mean = kMovingRangeDivisor,
                 .per_deviation = range_constants(2).d3};
   spread.points.reserve(source.count());
+  const Phase phase = source.phase();
+  ExactSum in_phase;
   for (std::size_t i = 1; i < source.count(); ++i) {
-    spread.points.push_back(source.point(moving_range(source.counts(), i), 1));
+    const Wide range = moving_range(source.counts(), i);
+    if (phase.from < i && i < phase.to) in_phase.add(range);
+    spread.points.push_back(source.point(range, 1));
   }
+  spread.mean = source.in_units(in_phase.value(), phase.to - phase.from - 1);
   return spread;
 }
 

@@ -48,16 +48,25 @@ class Decimals {
   Wide largest_ = 0;  // magnitude
 };
 
-/// Decimals in subgroups, one behind the other.
-struct Groups {
-  Decimals values;
-  std::vector<std::size_t> ends;  ///< of each group; ascending, the last is values.size()
+/// Values in groups, one behind the other: counts / 10^scale.
+struct GroupedCounts {
+  std::span<const Wide> counts;
+  int scale = 0;
+  std::span<const std::size_t> ends;  ///< of each group; ascending, the last is counts.size()
 
   std::size_t size() const { return ends.size(); }
   std::span<const Wide> operator[](std::size_t group) const {
     const std::size_t begin = group == 0 ? 0 : ends[group - 1];
-    return values.counts().subspan(begin, ends[group] - begin);
+    return counts.subspan(begin, ends[group] - begin);
   }
+};
+
+/// The same with what it is of.
+struct Groups {
+  Decimals values;
+  std::vector<std::size_t> ends;
+
+  GroupedCounts counts() const { return {values.counts(), values.scale(), ends}; }
 };
 
 }  // namespace fitgauge::metrology

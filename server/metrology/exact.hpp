@@ -31,16 +31,6 @@ constexpr bool is_short(Wide value) {
   return -kShort < value && value < kShort;
 }
 
-/// numerator / denominator as the nearest `double`. @pre denominator > 0
-inline double quotient(Wide numerator, Wide denominator) {
-  constexpr Wide kExact = Wide{1} << 53;  // as doubles
-  if (-kExact <= numerator && numerator <= kExact && denominator <= kExact) {
-    return static_cast<double>(static_cast<std::int64_t>(numerator)) /
-           static_cast<double>(static_cast<std::int64_t>(denominator));
-  }
-  return nearest_double(Exact(Integer(numerator), Integer(denominator)));
-}
-
 /// A sum that never overflows: 128 bits while they reach, then any number.
 class ExactSum {
  public:

@@ -25,22 +25,24 @@ double p_of(double a) {
 
 }  // namespace
 
-NormalityTest test_normality(std::span<const Wide> rising, double mean, double standard_deviation) {
-  const std::size_t count = rising.size();
+NormalityTest test_normality(const Ranking& ranking, double mean, double standard_deviation) {
+  const std::size_t count = ranking.size();
   const auto n = static_cast<double>(count);
   const auto square = [](std::size_t value) {
     return static_cast<double>(value) * static_cast<double>(value);
   };
   double sum = 0;
-  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
-    while (end < count && rising[end] == rising[begin]) ++end;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < ranking.values().size(); ++i) {
+    const std::size_t end = ranking.ends()[i];
     // From the least value, so that leading digits all share cost nothing.
     const double z =
-        (static_cast<double>(rising[begin] - rising.front()) - mean) / standard_deviation;
+        (static_cast<double>(ranking.values()[i] - ranking.front()) - mean) / standard_deviation;
     // ln F(x_i) has the weight 2i + 1, ln(1 - F(x_i)) that of its place from the other end: of
     // equal values, of which measured ones are full, these are differences of squares.
     sum += (square(end) - square(begin)) * log_below(z) +
            (square(count - begin) - square(count - end)) * log_below(-z);
+    begin = end;
   }
   NormalityTest test;
   test.statistic = -n - sum / n;

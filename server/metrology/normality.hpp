@@ -19,9 +19,9 @@ struct NormalityTest {
 /// Fewer values say nothing.
 inline constexpr std::size_t kFewestForNormality = 5;
 
-/// @param rising kFewestForNormality values or more, ascending, in any unit
+/// @param ranking of kFewestForNormality values or more, in any unit
 /// @param mean from the least value, and the standard deviation, both in that unit
 /// @pre standard_deviation > 0
-NormalityTest test_normality(std::span<const Wide> rising, double mean, double standard_deviation);
+NormalityTest test_normality(const Ranking& ranking, double mean, double standard_deviation);
 
 }  // namespace fitgauge::metrology

@@ -28,35 +28,29 @@ constexpr std::array<Row, 8> kRows = {{
     {"D", "location and dispersion change"},
 }};
 
-/// Whole subgroups, of a size of their own where the values come one by one.
-Groups in_groups(const Subgroups& data) {
+/// Where whole subgroups end, of a size of their own where the values come one by one.
+std::vector<std::size_t> ends_of_groups(const Subgroups& data) {
   const std::size_t size = data.size > 1 ? data.size : kSizeOfValues;
-  Groups groups;
-  const std::size_t count = data.values.size() / size;
-  groups.ends.reserve(count);
-  const auto used = data.values.counts().first(count * size);
-  groups.values = Decimals({used.begin(), used.end()}, data.values.scale());
-  for (std::size_t i = 1; i <= count; ++i) groups.ends.push_back(i * size);
-  return groups;
+  std::vector<std::size_t> ends(data.values.size() / size);
+  for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = (i + 1) * size;
+  return ends;
 }
 
 /// Distances from the median of their group, doubled so that they stay whole numbers.
-Groups distances_from_medians(const Subgroups& data, std::vector<std::size_t> ends) {
+std::vector<Wide> distances_from_medians(const GroupedCounts& groups) {
   std::vector<Wide> distances;
-  distances.reserve(ends.back());
+  distances.reserve(groups.counts.size());
   std::vector<Wide> sorted;
-  std::size_t begin = 0;
-  for (const std::size_t end : ends) {
-    const auto group = data.values.counts().subspan(begin, end - begin);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto group = groups[i];
     sorted.assign(group.begin(), group.end());
     std::sort(sorted.begin(), sorted.end());
     const Wide twice = sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2];
     for (const Wide value : group) {
       distances.push_back(2 * value > twice ? 2 * value - twice : twice - 2 * value);
     }
-    begin = end;
   }
-  return {Decimals(std::move(distances), data.values.scale()), std::move(ends)};
+  return distances;
 }
 
 /// Whether the means rise or fall with their index: the probability of so steep a slope by chance;
@@ -65,9 +59,9 @@ struct Course {
   long double trend = kUndefined;
   double autocorrelation = 0;
 };
-Course course_of(const Groups& groups) {
+Course course_of(const GroupedCounts& groups) {
   const std::size_t n = groups.size();
-  const long double unit = nearest(Exact(power_of_ten(groups.values.scale())));
+  const long double unit = nearest(Exact(power_of_ten(groups.scale)));
   std::vector<double> means;
   means.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -105,23 +99,23 @@ std::string_view meaning(ProcessModel model) {
 }
 
 std::optional<ModelChoice> choose_model(const Subgroups& data, const NormalityTest& normality) {
-  Groups groups = in_groups(data);
-  const std::size_t count = groups.size();
-  if (count < kFewestGroups) return std::nullopt;
+  const std::vector<std::size_t> ends = ends_of_groups(data);
+  const int scale = data.values.scale();
+  if (ends.size() < kFewestGroups) return std::nullopt;
+  const GroupedCounts groups{data.values.counts().first(ends.back()), scale, ends};
   ModelChoice choice;
   const Course course = course_of(groups);
   choice.tests.trend = course.trend;
   choice.tests.subgroup_size = groups[0].size();
   choice.tests.location = analyse_variance(groups).value().test.p;
-  groups.values = {};  // a million values are not kept three times
-  const Groups distances = distances_from_medians(data, std::move(groups.ends));
-  choice.tests.dispersion = analyse_variance(distances).value().test.p;
+  const std::vector<Wide> distances = distances_from_medians(groups);
+  choice.tests.dispersion = analyse_variance({distances, scale, ends}).value().test.p;
   // An undefined probability (no spread within) is not below the significance.
   const bool moves = choice.tests.location < kModelSignificance;
   const bool widens = choice.tests.dispersion < kModelSignificance;
   const bool normal = normality.p >= kModelSignificance;
   // Two standard errors of the r(1) of a random series.
-  const double random_bound = 2 / std::sqrt(static_cast<double>(count));
+  const double random_bound = 2 / std::sqrt(static_cast<double>(ends.size()));
   if (moves && widens) {
     choice.model = ProcessModel::D;
   } else if (widens) {

@@ -66,35 +66,43 @@ long double autocorrelation_lag_1(const Decimals& values, const Moments& of) {
   return nearest(sum / (of.squares * unit * unit));
 }
 
-std::vector<Wide> sorted(std::span<const Wide> counts) {
-  std::vector<Wide> result(counts.begin(), counts.end());
-  if (counts.size() < kManyToSort) {
-    std::sort(result.begin(), result.end());
-    return result;
-  }
+Ranking::Ranking(std::span<const Wide> counts) {
+  if (counts.empty()) return;
+  const auto add = [this](Wide value, std::uint32_t times) {
+    values_.push_back(value);
+    ends_.push_back((ends_.empty() ? 0 : ends_.back()) + times);
+  };
   const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
   const Wide first = *least;
-  if (*most - first >= kNarrow) {
-    std::sort(result.begin(), result.end());
-    return result;
+  if (counts.size() < kManyToSort || *most - first >= kNarrow) {
+    std::vector<Wide> rising(counts.begin(), counts.end());
+    std::sort(rising.begin(), rising.end());
+    for (auto begin = rising.begin(), end = begin; begin != rising.end(); begin = end) {
+      end = std::find_if(begin, rising.end(), [begin](Wide value) { return value != *begin; });
+      add(*begin, static_cast<std::uint32_t>(end - begin));
+    }
+    return;
   }
   // Measured sizes lie close together: how often each of them occurs is soon counted.
   std::vector<std::uint32_t> times(static_cast<std::size_t>(*most - first) + 1);
   for (const Wide count : counts) ++times[static_cast<std::size_t>(count - first)];
-  auto next = result.begin();
   for (std::size_t i = 0; i < times.size(); ++i) {
-    next = std::fill_n(next, times[i], first + static_cast<Wide>(i));
+    if (times[i] > 0) add(first + static_cast<Wide>(i), times[i]);
   }
-  return result;
 }
 
-Exact quantile(std::span<const Wide> sorted, int scale, const Exact& p) {
-  const Exact place = p * whole(sorted.size() - 1);
+Wide Ranking::operator[](std::size_t rank) const {
+  const auto above = std::upper_bound(ends_.begin(), ends_.end(), rank);
+  return values_[static_cast<std::size_t>(above - ends_.begin())];
+}
+
+Exact quantile(const Ranking& ranking, int scale, const Exact& p) {
+  const Exact place = p * whole(ranking.size() - 1);
   const Integer below = numerator(place) / denominator(place);
   const auto index = static_cast<std::size_t>(below);
   const Exact share = place - Exact(below);
-  const Wide low = sorted[index];
-  const Wide high = sorted[std::min(index + 1, sorted.size() - 1)];
+  const Wide low = ranking[index];
+  const Wide high = ranking[std::min(index + 1, ranking.size() - 1)];
   return (Exact(Integer(low)) + share * Exact(Integer(high - low))) / Exact(power_of_ten(scale));
 }
 
@@ -102,12 +110,13 @@ Summary summarise(const Decimals& values) {
   Summary summary;
   summary.moments = moments(values);
   summary.autocorrelation_lag_1 = autocorrelation_lag_1(values, summary.moments);
-  const std::vector<Wide> rising = sorted(values.counts());
-  summary.min = values.exact(Integer(rising.front()));
-  summary.max = values.exact(Integer(rising.back()));
+  const Ranking ranking(values.counts());
+  summary.min = values.exact(Integer(ranking.front()));
+  summary.max = values.exact(Integer(ranking.back()));
   for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
     const Exact p{Integer(kQuantiles[i]), Integer(kHundredThousand)};
-    summary.quantiles[i] = {.p = nearest(p), .value = nearest(quantile(rising, values.scale(), p))};
+    summary.quantiles[i] = {.p = nearest(p),
+                            .value = nearest(quantile(ranking, values.scale(), p))};
   }
   return summary;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -33,8 +34,25 @@ long double square_root(const Exact& value);
 /// without spread.
 long double autocorrelation_lag_1(const Decimals& values, const Moments& of);
 
-/// The same values, ascending.
-std::vector<Wide> sorted(std::span<const Wide> counts);
+/// Values in ascending order, equal ones together: of measured sizes a million are some thousand.
+class Ranking {
+ public:
+  explicit Ranking(std::span<const Wide> counts);
+
+  std::size_t size() const { return ends_.empty() ? 0 : ends_.back(); }
+  /// The value with that many before it.
+  Wide operator[](std::size_t rank) const;
+  Wide front() const { return values_.front(); }
+  Wide back() const { return values_.back(); }
+
+  /// Each value once, and how many values are not above it.
+  std::span<const Wide> values() const { return values_; }
+  std::span<const std::uint32_t> ends() const { return ends_; }
+
+ private:
+  std::vector<Wide> values_;
+  std::vector<std::uint32_t> ends_;
+};
 
 struct Quantile {
   long double p = 0;
@@ -42,8 +60,8 @@ struct Quantile {
 };
 
 /// Quantiles of type 7 (Hyndman and Fan 1996): linear between the values at (n - 1) p.
-/// @param sorted ascending, not empty
-Exact quantile(std::span<const Wide> sorted, int scale, const Exact& p);
+/// @pre ranking is not empty
+Exact quantile(const Ranking& ranking, int scale, const Exact& p);
 
 /// The probabilities of the quantiles of a summary, in hundred-thousandths: ±3 standard deviations
 /// of a normal distribution are the first and the last.

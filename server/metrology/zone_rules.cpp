@@ -1,22 +1,30 @@
 #include "metrology/zone_rules.hpp"
 
-#include <algorithm>
 #include <bit>
 
 namespace fitgauge::metrology {
+
 void ZoneHistory::reduce(ZoneRules rules) {
-  for (Side& side : sides_) {
-    if (!rules.has(2)) side.beyond_2 = 0;
-    if (!rules.has(4)) side.run = 0;
-    if (!rules.has(3)) side.beyond_1 = 0;
+  unsigned reduced = 0;
+  for (const unsigned shift : {0U, kSide}) {
+    const unsigned side = past_ >> shift;
+    unsigned beyond_1 = side >> kBeyond1 & 0b1111U;
     // A point is the oldest of a pattern of four in five only if the newer ones that are beyond and
     // the points still to come inside its five are three.
     for (int age = 4; age >= 1; --age) {
-      const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(age - 1));
-      const int newer = std::popcount(static_cast<std::uint8_t>(side.beyond_1 & (bit - 1U)));
-      if (newer + 5 - age < 3) side.beyond_1 = static_cast<std::uint8_t>(side.beyond_1 & ~bit);
+      const unsigned bit = 1U << static_cast<unsigned>(age - 1);
+      const int newer = std::popcount(beyond_1 & (bit - 1U));
+      if (newer + 5 - age < 3) beyond_1 &= ~bit;
     }
+    const unsigned seen = side >> kRun & 0x7FU;
+    const unsigned run = (1U << static_cast<unsigned>(std::countr_one(seen))) - 1U;
+    unsigned kept = 0;
+    if (rules.has(2)) kept |= side & 0b11U << kBeyond2;
+    if (rules.has(3)) kept |= beyond_1 << kBeyond1;
+    if (rules.has(4)) kept |= run << kRun;
+    reduced |= kept << shift;
   }
+  past_ = reduced;
 }
 
 std::vector<RuleViolation> find_violations(std::span<const double> points, const ZoneLines& lines,

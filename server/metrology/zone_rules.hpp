@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,11 +19,6 @@ class ZoneRules {
   constexpr ZoneRules() = default;
   static constexpr ZoneRules all() { return ZoneRules(0b1111); }
   static constexpr ZoneRules only_first() { return ZoneRules(1); }
-  /// Each of the four.
-  static constexpr ZoneRules of(bool first, bool second, bool third, bool fourth) {
-    return ZoneRules(static_cast<std::uint8_t>(unsigned{first} | unsigned{second} << 1U |
-                                               unsigned{third} << 2U | unsigned{fourth} << 3U));
-  }
 
   /// @pre 1 <= rule <= kCount, here and below
   constexpr void add(int rule) { bits_ = static_cast<std::uint8_t>(bits_ | (1U << (rule - 1))); }
@@ -35,6 +30,7 @@ class ZoneRules {
   }
 
  private:
+  friend class ZoneHistory;
   explicit constexpr ZoneRules(std::uint8_t bits) : bits_(bits) {}
 
   std::uint8_t bits_ = 0;
@@ -52,22 +48,12 @@ class ZoneHistory {
 
   /// Takes the next point. @returns the rules whose pattern it completes, itself beyond the zone.
   ZoneRules add(Point point) {
-    std::array<bool, ZoneRules::kCount> completed{};
-    for (const int sign : {1, -1}) {
-      Side& side = sides_[sign > 0 ? 0 : 1];
-      const int zone = sign * point.zone;
-      const bool on_side = point.side == sign;
-      completed[0] |= zone >= 3;
-      completed[1] |= zone >= 2 && side.beyond_2 != 0;
-      completed[2] |= zone >= 1 && (kThreeOfFour >> side.beyond_1 & 1U) != 0;
-      completed[3] |= on_side && side.run == kRun - 1;
-      side.beyond_2 =
-          static_cast<std::uint8_t>((unsigned{side.beyond_2} << 1U | (zone >= 2)) & 0b11U);
-      side.beyond_1 =
-          static_cast<std::uint8_t>((unsigned{side.beyond_1} << 1U | (zone >= 1)) & 0b1111U);
-      side.run = static_cast<std::uint8_t>(on_side ? std::min(side.run + 1, kRun - 1) : 0);
-    }
-    return ZoneRules::of(completed[0], completed[1], completed[2], completed[3]);
+    const unsigned now =
+        past_ << 1U | on_side(point.zone, point.side) | on_side(-point.zone, -point.side) << kSide;
+    past_ = now & kPast;
+    const bool outside = point.zone >= 3 || point.zone <= -3;
+    return ZoneRules(
+        static_cast<std::uint8_t>(unsigned{outside} | completed(now) | completed(now >> kSide)));
   }
 
   /// Forgets what no later pattern of `rules` can need; histories that then are equal have one
@@ -77,17 +63,38 @@ class ZoneHistory {
   friend constexpr auto operator<=>(const ZoneHistory&, const ZoneHistory&) = default;
 
  private:
-  static constexpr int kRun = 8;
-  static constexpr unsigned kThreeOfFour = 0b1110'1000'1000'0000;  ///< the masks of three and four
+  // What was seen on one side of the centre, the newest point in the lowest bit of each part:
+  static constexpr unsigned kBeyond1 = 0;  ///< the last five, whether beyond 1
+  static constexpr unsigned kBeyond2 = 5;  ///< the last three, whether beyond 2
+  static constexpr unsigned kRun = 8;      ///< the last eight, whether on this side at all
+  static constexpr unsigned kSide = 16;    ///< from here on the same of the side below
+  /// All but the oldest of each part: what is kept for the next point.
+  static constexpr unsigned kPastOfSide = 0b1111U << kBeyond1 | 0b11U << kBeyond2 | 0x7FU << kRun;
+  static constexpr unsigned kPast = kPastOfSide | kPastOfSide << kSide;
 
-  struct Side {
-    std::uint8_t beyond_2 = 0;  ///< of the last two points, the newest in bit 0
-    std::uint8_t beyond_1 = 0;  ///< of the last four
-    std::uint8_t run = 0;       ///< points in a row on this side, at most 7
+  static unsigned on_side(int zone, int side) {
+    return unsigned{zone >= 1} << kBeyond1 | unsigned{zone >= 2} << kBeyond2 |
+           unsigned{side == 1} << kRun;
+  }
 
-    friend constexpr auto operator<=>(const Side&, const Side&) = default;
-  };
-  std::array<Side, 2> sides_{};  ///< above, below
+  /// The rules 2 to 4, as bits of ZoneRules, that a side's newest point completes.
+  static unsigned completed(unsigned side) {
+    return kPatterns[side & 0xFFU] | unsigned{(side >> kRun & 0xFFU) == 0xFFU} << 3U;
+  }
+  /// By what is beyond 1 and 2.
+  static constexpr std::array<std::uint8_t, 256> kPatterns = [] {
+    std::array<std::uint8_t, 256> patterns{};
+    for (unsigned seen = 0; seen < patterns.size(); ++seen) {
+      const unsigned beyond_1 = seen & 0b11111U;
+      const unsigned beyond_2 = seen >> kBeyond2;
+      const bool second = (beyond_2 & 1U) != 0 && std::popcount(beyond_2) >= 2;
+      const bool third = (beyond_1 & 1U) != 0 && std::popcount(beyond_1) >= 4;
+      patterns[seen] = static_cast<std::uint8_t>(unsigned{second} << 1U | unsigned{third} << 2U);
+    }
+    return patterns;
+  }();
+
+  unsigned past_ = 0;
 };
 
 struct RuleViolation {

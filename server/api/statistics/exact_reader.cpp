@@ -106,12 +106,13 @@ Subgroups read_subgroups(FieldReader& fields, FieldErrors& errors) {
   Groups groups = read_groups(fields, "subgroups", errors);
   if (errors.mark() != before) return {};
   const std::size_t size = groups.ends.front();
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (groups[i].size() == size && size > 1) continue;
+  const metrology::GroupedCounts counts = groups.counts();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i].size() == size && size > 1) continue;
     errors.add(size > 1 ? ErrorCode::StatisticsUnbalanced : ErrorCode::StatisticsTooFew,
                pointer_to(fields.at("subgroups"), i),
                size > 1 ? fmt::format("subgroups have one size: {} values here, {} in the first",
-                                      groups[i].size(), size)
+                                      counts[i].size(), size)
                         : "a subgroup has two values or more; send single ones as values");
     return {};
   }

@@ -33,7 +33,7 @@ Result<std::string> anova(const JsonValue& body) {
   const metrology::Groups groups = read_groups(fields, "groups", errors);
   fields.refuse_unknown();
   if (auto error = errors.take()) return *std::move(error);
-  const auto made = metrology::analyse_variance(groups);
+  const auto made = metrology::analyse_variance(groups.counts());
   if (!made) return at_member("groups", made.error());
   std::string out;
   JsonWriter json(out);

@@ -30,7 +30,7 @@ void answer_with(const Services& services, const http::Request& request, http::R
       [&services, shared, query = *std::move(query), figure = std::move(figure)] {
         ValueSelection selection;
         const auto as_of = services.measurements.read_values(
-            query, [&](const app::MeasuredValue& value) { return selection.add(value); });
+            query, [&](const app::MeasuredRun& run) { return selection.add(run); });
         if (!as_of) return shared->fail(as_of.error());
         auto answer = figure(std::move(selection), *as_of);
         if (!answer) return shared->fail(answer.error());

@@ -52,46 +52,51 @@ std::string ValueSelection::text_of(const Limits& limits) {
   return fmt::format("{} to {} mm", format_mm(*limits.lower), format_mm(*limits.upper));
 }
 
-Result<void> ValueSelection::add(const app::MeasuredValue& value) {
-  const Limits limits{value.lower_limit, value.upper_limit};
+Result<void> ValueSelection::add(const app::MeasuredRun& run) {
+  const Limits limits{run.lower_limit, run.upper_limit};
   if (!limits_) limits_ = limits;
   if (limits != *limits_) {
-    return Error{ErrorCode::LimitsMixed,
-                 fmt::format("{} has the limits {}, {} has {}: select values of one size by "
-                             "characteristic or designation",
-                             ids_.text(0), text_of(*limits_),
-                             app::measurement_id_text(value.id, value.origin), text_of(limits))};
+    return Error{
+        ErrorCode::LimitsMixed,
+        fmt::format("{} has the limits {}, {} has {}: select values of one size by "
+                    "characteristic or designation",
+                    ids_.text(0), text_of(*limits_),
+                    app::measurement_id_text(run.values.front().id, run.origin), text_of(limits))};
   }
-  names_subgroups_ = names_subgroups_ || value.subgroup.has_value();
-  if (!value.subgroup && !ungrouped_) {
-    ungrouped_ = app::measurement_id_text(value.id, value.origin);
+  names_subgroups_ = names_subgroups_ || run.subgroup.has_value();
+  if (!run.subgroup && !ungrouped_) {
+    ungrouped_ = app::measurement_id_text(run.values.front().id, run.origin);
   }
-  if (!ungrouped_) join(*value.subgroup);
+  if (!ungrouped_) join(*run.subgroup, run.values.size());
   if (bytes_ + ids_.bytes() + counts_.size() * sizeof(Wide) > most_bytes_) {
     return Error{ErrorCode::StatisticsTooMany,
                  fmt::format("more than {} values match, which is what one figure takes: narrow "
                              "the selection, by from and to for instance",
                              counts_.size())};
   }
-  counts_.push_back(value.measured.count());
-  ids_.add(value.id, value.origin);
+  if (counts_.empty())
+    counts_.reserve(most_bytes_ / sizeof(Wide));  // only what is written to is memory
+  for (const auto& value : run.values) {
+    counts_.push_back(value.measured.count());
+    ids_.add(value.id, run.origin);
+  }
   return {};
 }
 
-void ValueSelection::join(std::string_view subgroup) {
+void ValueSelection::join(std::string_view subgroup, std::size_t values) {
   constexpr std::size_t kOfAName = 96;  // its places in the map and in the lists
-  bytes_ += sizeof(std::uint32_t);
-  if (!groups_.empty() && *names_[groups_.back()] == subgroup) {
-    groups_.push_back(groups_.back());
-    return;
+  bytes_ += values * sizeof(std::uint32_t);
+  if (groups_.empty() || *names_[groups_.back()] != subgroup) {
+    const auto [found, is_new] =
+        numbers_.try_emplace(std::string(subgroup), static_cast<std::uint32_t>(names_.size()));
+    if (is_new) {
+      names_.push_back(&found->first);
+      bytes_ += kOfAName + 2 * subgroup.size();
+    }
+    groups_.push_back(found->second);
+    --values;
   }
-  const auto [found, is_new] =
-      numbers_.try_emplace(std::string(subgroup), static_cast<std::uint32_t>(names_.size()));
-  if (is_new) {
-    names_.push_back(&found->first);
-    bytes_ += kOfAName + 2 * subgroup.size();
-  }
-  groups_.push_back(found->second);
+  groups_.insert(groups_.end(), values, groups_.back());
 }
 
 Result<SelectedValues> ValueSelection::selected() {

@@ -59,7 +59,7 @@ class ValueSelection {
   explicit ValueSelection(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
 
   /// @errors LimitsMixed: other limits than those of the first; StatisticsTooMany.
-  Result<void> add(const app::MeasuredValue& value);
+  Result<void> add(const app::MeasuredRun& run);
 
   /// Whether a value names a subgroup.
   bool names_subgroups() const { return names_subgroups_; }
@@ -80,8 +80,8 @@ class ValueSelection {
 
   /// `25 to 25.021 mm`, as an error says them.
   static std::string text_of(const Limits& limits);
-  /// Puts the value that is being added into its subgroup.
-  void join(std::string_view subgroup);
+  /// Puts the values that are being added into their subgroup.
+  void join(std::string_view subgroup, std::size_t values);
   Result<SelectedValues> selected();
 
   const std::size_t most_bytes_;

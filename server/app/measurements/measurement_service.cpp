@@ -64,14 +64,6 @@ std::optional<Length> limit_of(std::int64_t nanometres) {
   return -kLongest <= limit && limit <= kLongest ? std::optional(limit) : std::nullopt;
 }
 
-MeasuredValue measured_value(const store::MeasuredValue& value) {
-  return {.id = value.number,
-          .measured = Length::nanometres(value.measured_nm),
-          .lower_limit = limit_of(value.lower_limit_nm),
-          .upper_limit = limit_of(value.upper_limit_nm),
-          .subgroup = value.subgroup};
-}
-
 bool is_in_conflict(const store::Stores& stores, const store::MeasurementRow& row) {
   return row.correction_of && stores.measurements.has_rivals(*row.correction_of);
 }
@@ -159,13 +151,14 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
 }
 
 Result<std::string> MeasurementService::read_values(const MeasurementQuery& query,
-                                                    const ValueVisitor& visit) {
+                                                    const RunVisitor& visit) {
   constexpr std::size_t kRowsAJob = 20'000;  // other readers get their turn between two jobs
   store::MeasurementFilter filter = measurement_filter(query);
   std::optional<std::int64_t> after = 0;
   std::string newest = measurement_id_text(query.as_of.value_or(0), origins_.own());
-  std::int64_t origin = 0;  // of the value before, mostly that of the next
+  std::int64_t origin = 0;  // of the run before, mostly that of the next
   std::string_view digits = origins_.digits(origin);
+  std::vector<MeasuredRun::Value> values;
   while (after) {
     auto next = database_.readers().wait(
         [&](const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
@@ -183,12 +176,18 @@ Result<std::string> MeasurementService::read_values(const MeasurementQuery& quer
           }
           Result<void> taken;
           const auto more = stores.measurements.list_values(
-              filter, *after, kRowsAJob, [&](const store::MeasuredValue& value) {
+              filter, *after, kRowsAJob, [&](const store::MeasuredRun& run) {
                 if (!taken) return;
-                MeasuredValue measured = measured_value(value);
-                if (value.origin != origin) digits = origins_.digits(origin = value.origin);
-                measured.origin = digits;
-                taken = visit(measured);
+                values.clear();
+                for (const auto& value : run.values) {
+                  values.push_back({value.number, Length::nanometres(value.measured_nm)});
+                }
+                if (run.origin != origin) digits = origins_.digits(origin = run.origin);
+                taken = visit({.origin = digits,
+                               .lower_limit = limit_of(run.lower_limit_nm),
+                               .upper_limit = limit_of(run.upper_limit_nm),
+                               .subgroup = run.subgroup,
+                               .values = values});
               });
           if (!taken) return taken.error();
           return more;

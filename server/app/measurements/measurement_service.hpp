@@ -83,13 +83,17 @@ struct ListPage {
 };
 
 /// What figures are computed from. The text is valid during the visitor's call.
-struct MeasuredValue {
-  std::int64_t id = 0;
-  std::string_view origin{};  ///< where it was stored; outlives the value
-  Length measured;
+struct MeasuredRun {
+  struct Value {
+    std::int64_t id = 0;
+    Length measured;
+  };
+
+  std::string_view origin{};  ///< where they were stored; outlives the run
   std::optional<Length> lower_limit;
   std::optional<Length> upper_limit;
   std::optional<std::string_view> subgroup;
+  std::span<const Value> values{};
 };
 
 /// Counts and statistics of one group; texts are exact decimals in mm.
@@ -203,8 +207,8 @@ class MeasurementService {
   /// and ends with the first error the visitor gives. Blocks: for threads that take long requests.
   /// @returns the id of the newest measurement in that state. @errors StorageBusy,
   /// StorageUnavailable, ShuttingDown
-  using ValueVisitor = std::function<Result<void>(const MeasuredValue&)>;
-  Result<std::string> read_values(const MeasurementQuery& query, const ValueVisitor& visit);
+  using RunVisitor = std::function<Result<void>(const MeasuredRun&)>;
+  Result<std::string> read_values(const MeasurementQuery& query, const RunVisitor& visit);
 
   /// Groups by one of kTextFilters. @errors QueryInvalid for another field or too many groups.
   void summary(const MeasurementQuery& query, std::string_view group_by,

@@ -2,19 +2,42 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 using namespace fitgauge;
 using namespace fitgauge::api;
 
 namespace {
 
-/// A value of 25 mm and some nanometres with the limits of 25 H7.
-app::MeasuredValue value(std::int64_t id, std::int64_t nanometres,
-                         std::optional<std::string_view> subgroup = {}) {
-  return {.id = id,
-          .measured = Length::nanometres(25'000'000 + nanometres),
-          .lower_limit = Length::millimetres(25),
-          .upper_limit = Length::nanometres(25'021'000),
-          .subgroup = subgroup};
+/// Values of 25 mm and some nanometres with the limits of 25 H7, numbered from `id` on.
+class Run {
+ public:
+  Run(std::int64_t id, std::vector<std::int64_t> nanometres,
+      std::optional<std::string> subgroup = {})
+      : subgroup_(std::move(subgroup)) {
+    for (const std::int64_t nm : nanometres) {
+      values_.push_back({id++, Length::nanometres(25'000'000 + nm)});
+    }
+  }
+  operator app::MeasuredRun() const {
+    return {.origin = {},
+            .lower_limit = Length::millimetres(25),
+            .upper_limit = upper_limit,
+            .subgroup = subgroup_,
+            .values = values_};
+  }
+
+  Length upper_limit = Length::nanometres(25'021'000);
+
+ private:
+  std::optional<std::string> subgroup_;
+  std::vector<app::MeasuredRun::Value> values_;
+};
+
+Run value(std::int64_t id, std::int64_t nanometres, std::optional<std::string> subgroup = {}) {
+  return {id, {nanometres}, std::move(subgroup)};
 }
 
 std::vector<std::int64_t> nanometres_of(const SelectedValues& selected) {
@@ -25,9 +48,9 @@ std::vector<std::int64_t> nanometres_of(const SelectedValues& selected) {
   return found;
 }
 
-ErrorCode by_subgroup_error(std::initializer_list<app::MeasuredValue> values) {
+ErrorCode by_subgroup_error(std::initializer_list<Run> values) {
   ValueSelection selection;
-  for (const app::MeasuredValue& one : values) REQUIRE(selection.add(one).has_value());
+  for (const Run& one : values) REQUIRE(selection.add(one).has_value());
   return std::move(selection).by_subgroup().error().code;
 }
 
@@ -76,6 +99,19 @@ TEST_CASE("subgroups stand in the order they begin in, their values in that of s
   CHECK(selected.subgroups == std::vector<std::string>{"b", "a"});
   CHECK(selected.first_id == "m1-");
   CHECK(selected.last_id == "m6-");
+}
+
+TEST_CASE("a run is taken as its values one by one") {
+  ValueSelection in_runs;
+  REQUIRE(in_runs.add(Run(1, {10, 11}, "b")).has_value());
+  REQUIRE(in_runs.add(Run(3, {20, 21, 22}, "a")).has_value());
+  REQUIRE(in_runs.add(Run(6, {12}, "b")).has_value());
+  const SelectedValues selected = std::move(in_runs).by_subgroup().value();
+  CHECK(nanometres_of(selected) == std::vector<std::int64_t>{10, 11, 12, 20, 21, 22});
+  CHECK(selected.subgroups == std::vector<std::string>{"b", "a"});
+  CHECK(selected.last_id == "m6-");
+  CHECK(by_subgroup_error({Run(1, {1, 2, 3}, "a"), Run(4, {1, 2}, "b")}) ==
+        ErrorCode::StatisticsUnbalanced);
 }
 
 TEST_CASE("subgroups that make no chart are refused") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "metrology/capability.hpp"
@@ -91,14 +92,15 @@ TEST_CASE("Anderson-Darling is scipy's") {
       if (in_values) REQUIRE(values.add(line).has_value());
       in_values = in_values || line == "values";
     }
-    const std::vector<Wide> rising = sorted(values.counts());
+    std::vector<Wide> rising(values.counts().begin(), values.counts().end());
+    std::sort(rising.begin(), rising.end());
     const auto n = static_cast<double>(rising.size());
     double mean = 0;  // from the least
     for (const Wide x : rising) mean += static_cast<double>(x - rising.front()) / n;
     double squares = 0;
     for (const Wide x : rising)
       squares += std::pow(static_cast<double>(x - rising.front()) - mean, 2);
-    return test_normality(rising, mean, std::sqrt(squares / (n - 1)));
+    return test_normality(Ranking(rising), mean, std::sqrt(squares / (n - 1)));
   };
   CHECK(statistic("Michelso").statistic == Approx(0.46076385565196176).epsilon(1e-9));
   CHECK(statistic("Lew").statistic == Approx(6.000646915775889).epsilon(1e-9));

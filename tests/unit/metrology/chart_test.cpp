@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <random>
 
 #include "metrology/chart_constants.hpp"
 #include "metrology/run_length.hpp"
@@ -28,6 +31,25 @@ std::vector<std::size_t> broken(int rule, const std::vector<double>& points) {
   return at;
 }
 
+/// The rules as the handbook words them, each looked for in the points before.
+bool is_broken(int rule, const std::vector<double>& points, std::size_t i) {
+  for (const double sign : {1.0, -1.0}) {
+    const auto among = [&](std::size_t last, double beyond) {
+      std::size_t count = 0;
+      for (std::size_t k = i + 1 - std::min(i + 1, last); k <= i; ++k) {
+        if (sign * points[k] > beyond) ++count;
+      }
+      return count;
+    };
+    const double here = sign * points[i];
+    if (rule == 1 && here > 3) return true;
+    if (rule == 2 && here > 2 && among(3, 2) >= 2) return true;
+    if (rule == 3 && here > 1 && among(5, 1) >= 4) return true;
+    if (rule == 4 && among(8, 0) == 8) return true;
+  }
+  return false;
+}
+
 using Indices = std::vector<std::size_t>;
 
 }  // namespace
@@ -51,6 +73,27 @@ TEST_CASE("chart constants are those of the tables, to all their digits") {
   CHECK(range_constants(2).d2 == Approx(2 / std::sqrt(M_PI)).epsilon(1e-14));
   CHECK(range_constants(2).d3 == Approx(std::sqrt(2 - 4 / M_PI)).epsilon(1e-12));
   CHECK(range_constants(3).d2 == Approx(3 / std::sqrt(M_PI)).epsilon(1e-14));
+}
+
+TEST_CASE("the rules found in one pass are those of their wording") {
+  std::mt19937_64 random(11);
+  for (const double drift : {0.0, 0.8, 2.0}) {
+    std::vector<double> points;
+    for (int i = 0; i < 20'000; ++i) {
+      // Whole numbers lie on the lines: not beyond them.
+      const double wander = drift * std::sin(i / 40.0);
+      const double x = std::normal_distribution(wander, 1.2)(random);
+      points.push_back(random() % 8 == 0 ? std::round(x) : x);
+    }
+    for (int rule = 1; rule <= ZoneRules::kCount; ++rule) {
+      Indices expected;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (is_broken(rule, points, i)) expected.push_back(i);
+      }
+      CHECK(expected.size() > 20);
+      CHECK(broken(rule, points) == expected);
+    }
+  }
 }
 
 TEST_CASE("the run lengths of every combination of rules are Champ and Woodall's") {
@@ -108,6 +151,24 @@ TEST_CASE("a value on a line between known decimals is not beyond it") {
                        .standard_deviation = deviation})
               .value();
       CHECK(charts.violations.empty());
+    }
+  }
+}
+
+TEST_CASE("the points of single values are the doubles that their text reads as") {
+  std::mt19937_64 random(12);
+  for (const char* whole :
+       {"25.", "0.", "123456789012."}) {  // the last are too long for one quotient
+    Subgroups data;
+    std::vector<std::string> texts;
+    for (int i = 0; i < 5'000; ++i) {
+      const std::string digits = std::to_string(1'000'000 + random() % 1'000'000);
+      texts.push_back(whole + digits.substr(1));
+      REQUIRE(data.values.add(texts.back()).has_value());
+    }
+    const ControlCharts charts = make_charts(data, {}).value();
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      REQUIRE(charts.charts[0].points[i] == std::strtod(texts[i].c_str(), nullptr));
     }
   }
 }

@@ -252,11 +252,18 @@ void check_values(Fixture& fixture, const MeasurementFilter& filter, std::size_t
   std::optional<std::int64_t> after = 0;
   while (after) {
     after = *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
-      return stores.measurements.list_values(filter, *after, page, [&](const MeasuredValue& value) {
-        found.push_back(fmt::format("{} {} {} {} {}", value.id, value.measured_nm,
-                                    value.lower_limit_nm, value.upper_limit_nm,
-                                    value.subgroup.value_or("none")));
-      });
+      std::size_t taken = 0;
+      const auto next =
+          stores.measurements.list_values(filter, *after, page, [&](const MeasuredRun& run) {
+            taken += run.values.size();
+            for (const MeasuredRun::Value& value : run.values) {
+              found.push_back(fmt::format("{} {} {} {} {}", value.id, value.measured_nm,
+                                          run.lower_limit_nm, run.upper_limit_nm,
+                                          run.subgroup.value_or("none")));
+            }
+          });
+      CHECK(taken <= page);
+      return next;
     });
   }
   CHECK(found == expected);

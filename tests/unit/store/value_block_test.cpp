@@ -43,16 +43,32 @@ TEST_CASE("the values of a block come back as they were") {
     const std::vector<MeasuredValue> values = any_values(random, kinds);
     const std::string bytes = encoded(values);
     REQUIRE(block.read(bytes));
+    RowSet some;
     for (std::int64_t row = 0; row < kBlock; ++row) {
-      const MeasuredValue& expected = values[static_cast<std::size_t>(row)];
-      const MeasuredValue found = block.value(7'000 + row, row);
-      REQUIRE(found.id == 7'000 + row);
-      REQUIRE(found.number == found.id);
-      REQUIRE(found.measured_nm == expected.measured_nm);
-      REQUIRE(found.lower_limit_nm == expected.lower_limit_nm);
-      REQUIRE(found.upper_limit_nm == expected.upper_limit_nm);
-      REQUIRE(found.subgroup == expected.subgroup);
+      if (random() % 3 != 0) some.add(row);
     }
+    constexpr std::int64_t kFirst = 7'168;
+    const IdSpan among{.first = kFirst + 5, .last = kFirst + kBlock - 9};
+    std::int64_t next = among.first;
+    const bool all = block.visit_runs(some, kFirst, among, [&](const MeasuredRun& run) {
+      REQUIRE(!run.values.empty());
+      for (const MeasuredRun::Value& found : run.values) {
+        while (!some.contains(next - kFirst)) ++next;
+        REQUIRE(found.id == next);
+        REQUIRE(found.number == found.id);
+        const MeasuredValue& expected = values[static_cast<std::size_t>(next++ - kFirst)];
+        REQUIRE(found.measured_nm == expected.measured_nm);
+        REQUIRE(run.lower_limit_nm == expected.lower_limit_nm);
+        REQUIRE(run.upper_limit_nm == expected.upper_limit_nm);
+        REQUIRE(run.subgroup == expected.subgroup);
+      }
+      return true;
+    });
+    CHECK(all);
+    while (next <= among.last && !some.contains(next - kFirst)) ++next;
+    CHECK(next == among.last + 1);
+    CHECK_FALSE(
+        block.visit_runs(RowSet::all(), kFirst, among, [](const MeasuredRun&) { return false; }));
   }
 }
 
