@@ -10,6 +10,7 @@ import { explain, number, signed, t } from '../i18n.js';
 import { go } from '../route.js';
 import { classNames, isoClass, tableRows } from '../tables/catalogue.js';
 import { OwnColumns } from '../tables/own_columns.js';
+import { mountStandard, standardChoice, STANDARDS } from '../tables/standards.js';
 
 const USUAL = {
   hole: ['F8', 'G7', 'H6', 'H7', 'H8', 'H9', 'H11', 'JS7', 'K7', 'N7', 'P7'],
@@ -19,6 +20,7 @@ const MOST_CLASSES = 24;
 const FEATURES = ['hole', 'shaft'];
 
 export function mount(main, route) {
+  if (STANDARDS.includes(route.path[0])) return mountStandard(main, route.path[0], route.options.find);
   const leaving = new AbortController();
   let feature = FEATURES.includes(route.path[0]) ? route.path[0] : 'hole';
   let names = null;
@@ -32,7 +34,7 @@ export function mount(main, route) {
   const own = new OwnColumns({ onChange: () => reload(), onShow: (name) => { find.value = name; refresh(); } });
 
   main.replaceChildren(h('div.desk.tables', h('h1.unseen', { tabindex: -1 }, t('view.tables')),
-    h('form.line', { onsubmit: (event) => event.preventDefault() }, features, field(t('tables.find'), find),
+    h('form.line', { onsubmit: (event) => event.preventDefault() }, standardChoice(), features, field(t('tables.find'), find),
       h('button', { type: 'button', onclick: copy }, t('tables.copy')),
       whole),
     note, table, own.element));

@@ -114,3 +114,49 @@ describe('other standards at the station', () => {
     assert.equal(await page.textContent('#trend-designation option:checked'), 'M10-6H');
   });
 });
+
+describe('the numbers of other standards', () => {
+  const texts = (table, row = 'tbody tr') => page.$$eval(`.standard [aria-label="${table}"] ${row} > *`, (all) => all.map((cell) => cell.textContent));
+
+  it('stand among the tables: keyways and bearings by size', async () => {
+    page = await open(browser, daemon, '#/tables/hole?find=25+H7');
+    await page.waitForSelector('.grid');
+    await page.selectOption('#standard', 'din6885-1');
+    await page.waitForSelector('.standard tbody tr');
+    assert.ok((await page.$$('.standard tbody tr')).length > 10, 'the whole table');
+    await page.fill('#find', '25');
+    await page.waitForFunction(() => document.querySelectorAll('.standard tbody tr').length === 1);
+    // DIN 6885-1: a shaft over 22 to 30 mm has a key of 8 x 7; 8 P9 is -15/-51 by ISO 286-2.
+    const keyways = 'Keyways by the diameter of the shaft';
+    assert.deepEqual((await texts(keyways, 'thead tr')).slice(0, 7), ['Over', 'Up to', 'Width', 'Height of the key', 'Depth in the shaft', 'Depth in the hub', 'Width P9']);
+    assert.deepEqual((await texts(keyways)).slice(0, 7), ['22', '30', '8', '7', '4+2000', '3.3+2000', '−15−51']);
+    assert.match(decodeURIComponent(page.url()), /#\/tables\/din6885-1\?find=25$/);
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'tables-keyways', { fullPage: true });
+    await page.selectOption('#standard', 'iso492');
+    await page.waitForSelector('.standard [aria-label^="Bores"]');
+    await page.fill('#find', '25');
+    await page.waitForFunction(() => document.querySelectorAll('.standard tbody tr').length === 2);
+    assert.deepEqual(await texts('Bores, mean diameter'), ['18', '30', '0−10', '0−8', '0−6']);
+    assert.deepEqual(await texts('Outer rings, mean diameter'), ['18', '30', '0−9', '0−8', '0−6']);
+    await page.fill('#find', '700');
+    await page.waitForFunction(() => document.querySelector('.note').textContent !== '');
+    await page.selectOption('#standard', 'hole');
+    await page.waitForSelector('.grid td');
+  });
+
+  it('have names in every language, and fit a phone', async () => {
+    for (const [locale, title] of [['en-GB', 'Width'], ['de-DE', 'Breite'], ['nl-NL', 'Breedte'], ['it-IT', 'Larghezza']]) {
+      page = await open(browser, daemon, '#/tables/din6885-1?find=25', { locale, viewport: { width: 390, height: 844 } });
+      for (const name of ['iso492', 'iso2768-1', 'iso965-1', 'din6885-1']) {
+        await page.selectOption('#standard', name);
+        await page.waitForFunction((wanted) => document.querySelector('.standard tbody tr') && document.querySelector('#standard').value === wanted, name);
+        assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390, `${locale} ${name}`);
+        assert.doesNotMatch(await page.textContent('main'), /tables\.|undefined|NaN|\b[a-z]+_[a-z]+/, `${locale} ${name}`);
+      }
+      assert.ok((await page.textContent('.standard thead')).includes(title), locale);
+      await close(page);
+    }
+    page = await open(browser, daemon, '#/tables');
+  });
+});
