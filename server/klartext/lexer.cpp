@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "klartext/spelling_hint.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -45,6 +46,21 @@ std::string without_tail(std::string text) {
   return text;
 }
 
+/// "; did you mean CALL?" for CALLL where CALL is expected, or nothing. Keywords are the words in
+/// capitals of what is expected.
+std::string similar_word(std::string_view expected, std::string_view found) {
+  SpellingHint hint(found);
+  const auto is_capital = [](char c) { return is_ascii_letter(c) && c == ascii_upper(c); };
+  const char* const end = expected.data() + expected.size();
+  for (const char* at = expected.data(); at != end;) {
+    const char* const word = std::find_if(at, end, is_ascii_letter);
+    at = std::find_if_not(word, end, is_ascii_letter);
+    const std::string_view keyword(word, static_cast<std::size_t>(at - word));
+    if (std::all_of(word, at, is_capital)) hint.consider(keyword);
+  }
+  return hint.text();
+}
+
 }  // namespace
 
 void Lexer::open(std::size_t begin, std::size_t end) {
@@ -75,9 +91,9 @@ void Lexer::fail_expected(std::string_view what) {
          fmt::format("expected {}, found the control character {}", what, int{*at_}));
     return;
   }
+  const std::string_view found(at_, static_cast<std::size_t>(word_end - at_));
   fail(DiagnosticCode::SyntaxError, place(at_, word_end),
-       fmt::format("expected {}, found '{}'", what,
-                   excerpt({at_, static_cast<std::size_t>(word_end - at_)})));
+       fmt::format("expected {}, found '{}'{}", what, excerpt(found), similar_word(what, found)));
 }
 
 void Lexer::refuse(const char* begin, std::string_view feature) {

@@ -142,8 +142,9 @@ bool at_cycle_parameter(const char* at, const char* end) {
 
 Statement parse_cycl(BlockReader& in) {
   if (in.accept_word("CALL")) return parse_cycle_call(in);
-  in.expect_joined("DEF");
-  return parse_cycle(in, CycleFamily::CyclDef);
+  if (in.accept_joined("DEF")) return parse_cycle(in, CycleFamily::CyclDef);
+  in.fail_expected("CALL or DEF");
+  return Empty{};
 }
 
 Statement parse_global(BlockReader& in) {

@@ -47,8 +47,9 @@ Statement parse_tool_definition(BlockReader& in) {
 
 Statement parse_tool(BlockReader& in) {
   if (in.accept_joined("CALL")) return parse_tool_call(in);
-  in.expect_joined("DEF");
-  return parse_tool_definition(in);
+  if (in.accept_joined("DEF")) return parse_tool_definition(in);
+  in.fail_expected("CALL or DEF");
+  return Empty{};
 }
 
 }  // namespace fitgauge::klartext

@@ -68,6 +68,9 @@ NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
     return move(machine, beside);
   }
   if (next.side != side_) {
+    if (next.side != 0 && side_ != 0) {
+      return nc_error(1021, "between RL and RR stands a block with R0 that moves in the plane");
+    }
     if (auto done = finish(machine); !done) return done;
     side_ = next.side;
     if (side_ != 0) return enter(machine, next);

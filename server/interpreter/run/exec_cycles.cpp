@@ -181,6 +181,42 @@ NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_
   return Next{};
 }
 
+namespace {
+
+/// CYCL CALL POS: goes there in the working plane. What it says of the tool axis shifts the cycle
+/// like a datum; the old cycles, which begin where the tool stands, and programs go there.
+NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
+  if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
+  machine::AxisWords target;
+  for (const machine::Axis axis : machine::kAllAxes) {
+    const auto& word = words.axes[machine::index(axis)];
+    if (!word) continue;
+    target[axis] =
+        word->incremental ? channel.machine().position()[axis] + word->value : word->value;
+  }
+  auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
+  const double surface = machining == nullptr ? 0 : machining->value(203);
+  const bool is_shifted = machining != nullptr && !machining->cycle->descriptor.dotted;
+  if (is_shifted) {
+    auto& height = target[channel.machine().state().tool_axis()];
+    machining->values[203] = surface + height.value_or(0);
+    height.reset();
+    ToolMotion motion(channel.machine(), channel.budget);
+    const double clearance = machining->value(203) + machining->value(200);
+    if (motion.height() < machining->value(203)) {
+      auto risen = motion.to_height(clearance, machine::Feed::rapid());
+      if (!risen) return risen.error();
+    }
+  }
+  const auto feed = words.feed.value_or(machine::Feed::rapid());
+  auto moved = checked(channel.machine().move({target, feed}));
+  auto next = moved ? call_active_cycle(channel) : NcResult<Next>(moved.error());
+  if (is_shifted) machining->values[203] = surface;
+  return next;
+}
+
+}  // namespace
+
 NcResult<Next> call_active_cycle(Channel& channel) {
   const auto& definition = channel.active_cycle.definition;
   if (const auto* program = std::get_if<ControlPath>(&definition)) {
@@ -199,17 +235,6 @@ NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call) {
   const auto words = read_words(channel, call.words);
   if (!words) return words.error();
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
-  if (call.kind == klartext::CycleCallKind::Position) {
-    machine::AxisWords target;
-    for (const machine::Axis axis : machine::kAllAxes) {
-      const auto& word = words->axes[machine::index(axis)];
-      if (!word) continue;
-      target[axis] =
-          word->incremental ? channel.machine().position()[axis] + word->value : word->value;
-    }
-    const auto feed = words->feed.value_or(machine::Feed::rapid());
-    if (auto moved = checked(channel.machine().move({target, feed})); !moved) return moved.error();
-  }
   if (call.kind == klartext::CycleCallKind::Pattern) {
     {
       const MovedByCycle moved(channel, channel.active_cycle.number);
@@ -217,7 +242,8 @@ NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call) {
     }
     return end_m_functions(channel, *words);
   }
-  auto next = call_active_cycle(channel);
+  const bool is_at_position = call.kind == klartext::CycleCallKind::Position;
+  auto next = is_at_position ? call_at_position(channel, *words) : call_active_cycle(channel);
   if (!next || next->kind != Next::Kind::Block) return next;
   return end_m_functions(channel, *words);
 }

@@ -172,6 +172,18 @@ TEST_CASE("220 and 221 run the cycle before them at each point") {
   CHECK(mill.last.messages.back().number == 1027);
 }
 
+TEST_CASE("CYCL CALL POS: the tool axis shifts the cycle like a datum") {
+  Workshop mill;
+  CHECK(mill.path(kDrill + "CYCL CALL POS X+20 Y+30 Z+5 F2000\nL X+0 Y+0 FMAX M99") ==
+        Lines{"L X+20 Y+30 Z+50 F2000", "L X+20 Y+30 Z+7 FMAX", "L X+20 Y+30 Z+2 F150",
+              "L X+20 Y+30 Z+7 FMAX", "L X+20 Y+30 Z+25 FMAX", "L X+0 Y+0 Z+25 FMAX",
+              "L X+0 Y+0 Z+2 FMAX", "L X+0 Y+0 Z-3 F150", "L X+0 Y+0 Z+2 FMAX",
+              "L X+0 Y+0 Z+20 FMAX"});
+  // From below the surface it rises first.
+  CHECK(mill.path(kDrill + "L Z-1 FMAX\nCYCL CALL POS X+20 Y+30 Z+0 FMAX")[1] ==
+        "L X+10 Y+10 Z+2 FMAX");
+}
+
 TEST_CASE("PATTERN DEF gives CYCL CALL PAT its points") {
   Workshop mill;
   const auto points = [&](const std::string& pattern) {
@@ -264,6 +276,13 @@ TEST_CASE("findings carry notes and what was probably meant") {
   REQUIRE(found.size() == 2);
   CHECK(found[0].message == "label \"UPP1\" is not defined in this program; did you mean UP1?");
   CHECK(found[1].message == "no block begins with 'CYCLE'; did you mean CYCL?");
+  control.program("TOOL CALLL 5\nCYCL DEFF 9.0\nPLANE SPATAIL SPA+0\nTOOL X");
+  found = control.diagnostics();
+  REQUIRE(found.size() == 4);
+  CHECK(found[0].message == "expected CALL or DEF, found 'CALLL'; did you mean CALL?");
+  CHECK(found[1].message == "expected CALL or DEF, found 'DEFF'; did you mean DEF?");
+  CHECK(found[2].message.ends_with("found 'SPATAIL'; did you mean SPATIAL?"));
+  CHECK(found[3].message == "expected CALL or DEF, found 'X'");
   control.file("main.h", "($Message)\nBEGIN PGM A MM\nEND PGM A MM\n");
   found = control.diagnostics();
   REQUIRE(found.size() == 1);

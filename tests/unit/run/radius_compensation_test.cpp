@@ -97,6 +97,14 @@ TEST_CASE("APPR and DEP begin and end beside the contour") {
         "L X+51 Y+6 F100");
 }
 
+TEST_CASE("RL and RR do not follow each other") {
+  Mill mill;
+  mill.path("L X+0 Y+0 RL F100\nL X+10 RR\nL Y+10");
+  CHECK(outcome(mill.last).find("between RL and RR stands a block with R0") != std::string::npos);
+  mill.path("L X+0 Y+0 RL F100\nL X+10\nL X+20 R0\nL Y+10 RR\nL X+0\nL X-10 R0");
+  CHECK(outcome(mill.last) == "completed");
+}
+
 TEST_CASE("what the tool does not fit into is an error with its place") {
   Mill mill;
   mill.path("L X+10 Y+10 RR F100\nL Y+30\nL X+13\nL Y+10\nL X+0 R0");
