@@ -1,12 +1,9 @@
 #include "cli/http_client.hpp"
 
-#include <curl/curl.h>
 #include <fmt/format.h>
 
-#include <array>
-
-#include "base/retry_after.hpp"
 #include "cli/address.hpp"
+#include "http_client/curl_handle.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -15,21 +12,10 @@ constexpr long kConnectSeconds = 5;
 constexpr long kAnswerSeconds = 120;
 constexpr long kSilenceSeconds = 45;  // the service sends a sign of life every 15 s
 constexpr long kUploadBuffer = 512L * 1024;
-constexpr const char* kUserAgent = "fitgauge/" FITGAUGE_VERSION;
-
-struct HeaderList {
-  HeaderList() = default;
-  HeaderList(const HeaderList&) = delete;
-  HeaderList& operator=(const HeaderList&) = delete;
-  ~HeaderList() { curl_slist_free_all(first); }
-  void add(const std::string& line) { first = curl_slist_append(first, line.c_str()); }
-
-  curl_slist* first = nullptr;
-};
 
 /// Where the pieces of the answer that is being read go.
 struct Reading {
-  CURL* curl;
+  const http_client::CurlHandle& handle;
   Answer answer{};
   const HttpClient::Sink* sink;
   bool ended_by_sink = false;
@@ -51,9 +37,7 @@ std::string_view advice_for(CURLcode code) {
 
 std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
   auto& reading = *static_cast<Reading*>(user);
-  if (reading.answer.status == 0) {
-    curl_easy_getinfo(reading.curl, CURLINFO_RESPONSE_CODE, &reading.answer.status);
-  }
+  if (reading.answer.status == 0) reading.answer.status = reading.handle.status();
   if (reading.sink == nullptr || !reading.answer.ok()) {
     reading.answer.body.append(data, size);
     return size;
@@ -63,34 +47,10 @@ std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
   return CURL_WRITEFUNC_ERROR;
 }
 
-std::size_t take_header(char* data, std::size_t, std::size_t size, void* user) {
-  if (const auto wait = retry_after({data, size}))
-    static_cast<Reading*>(user)->answer.retry_after = *wait;
-  return size;
-}
-
 }  // namespace
 
-struct HttpClient::Handle {
-  Handle() : curl(curl_easy_init()) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() { curl_easy_cleanup(curl); }
-
-  template <class Value>
-  void set(CURLoption option, Value value) {
-    curl_easy_setopt(curl, option, value);
-  }
-  void set_text(CURLoption option, const std::string& value) {
-    if (!value.empty()) set(option, value.c_str());
-  }
-
-  CURL* curl;
-  std::array<char, CURL_ERROR_SIZE> error{};
-};
-
 HttpClient::HttpClient(Connection connection)
-    : connection_(std::move(connection)), handle_(std::make_unique<Handle>()) {}
+    : connection_(std::move(connection)), handle_(std::make_unique<http_client::CurlHandle>()) {}
 HttpClient::~HttpClient() = default;
 HttpClient::HttpClient(HttpClient&&) noexcept = default;
 HttpClient& HttpClient::operator=(HttpClient&&) noexcept = default;
@@ -102,14 +62,14 @@ Outcome<Answer> HttpClient::stream(const Request& request, const Sink& sink) {
 }
 
 Outcome<Answer> HttpClient::perform(const Request& request, const Sink* sink) {
-  Handle& handle = *handle_;
-  curl_easy_reset(handle.curl);  // the options, not the connection
-  const std::string url = connection_.url + request.target;
-  handle.set_text(CURLOPT_URL, url);
-  handle.set_text(CURLOPT_CUSTOMREQUEST, request.method);
-  handle.set(CURLOPT_PROTOCOLS_STR, "http,https");
-  handle.set(CURLOPT_USERAGENT, kUserAgent);
-  handle.set(CURLOPT_NOSIGNAL, 1L);
+  http_client::CurlHandle& handle = *handle_;
+  std::vector<std::string> headers = request.headers;
+  // Empty, it keeps libcurl from naming the type of a web form.
+  headers.push_back("Content-Type:" +
+                    (request.content_type.empty() ? "" : ' ' + request.content_type));
+  if (!connection_.key.empty()) headers.push_back("Authorization: Bearer " + connection_.key);
+  handle.begin(connection_.url + request.target, request.method, headers, request.body);
+  handle.set(CURLOPT_UPLOAD_BUFFERSIZE, kUploadBuffer);
   handle.set(CURLOPT_CONNECTTIMEOUT, kConnectSeconds);
   if (is_loopback(connection_.url)) handle.set(CURLOPT_PROXY, "");
   handle.set_text(CURLOPT_CAINFO, connection_.authority_file);
@@ -121,39 +81,18 @@ Outcome<Answer> HttpClient::perform(const Request& request, const Sink* sink) {
     handle.set(CURLOPT_LOW_SPEED_LIMIT, 1L);
     handle.set(CURLOPT_LOW_SPEED_TIME, kSilenceSeconds);
   }
-
-  HeaderList headers;
-  headers.add("Expect:");  // no question whether a large body is welcome
-  // Empty, it keeps libcurl from naming the type of a web form.
-  headers.add("Content-Type:" + (request.content_type.empty() ? "" : ' ' + request.content_type));
-  if (!connection_.key.empty()) headers.add("Authorization: Bearer " + connection_.key);
-  for (const std::string& line : request.headers) headers.add(line);
-  handle.set(CURLOPT_HTTPHEADER, headers.first);
-  if (request.method != "GET") {
-    handle.set(CURLOPT_POSTFIELDS, request.body.data() == nullptr ? "" : request.body.data());
-    handle.set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(request.body.size()));
-    handle.set(CURLOPT_UPLOAD_BUFFERSIZE, kUploadBuffer);
-  }
-
-  Reading reading{.curl = handle.curl, .sink = sink};
+  Reading reading{.handle = handle, .sink = sink};
   handle.set(CURLOPT_WRITEFUNCTION, &take_body);
   handle.set(CURLOPT_WRITEDATA, &reading);
-  handle.set(CURLOPT_HEADERFUNCTION, &take_header);
-  handle.set(CURLOPT_HEADERDATA, &reading);
-  handle.error.front() = '\0';
-  handle.set(CURLOPT_ERRORBUFFER, handle.error.data());
 
-  const CURLcode code = curl_easy_perform(handle.curl);
+  const CURLcode code = handle.perform();
   if (code != CURLE_OK && !reading.ended_by_sink) {
-    const char* const reason =
-        handle.error.front() == '\0' ? curl_easy_strerror(code) : handle.error.data();
     return Failure{ExitCode::NoAnswer, fmt::format("no answer from {}: {}; {}", connection_.url,
-                                                   reason, advice_for(code))};
+                                                   handle.reason(code), advice_for(code))};
   }
-  curl_easy_getinfo(handle.curl, CURLINFO_RESPONSE_CODE, &reading.answer.status);
-  const char* type = nullptr;
-  curl_easy_getinfo(handle.curl, CURLINFO_CONTENT_TYPE, &type);
-  if (type != nullptr) reading.answer.content_type = type;
+  reading.answer.status = handle.status();
+  reading.answer.content_type = handle.content_type();
+  reading.answer.retry_after = handle.retry_after();
   return std::move(reading.answer);
 }
 

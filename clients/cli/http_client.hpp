@@ -10,6 +10,10 @@
 
 #include "cli/outcome.hpp"
 
+namespace fitgauge::http_client {
+class CurlHandle;
+}
+
 namespace fitgauge::cli {
 
 /// Where the service is and how one shows who one is.
@@ -62,11 +66,10 @@ class HttpClient {
   Outcome<Answer> stream(const Request& request, const Sink& sink);
 
  private:
-  struct Handle;
   Outcome<Answer> perform(const Request& request, const Sink* sink);
 
   Connection connection_;
-  std::unique_ptr<Handle> handle_;
+  std::unique_ptr<http_client::CurlHandle> handle_;
 };
 
 }  // namespace fitgauge::cli

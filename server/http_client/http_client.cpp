@@ -1,14 +1,10 @@
 #include "http_client/http_client.hpp"
 
 #include <arpa/inet.h>
-#include <curl/curl.h>
-#include <fmt/format.h>
 #include <sys/socket.h>
 
-#include <array>
-
-#include "base/retry_after.hpp"
 #include "http_client/address_check.hpp"
+#include "http_client/curl_handle.hpp"
 
 namespace fitgauge::http_client {
 
@@ -21,16 +17,6 @@ struct AddressGate {
 namespace {
 
 constexpr long kConnectSeconds = 10;
-
-struct HeaderList {
-  HeaderList() = default;
-  HeaderList(const HeaderList&) = delete;
-  HeaderList& operator=(const HeaderList&) = delete;
-  ~HeaderList() { curl_slist_free_all(first); }
-  void add(const std::string& line) { first = curl_slist_append(first, line.c_str()); }
-
-  curl_slist* first = nullptr;
-};
 
 /// The resolved address counts, not the name: a name may change its mind between two looks.
 curl_socket_t open_socket(void* user, curlsocktype, curl_sockaddr* address) {
@@ -55,32 +41,14 @@ std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
   return size;
 }
 
-std::size_t take_header(char* data, std::size_t, std::size_t size, void* user) {
-  if (const auto wait = retry_after({data, size}))
-    static_cast<HttpAnswer*>(user)->retry_after = *wait;
-  return size;
-}
-
 int look_around(void* user, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
   return (*static_cast<const std::function<bool()>*>(user))() ? 0 : 1;
 }
 
 }  // namespace
 
-struct HttpClient::Handle {
-  Handle() : curl(curl_easy_init()) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() { curl_easy_cleanup(curl); }
-
-  template <class Value>
-  void set(CURLoption option, Value value) {
-    curl_easy_setopt(curl, option, value);
-  }
-
-  CURL* curl;
+struct HttpClient::Handle : CurlHandle {
   AddressGate gate{};
-  std::array<char, CURL_ERROR_SIZE> error{};
 };
 
 HttpClient::HttpClient(HttpClientOptions options)
@@ -91,19 +59,12 @@ HttpClient::~HttpClient() = default;
 
 HttpAnswer HttpClient::call(const HttpCall& call, const std::function<bool()>& goes_on) {
   Handle& handle = *handle_;
-  curl_easy_reset(handle.curl);  // the options, not the connection
   HttpAnswer answer;
   TakenBody body{.text = answer.body, .longest = call.longest_answer};
-  HeaderList headers;
-  headers.add("Expect:");  // no question whether the body is welcome
-  for (const std::string& line : call.headers) headers.add(line);
-  handle.set(CURLOPT_URL, call.url.c_str());
-  handle.set(CURLOPT_PROTOCOLS_STR, "http,https");
-  handle.set(CURLOPT_USERAGENT, "fitgauge/" FITGAUGE_VERSION);
-  handle.set(CURLOPT_NOSIGNAL, 1L);
+  handle.begin(call.url, call.method, call.headers, call.body);
   handle.set(CURLOPT_QUICK_EXIT, 1L);  // a name that is looked up yet holds up no end
   if (!options_.may_ask_proxy) handle.set(CURLOPT_PROXY, "");
-  if (!options_.authorities.empty()) handle.set(CURLOPT_CAINFO, options_.authorities.c_str());
+  handle.set_text(CURLOPT_CAINFO, options_.authorities);
   handle.set(CURLOPT_CONNECTTIMEOUT, kConnectSeconds);
   handle.set(CURLOPT_TIMEOUT, static_cast<long>(call.timeout.count()));
   handle.set(CURLOPT_OPENSOCKETFUNCTION, &open_socket);
@@ -113,23 +74,15 @@ HttpAnswer HttpClient::call(const HttpCall& call, const std::function<bool()>& g
   handle.set(CURLOPT_XFERINFODATA, &goes_on);
   handle.set(CURLOPT_WRITEFUNCTION, &take_body);
   handle.set(CURLOPT_WRITEDATA, &body);
-  handle.set(CURLOPT_HEADERFUNCTION, &take_header);
-  handle.set(CURLOPT_HEADERDATA, &answer);
-  handle.set(CURLOPT_ERRORBUFFER, handle.error.data());
-  handle.set(CURLOPT_HTTPHEADER, headers.first);
-  if (std::string_view(call.method) != "GET") {
-    handle.set(CURLOPT_CUSTOMREQUEST, call.method);
-    handle.set(CURLOPT_POSTFIELDS, call.body.data());
-    handle.set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(call.body.size()));
-  }
-  handle.error.front() = '\0';
   handle.gate.has_refused = false;
 
-  const CURLcode code = curl_easy_perform(handle.curl);
-  curl_easy_getinfo(handle.curl, CURLINFO_RESPONSE_CODE, &answer.status);
-  if (code == CURLE_OK) return answer;
-  answer.status = 0;
-  answer.failure = handle.error.front() == '\0' ? curl_easy_strerror(code) : handle.error.data();
+  const CURLcode code = handle.perform();
+  answer.retry_after = handle.retry_after();
+  if (code == CURLE_OK) {
+    answer.status = handle.status();
+    return answer;
+  }
+  answer.failure = handle.reason(code);
   if (handle.gate.has_refused) {
     answer.failure =
         "its address is one of this machine or a private network: allow these by "

@@ -19,7 +19,7 @@ struct HttpClientOptions {
 
 /// What is asked for. The views need to last for the call alone.
 struct HttpCall {
-  const char* method = "POST";
+  std::string method = "POST";
   std::string url{};                   ///< http:// or https://
   std::vector<std::string> headers{};  ///< `Name: value`
   std::string_view body{};             ///< sent with every method but GET
