@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
 #include <optional>
 
 #include "postgres/listener.hpp"
@@ -32,7 +33,12 @@ class SharedDatabase final : public Database {
         writer_(writer_engine_),
         readers_(reader_engine_) {
     if (chosen.access != Access::Serve) return;
-    listener_.emplace(chosen.address, daemon, [this] { heard(); });
+    listener_.emplace(
+        chosen.address, daemon, [this](bool names) { heard(names); },
+        [this](Listener::Figures figures) {
+          const std::lock_guard lock(figures_mutex_);
+          figures_ = figures;
+        });
   }
 
   Writer& writer() override { return writer_; }
@@ -47,6 +53,11 @@ class SharedDatabase final : public Database {
   Health health() const override { return monitor_.health(); }
   const WriterCounters& writer_counters() const override { return writer_engine_.counters(); }
   std::size_t writer_queue() const override { return writer_engine_.queued(); }
+  std::size_t reader_queue() const override { return reader_engine_.queued(); }
+  std::optional<ServerFigures> server_figures() const override {
+    const std::lock_guard lock(figures_mutex_);
+    return figures_;
+  }
 
   Result<void> backup(const std::filesystem::path& /*file*/) const override {
     return not_here("backup", "pg_basebackup with archived WAL, or pg_dump --schema=fitgauge");
@@ -60,9 +71,12 @@ class SharedDatabase final : public Database {
     return std::make_unique<Session>(options_, clock_, daemon, names_);
   }
 
-  /// What is new is looked at in a transaction, which tells of changed names.
-  void heard() {
-    readers_.submit([](const Stores&) -> Result<bool> { return true; }, [](const Result<bool>&) {});
+  /// Any transaction tells of changed names.
+  void heard(bool names) {
+    if (names) {
+      readers_.submit([](const Stores&) -> Result<bool> { return true; },
+                      [](const Result<bool>&) {});
+    }
     if (options_.committed) options_.committed();
   }
 
@@ -74,6 +88,8 @@ class SharedDatabase final : public Database {
   ReadPool::Engine reader_engine_;
   Writer writer_;
   ReadPool readers_;
+  mutable std::mutex figures_mutex_;
+  Listener::Figures figures_;
   std::optional<Listener> listener_;
 };
 

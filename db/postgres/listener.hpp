@@ -2,10 +2,12 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "postgres/connection.hpp"
+#include "store/server_figures.hpp"
 
 namespace fitgauge::store::postgres {
 
@@ -14,11 +16,16 @@ inline constexpr int kDaemonLocks = 0x46744761;
 
 /// Hears of the commits of all daemons, on a connection and a thread of its own, and holds the lock
 /// that says this daemon lives. Where the connection is lost it is opened again, and what was not
-/// heard meanwhile counts as heard.
+/// heard meanwhile counts as heard. Every few seconds it looks at what the server says of itself.
 class Listener {
  public:
-  /// @param heard called on the thread, after one or more commits; must not block.
-  Listener(std::string address, std::int64_t daemon, std::function<void()> heard);
+  using Figures = std::optional<ServerFigures>;  ///< nothing while the server is away
+
+  /// @param heard called on the thread, after one or more commits, with whether one of them has
+  ///   changed names (store::postgres::Names); must not block.
+  /// @param told called on the thread with what is new; must not block.
+  Listener(std::string address, std::int64_t daemon, std::function<void(bool names)> heard,
+           std::function<void(Figures)> told);
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
   ~Listener();
@@ -29,7 +36,8 @@ class Listener {
 
   const std::string address_;
   const std::int64_t daemon_;
-  const std::function<void()> heard_;
+  const std::function<void(bool names)> heard_;
+  const std::function<void(Figures)> told_;
   std::jthread thread_;
 };
 

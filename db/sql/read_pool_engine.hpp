@@ -24,6 +24,8 @@ class ReadPool::Engine {
 
   void enqueue(std::unique_ptr<ReadJob> job) { queue_.push(std::move(job)); }
 
+  std::size_t queued() const { return queue_.size(); }
+
   /// Runs what is queued and ends the threads; what comes later is refused.
   void stop();
 

@@ -45,8 +45,10 @@ std::string_view of_the_dead(const sql::Connection& c) {
 struct RunsStore::Statements {
   explicit Statements(sql::Connection& c)
       : insert(c, kRuns.insert(c) + " RETURNING id"),
-        start(c, "UPDATE runs SET status = 2 WHERE id = ?"),
+        start(c, "UPDATE runs SET status = 2 WHERE id = ? AND status <> 8"),
         finish(c, "UPDATE runs SET status = ?2, result = ?3, finished_at = ?4 WHERE id = ?1"),
+        ask_to_cancel(c, "UPDATE runs SET status = 8 WHERE id = ?"),
+        to_be_cancelled(c, "SELECT id FROM runs WHERE finished_at IS NULL AND status = 8"),
         seal(c, kRuns),
         insert_trace(c, kRunTraces.insert(c)),
         insert_file(c, kRunFiles.insert(c)),
@@ -57,7 +59,8 @@ struct RunsStore::Statements {
         file(c, fmt::format("SELECT path, content, {} FROM run_files WHERE run = ? AND "
                             "name_key = ? ORDER BY path",
                             kRunFiles.is_sound(c))),
-        page(c, fmt::format("SELECT {}, {} FROM runs WHERE (?1 IS NULL OR status = ?1) "
+        page(c, fmt::format("SELECT {}, {} FROM runs WHERE (?1 IS NULL OR "
+                            "CASE status WHEN 8 THEN 2 ELSE status END = ?1) "
                             "AND (?2 IS NULL OR program_key = ?2) AND id < ?3 "
                             "ORDER BY id DESC LIMIT ?4",
                             kRun, kRuns.is_sound(c))),
@@ -65,8 +68,8 @@ struct RunsStore::Statements {
                                  "LIMIT ?",
                                  kRun, kRuns.is_sound(c), of_the_dead(c))),
         take_over(c,
-                  fmt::format("UPDATE runs SET status = 1{} WHERE id = ? AND finished_at IS "
-                              "NULL{} RETURNING 1",
+                  fmt::format("UPDATE runs SET status = CASE status WHEN 8 THEN 8 ELSE 1 END{} "
+                              "WHERE id = ? AND finished_at IS NULL{} RETURNING 1",
                               c.dialect().is_shared ? ", daemon = DEFAULT" : "", of_the_dead(c))),
         purge(c,
               "DELETE FROM runs WHERE id IN "
@@ -84,6 +87,8 @@ struct RunsStore::Statements {
   sql::Statement insert;
   sql::Statement start;
   sql::Statement finish;
+  sql::Statement ask_to_cancel;
+  sql::Statement to_be_cancelled;
   Seal seal;
   sql::Statement insert_trace;
   sql::Statement insert_file;
@@ -125,6 +130,26 @@ Result<void> RunsStore::finish(std::int64_t id, const RunOutcome& outcome, std::
     statements_->insert_file.run(id, key, file.path, Blob{file.content});
   }
   return {};
+}
+
+Result<void> RunsStore::ask_to_cancel(std::int64_t id) {
+  if (Result<void> open = statements_->require_unfinished(id); !open) return open;
+  statements_->ask_to_cancel.run(id);
+  statements_->seal.renew(id);
+  return {};
+}
+
+std::vector<std::int64_t> RunsStore::to_be_cancelled() const {
+  std::vector<std::int64_t> ids;
+  for (Rows rows = statements_->to_be_cancelled.query(); rows.next();) {
+    ids.push_back(rows.get<std::int64_t>(0));
+  }
+  return ids;
+}
+
+std::optional<RunStatus> RunsStore::status(std::int64_t id) const {
+  Rows rows = statements_->status.query(id);
+  return rows.next() ? std::optional(rows.get<RunStatus>(0)) : std::nullopt;
 }
 
 std::optional<Run> RunsStore::find(std::int64_t id) const {

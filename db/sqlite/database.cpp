@@ -51,6 +51,7 @@ class FileDatabase final : public Database {
   Health health() const override { return monitor_.health(); }
   const WriterCounters& writer_counters() const override { return writer_engine_.counters(); }
   std::size_t writer_queue() const override { return writer_engine_.queued(); }
+  std::size_t reader_queue() const override { return reader_engine_.queued(); }
 
   Result<void> backup(const std::filesystem::path& file) const override {
     return copy_database(file_, file);

@@ -8,6 +8,7 @@
 
 #include "store/health.hpp"
 #include "store/read_pool.hpp"
+#include "store/server_figures.hpp"
 #include "store/verify.hpp"
 #include "store/writer.hpp"
 #include "store/writer_counters.hpp"
@@ -35,6 +36,11 @@ class Database {
   virtual const WriterCounters& writer_counters() const = 0;
   /// Jobs that wait for the writer.
   virtual std::size_t writer_queue() const = 0;
+  /// Jobs that wait for a reader.
+  virtual std::size_t reader_queue() const = 0;
+  /// What the server said a few seconds ago; nothing where there is none or it is away. Does not
+  /// wait.
+  virtual std::optional<ServerFigures> server_figures() const { return std::nullopt; }
 
   /// Writes a consistent copy of the live database to a new file, on disk when it returns.
   /// Blocks; for commands and background threads.

@@ -26,10 +26,13 @@ enum class RunStatus : std::uint8_t {
   Failed = 5,
   LimitExceeded = 6,
   Cancelled = 7,
+  Cancelling = 8,  ///< not over yet; another daemon of the database has asked the one that runs it
 };
-constexpr RunStatus last_of(RunStatus) { return RunStatus::Cancelled; }
+constexpr RunStatus last_of(RunStatus) { return RunStatus::Cancelling; }
 
-constexpr bool is_finished(RunStatus status) { return status >= RunStatus::Completed; }
+constexpr bool is_finished(RunStatus status) {
+  return status >= RunStatus::Completed && status <= RunStatus::Cancelled;
+}
 
 struct Run {
   std::int64_t id = 0;
@@ -75,6 +78,13 @@ class RunsStore {
   Result<void> start(std::int64_t id);
   Result<void> finish(std::int64_t id, const RunOutcome& outcome, std::int64_t now_ns);
 
+  /// Asks the daemon that runs it to end it; where that one dies, who takes the run over ends it.
+  /// @errors RunUnknown; RunFinished when it is over.
+  Result<void> ask_to_cancel(std::int64_t id);
+  /// Runs that are to be ended and are not over. For a database that daemons share.
+  std::vector<std::int64_t> to_be_cancelled() const;
+
+  std::optional<RunStatus> status(std::int64_t id) const;
   std::optional<Run> find(std::int64_t id) const;
   std::optional<std::string> trace(std::int64_t id) const;
   /// The file of a run by its name (the last part of its path), without regard to ASCII case.

@@ -168,6 +168,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     };
   }
   app->directory_ = options.directory;
+  app->is_on_server_ = !options.address.empty();
   open_options.names_changed = [app = app.get()](const store::Stores& stores) {
     return app->stage_ == Stage::Open && app->take_names(stores);
   };
@@ -259,6 +260,17 @@ WriterFigures Application::writer() const {
           .batch_jobs = counters.batch_jobs,
           .failures = counters.failed_commits,
           .log_pages = counters.log_pages};
+}
+
+StorageFigures Application::storage() const {
+  StorageFigures figures{.readers_queued = database_->reader_queue(),
+                         .is_on_server = is_on_server_};
+  if (const auto server = database_->server_figures()) {
+    figures.server_bytes = server->database_bytes;
+    figures.standbys = server->standbys;
+    figures.standby_behind_bytes = server->standby_behind_bytes;
+  }
+  return figures;
 }
 
 Readiness Application::readiness() const { return app::readiness(*database_, *tables_, *log_); }

@@ -25,6 +25,7 @@
 #include "app/service/event_service.hpp"
 #include "app/service/key_service.hpp"
 #include "app/service/readiness.hpp"
+#include "app/service/storage_figures.hpp"
 #include "app/service/writer_figures.hpp"
 #include "app/tables/table_catalog.hpp"
 
@@ -91,6 +92,7 @@ class Application {
 
   Readiness readiness() const;
   WriterFigures writer() const;
+  StorageFigures storage() const;
 
   // These block: for the start and for commands.
 
@@ -121,6 +123,7 @@ class Application {
 
   // Declared in the order of construction: each member uses only those above it.
   std::filesystem::path directory_;
+  bool is_on_server_ = false;
   CommitSignal committed_;
   enum class Stage { Opening, Open, Closing };
   std::atomic<Stage> stage_ = Stage::Opening;

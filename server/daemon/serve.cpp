@@ -219,7 +219,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
     verdicts->write(out);
     write_application_metrics(app, out);
     write_clock_metrics(clock, machine_clock, out);
-    write_storage_metrics(config.data, out);
+    write_storage_metrics(app, config.data, out);
     write_process_metrics(out);
     write_connection_metrics(outside.states(), clock, out);
     write_outbox_metrics(forwarding.get(), clock, out);

@@ -88,8 +88,6 @@ void write_application_metrics(app::Application& app, api::Exposition& out) {
       .sample(writer.commit_seconds);
   out.counter("fitgauge_writer_failures_total", "Commits and maintenance steps that failed")
       .sample(static_cast<double>(writer.failures));
-  out.gauge("fitgauge_wal_pages", "Pages in the write-ahead log after the last commit")
-      .sample(static_cast<double>(writer.log_pages));
   out.gauge("fitgauge_event_readers", "Open streams of /v1/events, and outgoing connections")
       .sample(static_cast<double>(app.events().readers()));
   const app::RunService::Counts runs = app.runs().counts();
@@ -112,14 +110,35 @@ void write_clock_metrics(const Clock& clock, const Clock& machine, api::Expositi
       .sample(static_cast<double>(std::max<std::int64_t>(ahead, 0)) / 1e9);
 }
 
-void write_storage_metrics(const fs::path& folder, api::Exposition& out) {
-  out.gauge("fitgauge_database_bytes", "Size of the database's files")
-      .sample(size_of(folder / "fitgauge.db"), {{"file", "database"}});
-  out.sample(size_of(folder / "fitgauge.db-wal"), {{"file", "wal"}});
+void write_storage_metrics(const app::Application& app, const fs::path& folder,
+                           api::Exposition& out) {
+  const app::StorageFigures storage = app.storage();
+  const auto sample = [&out](const auto& value) {
+    if (value) out.sample(static_cast<double>(*value));
+  };
+  out.gauge("fitgauge_reader_queue_jobs", "Jobs that wait for a reader of the database")
+      .sample(static_cast<double>(storage.readers_queued));
+  // Every family is told; samples have those that the engine knows.
+  out.gauge("fitgauge_database_standbys", "Servers that follow the database's");
+  sample(storage.standbys);
+  out.gauge("fitgauge_database_standby_behind_bytes",
+            "Of the write-ahead log that the last of them does not have on its disk");
+  sample(storage.standby_behind_bytes);
   struct statvfs space {};
-  if (statvfs(folder.c_str(), &space) != 0) return;
-  out.gauge("fitgauge_storage_free_bytes", "Free space where the database lies")
-      .sample(static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize));
+  const bool has_files = !storage.is_on_server && statvfs(folder.c_str(), &space) == 0;
+  out.gauge("fitgauge_storage_free_bytes", "Free space where the database lies");
+  if (has_files) {
+    out.sample(static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize));
+  }
+  out.gauge("fitgauge_wal_pages", "Pages in the write-ahead log after the last commit");
+  if (has_files) out.sample(static_cast<double>(app.writer().log_pages));
+  out.gauge("fitgauge_database_bytes", "Size of the database");
+  if (storage.server_bytes) {
+    out.sample(static_cast<double>(*storage.server_bytes), {{"file", "database"}});
+  }
+  if (!has_files) return;
+  out.sample(size_of(folder / "fitgauge.db"), {{"file", "database"}});
+  out.sample(size_of(folder / "fitgauge.db-wal"), {{"file", "wal"}});
 }
 
 void write_connection_metrics(const std::vector<app::ConnectionState>& connections,

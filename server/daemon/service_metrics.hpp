@@ -16,8 +16,9 @@ void write_server_metrics(const http::Server& server, api::Exposition& out);
 void write_application_metrics(app::Application& app, api::Exposition& out);
 /// @param clock how far it is ahead of `machine`, which was set back.
 void write_clock_metrics(const Clock& clock, const Clock& machine, api::Exposition& out);
-/// The database's files and the free space beside them.
-void write_storage_metrics(const std::filesystem::path& folder, api::Exposition& out);
+/// The database's files and the free space beside them, or what its server says of itself.
+void write_storage_metrics(const app::Application& app, const std::filesystem::path& folder,
+                           api::Exposition& out);
 /// `process_*` as Prometheus' own clients name them, and the log's lost lines.
 void write_process_metrics(api::Exposition& out);
 

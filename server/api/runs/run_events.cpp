@@ -35,6 +35,20 @@ std::size_t lines_had(std::optional<std::string_view> last) {
   return lines;
 }
 
+/// The lines of a report's screen that a reader has not had. @errors StorageCorrupt.
+Result<void> append_screen(std::string& out, const std::string& report, std::size_t had) {
+  const auto screen = stored_member(report, "screen", "report of a run");
+  if (!screen) return screen.error();
+  if (screen->empty()) return {};
+  std::size_t number = 0;
+  const auto read = parse_stored_json(*screen, "report of a run", [&](const JsonValue& line) {
+    if (++number > had) append_line(out, line.text, number);
+    return true;
+  });
+  if (!read) return read.error();
+  return {};
+}
+
 /// Follows one run; a slow reader gets what has happened meanwhile in one piece.
 class RunEventStream final : public http::BodyStream,
                              public std::enable_shared_from_this<RunEventStream> {
@@ -73,6 +87,8 @@ class RunEventStream final : public http::BodyStream,
       return sink->put(std::move(piece));
     }
     if (!*news.end) return sink->fail();
+    // What another daemon's run has printed is known at its end.
+    if (!append_screen(piece, (*news.end)->report, seen_lines_)) return sink->fail();
     append_event(piece, kEnd, kEnd, (*news.end)->report);
     sink->finish(std::move(piece));
   }
@@ -96,18 +112,8 @@ http::Response run_events(std::shared_ptr<app::ActiveRun> run,
 Result<http::Response> finished_run_events(const std::string& report,
                                            std::optional<std::string_view> last) {
   if (last == kEnd) return http::Response(204);
-  const auto screen = stored_member(report, "screen", "report of a run");
-  if (!screen) return screen.error();
   std::string body;
-  std::size_t number = 0;
-  const std::size_t had = lines_had(last);
-  if (!screen->empty()) {
-    const auto read = parse_stored_json(*screen, "report of a run", [&](const JsonValue& line) {
-      if (++number > had) append_line(body, line.text, number);
-      return true;
-    });
-    if (!read) return read.error();
-  }
+  if (auto told = append_screen(body, report, lines_had(last)); !told) return told.error();
   append_event(body, kEnd, kEnd, report);
   return event_response(std::move(body));
 }

@@ -138,43 +138,21 @@ void get_events(const Services& services, const http::Request& request, http::Re
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const auto last = last_event_id(request);
-  if (auto active = services.runs.active(*id)) {
-    return responder.answer(run_events(std::move(active), last));
-  }
-  services.runs.find(*id, [last, shared = share(std::move(responder))](Result<app::StoredRun> run) {
-    if (!run) return shared->fail(run.error());
-    const std::string& report = run->report;
-    answer(*shared, finished_run_events(report.empty() ? unfinished_run_json(*run) : report, last));
-  });
+  services.runs.follow(
+      *id, [last, shared = share(std::move(responder))](Result<app::RunService::Followed> run) {
+        if (!run) return shared->fail(run.error());
+        if (run->active) return shared->answer(run_events(std::move(run->active), last));
+        answer(*shared, finished_run_events(run->stored.report, last));
+      });
 }
 
-Error finished(const std::string& id) {
-  return {ErrorCode::RunFinished, "run '" + id + "' is over and can no longer be cancelled"};
-}
-
-/// Of daemons that share a database, the one that runs it ends it.
-Error elsewhere(const std::string& id) {
-  return {ErrorCode::RunUnfinished,
-          "run '" + id + "' is under way at another daemon of this database: cancel it there"};
-}
-
-/// Answers when the run has ended, so that its status tells whether it was in time. A run that has
-/// ended may still be active until it is stored.
+/// Answers when the run has ended, so that its status tells whether it was in time.
 void cancel_run(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
-  const auto shared = share(std::move(responder));
-  if (const auto active = services.runs.active(*id); active && !active->news(0).end) {
-    active->on_end([id = active->id_text(), shared](const Result<app::FinishedRun>& end) {
-      if (!end) return shared->fail(end.error());
-      if (end->state != app::RunState::Cancelled) return shared->fail(finished(id));
-      shared->answer(http::Response(204));
-    });
-    return services.runs.cancel(active);
-  }
-  services.runs.find(*id, [shared](const Result<app::StoredRun>& run) {
-    if (!run) return shared->fail(run.error());
-    shared->fail(run->report.empty() ? elsewhere(run->id_text()) : finished(run->id_text()));
+  services.runs.cancel(*id, [shared = share(std::move(responder))](const Result<void>& cancelled) {
+    if (!cancelled) return shared->fail(cancelled.error());
+    shared->answer(http::Response(204));
   });
 }
 

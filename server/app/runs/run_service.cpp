@@ -40,6 +40,15 @@ Result<void> RunService::open(RunFormat format) {
   format_ = std::move(format);
   if (!options_.shares) return close_interrupted();
   looking_ = std::jthread([this](const std::stop_token& stop) { look_for_abandoned(stop); });
+  const auto has_any = [this] {
+    const std::lock_guard lock(mutex_);
+    return !active_.empty();
+  };
+  const auto cancel_own = [this](std::int64_t id) {
+    const auto own = active(id);
+    if (own && !own->stop_token().stop_requested()) cancel(own);
+  };
+  shared_ = std::make_unique<SharedRuns>(database_, SharedRuns::Own{has_any, cancel_own});
   return {};
 }
 
@@ -47,6 +56,7 @@ void RunService::stop() {
   stopping_.request_stop();
   looking_.request_stop();
   if (looking_.joinable()) looking_.join();
+  if (shared_) shared_->stop();
   preparing_.stop();
   {
     const std::lock_guard lock(mutex_);

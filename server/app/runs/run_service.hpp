@@ -19,13 +19,11 @@
 #include "app/runs/run_executor.hpp"
 #include "app/runs/run_report.hpp"
 #include "app/runs/run_trace.hpp"
+#include "app/runs/shared_runs.hpp"
+#include "app/runs/stored_run.hpp"
 #include "app/runs/worker_pool.hpp"
 #include "app/tables/live_tables.hpp"
 #include "klartext/diagnostic.hpp"
-
-namespace fitgauge::store {
-struct Run;
-}
 
 namespace fitgauge::app {
 
@@ -34,20 +32,6 @@ struct RunServiceOptions {
   std::size_t queue = 64;     ///< runs that wait for a worker
   bool shares = false;        ///< other daemons have runs in the same database
   bool keeps_newest = false;  ///< for a control that shows what its machine does
-};
-
-/// A run as the store has it.
-struct StoredRun {
-  std::int64_t id = 0;
-  std::string_view origin;  ///< of the data folder
-  RunState state = RunState::Queued;
-  std::string program;
-  std::string request;
-  std::string report;  ///< empty until it is over
-  Timestamp created_at;
-  std::optional<Timestamp> finished_at;
-
-  std::string id_text() const { return run_id_text(id, origin); }
 };
 
 struct RunQuery {
@@ -136,6 +120,17 @@ class RunService {
 
   /// Ends a run that is queued or under way soon; a queued one without waiting for a worker.
   void cancel(const std::shared_ptr<ActiveRun>& active);
+  /// The same of a run by its id, also of one that another daemon of the database runs. `done`
+  /// comes when it is cancelled. @errors RunUnknown; RunFinished where it came to another end.
+  void cancel(std::int64_t id, Done<void> done);
+
+  /// A run for those who wait for its end.
+  struct Followed {
+    std::shared_ptr<ActiveRun> active;  ///< here or at another daemon; null for one that is over
+    StoredRun stored;                   ///< where it is over
+  };
+  /// @errors RunUnknown, StorageUnavailable.
+  void follow(std::int64_t id, Done<Followed> done);
 
   /// @errors RunUnknown, StorageUnavailable.
   void find(std::int64_t id, Done<StoredRun> done);
@@ -194,7 +189,8 @@ class RunService {
   // The workers end before what they use.
   WorkerPool preparing_;
   WorkerPool running_;
-  std::jthread looking_;  ///< for abandoned runs
+  std::jthread looking_;                ///< for abandoned runs
+  std::unique_ptr<SharedRuns> shared_;  ///< where daemons share the database
 };
 
 }  // namespace fitgauge::app

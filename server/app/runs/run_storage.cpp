@@ -9,6 +9,7 @@
 #include "app/measurements/measurement_storage.hpp"
 #include "app/runs/run_measurements.hpp"
 #include "app/runs/run_service.hpp"
+#include "app/runs/stored_run.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -21,47 +22,12 @@ constexpr std::string_view kFinishedEvent = "run.finished";
 /// Runs a start looks at together.
 constexpr std::size_t kPage = 100;
 
-store::RunStatus run_status(RunState state) {
-  switch (state) {
-    case RunState::Queued: return store::RunStatus::Queued;
-    case RunState::Running: return store::RunStatus::Running;
-    case RunState::Completed: return store::RunStatus::Completed;
-    case RunState::Stopped: return store::RunStatus::Stopped;
-    case RunState::Failed: return store::RunStatus::Failed;
-    case RunState::LimitExceeded: return store::RunStatus::LimitExceeded;
-    case RunState::Cancelled: break;
-  }
-  return store::RunStatus::Cancelled;
-}
-
-RunState run_state(store::RunStatus status) {
-  switch (status) {
-    case store::RunStatus::Queued: return RunState::Queued;
-    case store::RunStatus::Running: return RunState::Running;
-    case store::RunStatus::Completed: return RunState::Completed;
-    case store::RunStatus::Stopped: return RunState::Stopped;
-    case store::RunStatus::Failed: return RunState::Failed;
-    case store::RunStatus::LimitExceeded: return RunState::LimitExceeded;
-    case store::RunStatus::Cancelled: break;
-  }
-  return RunState::Cancelled;
-}
-
-StoredRun stored_run(store::Run run, std::string_view origin) {
-  StoredRun stored{.id = run.id,
-                   .origin = origin,
-                   .state = run_state(run.status),
-                   .program = std::move(run.program),
-                   .request = std::move(run.request),
-                   .report = std::move(run.result),
-                   .created_at = {run.created_at_ns},
-                   .finished_at = {}};
-  if (run.finished_at_ns) stored.finished_at = Timestamp{*run.finished_at_ns};
-  return stored;
-}
-
 Error unknown_run(const std::string& id) {
   return {ErrorCode::RunUnknown, "there is no run '" + id + "'"};
+}
+
+Error too_late(const std::string& id) {
+  return {ErrorCode::RunFinished, "run '" + id + "' is over and can no longer be cancelled"};
 }
 
 }  // namespace
@@ -204,6 +170,40 @@ void RunService::find(std::int64_t id, Done<StoredRun> done) {
         return stored_run(*std::move(run), origin_);
       },
       std::move(done));
+}
+
+void RunService::follow(std::int64_t id, Done<Followed> done) {
+  if (auto own = active(id)) return done(Followed{std::move(own), {}});
+  find(id, [this, id, done = std::move(done)](Result<StoredRun> run) {
+    if (!run) return done(run.error());
+    if (!run->report.empty()) return done(Followed{nullptr, *std::move(run)});
+    // Between its row and its place in the queue a run is nobody's for a moment.
+    auto followed = shared_ ? shared_->follow(*run) : active(id);
+    if (followed) return done(Followed{std::move(followed), {}});
+    done(Error{ErrorCode::StorageBusy, "run '" + run->id_text() + "' is being queued; try again"});
+  });
+}
+
+void RunService::cancel(std::int64_t id, Done<void> done) {
+  const auto at_end = [id_text = run_id_text(id, origin_), done](const Result<FinishedRun>& end) {
+    if (!end) return done(end.error());
+    done(end->state == RunState::Cancelled ? Result<void>() : too_late(id_text));
+  };
+  if (const auto own = active(id); own && !own->news(0).end) {
+    own->on_end(at_end);
+    return cancel(own);
+  }
+  follow(id, [this, id, at_end, done](Result<Followed> run) {
+    if (!run) return done(run.error());
+    if (!run->active) return done(too_late(run->stored.id_text()));
+    database_.writer().submit(
+        [id](store::Stores& stores) { return stores.runs.ask_to_cancel(id); },
+        [run = std::move(run->active), at_end, done](const Result<void>& asked) {
+          // One that has ended meanwhile tells how.
+          if (!asked && asked.error().code != ErrorCode::RunFinished) return done(asked.error());
+          run->on_end([run, at_end](const Result<FinishedRun>& end) { at_end(end); });
+        });
+  });
 }
 
 void RunService::trace(std::int64_t id, Done<TraceReader> done) {

@@ -10,6 +10,8 @@ import http.client
 import json
 import os
 import random
+import re
+import signal
 import subprocess
 import threading
 import time
@@ -125,6 +127,8 @@ class Shared(unittest.TestCase):
         front = FrontDoor(daemons).start()
         self.addCleanup(front.cleanup)
         front.measure({"designation": "25 H7", "measured_mm": "25.013", "part_id": "first"})
+        self.wait_until_told(daemons[0], "fitgauge_database_standbys 1\n")
+        self.assertRegex(daemons[0].get("/metrics").text, r"\nfitgauge_database_standby_behind_bytes \d")
         followers = [ListFollower(front), EventFollower(front)]
         followers[1].last = "m0.e0"
         for follower in followers:
@@ -171,6 +175,12 @@ class Shared(unittest.TestCase):
             self.assertIn("PostgreSQL", daemon.get("/readyz").text)
         standby.promote()
         self.wait_until_ready(living, 200)
+
+    def wait_until_told(self, daemon, line, patience=30):
+        deadline = time.monotonic() + patience
+        while line not in daemon.get("/metrics").text:
+            self.assertLess(time.monotonic(), deadline, line)
+            time.sleep(0.1)
 
     def wait_until_ready(self, daemons, status, patience=60):
         deadline = time.monotonic() + patience
@@ -276,7 +286,9 @@ class Together(unittest.TestCase):
     def test_the_log_is_one(self):
         record = self.one.measure({"designation": "25 H7", "measured_mm": "25.013"}).json
         self.assertEqual(self.other.get(f"/v1/measurements/{record['id']}/proof").status, 200)
-        self.assertEqual(self.one.get("/v1/log/key").text.count("\n"), 2)
+        keys = self.one.get("/v1/log/key").text
+        self.assertGreaterEqual(keys.count("\n"), 2, "each daemon has one")
+        self.assertEqual(sorted(keys.splitlines()), sorted(self.other.get("/v1/log/key").text.splitlines()))
 
     def test_a_run_of_one_is_known_to_the_other(self):
         self.one.request("PUT", "/v1/files/nc_prog/R.H", "BEGIN PGM R MM\nFN 0: Q1 = +7\nEND PGM R MM\n",
@@ -303,6 +315,82 @@ class Together(unittest.TestCase):
             time.sleep(0.2)
         self.assertEqual(run["status"], "limit_exceeded", run)
         self.assertEqual(run, self.one.get(place).json)
+
+    def endless_run(self, daemon):
+        """Starts a run that only a cancellation or a minute ends. @returns its place"""
+        self.one.request("PUT", "/v1/files/nc_prog/ENDLESS.H",
+                         "BEGIN PGM ENDLESS MM\nFN 16: F-PRINT BEGUN.A / SCREEN:\nLBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\n"
+                         "END PGM ENDLESS MM\n", {"Content-Type": "text/plain"})
+        self.one.request("PUT", "/v1/files/nc_prog/BEGUN.A", '"BEGUN";\n', {"Content-Type": "text/plain"})
+        order = {"program": "TNC:\\nc_prog\\ENDLESS.H", "limits": {"blocks": 100_000_000, "seconds": 60}}
+        begun = daemon.post("/v1/runs", order, {"Prefer": "respond-async"})
+        self.assertEqual(begun.status, 202, begun)
+        return begun.headers["location"]
+
+    def wait_for(self, condition, what, patience=60):
+        deadline = time.monotonic() + patience
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, what)
+            time.sleep(0.05)
+
+    def test_a_run_is_cancelled_and_followed_at_either_daemon(self):
+        for runs, asks in ((self.one, self.other), (self.other, self.one)):
+            place, beside = self.endless_run(runs), self.endless_run(runs)
+            for run in (place, beside):
+                self.wait_for(lambda run=run: asks.get(run).json["status"] == "running", "it runs")
+            listed = asks.get("/v1/runs?status=running").json["runs"]
+            self.assertEqual(len(listed), 2, listed)
+            with asks.client() as client:
+                events = client.run_events(place.rsplit("/", 1)[1])
+                self.assertEqual(next(events).data["status"], "running")
+                cancelled = asks.request("DELETE", place)
+                self.assertEqual(cancelled.status, 204, cancelled)
+                told = list(events)
+            run = runs.get(place).json
+            self.assertEqual(run["status"], "cancelled")
+            self.assertEqual(asks.get(place).json, run)
+            self.assertEqual([event.type for event in told if event.type != "progress"], ["output", "end"])
+            self.assertEqual((told[-2].data, told[-1].data), ({"line": "BEGUN"}, run))
+            for daemon in (runs, asks):
+                again = daemon.request("DELETE", place)
+                self.assertEqual((again.status, again.json["code"]), (409, "run.finished"))
+            # The one that nobody cancelled goes on.
+            self.assertEqual(runs.get(beside).json["status"], "running")
+            self.assertEqual(runs.request("DELETE", beside).status, 204)
+            self.assertEqual(asks.request("DELETE", "/v1/runs/r999999").status, 404)
+
+    def test_a_run_that_is_to_be_cancelled_is_not_run_again(self):
+        """Its daemon stands still and dies before it can look: whoever takes the run over ends it."""
+        killed, = daemons_on(self.cluster.address(), 1)
+        self.addCleanup(killed.cleanup)
+        place = self.endless_run(killed)
+        self.wait_for(lambda: self.other.get(place).json["status"] == "running", "it runs")
+        killed.process.send_signal(signal.SIGSTOP)
+        answers = []
+        cancelling = threading.Thread(target=lambda: answers.append(self.other.request("DELETE", place)))
+        cancelling.start()
+        cancelling.join(1)
+        self.assertEqual(answers, [], "it is not told before it is true")
+        killed.kill()
+        cancelling.join(60)
+        self.assertEqual([answer.status for answer in answers], [204], answers)
+        run = self.one.get(place).json
+        self.assertEqual(run["status"], "cancelled")
+        self.assertEqual(run, self.other.get(place).json)
+
+    def test_metrics_tell_of_the_server(self):
+        def metrics():
+            return dict(re.findall(r"^(fitgauge_\S+) (\S+)$", self.one.get("/metrics").text, re.MULTILINE))
+        size = 'fitgauge_database_bytes{file="database"}'
+        self.wait_for(lambda: size in metrics(), "the server was asked")
+        found = metrics()
+        there = int(self.cluster.query("SELECT pg_database_size(current_database())")[0][0])
+        self.assertAlmostEqual(float(found[size]) / there, 1, delta=0.2)
+        self.assertEqual(found["fitgauge_database_standbys"], "0")
+        # What is of a file is not told of a server.
+        for name in ('fitgauge_database_bytes{file="wal"}', "fitgauge_wal_pages", "fitgauge_storage_free_bytes",
+                     "fitgauge_database_standby_behind_bytes"):
+            self.assertNotIn(name, found)
 
     def test_checking_the_configuration_connects(self):
         def check(address):
