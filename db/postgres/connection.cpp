@@ -37,6 +37,12 @@ constexpr const char* kSettings =
     "SET idle_in_transaction_session_timeout = '60s'; SET client_min_messages = warning;"
     "SET jit = off; SET bytea_output = hex; SET plan_cache_mode = auto";
 
+/// A COPY ends long before statement_timeout, however many rows there are.
+constexpr std::chrono::seconds kLongestCopy{5};
+using namespace std::string_view_literals;
+constexpr std::string_view kCopyHead = "PGCOPY\n\377\r\n\0\0\0\0\0\0\0\0\0"sv;
+constexpr std::string_view kCopyTail = "\377\377"sv;  // no more rows
+
 PGconn* open(const std::string& address) {
   // What stands before the address can be set in it.
   const std::array<const char*, 8> keys = {
@@ -79,12 +85,14 @@ void Connection::require_sent(int sent) {
 }
 
 void Connection::send(const std::string& sql) {
+  end_copy();
   require_sent(PQsendQueryParams(handle(), sql.c_str(), 0, nullptr, nullptr, nullptr, nullptr, 1));
   sent_.emplace_back();
 }
 
 void Connection::send(const std::string& name, const std::string& sql,
                       std::span<const Parameter> values) {
+  end_copy();
   while (!unused_.empty()) {
     send("DEALLOCATE " + unused_.back());
     unused_.pop_back();
@@ -129,6 +137,8 @@ void Connection::check(const PGresult* result) {
 }
 
 ResultPtr Connection::wait() {
+  end_copy();
+  if (sent_.empty()) return nullptr;
   if (PQpipelineSync(handle()) != 1) lost();
   std::vector<std::string> sent = std::exchange(sent_, {});
   ResultPtr failed;
@@ -171,27 +181,56 @@ void Connection::run_script(const std::string& sql) {
   if (PQenterPipelineMode(handle()) != 1) lost();
 }
 
-void Connection::copy(const std::string& sql, std::string_view bytes) {
-  if (is_waiting()) wait();
+void Connection::put(std::string_view bytes) {
+  constexpr std::size_t kPiece = std::size_t{256} << 10;
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(kPiece, bytes.size()))) {
+    const std::string_view piece = bytes.substr(0, kPiece);
+    if (PQputCopyData(handle(), piece.data(), static_cast<int>(piece.size())) != 1) lost();
+  }
+}
+
+void Connection::copy(const std::string& sql, std::string_view rows) {
+  const auto now = std::chrono::steady_clock::now();
+  if (copying_ != sql || now > copying_since_ + kLongestCopy) {
+    if (is_waiting()) wait();
+    begin_copy(sql);
+    copying_since_ = now;
+  }
+  put(rows);
+}
+
+void Connection::begin_copy(const std::string& sql) {
   if (PQexitPipelineMode(handle()) != 1) lost();
   const ResultPtr begun(PQexec(handle(), sql.c_str()));
-  if (PQresultStatus(begun.get()) == PGRES_COPY_IN) {
-    constexpr std::size_t kPiece = std::size_t{256} << 10;
-    for (std::string_view rest = bytes; !rest.empty();) {
-      const std::string_view piece = rest.substr(0, kPiece);
-      if (PQputCopyData(handle(), piece.data(), static_cast<int>(piece.size())) != 1) lost();
-      rest.remove_prefix(piece.size());
-    }
-    if (PQputCopyEnd(handle(), nullptr) != 1) lost();
+  if (PQresultStatus(begun.get()) != PGRES_COPY_IN) {
+    if (PQstatus(handle()) != CONNECTION_OK || PQenterPipelineMode(handle()) != 1) lost();
+    check(begun.get());
   }
-  const bool was_copy = PQresultStatus(begun.get()) == PGRES_COPY_IN;
+  copying_ = sql;
+  put(kCopyHead);
+}
+
+/// @param why_not the rows are not to be stored; null: they are.
+ResultPtr Connection::leave_copy(const char* why_not) {
+  copying_.clear();
+  if (PQputCopyEnd(handle(), why_not) != 1) lost();
   ResultPtr outcome;
   while (ResultPtr result = next_result()) {
     if (!outcome) outcome = std::move(result);
   }
   if (PQstatus(handle()) != CONNECTION_OK) lost();
   if (PQenterPipelineMode(handle()) != 1) lost();
-  check(was_copy ? outcome.get() : begun.get());
+  return outcome;
+}
+
+void Connection::end_copy() {
+  if (copying_.empty()) return;
+  put(kCopyTail);
+  check(leave_copy(nullptr).get());
+}
+
+void Connection::abandon_copy() {
+  if (!copying_.empty()) leave_copy("the job was undone");
 }
 
 void Connection::forget(const std::string& name) noexcept {

@@ -2,6 +2,7 @@
 
 #include <postgresql/libpq-fe.h>
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <set>
@@ -52,19 +53,23 @@ class Connection final : public sql::Connection {
   void send(const std::string& sql);
   /// Sends a prepared statement; the first time under this name it is prepared with these types.
   void send(const std::string& name, const std::string& sql, std::span<const Parameter> values);
-  /// Waits for all that was sent. @returns the result of the last statement.
+  /// Waits for all that was sent. @returns the result of the last statement, null where there was
+  /// none but COPY.
   /// @throws StorageFailure, std::logic_error of the first that failed.
   ResultPtr wait();
   /// Whether something was sent and not waited for.
-  bool is_waiting() const { return !sent_.empty(); }
+  bool is_waiting() const { return !sent_.empty() || !copying_.empty(); }
   /// Runs statements without parameters, outside of all transactions.
   ResultPtr execute(const std::string& sql);
 
   /// Runs statements without parameters in the open transaction.
   void run_script(const std::string& sql);
 
-  /// Sends rows in COPY's binary format.
-  void copy(const std::string& sql, std::string_view bytes);
+  /// Sends rows in COPY's binary format and does not wait. Those of one statement are one COPY
+  /// until something else is sent, so that the server stores them while the next are made.
+  void copy(const std::string& sql, std::string_view rows);
+  /// Ends a COPY whose rows are not wanted; the transaction goes on where it is rolled back to.
+  void abandon_copy();
 
   /// The name of a new statement.
   std::string new_name() { return "s" + std::to_string(++names_); }
@@ -86,6 +91,10 @@ class Connection final : public sql::Connection {
 
   static void on_notice(void* connection, const PGresult* notice);
 
+  void begin_copy(const std::string& sql);
+  void end_copy();
+  ResultPtr leave_copy(const char* why_not);
+  void put(std::string_view bytes);
   void require_sent(int sent);
   void check(const PGresult* result);
   ResultPtr next_result();
@@ -95,6 +104,8 @@ class Connection final : public sql::Connection {
   std::vector<std::string> sent_;    ///< of each the name it prepares, or nothing
   std::set<std::string> prepared_;   ///< names the server knows
   std::vector<std::string> unused_;  ///< names it need not know any more
+  std::string copying_;              ///< the statement of the COPY that is under way
+  std::chrono::steady_clock::time_point copying_since_{};
   std::uint64_t names_ = 0;
   std::string warning_;
   std::unique_ptr<sql::MeasurementTable> measurements_;

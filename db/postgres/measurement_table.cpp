@@ -74,18 +74,17 @@ void MeasurementTable::make_parts(std::span<const MeasurementRow> rows) {
 void MeasurementTable::append(std::span<const MeasurementRow> rows) {
   if (rows.empty()) return;
   make_parts(rows);
-  using namespace std::string_view_literals;
-  std::string bytes("PGCOPY\n\377\r\n\0\0\0\0\0\0\0\0\0"sv);
+  std::string bytes;
   Head& head = connection_.head;
+  MeasurementRow placed;
   for (const MeasurementRow& row : rows) {
-    MeasurementRow placed = row;
+    placed = row;
     if (!row.is_forwarded()) {
       placed.origin = 0;
       placed.seq = ++head.own_rows;
     }
     append_row(bytes, placed);
   }
-  append_number(bytes, std::int16_t{-1});
   connection_.copy(copy_sql(), bytes);
   head.last_id = rows.back().id;
 }

@@ -82,6 +82,7 @@ void Session::savepoint() {
 }
 
 void Session::undo() {
+  connection_.abandon_copy();
   connection_.head = before_job_;
   connection_.parts_may_be_undone = true;
   connection_.send("ROLLBACK TO job");

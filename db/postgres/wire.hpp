@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -9,9 +10,12 @@ namespace fitgauge::store::postgres {
 /// Adds a number as PostgreSQL's binary formats write it: the highest byte first.
 template <class Integer>
 void append_number(std::string& bytes, Integer value) {
-  for (int shift = 8 * (static_cast<int>(sizeof(Integer)) - 1); shift >= 0; shift -= 8) {
-    bytes += static_cast<char>(static_cast<std::uint64_t>(value) >> shift);
+  std::array<char, sizeof(Integer)> written{};
+  auto rest = static_cast<std::uint64_t>(value);
+  for (auto byte = written.rbegin(); byte != written.rend(); ++byte, rest >>= 8U) {
+    *byte = static_cast<char>(rest);
   }
+  bytes.append(written.data(), written.size());
 }
 
 /// A signed number of one to eight bytes.

@@ -93,8 +93,13 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
   std::optional<Error> error;
   try {
     const auto begin = MaintenancePace::Clock::now();
-    const auto end = begin + kLongestBatch;
     session().begin_writing();
+    // Where several daemons write, it was waited for: what has come meanwhile goes with it.
+    if (!options_.commit_each) {
+      Jobs more = queue_.take_all(milliseconds(0));
+      std::move(more.begin(), more.end(), std::back_inserter(jobs));
+    }
+    const auto end = MaintenancePace::Clock::now() + kLongestBatch;
     do {
       errors.push_back(run_in_savepoint(*jobs[errors.size()]));
     } while (errors.size() < jobs.size() && MaintenancePace::Clock::now() < end);
