@@ -30,9 +30,10 @@ export class Panel {
    * A value is kept but has no answer yet. Where the page holds its limits it is judged by them at once, on a hatched
    * ground: what is stored has a plain one.
    * @param shown its `verdict` is by the limits held, or null
+   * @param late whether it has waited so long that somebody wonders
    */
-  waiting(shown, away) {
-    if (shown.verdict) return this.#provisional(shown, away);
+  waiting(shown, away, late) {
+    if (shown.verdict) return this.#provisional(shown, away, late);
     return this.#show('waiting', [
       verdictShape('waiting'),
       h('div.said', word(t(away ? 'panel.kept' : 'panel.waiting')), about(shown),
@@ -42,14 +43,15 @@ export class Panel {
   }
 
   /** While the service is away this is all there is to hear; else the sound waits for the record. */
-  #provisional(shown, away) {
+  #provisional(shown, away, late) {
     if (away && this.sounded !== shown) sound(shown.verdict);
     if (away) this.sounded = shown;
+    const judged = { ...shown.limits, measured_mm: shown.measured };
+    const how = away ? t('panel.provisional') : late ? t('panel.waiting_how') : distanceText(judged);
     this.#show(shown.verdict, [
       verdictShape(shown.verdict),
-      h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown),
-        h('p.measured', `${number(shown.measured)} mm`), h('p.distance', t(away ? 'panel.provisional' : 'panel.waiting_how'))),
-      limitStrip({ ...shown.limits, measured_mm: shown.measured }),
+      h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown), h('p.measured', `${measuredText(judged)} mm`), h('p.distance', how)),
+      limitStrip(judged),
     ], away ? 'away' : 'storing');
   }
 

@@ -10,6 +10,11 @@ const KEPT = 'recent';
 /** The list is kept for a reload: not before each verdict, which somebody waits for. */
 const KEEP_MS = 150;
 
+/** What was judged by the limits held is no record yet: it says both. */
+const waitingMark = (state, { verdict }) => (verdict && state === 'waiting'
+  ? h('span.mark-of', { 'data-verdict': verdict }, verdictShape(verdict), t(`verdict.${verdict}`), h('span.aside', t('recent.waiting')))
+  : h('span.mark-of', verdictShape('waiting'), t(`recent.${state}`)));
+
 export class Recent {
   /** @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id`; @param leaving ends it */
   constructor({ onCorrect, leaving }) {
@@ -76,7 +81,7 @@ export class Recent {
   #item(row) {
     const { shown, record, state } = row;
     return h('li', { class: row.corrected ? 'corrected' : state },
-      record ? verdictMark(record.verdict) : h('span.mark-of', verdictShape('waiting'), t(`recent.${state}`)),
+      record ? verdictMark(record.verdict) : waitingMark(state, shown),
       h('span.figure', record ? measuredText(record) : number(shown.measured)),
       h('span.aside', [(record ?? shown).part_id, record?.designation ?? shown.designation, time(new Date(shown.at)),
         row.corrected && t('recent.corrected')].filter(Boolean).join(' · ')),

@@ -9,7 +9,7 @@ export class FileList {
     this.onPick = onPick;
     this.folder = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false' });
     this.folder.value = 'nc_prog';
-    this.chooser = h('input', {
+    this.chooser = h('input.unseen', {
       type: 'file', multiple: true, 'aria-label': t('programs.upload'),
       onchange: () => this.#chosen(onUpload),
     });
@@ -17,7 +17,8 @@ export class FileList {
     this.list = h('div.files');
     this.element = h('aside.disk',
       h('form.upload', { onsubmit: (event) => event.preventDefault() },
-        field(t('programs.folder'), this.folder), field(t('programs.upload'), this.chooser)),
+        field(t('programs.folder'), this.folder),
+        h('label.field.chooser', h('span.label', t('programs.upload')), this.chooser, h('span.choose', { 'aria-hidden': 'true' }, t('programs.choose')))),
       h('form.line.begin', { onsubmit: (event) => { event.preventDefault(); this.#begun(onBegin); } },
         field(t('programs.begin'), this.name), h('button', { type: 'submit' }, t('programs.write'))),
       h('nav', { 'aria-label': t('programs.files') }, this.list));

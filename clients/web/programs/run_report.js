@@ -2,6 +2,7 @@
 
 import { get, getJson, url } from '../api.js';
 import { h } from '../dom.js';
+import { mmText, NM_PER_MM } from '../exact.js';
 import { pathView, prepareSpace } from '../figures/path_view.js';
 import { Trace } from '../figures/trace.js';
 import { explain, number, t } from '../i18n.js';
@@ -30,12 +31,15 @@ export async function runReport(run, { onMoves, onMove }) {
   ].filter(Boolean);
 }
 
+/** Equally many decimals in a column. */
+const millimetres = (value) => `${number(mmText(Math.round(value * NM_PER_MM)))} mm`;
+
 function measured(measurements) {
   const rows = measurements.flatMap(({ cycle, sizes }) => sizes.map((size) => h('tr', h('td', String(cycle)), h('td', size.characteristic),
-    h('td', number(size.nominal_mm)), h('td', number(size.measured_mm)), h('td', size.verdict ? verdictMark(size.verdict) : ''))));
+    h('td', millimetres(size.nominal_mm)), h('td', millimetres(size.measured_mm)), h('td', size.verdict ? verdictMark(size.verdict) : ''))));
   const head = ['programs.cycle', 'field.characteristic', 'programs.nominal', 'programs.measured', 'trend.verdict'];
-  return h('table', h('caption', t('programs.measurements')),
-    h('thead', h('tr', head.map((name) => h('th', { scope: 'col' }, t(name))))), h('tbody', rows));
+  return h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('programs.measurements') }, h('table', h('caption', t('programs.measurements')),
+    h('thead', h('tr', head.map((name) => h('th', { scope: 'col' }, t(name))))), h('tbody', rows)));
 }
 
 async function drawPath(run, place, { onMoves, onMove }) {

@@ -22,7 +22,7 @@ import { isKept } from '../kept_page.js';
 import { queue } from '../queue.js';
 import { go, remember } from '../route.js';
 
-/** What the page cannot judge itself leaves the last verdict for so long: most answers come sooner. */
+/** Most answers come sooner: then what the page cannot judge itself replaces the last verdict without a gap. */
 const GAP_MS = 120;
 
 export function mount(main, route) {
@@ -138,9 +138,8 @@ export function mount(main, route) {
     if (shown.verdict) panel.waiting(shown, !connection.up);
     recent.set({ key, state: 'waiting', shown });
     reactions.judged(key, shown, shown.verdict);
-    if (shown.verdict) return;
     setTimeout(() => {
-      if (queue.entries.some((waiting) => waiting.key === key)) panel.waiting(shown, !connection.up);
+      if (queue.values.at(-1)?.key === key) panel.waiting(shown, !connection.up, true);
     }, GAP_MS);
   }
 

@@ -4,7 +4,7 @@ import { getJson, url } from '../api.js';
 import { designationText } from '../designation.js';
 import { field, h } from '../dom.js';
 import { downloadLink } from '../download.js';
-import { dateTime, explain, number, signed, t } from '../i18n.js';
+import { date, dateTime, explain, signed, t, time } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
 import { CertificateForm } from '../parts/certificate.js';
@@ -13,18 +13,26 @@ import { note } from '../parts/note.js';
 import { limitsText, measuredText, noteText, verdictMark, VERDICTS } from '../verdict.js';
 
 const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator', 'cause'];
+const DAYS = ['from', 'to'];
 const PAGE = 50;
 /** What the service writes a list as, by its `format`. */
 const FORMS = { csv: 'CSV', xlsx: 'Excel', dfq: 'Q-DAS', qif: 'QIF' };
 /** Of the times in a workbook. */
 const ZONE = Intl.DateTimeFormat().resolvedOptions().timeZone ?? '';
 
+/** When a day begins here, or the day after. */
+function beginOf(day, later = 0) {
+  const [year, month, date] = day.split('-').map(Number);
+  return day && new Date(year, month - 1, date + later).toISOString();
+}
+
 export function mount(main, route) {
   const leaving = new AbortController();
   const latest = new Latest(leaving.signal);
   const inputs = Object.fromEntries(FIELDS.map((name) => [name,
     h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', onchange: () => search() })]));
-  for (const name of FIELDS) inputs[name].value = route.options[name] ?? '';
+  for (const name of DAYS) inputs[name] = h('input', { type: 'date', name, onchange: () => search() });
+  for (const name of [...FIELDS, ...DAYS]) inputs[name].value = route.options[name] ?? '';
   const verdict = h('select', { name: 'verdict', onchange: () => search() }, ['', ...VERDICTS].map((word) =>
     h('option', { value: word, selected: word === (route.options.verdict ?? '') }, word ? t(`verdict.${word}`) : t('parts.any'))));
   const corrected = h('input', { type: 'checkbox', checked: route.options.history === 'all', onchange: () => search() });
@@ -45,17 +53,20 @@ export function mount(main, route) {
 
   main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
-      FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict),
+      FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict), DAYS.map((name) => field(t(`field.${name}`), inputs[name])),
       h('label.choice', corrected, h('span', t('parts.history'))),
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
     h('p.actions', Object.values(exported)), certificate.element, said, table, h('p.actions', more)));
 
+  /** As the address has it. */
+  const options = () => ({ ...filter(), ...Object.fromEntries(DAYS.map((name) => [name, inputs[name].value])) });
+  /** As the service takes it: the last day is among those shown. */
   const filter = () => ({
-    ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
+    from: beginOf(inputs.from.value), to: beginOf(inputs.to.value, 1), ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
   });
 
   function search() {
-    go({ view: 'parts', options: filter() }, { refine: true });
+    go({ view: 'parts', options: options() }, { refine: true });
     after = '';
     more.hidden = true;
     rows.replaceChildren();
@@ -115,6 +126,6 @@ function row(record, isReplaced, { onCorrect, onNote }) {
     (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), one.operator, dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),
     h('td.number', measuredText(record)), h('td.number', `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
     h('td', [record.operator, record.machine, record.gauge].filter(Boolean).join(' · ')),
-    h('td', dateTime(new Date(record.measured_at))),
+    h('td', date(new Date(record.measured_at)), h('span.aside', time(new Date(record.measured_at)))),
     h('td', !isReplaced && act('parts.correct', onCorrect), act('note.add', onNote)));
 }

@@ -192,6 +192,7 @@ describe('the page', () => {
         for (const [mode, media] of Object.entries(MODES)) {
           await page.emulateMedia(media);
           assert.deepEqual(await findings(page), [], `${width} ${mode}`);
+          assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width, mode);
           await picture(page, `${view}-${width}-${mode}`, { fullPage: true });
         }
       }
