@@ -7,10 +7,12 @@ const SHORTEST = 8;
 export function brush(plot, { onPick, onStretch }) {
   const { over } = plot;
   let start = null;
-  const band = ([left, right]) => plot.setSelect({ left, width: right - left, top: 0, height: over.clientHeight }, false);
-  const strokeTo = ({ clientX }) => {
-    const { left, width } = over.getBoundingClientRect();
-    return [start, clientX].map((x) => Math.min(Math.max(x - left, 0), width)).sort((one, other) => one - other);
+  const band = (left, right) => plot.setSelect({ left, width: right - left, top: 0, height: over.clientHeight }, false);
+  const strokeTo = ({ clientX }) => [start, clientX].map((x) => x - over.getBoundingClientRect().left).sort((one, other) => one - other);
+  const isTouch = ({ clientX }) => Math.abs(clientX - start) < SHORTEST;
+  const end = () => {
+    start = null;
+    band(0, 0);
   };
   over.addEventListener('pointerdown', (event) => {
     if (event.button) return;
@@ -18,19 +20,14 @@ export function brush(plot, { onPick, onStretch }) {
     over.setPointerCapture(event.pointerId);
   });
   over.addEventListener('pointermove', (event) => {
-    if (start !== null && Math.abs(event.clientX - start) >= SHORTEST) band(strokeTo(event));
+    if (start !== null && !isTouch(event)) band(...strokeTo(event));
   });
   over.addEventListener('pointerup', (event) => {
     if (start === null) return;
-    const touched = Math.abs(event.clientX - start) < SHORTEST;
-    const stretch = strokeTo(event).map((x) => plot.posToIdx(x));
-    start = null;
-    band([0, 0]);
-    if (touched) onPick(stretch[0]);
-    else onStretch(...stretch);
+    const [from, to] = strokeTo(event).map((x) => plot.posToIdx(x));
+    const tell = isTouch(event) ? () => onPick(from) : () => onStretch(from, to);
+    end();
+    tell();
   });
-  over.addEventListener('pointercancel', () => {
-    start = null;
-    band([0, 0]);
-  });
+  over.addEventListener('pointercancel', end);
 }

@@ -6,7 +6,7 @@ import { NM_PER_UM, umText } from '../exact.js';
 import { number, signed, t, time } from '../i18n.js';
 import { brush } from './brush.js';
 import { histogram } from './histogram.js';
-import { axes, coloursOf, inSight, marked, stepped } from './plot.js';
+import { axes, coloursOf, DENSE, inSight, marked, stepped } from './plot.js';
 import { rangeOf } from './series.js';
 
 const TOP = 22;
@@ -24,7 +24,6 @@ const WIDE = 620;
 const LETTERING = 13;
 /** Of labels from each other: of times, of control limits, of the numbers of rules. */
 const APART = { time: 150, control: 12, rules: 18 };
-const COUNTS = Array.from({ length: 7 }, (_, power) => [1, 2, 5].map((digit) => digit * 10 ** power)).flat();
 const LONGEST_PART = 18;
 
 /** The inside of a sheet of A4 in CSS pixels (Letter is wider), and how many dots each of them has in print. */
@@ -61,9 +60,11 @@ export class ControlChart {
     const control = own ? [own.upper_limit, own.lower_limit].map((value) => value * NM_PER_UM) : [];
     this.range = rangeOf(points, [...control, ...singles.map(({ deviation }) => deviation)]);
     this.inside = width - beside - LEFT - RIGHT - 2 * INSET;
-    const height = TOP + VALUES + (spread ? GAP + SPREAD : 0) + AXIS;
+    const inner = VALUES + (spread ? GAP + SPREAD : 0);
+    const height = TOP + inner + AXIS;
+    const { high, low } = this.range;
     const values = this.#values(own);
-    const spreads = spread ? this.#spreads(spread) : { series: [], axes: [] };
+    const spreads = spread ? this.#spreads(spread) : { most: 1, series: [], axes: [] };
     const series = [...values.series, ...spreads.series];
     this.plot = new uPlot({
       width: (width - beside) * dots,
@@ -71,7 +72,8 @@ export class ControlChart {
       padding: [TOP * dots, 0, 0, 0],
       legend: { show: false },
       cursor: { show: false },
-      scales: { x: { time: false }, ...this.#scales(height - TOP - AXIS, spreads.most) },
+      // Values above, their spread below: each scale goes over the whole height.
+      scales: { x: { time: false }, nm: { range: [high - (high - low) * inner / VALUES, high] }, spread: { range: [0, spreads.most * inner / SPREAD] } },
       axes: [this.#timeAxis(), ...spreads.axes, ...values.axes],
       series: [{}, ...series.map(({ data: _, ...look }) => ({ points: { show: false }, ...look }))],
       hooks: { draw: [() => this.#drawOver()] },
@@ -95,16 +97,6 @@ export class ControlChart {
     this.element.setAttribute('aria-label', t('trend.chart', { count: to - from + 1 }));
   }
 
-  /** Values above, their spread below: each scale goes over the whole height. */
-  #scales(height, most) {
-    const { high, low } = this.range;
-    return { nm: { range: [high - (high - low) * height / VALUES, high] }, ...(most && { spread: { range: [0, most * height / SPREAD] } }) };
-  }
-
-  destroy() {
-    this.plot.destroy();
-  }
-
   #values(own) {
     const { points, range, colours, dots, rules } = this;
     const row = { scale: 'nm', data: points.map(({ deviation }) => clamped(deviation, range)) };
@@ -114,7 +106,6 @@ export class ControlChart {
     const limits = [range.upper, range.lower].filter(Number.isFinite);
     const target = limits.length === 2 ? [(range.upper + range.lower) / 2] : [];
     const { axis, line } = axes(dots, this.font, colours.soft);
-    const nm = (value) => (value === null ? null : value * NM_PER_UM);
     return {
       series: [
         ...sides.map((side) => stepped({ scale: 'nm', data: points.map((point) => point[side]) }, dots, { stroke: colours.ink, width: 1.5 })),
@@ -124,7 +115,7 @@ export class ControlChart {
           always: verdict !== 'good', fill: colours[verdict], stroke: verdict === 'rework' ? colours.ink : colours.sheet })),
       ],
       axes: [
-        ...(own ? this.#controlLines('nm', { centre: nm(own.centre), upper: nm(own.upper_limit), lower: nm(own.lower_limit) }, (range.high - range.low) / VALUES, (value) => umOf(value / NM_PER_UM)) : []),
+        ...(own ? this.#controlLines('nm', own, NM_PER_UM, (range.high - range.low) / VALUES) : []),
         line('nm', target, colours.good, 1, [10, 3, 2, 3]),
         axis({ scale: 'nm', side: 3, size: LEFT, splits: [range.high, ...limits, ...target], values: ['µm', ...[...limits, ...target].map((value) => signed(umText(value)))] }),
         axis({ scale: 'nm', side: 1, size: RIGHT }),
@@ -137,28 +128,28 @@ export class ControlChart {
     const most = own.points.reduce((greatest, value) => Math.max(greatest, value), Math.max(own.upper_limit, 1e-6));
     // The first value has no range: the row begins one later.
     const row = { scale: 'spread', data: [...Array(points.length - own.points.length).fill(null), ...own.points] };
-    const where = (isMeant) => row.data.flatMap((value, i) => (value !== null && isMeant(value) ? [i] : []));
+    const outside = row.data.flatMap((value, i) => (value > own.upper_limit ? [i] : []));
     return {
       most,
       series: [
-        { ...row, stroke: colours.edge, width: dots },
-        marked(row, DOT, where((value) => value <= own.upper_limit), dots, { always: false, fill: colours.edge, width: 0 }),
-        marked(row, DOT, where((value) => value > own.upper_limit), dots, { fill: colours.ink, stroke: colours.ink, width: 3 }),
+        { ...row, stroke: colours.edge, width: dots, points: { size: 5 * dots, width: 0, fill: colours.edge, space: DENSE * dots } },
+        marked(row, DOT, outside, dots, { fill: colours.ink, stroke: colours.ink, width: 3 }),
       ],
       axes: [
         axes(dots, this.font, colours.soft).axis({ scale: 'spread', side: 3, splits: [most], values: [SPREADS[own.name]] }),
-        ...this.#controlLines('spread', { centre: own.centre, upper: own.upper_limit, lower: null }, most / SPREAD, umOf),
+        ...this.#controlLines('spread', { ...own, lower_limit: null }, 1, most / SPREAD),
       ],
     };
   }
 
-  /** Centre and control limits with their values at the right; none over another. */
-  #controlLines(scale, { centre, upper, lower }, perPixel, text) {
+  /** Centre and control limits with their values at the right; none over another. @param unit of the scale in a µm */
+  #controlLines(scale, { centre, upper_limit: upper, lower_limit: lower }, unit, perPixel) {
     const { axis, line } = axes(this.dots, this.font, this.colours.soft);
-    const outer = [upper, lower].filter((value) => value !== null);
-    const free = [centre, ...outer].filter((value, i, all) => all.slice(0, i).every((other) => Math.abs(other - value) > APART.control * perPixel));
+    const values = [centre, upper, lower].filter((value) => value !== null).map((value) => value * unit);
+    const free = values.filter((value, i) => values.slice(0, i).every((other) => Math.abs(other - value) > APART.control * perPixel));
     const { focus } = this.colours;
-    return [line(scale, [centre], focus, 1.25), line(scale, outer, focus, 1.25, [6, 4]), axis({ scale, side: 1, splits: free, values: free.map(text) })];
+    return [line(scale, values.slice(0, 1), focus, 1.25), line(scale, values.slice(1), focus, 1.25, [6, 4]),
+      axis({ scale, side: 1, splits: free, values: free.map((value) => umOf(value / unit)) })];
   }
 
   /** Time and part. */
@@ -170,7 +161,7 @@ export class ControlChart {
       return `${at.slice(5, 10)} ${time(new Date(at)).slice(0, 5)}${part ? `\n${part.slice(-LONGEST_PART)}` : ''}`;
     };
     return axes(dots, this.font, colours.soft).axis({
-      scale: 'x', size: AXIS, space: APART.time * dots, incrs: COUNTS, splits: undefined, values: (plot, splits) => splits.map(label),
+      scale: 'x', size: AXIS, space: APART.time * dots, splits: undefined, values: (plot, splits) => splits.map(label),
       border: { show: true, stroke: colours.line, width: dots },
     });
   }

@@ -4,7 +4,7 @@ import { style, uPlot } from '../bundled/uplot.js';
 import { h } from '../dom.js';
 
 /** Points closer than this many pixels are a line: of those that are good nothing else is drawn, of others one each so many pixels. */
-const DENSE = 4;
+export const DENSE = 4;
 const NEAR = 2;
 const COLOURS = ['ink', 'soft', 'line', 'edge', 'sheet', 'focus', 'good', 'rework', 'reject', 'indeterminate'];
 
@@ -25,10 +25,6 @@ export function coloursOf(element) {
 
 /** How many pixels of the canvas a pixel of a figure with so many dots a pixel is. */
 const scaleOf = (dots) => dots * uPlot.pxRatio;
-
-function isDense({ scales: { x: { min, max } }, bbox }, dots) {
-  return bbox.width < DENSE * (max - min) * scaleOf(dots);
-}
 
 /** Of indices, in order, those in sight that are so many pixels apart: [index, x on the canvas]. */
 export function inSight(plot, indices, apart) {
@@ -56,7 +52,8 @@ export function marked(row, shape, indices, dots, { always = true, ...look }) {
   const paths = (plot) => {
     const path = new Path2D();
     const size = scaleOf(dots);
-    const dense = isDense(plot, dots);
+    const { min, max } = plot.scales.x;
+    const dense = plot.bbox.width < DENSE * (max - min) * size;
     for (const [i, x] of dense && !always ? [] : inSight(plot, indices, dense ? NEAR * size : 0)) {
       path.addPath(outline, { a: size, d: size, e: x, f: plot.valToPos(row.data[i], row.scale, true) });
     }

@@ -174,7 +174,7 @@ export function mount(main, route) {
   function drawChart() {
     if (!points.length || shown?.isTouched) return; // not under the finger
     if (stale || !shown.element.isConnected) {
-      shown?.destroy();
+      shown?.plot.destroy();
       chart.classList.toggle('on-paper', onPaper);
       shown = new ControlChart(chart, drawn, points, figures.chart, { ...(onPaper ? PAPER : { width }), onPick: pick, onStretch: (from, to) => stretch.choose(from, to) });
       stale = false;
@@ -286,12 +286,11 @@ export function mount(main, route) {
   });
   resized.observe(chart);
   const { signal } = leaving;
-  for (const [event, isPaper] of [['beforeprint', true], ['afterprint', false]]) {
-    addEventListener(event, () => {
-      onPaper = isPaper;
-      redraw();
-    }, { signal });
-  }
+  const print = ({ type }) => {
+    onPaper = type === 'beforeprint';
+    redraw();
+  };
+  for (const event of ['beforeprint', 'afterprint']) addEventListener(event, print, { signal });
   for (const look of ['(prefers-color-scheme: dark)', '(forced-colors: active)']) matchMedia(look).addEventListener('change', redraw, { signal });
   characteristic.append(option('', t('trend.all'), true));
   offerOne(options.characteristic);
@@ -301,7 +300,7 @@ export function mount(main, route) {
   return () => {
     leaving.abort();
     resized.disconnect();
-    shown?.destroy();
+    shown?.plot.destroy();
     clearTimeout(timer);
     cancelAnimationFrame(frame);
   };
