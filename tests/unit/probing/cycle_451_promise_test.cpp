@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kinds.hpp"
 #include "kinematics_bench.hpp"
 #include "machine/random.hpp"
 #include "support/deep.hpp"
@@ -12,26 +13,9 @@ namespace fitgauge::probing {
 namespace {
 
 using machine::Axis;
-using machine::AxisMount;
 using machine::Setup;
 
-struct Measured {
-  Axis axis;
-  AxisMount mount;
-};
-using Kind = std::vector<Measured>;
-
-constexpr AxisMount kTable = AxisMount::Table;
-constexpr AxisMount kHead = AxisMount::Head;
-const std::array<Kind, 9> kKinds{{{{Axis::A, kTable}, {Axis::C, kTable}},
-                                  {{Axis::B, kTable}, {Axis::C, kTable}},
-                                  {{Axis::A, kTable}, {Axis::B, kTable}},
-                                  {{Axis::A, kHead}, {Axis::C, kHead}},
-                                  {{Axis::B, kHead}, {Axis::C, kHead}},
-                                  {{Axis::A, kHead}, {Axis::C, kTable}},
-                                  {{Axis::B, kHead}, {Axis::C, kTable}},
-                                  {{Axis::A, kTable}, {Axis::B, kHead}, {Axis::C, kHead}},
-                                  {{Axis::A, kTable}, {Axis::B, kHead}, {Axis::C, kTable}}}};
+using Kind = std::vector<MountedAxis>;
 
 Setup random_machine(const Kind& kind, std::uint64_t seed) {
   machine::Random random(seed);
@@ -47,7 +31,7 @@ Setup random_machine(const Kind& kind, std::uint64_t seed) {
   for (const auto& [axis, mount] : kind) {
     machine::AxisSetup& real = add_axis(setup, axis);
     real.mount = mount;
-    if (mount == kHead) real.centre = {};
+    if (mount == machine::AxisMount::Head) real.centre = {};
     real.centre_error = vector(0.05);
     real.tilt_error_deg = vector(0.02);
     real.zero_error_deg = 0.02 * random.normal();
@@ -81,7 +65,8 @@ double worst_of(const ProbingBench& bench, int first) {
 TEST_CASE("a second run of 451 finds what the first has promised") {
   for (int seed = 1; seed <= rounds(12, 1'000); ++seed) {
     CAPTURE(seed);
-    const Kind& kind = kKinds[static_cast<std::size_t>(seed) % kKinds.size()];
+    const auto& kinds = kinds_of_machines();
+    const Kind& kind = kinds[static_cast<std::size_t>(seed) % kinds.size()];
     const Setup setup = random_machine(kind, static_cast<std::uint64_t>(seed));
     for (const double mode : {1.0, 2.0, 3.0}) {
       CAPTURE(mode);

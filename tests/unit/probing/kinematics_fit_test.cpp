@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "kinds.hpp"
 #include "machine/random.hpp"
 #include "support/deep.hpp"
 
@@ -19,20 +20,6 @@ using machine::AxisMount;
 using machine::Kinematics;
 using machine::RotaryAxis;
 using machine::Vec3;
-
-constexpr AxisMount kTable = AxisMount::Table;
-constexpr AxisMount kHead = AxisMount::Head;
-using Kind = std::vector<std::pair<Axis, AxisMount>>;
-
-const std::array<Kind, 9> kKinds{{{{Axis::A, kTable}, {Axis::C, kTable}},
-                                  {{Axis::B, kTable}, {Axis::C, kTable}},
-                                  {{Axis::A, kTable}, {Axis::B, kTable}},
-                                  {{Axis::C, kHead}, {Axis::A, kHead}},
-                                  {{Axis::C, kHead}, {Axis::B, kHead}},
-                                  {{Axis::C, kTable}, {Axis::A, kHead}},
-                                  {{Axis::C, kTable}, {Axis::B, kHead}},
-                                  {{Axis::A, kTable}, {Axis::C, kHead}, {Axis::B, kHead}},
-                                  {{Axis::A, kTable}, {Axis::C, kTable}, {Axis::B, kHead}}}};
 
 const MeasuringTool kProbe{Axis::Z, 118};
 
@@ -55,7 +42,7 @@ struct RealMachine {
     Vec3 ball{0, 0, -kProbe.length};
     for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
       const std::size_t letter = index(axis->axis) - 3;
-      const bool table = axis->mount == kTable;
+      const bool table = axis->mount == AxisMount::Table;
       Vec3& point = table ? sphere : ball;
       const double shown = rotary[letter] + zero_deg[letter];
       const double angle = table ? -shown : shown;
@@ -77,7 +64,8 @@ struct Planted {
 class Case {
  public:
   Case(std::uint64_t seed, Planted planted) : random_(seed) {
-    for (const auto& [axis, mount] : kKinds[seed % kKinds.size()]) {
+    const auto& kinds = kinds_of_machines();
+    for (const auto& [axis, mount] : kinds[seed % kinds.size()]) {
       const std::size_t letter = index(axis) - 3;
       RotaryAxis drawn{.axis = axis, .mount = mount, .centre = within(20), .direction = {}};
       drawn.direction[letter] = 1;
