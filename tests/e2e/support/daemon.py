@@ -37,7 +37,8 @@ def preload(library):
 
 def environment_of(settings):
     """That of the test with `settings`, without what is meant for the tests alone."""
-    return {name: value for name, value in {**os.environ, **(settings or {})}.items() if name != "FITGAUGE_DEEP"}
+    of_tests = ("FITGAUGE_DEEP", "FITGAUGE_OUTAGE_S")
+    return {name: value for name, value in {**os.environ, **(settings or {})}.items() if name not in of_tests}
 
 
 def command(*arguments, environment=None, timeout=60):
