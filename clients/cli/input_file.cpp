@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -49,6 +51,32 @@ std::optional<std::uint64_t> InputFile::size() const {
   struct stat facts {};
   if (fstat(descriptor_, &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
   return static_cast<std::uint64_t>(facts.st_size);
+}
+
+Outcome<void> InputFile::rewind() {
+  if (lseek(descriptor_, 0, SEEK_SET) < 0) return failed(name_, "read it again");
+  return {};
+}
+
+Outcome<InputFile> open_to_read_again(const std::string& path) {
+  auto input = InputFile::open(path);
+  if (!input || input->size()) return input;
+  std::string folder = std::filesystem::temp_directory_path().string();
+  InputFile kept(input->name_, ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  if (kept.descriptor_ < 0) return failed(folder, "keep the input in it");
+  std::string piece(kReadSize, '\0');
+  for (;;) {
+    const auto count = input->read(piece);
+    if (!count) return count.error();
+    if (*count == 0) break;
+    for (std::string_view rest(piece.data(), *count); !rest.empty();) {
+      const ssize_t written = ::write(kept.descriptor_, rest.data(), rest.size());
+      if (written < 0 && errno != EINTR) return failed(folder, "keep the input in it");
+      rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+    }
+  }
+  if (const auto rewound = kept.rewind(); !rewound) return rewound.error();
+  return kept;
 }
 
 Outcome<std::string> read_file(const std::string& path) {

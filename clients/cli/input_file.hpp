@@ -25,12 +25,21 @@ class InputFile {
   /// Where it is a regular file.
   std::optional<std::uint64_t> size() const;
 
+  /// To be read from its begin again. @errors LocalFile
+  Outcome<void> rewind();
+
  private:
+  friend Outcome<InputFile> open_to_read_again(const std::string& path);
+
   InputFile(std::string name, int descriptor) : name_(std::move(name)), descriptor_(descriptor) {}
 
   std::string name_;
   int descriptor_;
 };
+
+/// A file, or what a pipe has to its end, kept in a file without a name: to be read more than once.
+/// @errors LocalFile
+Outcome<InputFile> open_to_read_again(const std::string& path);
 
 /// The whole of a file, or of standard input for `-`. @errors LocalFile
 Outcome<std::string> read_file(const std::string& path);

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "cli/input_file.hpp"
-#include "cli/measure_ndjson.hpp"
 #include "cli/measure_table.hpp"
 #include "cli/progress.hpp"
 #include "cli/retry.hpp"
@@ -65,9 +64,8 @@ class Upload {
     while (chunk && *chunk) {
       // The next rows of a file are read while the service stores these; a pipe may keep one
       // waiting.
-      auto upcoming =
-          std::async(progress_.bytes_in_all ? std::launch::async : std::launch::deferred,
-                     [&chunks] { return chunks->next(); });
+      auto upcoming = std::async(reads_ahead_ ? std::launch::async : std::launch::deferred,
+                                 [&chunks] { return chunks->next(); });
       const auto sent = send(*chunks, **chunk);
       if (!sent) return sent.error();
       chunk = upcoming.get();
@@ -78,53 +76,32 @@ class Upload {
 
  private:
   Outcome<CsvChunks> open_input() {
-    if (RowInput::is_one(options_.input)) return open_rows();
-    if (sheet::is_ndjson(options_.input)) return open_ndjson();
-    if (is_converted(options_)) return open_converted();
+    if (RowInput::is_one(options_)) return open_rows();
     auto opened = InputFile::open(options_.input);
     if (!opened) return opened.error();
     const auto file = std::make_shared<InputFile>(std::move(*opened));
     progress_.bytes_in_all = file->size();
+    reads_ahead_ = progress_.bytes_in_all.has_value();
     return begin_chunks([file](std::span<char> into) { return file->read(into); });
   }
 
-  /// The whole table as the service takes it. The same rows become the same text, however the file
-  /// grows.
-  Outcome<CsvChunks> open_converted() {
-    auto bytes = read_file(options_.input);
-    if (!bytes) return bytes.error();
-    auto text = converted_table(*bytes, options_);
-    if (!text)
-      return Failure{text.error().exit_code, fmt::format("{}: {}", name_, text.error().message)};
-    const auto whole = std::make_shared<std::string>(*std::move(text));
-    const auto taken = std::make_shared<std::size_t>(0);
-    progress_.bytes_in_all = whole->size();
-    return begin_chunks([whole, taken](std::span<char> into) -> Outcome<std::size_t> {
-      const std::size_t count = whole->copy(into.data(), into.size(), *taken);
-      *taken += count;
-      return count;
-    });
-  }
-
-  /// The values of a DFQ or a QIF as rows, however large the file is.
+  /// As the service takes it, however large the file is. The same rows become the same text,
+  /// however the file grows.
   Outcome<CsvChunks> open_rows() {
-    auto opened = RowInput::open(context_, options_);
-    if (!opened) return opened.error();
-    const auto input = std::make_shared<RowInput>(*std::move(opened));
-    return begin_chunks([input](std::span<char> into) { return input->read(into); });
-  }
-
-  Outcome<CsvChunks> open_ndjson() {
-    if (is_converted(options_)) {
+    const bool is_ndjson = sheet::is_ndjson(options_.input);
+    if (is_ndjson && is_converted(options_)) {
       return Failure{ExitCode::Usage,
                      "--map, --set, --encoding, --time-zone and --leave-out-others are of tables: "
                      "a line of NDJSON has the names of the service"};
     }
-    auto opened = NdjsonInput::open(options_.input);
+    auto opened = RowInput::open(context_, options_);
     if (!opened) return opened.error();
-    const auto input = std::make_shared<NdjsonInput>(*std::move(opened));
-    CsvChunks chunks([input](std::span<char> into) { return input->read(into); },
-                     {.rows = options_.chunk_rows});
+    const auto input = std::make_shared<RowInput>(*std::move(opened));
+    // What asks the service for limits cannot while rows are on their way there.
+    reads_ahead_ = RowInput::keeps_lines(options_) && options_.input != "-";
+    const auto read = [input](std::span<char> into) { return input->read(into); };
+    if (!is_ndjson) return begin_chunks(read);
+    CsvChunks chunks(read, {.rows = options_.chunk_rows});
     chunks.begin_with_rows();
     return chunks;
   }
@@ -257,8 +234,7 @@ class Upload {
 
   /// Of a line of the text that is sent.
   std::uint64_t line_in_file(std::uint64_t line) const {
-    if (RowInput::is_one(options_.input)) return RowInput::line_of(context_, options_, line);
-    return line;
+    return RowInput::line_of(context_, options_, line);
   }
   std::uint64_t first_line(const CsvChunk& chunk) const {
     return line_in_file(chunk.begin.lines + 1);
@@ -301,6 +277,7 @@ class Upload {
   MeasureJournal journal_;
   MeasureState state_;
   std::uint64_t rows_sent_ = 0;
+  bool reads_ahead_ = false;  ///< a file, of which the next rows can be read at any time
   Progress progress_;
   Clock::time_point began_ = Clock::now();
   ProgressLine line_{context_.err};

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "sheet/measurement_fields.hpp"
 #include "sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
@@ -49,14 +48,6 @@ Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options) {
     table.zone = *std::move(zone);
   }
   return table;
-}
-
-Outcome<std::string> converted_table(std::string_view bytes, const MeasureOptions& options) {
-  const auto table = table_options(options);
-  if (!table) return table.error();
-  auto text = sheet::shop_csv(bytes, *table, sheet::kMeasurementFields);
-  if (!text) return Failure{ExitCode::LocalFile, text.error().message};
-  return *std::move(text);
 }
 
 }  // namespace fitgauge::cli

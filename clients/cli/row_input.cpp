@@ -15,6 +15,10 @@
 #include "cli/measure_table.hpp"
 #include "cli/problem.hpp"
 #include "qif/qif_csv.hpp"
+#include "sheet/exported_record.hpp"
+#include "sheet/measurement_fields.hpp"
+#include "sheet/ndjson_rows.hpp"
+#include "sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -42,62 +46,118 @@ Failure cannot_read(const std::string& path, const Error& error) {
   return {ExitCode::LocalFile, fmt::format("{}: {}", path, error.message)};
 }
 
-/// A file from its begin.
-Outcome<aqdef::Read> reading(const std::string& path) {
-  auto opened = InputFile::open(path);
-  if (!opened) return opened.error();
-  const auto file = std::make_shared<InputFile>(*std::move(opened));
-  return aqdef::Read([file](std::span<char> into) -> Result<std::size_t> {
+Read reading(const std::shared_ptr<InputFile>& file) {
+  return [file](std::span<char> into) -> Result<std::size_t> {
     auto count = file->read(into);
     if (!count) return Error{ErrorCode::Internal, count.error().message};
     return *count;
-  });
+  };
+}
+
+/// From the begin, whatever was read before.
+Read reading_again(const std::shared_ptr<InputFile>& file) {
+  return [file, read = reading(file),
+          is_begun = false](std::span<char> into) mutable -> Result<std::size_t> {
+    if (!std::exchange(is_begun, true)) {
+      if (const auto rewound = file->rewind(); !rewound) {
+        return Error{ErrorCode::Internal, rewound.error().message};
+      }
+    }
+    return read(into);
+  };
+}
+
+Outcome<std::shared_ptr<InputFile>> shared(Outcome<InputFile> opened) {
+  if (!opened) return opened.error();
+  return std::make_shared<InputFile>(*std::move(opened));
 }
 
 }  // namespace
 
 struct RowInput::State {
   std::string name;
-  std::variant<aqdef::MeasurementCsv, qif::QifRows> source;
+  std::variant<aqdef::MeasurementCsv, qif::QifRows, sheet::ShopRows, sheet::NdjsonRows> source;
   std::string rows{};  ///< of which `taken` bytes are read
   std::size_t taken = 0;
   std::vector<std::uint32_t> lines{};
 
   template <class Source>
   State(std::string file, Source from) : name(std::move(file)), source(std::move(from)) {
-    rows = std::get<Source>(source).header();
+    if constexpr (requires { source_of<Source>().header(); }) rows = source_of<Source>().header();
+  }
+
+  template <class Source>
+  Source& source_of() {
+    return std::get<Source>(source);
   }
 };
 
-bool RowInput::is_one(const std::string& path) { return is_dfq(path) || qif::is_qif(path); }
+bool RowInput::is_one(const MeasureOptions& options) {
+  return !keeps_lines(options) || sheet::is_ndjson(options.input) || is_converted(options);
+}
+
+bool RowInput::keeps_lines(const MeasureOptions& options) {
+  return !is_dfq(options.input) && !qif::is_qif(options.input);
+}
 
 Outcome<RowInput> RowInput::open(const Context& context, const MeasureOptions& options) {
   auto table = table_options(options);
   if (!table) return table.error();
-  const auto read = reading(options.input);
-  if (!read) return read.error();
-  const auto unit = aqdef::length_unit(options.length_unit);
-  if (is_dfq(options.input)) {
-    return RowInput(std::make_shared<State>(
-        options.input, aqdef::MeasurementCsv(*read, {.encoding = table->encoding,
-                                                     .columns = table->columns,
-                                                     .constants = table->constants,
-                                                     .zone = table->zone,
-                                                     .length_unit = unit,
-                                                     .leaves_out_others = table->leaves_out_others,
-                                                     .limits_of = limits_by(context)})));
-  }
-  const auto again = reading(options.input);
-  if (!again) return again.error();
-  auto rows = qif::QifRows::open(*read, *again,
-                                 {.constants = table->constants,
-                                  .zone = table->zone,
-                                  .length_unit = unit,
-                                  .leaves_out_others = table->leaves_out_others,
+  if (qif::is_qif(options.input)) return open_qif(context, options, *table);
+  if (is_dfq(options.input)) return open_dfq(context, options, *std::move(table));
+  if (sheet::is_ndjson(options.input)) return open_ndjson(options);
+  return open_table(options, *std::move(table));
+}
+
+Outcome<RowInput> RowInput::open_dfq(const Context& context, const MeasureOptions& options,
+                                     sheet::ShopCsvOptions table) {
+  const auto file = shared(InputFile::open(options.input));
+  if (!file) return file.error();
+  return RowInput(std::make_shared<State>(
+      options.input,
+      aqdef::MeasurementCsv(reading(*file), {.encoding = table.encoding,
+                                             .columns = std::move(table.columns),
+                                             .constants = std::move(table.constants),
+                                             .zone = std::move(table.zone),
+                                             .length_unit = aqdef::length_unit(options.length_unit),
+                                             .leaves_out_others = table.leaves_out_others,
+                                             .limits_of = limits_by(context)})));
+}
+
+Outcome<RowInput> RowInput::open_qif(const Context& context, const MeasureOptions& options,
+                                     sheet::ShopCsvOptions table) {
+  const auto file = shared(open_to_read_again(options.input));
+  if (!file) return file.error();
+  auto rows = qif::QifRows::open(reading(*file), reading_again(*file),
+                                 {.constants = std::move(table.constants),
+                                  .zone = std::move(table.zone),
+                                  .length_unit = aqdef::length_unit(options.length_unit),
+                                  .leaves_out_others = table.leaves_out_others,
                                   .limits_of = limits_by(context),
                                   .most_rows = std::numeric_limits<std::size_t>::max()});
   if (!rows) return cannot_read(options.input, rows.error());
   return RowInput(std::make_shared<State>(options.input, *std::move(rows)));
+}
+
+Outcome<RowInput> RowInput::open_ndjson(const MeasureOptions& options) {
+  const auto file = shared(InputFile::open(options.input));
+  if (!file) return file.error();
+  auto rows = sheet::NdjsonRows::open({}, reading(*file), sheet::Encoding::Utf8);
+  if (!rows) return cannot_read(options.input, rows.error());
+  return RowInput(std::make_shared<State>(options.input, *std::move(rows)));
+}
+
+Outcome<RowInput> RowInput::open_table(const MeasureOptions& options, sheet::ShopCsvOptions table) {
+  const std::string name = options.input == "-" ? "standard input" : options.input;
+  const bool is_known = table.encoding != sheet::Encoding::Detected;
+  const auto file =
+      shared(is_known ? InputFile::open(options.input) : open_to_read_again(options.input));
+  if (!file) return file.error();
+  auto rows =
+      sheet::ShopRows::open(reading(*file), is_known ? reading(*file) : reading_again(*file),
+                            std::move(table), sheet::kMeasurementFields);
+  if (!rows) return cannot_read(name, rows.error());
+  return RowInput(std::make_shared<State>(name, *std::move(rows)));
 }
 
 Outcome<bool> RowInput::fill() {
@@ -107,11 +167,17 @@ Outcome<bool> RowInput::fill() {
   state.taken = 0;
   return std::visit(
       [&state](auto& source) -> Outcome<bool> {
-        const auto more = source.append(state.rows, state.lines);
+        Result<bool> more = false;
+        if constexpr (requires { source.append(state.rows, state.lines); }) {
+          more = source.append(state.rows, state.lines);
+        } else {
+          more = source.append(state.rows);
+        }
         if (!more) return cannot_read(state.name, more.error());
         if (*more) return true;
-        if (const auto checked = source.check(); !checked) {
-          return cannot_read(state.name, checked.error());
+        if constexpr (requires { source.check(); }) {
+          const auto checked = source.check();
+          if (!checked) return cannot_read(state.name, checked.error());
         }
         return false;
       },
@@ -132,6 +198,7 @@ Outcome<std::size_t> RowInput::read(std::span<char> into) {
 
 std::uint64_t RowInput::line_of(const Context& context, const MeasureOptions& options,
                                 std::uint64_t csv_line) {
+  if (keeps_lines(options)) return csv_line;
   auto input = open(context, options);
   std::uint64_t before = 1;  // the header
   while (input) {

@@ -8,20 +8,23 @@
 #include "cli/context.hpp"
 #include "cli/measure_command.hpp"
 #include "cli/outcome.hpp"
+#include "sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
 
-/// A DFQ or a QIF as the CSV that the service takes, read from front to back in a bounded piece of
-/// memory.
+/// A DFQ, a QIF, NDJSON or a table of the shop as the service takes it, read from front to back in
+/// a bounded piece of memory.
 class RowInput {
  public:
-  /// Whether a file is one of them, by its name.
-  static bool is_one(const std::string& path);
+  /// Whether the input is one of them, by its name and by what the options say of a table.
+  static bool is_one(const MeasureOptions& options);
+  /// Whether what is read has the lines of the file.
+  static bool keeps_lines(const MeasureOptions& options);
 
   /// @param context and options outlive it. @errors Usage, LocalFile
   static Outcome<RowInput> open(const Context& context, const MeasureOptions& options);
 
-  /// The next bytes of the CSV; 0 at the end. @errors LocalFile: the file is wrong, with its line.
+  /// The next bytes of the rows; 0 at the end. @errors LocalFile: the file is wrong, with its line.
   Outcome<std::size_t> read(std::span<char> into);
 
   /// The line of the file that a line of the CSV is from: reads the file again up to there.
@@ -30,6 +33,12 @@ class RowInput {
 
  private:
   struct State;
+  static Outcome<RowInput> open_dfq(const Context& context, const MeasureOptions& options,
+                                    sheet::ShopCsvOptions table);
+  static Outcome<RowInput> open_qif(const Context& context, const MeasureOptions& options,
+                                    sheet::ShopCsvOptions table);
+  static Outcome<RowInput> open_ndjson(const MeasureOptions& options);
+  static Outcome<RowInput> open_table(const MeasureOptions& options, sheet::ShopCsvOptions table);
   explicit RowInput(std::shared_ptr<State> state) : state_(std::move(state)) {}
   /// The next rows. @returns false at the end.
   Outcome<bool> fill();

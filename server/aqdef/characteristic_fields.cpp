@@ -17,6 +17,8 @@ namespace {
 constexpr std::array<std::string_view, 5> kUserFields = {"feature", "rule", "uncertainty_um",
                                                          "coverage_factor", "probability"};
 
+constexpr std::size_t kMostBytes = std::size_t{16} << 20;  ///< of the texts of all prepared
+
 /// A characteristic that has none of them has no limits.
 constexpr std::array<int, 5> kTolerances = {k::kToleranceClass, k::kLowerLimit, k::kUpperLimit,
                                             k::kLowerAllowance, k::kUpperAllowance};
@@ -135,6 +137,14 @@ Result<const MeasurementCsv::Prepared*> MeasurementCsv::prepared(std::uint32_t i
   if (!prepared_[index]) {
     auto made = prepare(*reader_.description().characteristic(index));
     if (!made) return made.error();
+    for (const std::string& text : made->fields) prepared_bytes_ += text.size();
+    for (const CarriedField& field : made->carried) prepared_bytes_ += field.text.size();
+    if (prepared_bytes_ > kMostBytes) {
+      return Error{kMalformed,
+                   fmt::format("The texts of its characteristics, with those of their parts, have "
+                               "more than {} MiB: shorten them, or cut the file into several",
+                               kMostBytes >> 20)};
+    }
     prepared_[index] = *std::move(made);
   }
   return &*prepared_[index];

@@ -16,6 +16,10 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 constexpr std::size_t kFieldName = 5;  ///< K0000
 
+/// Of the input that is kept where its lines are short: so little that it is still in the cache
+/// when it is parsed.
+constexpr std::size_t kPiece = std::size_t{1} << 18;
+
 /// A number of up to six digits from the front of a text.
 std::optional<std::uint32_t> take_index(std::string_view& text) {
   constexpr std::ptrdiff_t kMostDigits = 6;
@@ -67,15 +71,7 @@ Error at_line(std::uint32_t line, std::string_view what) {
   return {kMalformed, fmt::format("line {} {}", line, what), fmt::format("line {}", line)};
 }
 
-Read read_text(std::string_view text) {
-  return [text](std::span<char> into) mutable -> Result<std::size_t> {
-    const std::size_t count = text.copy(into.data(), into.size());
-    text.remove_prefix(count);
-    return count;
-  };
-}
-
-Lines::Lines(Read read) : read_(std::move(read)), room_(kRoom, '\0') {}
+Lines::Lines(Read read) : read_(std::move(read)), room_(kPiece, '\0') {}
 
 void Lines::go_on_with(Read read) {
   read_ = std::move(read);
@@ -127,12 +123,16 @@ bool Lines::fill() {
     mark_ = 0;
     ++moves_;
   }
-  if (size_ == room_.size()) {
+  if (size_ == kRoom) {
     ++number_;
     return fail(
         fmt::format("is in a value of more than {} KiB: the file is no DFQ, or its line ends "
                     "are lost",
                     kRoom >> 10));
+  }
+  if (size_ == room_.size()) {
+    room_.resize(std::min(2 * size_, kRoom));
+    ++moves_;
   }
   const auto count = read_(std::span(room_).subspan(size_));
   if (!count) {

@@ -2,13 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "aqdef/fields.hpp"
+#include "base/read.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::aqdef {
@@ -34,12 +33,6 @@ Result<FieldLine> parse_field_line(std::string_view line);
 
 /// An error of line `line`: "line 7 has …".
 Error at_line(std::uint32_t line, std::string_view what);
-
-/// Fills the span from its front; 0 at the end of the input.
-using Read = std::function<Result<std::size_t>(std::span<char>)>;
-
-/// Reads a text from memory. @param text outlives it.
-Read read_text(std::string_view text);
 
 /// Takes the lines of an input, in a bounded piece of memory. Not thread-safe.
 class Lines {

@@ -24,6 +24,8 @@ constexpr std::size_t kGaugeCell = 9;
 /// Those that no field of a measurement is for: events, cavity, process parameters.
 constexpr std::array<std::size_t, 3> kCarriedCells = {3, 5, 8};
 
+constexpr std::size_t kMostAppended = std::size_t{1} << 16;  ///< bytes, before another value
+
 bool is_ascii(std::string_view text) {
   return std::all_of(text.begin(), text.end(),
                      [](char c) { return static_cast<unsigned char>(c) < 0x80; });
@@ -222,9 +224,14 @@ Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& v
 }
 
 Result<bool> MeasurementCsv::append(std::string& rows, std::vector<std::uint32_t>& lines) {
-  const auto next = reader_.next(set_);
-  if (!next || !*next) return next;
-  for (const Value& value : set_.values) {
+  if (next_value_ == set_.values.size()) {
+    const auto next = reader_.next(set_);
+    if (!next || !*next) return next;
+    next_value_ = 0;
+  }
+  const std::size_t before = rows.size();
+  while (next_value_ < set_.values.size() && rows.size() - before < kMostAppended) {
+    const Value& value = set_.values[next_value_++];
     const auto made = prepared(value.characteristic);
     if (!made) return made.error();
     if ((*made)->is_left_out) {

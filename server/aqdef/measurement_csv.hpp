@@ -40,7 +40,8 @@ class MeasurementCsv {
   /// The values of another file, below the description of the first: a DFX.
   void go_on_with(Read read) { reader_.go_on_with(std::move(read)); }
 
-  /// Appends the rows of the next values, and the line of the file that each is from.
+  /// Appends the rows of the next values, some 64 KiB at most, and the line of the file that each
+  /// is from.
   /// @returns false at the end. @errors kMalformed, TimeMalformed with the line
   Result<bool> append(std::string& rows, std::vector<std::uint32_t>& lines);
   /// When all is read. @errors kMalformed: counts do not agree, or there is no value.
@@ -83,7 +84,9 @@ class MeasurementCsv {
   std::string header_;
   std::vector<std::pair<int, std::size_t>> mapped_{};  ///< numbers of fields, and places
   std::vector<std::optional<Prepared>> prepared_{};    ///< by index
+  std::size_t prepared_bytes_ = 0;
   ValueSet set_;
+  std::size_t next_value_ = 0;         ///< of the set
   std::vector<std::string_view> row_;  ///< of the value that is appended
   std::deque<std::string> texts_;      ///< of that value, in another form than the file's
   std::string last_time_;              ///< as the file has it, and as it was read

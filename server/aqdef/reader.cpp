@@ -23,6 +23,16 @@ bool must_be_whole(int number) {
          number == k::kGuid || place_of(number) != std::string_view::npos;
 }
 
+/// Gives a value room for all cells, with those it has.
+void set_apart(Value& value, ValueSet& set) {
+  const auto first = static_cast<std::uint32_t>(set.apart.size());
+  const auto cells = std::max<std::uint32_t>(value.cells, kCells.size());
+  for (std::size_t place = 0; place < cells; ++place) set.apart.push_back(set.cell(value, place));
+  value.first_cell = first;
+  value.cells = cells;
+  value.is_apart = true;
+}
+
 bool begins_value(char c) {
   return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == ',' || c == ' ' ||
          c == kFieldSeparator || c == kValueSeparator;
@@ -72,7 +82,8 @@ Result<bool> Reader::next(ValueSet& set) {
 
 Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
   set.values.clear();
-  set.cells.clear();
+  set.starts.clear();
+  set.apart.clear();
   set.fields.clear();
   Lines::Line line = first;
   const bool is_of_fields = is_field_line(first.text);
@@ -128,44 +139,40 @@ Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
   // Behind the last value may stand a separator.
   if (rest.back() == kValueSeparator) rest.remove_suffix(1);
   const std::size_t count = description_.count();
-  std::string_view* const cells = set.cells.room_for(rest.size() + 1);
-  std::uint32_t cell = 0;
-  std::uint32_t first_cell = 0;  // of the value
-  std::size_t from = 0;
-  const auto end_cell = [&](std::size_t at) {
-    cells[cell++] = {rest.data() + from, at - from};
-    from = at + 1;
-  };
-  const auto end_value = [&] {
-    set.values.push_back({.characteristic = static_cast<std::uint32_t>(set.values.size()) + 1,
-                          .line = line.number,
-                          .first_cell = first_cell,
-                          .cells = cell - first_cell});
-    first_cell = cell;
-  };
-  for_each_separator(rest, [&](std::size_t at) {
-    end_cell(at);
-    if (rest[at] != kValueSeparator) return true;
-    end_value();
-    return set.values.size() < count;  // too many: told below
-  });
-  if (set.values.size() >= count) {
+  set.text = rest.data();
+  const std::size_t most = rest.size() + kSeparateRoom;
+  std::uint32_t* const starts = set.starts.room_for(1 + most + 1);
+  std::uint32_t* const ends = ends_.room_for(most + 1);
+  starts[0] = 0;
+  Separated found = separate(rest, starts + 1, ends);
+  *found.starts++ = static_cast<std::uint32_t>(rest.size()) + 1;
+  *found.values++ = static_cast<std::uint32_t>(found.starts - starts) - 1;
+  const auto values = static_cast<std::size_t>(found.values - ends);
+  if (values > count) {
     return at_line(
         line.number,
         fmt::format("has more values than the {} characteristics described above it", count));
   }
-  end_cell(rest.size());
-  end_value();
-  set.cells.add(cell);
+  Value* value = set.values.room_for(values);
+  std::uint32_t first = 0;
+  for (std::uint32_t index = 0; index < values; ++index) {
+    *value++ = {.characteristic = index + 1,
+                .line = line.number,
+                .first_cell = first,
+                .cells = ends[index] - first};
+    first = ends[index];
+  }
+  set.starts.add_up_to(found.starts);
+  set.values.add_up_to(value);
   return {};
 }
 
 Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, ValueSet& set) {
   if (const auto ended = check_end(line, &field); !ended) return ended.error();
   const bool is_value = field.number == k::kValue || field.number == k::kSubgroupSize;
-  const auto of_field = std::find_if(set.values.begin(), set.values.end(), [&](const Value& value) {
-    return value.characteristic == field.index;
-  });
+  const auto* const of_field =
+      std::find_if(set.values.begin(), set.values.end(),
+                   [&](const Value& value) { return value.characteristic == field.index; });
   if (is_value) {
     if (field.index == 0) {
       return at_line(line.number, fmt::format("has K{:04} for all characteristics: name the one it "
@@ -179,13 +186,11 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
                                  "describes",
                                  field.index));
     }
-    set.values.push_back({.characteristic = field.index,
-                          .line = line.number,
-                          .first_cell = static_cast<std::uint32_t>(set.cells.size()),
-                          .cells = kCells.size()});
-    for (std::size_t i = 0; i < kCells.size(); ++i) {
-      set.cells.push_back(i == 0 ? field.text : std::string_view());
-    }
+    Value& value = *set.values.room_for(1);
+    value = {.characteristic = field.index, .line = line.number};
+    set.values.add_up_to(&value + 1);
+    set_apart(value, set);
+    set.apart[value.first_cell] = field.text;
     if (field.number == k::kSubgroupSize) {
       set.fields.push_back({field.index, field.number, field.text});
     }
@@ -212,17 +217,9 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
   }
   for (Value& value : set.values) {
     if (field.index != 0 && value.characteristic != field.index) continue;
-    if (place >= value.cells) {
-      // A short line of values: its cells move to where there is room.
-      const auto first = static_cast<std::uint32_t>(set.cells.size());
-      for (std::uint32_t i = 0; i < kCells.size(); ++i) {
-        set.cells.push_back(i < value.cells ? set.cells[value.first_cell + i] : std::string_view());
-      }
-      value.first_cell = first;
-      value.cells = kCells.size();
-    }
-    std::string_view& cell = set.cells[value.first_cell + place];
-    if (field.index != 0 || cell.empty()) cell = field.text;
+    if (field.index == 0 && !set.cell(value, place).empty()) continue;
+    if (!value.is_apart) set_apart(value, set);
+    set.apart[value.first_cell + place] = field.text;
   }
   return true;
 }

@@ -21,8 +21,9 @@ inline constexpr std::array<int, 10> kCells = {
 struct Value {
   std::uint32_t characteristic = 0;
   std::uint32_t line = 0;
-  std::uint32_t first_cell = 0;
+  std::uint32_t first_cell = 0;  ///< in ValueSet::starts, or in ValueSet::apart
   std::uint32_t cells = 0;
+  bool is_apart = false;
 };
 
 /// `K0014/3 SN-7` below a line of values.
@@ -32,39 +33,50 @@ struct ValueField {
   std::string_view text;
 };
 
-/// Texts in a row. Its room stays when it is emptied, so that a line of values is written into it
+/// Things in a row. Its room stays when it is emptied, so that a line of values is written into it
 /// without a question at each.
-class Cells {
+template <class Thing>
+class Row {
  public:
   std::size_t size() const { return size_; }
-  std::string_view& operator[](std::size_t index) { return room_[index]; }
-  std::string_view operator[](std::size_t index) const { return room_[index]; }
+  Thing& operator[](std::size_t index) { return room_[index]; }
+  const Thing& operator[](std::size_t index) const { return room_[index]; }
+  Thing* begin() { return room_.data(); }
+  Thing* end() { return room_.data() + size_; }
+  const Thing* begin() const { return room_.data(); }
+  const Thing* end() const { return room_.data() + size_; }
   void clear() { size_ = 0; }
-  void push_back(std::string_view cell) {
-    room_for(1)[0] = cell;
-    add(1);
+  void push_back(const Thing& thing) {
+    *room_for(1) = thing;
+    ++size_;
   }
-  /// Where the next ones go; they are of the row when add() has said how many there are.
-  std::string_view* room_for(std::size_t most) {
+  /// Where the next ones go; they are of the row when add_up_to() has said where they end.
+  Thing* room_for(std::size_t most) {
     if (room_.size() - size_ < most) room_.resize(size_ + most);
     return room_.data() + size_;
   }
-  void add(std::size_t count) { size_ += count; }
+  void add_up_to(const Thing* end) { size_ = static_cast<std::size_t>(end - room_.data()); }
 
  private:
-  std::vector<std::string_view> room_{};
+  std::vector<Thing> room_{};
   std::size_t size_ = 0;
 };
 
 /// The values of one line, or of K0001 of one characteristic after the other.
 struct ValueSet {
-  std::vector<Value> values{};
-  Cells cells{};
+  Row<Value> values{};
+  const char* text = nullptr;   ///< the line of values
+  Row<std::uint32_t> starts{};  ///< of its cells, in bytes, each behind the separator of the last
+  Row<std::string_view>
+      apart{};  ///< cells that a field of its own says, each value's as many as kCells, at least
   std::vector<ValueField> fields{};
 
   /// A text by its number of K0001 to K0012; empty where there is none.
   std::string_view cell(const Value& value, std::size_t place) const {
-    return place < value.cells ? cells[value.first_cell + place] : std::string_view();
+    if (place >= value.cells) return {};
+    const std::size_t index = value.first_cell + place;
+    if (value.is_apart) return apart[index];
+    return {text + starts[index], starts[index + 1] - starts[index] - 1};
   }
   /// A field that stands below the values: of that one, else of all.
   std::string_view field(const Value& value, int number) const;
@@ -99,6 +111,7 @@ class Reader {
 
   Lines lines_;
   Description description_;
+  Row<std::uint32_t> ends_{};            ///< of the values of a line, counted in cells
   std::vector<std::uint32_t> counts_{};  ///< of values, by the index of the characteristic
 };
 

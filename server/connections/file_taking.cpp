@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <future>
+#include <utility>
+#include <vector>
 
 #include "api/measurements/measurement_batch.hpp"
 #include "api/measurements/measurement_row_fields.hpp"
 #include "base/digest.hpp"
-#include "connections/dfq_file.hpp"
-#include "http/request.hpp"
-#include "qif/qif_csv.hpp"
-#include "sheet/exported_record.hpp"
+#include "connections/file_rows.hpp"
 #include "sheet/measurement_fields.hpp"
 
 namespace fitgauge::connections {
@@ -19,18 +17,19 @@ namespace {
 
 constexpr std::size_t kMostTold = 100;
 
-/// Answers nobody: it tells that the file was not there before.
-class NewFile final : public app::Rendering {
+/// Answers nobody: it counts what is stored.
+class CountedRows final : public app::Rendering {
  public:
-  explicit NewFile(std::shared_ptr<bool> is_new) : is_new_(std::move(is_new)) {}
-  void add(std::span<const app::Measurement>, std::string_view) override {}
+  void add(std::span<const app::Measurement> measurements, std::string_view) override {
+    count_ += measurements.size();
+  }
   app::Answer finish() override {
-    *is_new_ = true;
     return {.status = 201, .content_type = "text/plain", .location = {}, .body = {}};
   }
+  std::size_t count() const { return count_; }
 
  private:
-  std::shared_ptr<bool> is_new_;
+  std::size_t count_ = 0;
 };
 
 static_assert(std::equal(sheet::kMeasurementFields.begin(), sheet::kMeasurementFields.end(),
@@ -38,17 +37,6 @@ static_assert(std::equal(sheet::kMeasurementFields.begin(), sheet::kMeasurementF
                          [](std::string_view name, const api::RowField& field) {
                            return name == field.name;
                          }));
-
-/// A table or NDJSON as /v1/measurements takes it.
-Result<std::string> readable(const FolderInOptions& options, std::string_view file_name,
-                             const std::string& bytes) {
-  if (!sheet::is_ndjson(file_name)) {
-    return sheet::shop_csv(bytes, options.csv, sheet::kMeasurementFields);
-  }
-  const auto text = sheet::to_utf8(bytes, options.csv.encoding);
-  if (!text) return text.error();
-  return sheet::ndjson_as_given(*text);
-}
 
 }  // namespace
 
@@ -65,56 +53,51 @@ bool is_of_storage(const Error& error) {
   }
 }
 
-Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& around,
-                            std::string_view file_name, std::string bytes,
-                            const std::string& description) {
+Result<std::optional<TakenFile>> take_file(const FolderInOptions& options,
+                                           const Surroundings& around, std::string_view file_name,
+                                           const RestingFile& file,
+                                           const RestingFile* description) {
   const auto tables = around.app.tables().tables();
   if (!tables) return tables.error();
-  const std::string key = to_hex(Sha256().update(description).update(bytes).finish());
-  DfqText dfq;
-  std::string text;
-  if (is_dfq(file_name)) {
-    auto read = read_dfq(options, **tables, description, bytes);
-    if (!read) return read.error();
-    dfq = *std::move(read);
-    text = std::move(dfq.csv);
-  } else if (qif::is_qif(file_name)) {
-    auto read = read_qif_file(options, **tables, bytes);
-    if (!read) return read.error();
-    dfq = *std::move(read);
-    text = std::move(dfq.csv);
-  } else {
-    auto read = readable(options, file_name, bytes);
-    if (!read) return read.error();
-    text = *std::move(read);
+  Sha256 digest;
+  for (const RestingFile* const part : {description, &file}) {
+    if (part == nullptr) continue;
+    if (const auto added = part->add_to(digest); !added) return added.error();
   }
-  bytes = std::string();  // of what may be long, one form at a time
-  text.reserve(text.size() + http::Request::kBodyPadding);
+  const std::string key = to_hex(digest.finish());
+  const auto rows = read_file_rows(options, **tables, file_name, file, description);
+  const bool is_unchanged =
+      file.is_unchanged() && (description == nullptr || description->is_unchanged());
+  if (!is_unchanged) return std::optional<TakenFile>();
+  if (!rows) return rows.error();
   const auto gauges = around.gauges.book();
-  api::MeasurementBatch batch;
-  const auto decoded = api::decode_measurements(
-      text, sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv",
-      {.tables = **tables,
-       .received_at = around.clock.now(),
-       .caller = options.name,
-       .gauges = gauges.get()},
-      batch);
-  if (!decoded) return at_lines_of(dfq, decoded.error());
-  const std::size_t rows = batch.rows.size();
   const app::IdempotencyScope scope{.caller = options.name,
                                     .method = "FOLDER",
                                     .path = "folder_in",
                                     .key = key,
                                     .body = key,
                                     .is_kept_for_ever = true};
-  const auto is_new = std::make_shared<bool>(false);
-  std::promise<Result<app::Answer>> promise;
-  auto stored = promise.get_future();
-  around.app.measurements().record(
-      std::move(batch.rows), scope, [is_new] { return std::make_unique<NewFile>(is_new); },
-      [&promise](Result<app::Answer> answer) { promise.set_value(std::move(answer)); });
-  if (const auto answer = stored.get(); !answer) return answer.error();
-  return TakenFile{.was_taken_before = !*is_new, .measurements = *is_new ? rows : 0};
+  api::MeasurementBatch batch;
+  api::BatchContext context{.tables = **tables,
+                            .received_at = around.clock.now(),
+                            .caller = options.name,
+                            .gauges = gauges.get()};
+  // All are judged before the first is stored: a wrong file is none of the writer's business.
+  context.take = [](std::vector<app::Measurement>) {};
+  const auto judged = api::decode_measurements(rows->text, rows->media_type, context, batch);
+  if (!judged) return at_lines_of(*rows, judged.error());
+  CountedRows counted;
+  const auto stored = around.app.measurements().record_while_reading(
+      [&](const app::MeasurementService::Take& take) {
+        batch = {};
+        context.take = take;
+        auto decoded = api::decode_measurements(rows->text, rows->media_type, context, batch);
+        if (decoded && !batch.rows.empty()) take(std::move(batch.rows));
+        return decoded;
+      },
+      scope, counted);
+  if (!stored) return stored.error();
+  return TakenFile{.was_taken_before = counted.count() == 0, .measurements = counted.count()};
 }
 
 std::string told(std::string_view file_name, const Error& error) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "connections/folder_in.hpp"
+#include "connections/resting_file.hpp"
 
 namespace fitgauge::connections {
 
@@ -15,11 +18,12 @@ struct TakenFile {
 
 /// Stores what a file says, all rows or none. The same bytes are stored once for a connection:
 /// their digest is kept for ever in the transaction that stores the rows. Waits.
-/// @param description of a DFX: the bytes of its DFD; else empty.
+/// @param description of a DFX: its DFD; else null.
+/// @returns nothing when the file has changed meanwhile.
 /// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
-Result<TakenFile> take_file(const FolderInOptions& options, const Surroundings& around,
-                            std::string_view file_name, std::string bytes,
-                            const std::string& description = {});
+Result<std::optional<TakenFile>> take_file(const FolderInOptions& options,
+                                           const Surroundings& around, std::string_view file_name,
+                                           const RestingFile& file, const RestingFile* description);
 
 /// What is wrong with a file, for the one who wrote it: lines, and what to do.
 std::string told(std::string_view file_name, const Error& error);

@@ -20,8 +20,9 @@
 #include "base/guarded.hpp"
 #include "base/text.hpp"
 #include "collector/collector_options.hpp"
-#include "connections/dfq_file.hpp"
+#include "connections/file_rows.hpp"
 #include "connections/file_taking.hpp"
+#include "connections/resting_file.hpp"
 #include "connections/whole_file.hpp"
 #include "control_link/descriptor.hpp"
 #include "http/request.hpp"
@@ -35,22 +36,6 @@ using control_link::Descriptor;
 constexpr int kStopSliceMs = 100;  ///< how soon a stop is seen
 constexpr std::size_t kInotifyBuffer = 16'384;
 constexpr int kWaitsForDescription = 6;  ///< looks that a DFX waits for its DFD
-
-/// As a file looks from outside.
-struct Look {
-  std::int64_t size = 0;
-  std::int64_t changed_ns = 0;
-  std::uint64_t inode = 0;
-
-  friend bool operator==(const Look&, const Look&) = default;
-};
-
-Look look_of(const struct stat& status) {
-  return {.size = status.st_size,
-          .changed_ns =
-              std::int64_t{status.st_mtim.tv_sec} * kNanosecondsPerSecond + status.st_mtim.tv_nsec,
-          .inode = status.st_ino};
-}
 
 std::string because() { return std::strerror(errno); }
 
@@ -101,8 +86,6 @@ class FolderIn final : public Worker {
   std::optional<std::string> take(const std::string& name, Seen& seen);
   /// The DFD of a DFX: empty while it has to be waited for. @errors it is not there.
   Result<std::string> description_of(const std::string& name, const Seen& seen);
-  /// The bytes of a file that has not changed since; nothing when it has. @errors why not.
-  Result<std::optional<std::string>> read_whole(const std::string& name, Seen& seen);
   /// Of files that are taken. @returns why one stays, until the next look.
   std::optional<std::string> move_away(const std::vector<std::string>& names) const;
   /// @param names of the file, and of its description where it has one
@@ -237,33 +220,6 @@ Result<std::string> FolderIn::description_of(const std::string& name, const Seen
       fmt::format("its description, {}.dfd, is not in the folder: put both into it", stem)};
 }
 
-Result<std::optional<std::string>> FolderIn::read_whole(const std::string& name, Seen& seen) {
-  const Descriptor file(open((options_.folder / name).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
-  if (file.get() < 0) {
-    if (errno == ENOENT) return std::optional<std::string>();  // taken away since
-    return Error{ErrorCode::StorageUnavailable,
-                 fmt::format("{} cannot be read: {}", name, because())};
-  }
-  std::string bytes(static_cast<std::size_t>(seen.look.size), '\0');
-  std::size_t have = 0;
-  while (have < bytes.size()) {
-    const ssize_t count = ::read(file.get(), bytes.data() + have, bytes.size() - have);
-    if (count < 0) {
-      return Error{ErrorCode::StorageUnavailable,
-                   fmt::format("{} cannot be read: {}", name, because())};
-    }
-    if (count == 0) break;
-    have += static_cast<std::size_t>(count);
-  }
-  struct stat status {};
-  if (fstat(file.get(), &status) != 0 || look_of(status) != seen.look || have != bytes.size()) {
-    is_restless_ = true;  // it changes yet: the next look begins anew
-    seen.since = std::chrono::steady_clock::now();
-    return std::optional<std::string>();
-  }
-  return std::optional(std::move(bytes));
-}
-
 std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
   std::vector<std::string> names = {name};
   if (is_values_alone(name)) {
@@ -273,33 +229,39 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
     names.push_back(*description);
   }
   if (seen.is_taken) return move_away(names);
-  std::vector<std::string> contents;
+  std::vector<RestingFile> files;
+  std::int64_t size = 0;
   for (const std::string& one : names) {
-    Seen& looked = seen_[one];
-    if (looked.look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
+    const Look& look = seen_[one].look;
+    size += look.size;
+    if (look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
       return fail(names, {ErrorCode::BodyTooLarge,
                           fmt::format("it has more than {} MiB: cut it into several files",
                                       options_.most_file_bytes >> 20)});
     }
-    auto bytes = read_whole(one, looked);
-    if (!bytes) return bytes.error().message;
-    if (!*bytes) return std::nullopt;
-    contents.push_back(**std::move(bytes));
+    auto file = RestingFile::open(options_.folder / one, look);
+    if (!file) return file.error().message;
+    if (!*file) return std::nullopt;  // taken away since
+    files.push_back(**std::move(file));
   }
-  contents.resize(2);
-  const std::size_t size = contents[0].size() + contents[1].size();
-  const auto taken = take_file(options_, around_, name, std::move(contents[0]), contents[1]);
+  const auto taken =
+      take_file(options_, around_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
   if (!taken) {
     if (is_of_storage(taken.error())) return taken.error().message;
     return fail(names, taken.error());
   }
+  if (!*taken) {
+    is_restless_ = true;  // it changes yet: the next look begins anew
+    for (const std::string& one : names) seen_[one].since = std::chrono::steady_clock::now();
+    return std::nullopt;
+  }
   change([&](app::ConnectionState& state) {
-    state.measurements += taken->measurements;
-    if (taken->was_taken_before) return;
+    state.measurements += (*taken)->measurements;
+    if ((*taken)->was_taken_before) return;
     ++state.files;
-    state.bytes += size;
+    state.bytes += static_cast<std::uint64_t>(size);
   });
-  if (taken->was_taken_before) {
+  if ((*taken)->was_taken_before) {
     around_.tell("file_taken_before", fmt::format("{}: {}: the same bytes are stored; it is moved "
                                                   "to done",
                                                   options_.name, name));

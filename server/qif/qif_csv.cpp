@@ -28,7 +28,7 @@ constexpr std::array kSizes = {
 /// One document on its way into rows.
 class QifRows::Converter {
  public:
-  Converter(Definitions definitions, aqdef::Read document, QifOptions options)
+  Converter(Definitions definitions, Read document, QifOptions options)
       : definitions_(std::move(definitions)),
         options_(std::move(options)),
         reader_(std::move(document)) {}
@@ -249,7 +249,7 @@ QifRows::QifRows(QifRows&&) noexcept = default;
 QifRows& QifRows::operator=(QifRows&&) noexcept = default;
 QifRows::~QifRows() = default;
 
-Result<QifRows> QifRows::open(aqdef::Read first, aqdef::Read again, QifOptions options) {
+Result<QifRows> QifRows::open(Read first, Read again, QifOptions options) {
   auto definitions = Definitions::read(std::move(first), options.length_unit);
   if (!definitions) return definitions.error();
   return QifRows(
@@ -272,7 +272,7 @@ Result<void> QifRows::check() const {
 bool is_qif(std::string_view file_name) { return ascii_lower(file_name).ends_with(".qif"); }
 
 Result<QifText> read_qif(std::string_view text, const QifOptions& options) {
-  auto opened = QifRows::open(aqdef::read_text(text), aqdef::read_text(text), options);
+  auto opened = QifRows::open(read_text(text), read_text(text), options);
   if (!opened) return opened.error();
   QifText read{.csv = opened->header()};
   for (;;) {

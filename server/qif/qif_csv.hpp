@@ -40,7 +40,7 @@ class QifRows {
  public:
   /// @param first and again read the same document from its begin, one after the other
   /// @errors CsvMalformed with the line
-  static Result<QifRows> open(aqdef::Read first, aqdef::Read again, QifOptions options);
+  static Result<QifRows> open(Read first, Read again, QifOptions options);
   QifRows(QifRows&&) noexcept;
   QifRows& operator=(QifRows&&) noexcept;
   ~QifRows();

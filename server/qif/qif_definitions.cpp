@@ -113,8 +113,7 @@ std::string_view Definitions::feature(const Item& item, const Nominal& nominal) 
   return text(features_, std::string(text(feature_nominals_, of_nominal)));
 }
 
-Result<Definitions> Definitions::read(aqdef::Read document,
-                                      std::optional<aqdef::LengthUnit> fallback) {
+Result<Definitions> Definitions::read(Read document, std::optional<aqdef::LengthUnit> fallback) {
   XmlReader reader(std::move(document));
   Definitions read;
   read.unit_ = fallback;

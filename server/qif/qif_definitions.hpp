@@ -51,7 +51,7 @@ class Definitions {
   };
 
   /// Reads all but the measurements. @errors CsvMalformed with the line
-  static Result<Definitions> read(aqdef::Read document, std::optional<aqdef::LengthUnit> fallback);
+  static Result<Definitions> read(Read document, std::optional<aqdef::LengthUnit> fallback);
 
   /// Null where there is none of that id.
   const Item* item(const std::string& id) const { return find(items_, id); }

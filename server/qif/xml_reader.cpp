@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "aqdef/lines.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::qif {
@@ -75,7 +76,7 @@ std::vector<std::pair<std::string, std::string>> Element::named_attributes() con
 }
 
 struct XmlReader::State {
-  aqdef::Read read;
+  Read read;
   xmlTextReaderPtr reader = nullptr;
   std::string message{};  ///< of the first error
   std::uint32_t line = 0;
@@ -103,8 +104,7 @@ struct XmlReader::State {
   }
 };
 
-XmlReader::XmlReader(aqdef::Read read)
-    : state_(std::make_unique<State>(State{.read = std::move(read)})) {
+XmlReader::XmlReader(Read read) : state_(std::make_unique<State>(State{.read = std::move(read)})) {
   state_->reader = xmlReaderForIO(
       [](void* context, char* into, int size) {
         return static_cast<State*>(context)->fill({into, static_cast<std::size_t>(size)});

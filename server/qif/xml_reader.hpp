@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "aqdef/lines.hpp"
+#include "base/read.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::qif {
@@ -43,7 +43,7 @@ class XmlReader {
  public:
   static constexpr std::size_t kLargestElement = std::size_t{4} << 20;
 
-  explicit XmlReader(aqdef::Read read);
+  explicit XmlReader(Read read);
   XmlReader(const XmlReader&) = delete;
   XmlReader& operator=(const XmlReader&) = delete;
   ~XmlReader();

@@ -63,20 +63,4 @@ bool is_ndjson(std::string_view file_name) {
   return name.ends_with(".ndjson") || name.ends_with(".jsonl");
 }
 
-Result<std::string> ndjson_as_given(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    if (const auto appended = append_as_given(out, text.substr(0, end)); !appended) {
-      return Error{appended.error().code,
-                   fmt::format("line {} {}", number, appended.error().message),
-                   fmt::format("line {}", number)};
-    }
-    if (end < text.size()) out += '\n';
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return out;
-}
-
 }  // namespace fitgauge::sheet

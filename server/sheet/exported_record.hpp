@@ -30,7 +30,4 @@ Result<void> append_as_given(std::string& out, std::string_view line);
 /// Whether the name of a file says that it has records: `.ndjson`, `.jsonl`.
 bool is_ndjson(std::string_view file_name);
 
-/// All lines of a text. @errors CsvMalformed, whose `where` is the line.
-Result<std::string> ndjson_as_given(std::string_view text);
-
 }  // namespace fitgauge::sheet

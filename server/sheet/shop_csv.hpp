@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/read.hpp"
 #include "base/result.hpp"
 #include "sheet/text_encoding.hpp"
 #include "sheet/time_zone.hpp"
@@ -34,9 +36,35 @@ struct ShopCsvOptions {
 /// without text, blanks around a text, names in either case, and times of a clock on the wall.
 /// The CSV of a list of measurements is taken back: what was computed is left out, and limits of a
 /// class are those of the class.
-/// A table may have `date` and `time` (by `columns`) instead of measured_at.
-/// @param fields the names of a measurement's fields.
-/// @errors TextEncoding; CsvMalformed and TimeMalformed, whose `where` is the line.
+/// A table may have `date` and `time` (by `columns`) instead of measured_at. It is read in a
+/// bounded piece of memory; a row has at most 1 MiB. Of no more use after an error.
+class ShopRows {
+ public:
+  /// @param first and again read the same table from its begin, one after the other; `first` only
+  ///   where the encoding is to be detected.
+  /// @param fields the names of a measurement's fields; outlive it.
+  /// @errors TextEncoding, CsvMalformed
+  static Result<ShopRows> open(const Read& first, Read again, ShopCsvOptions options,
+                               std::span<const std::string_view> fields);
+  ShopRows(ShopRows&&) noexcept;
+  ShopRows& operator=(ShopRows&&) noexcept;
+  ~ShopRows();
+
+  /// As many lines as the table has up to the end of its own.
+  const std::string& header() const { return header_; }
+  /// Appends the next row. @returns false at the end.
+  /// @errors TextEncoding; CsvMalformed and TimeMalformed, whose `where` is the line.
+  Result<bool> append(std::string& rows);
+
+ private:
+  class Converter;
+  ShopRows(std::unique_ptr<Converter> converter, std::string header);
+
+  std::unique_ptr<Converter> converter_;
+  std::string header_;
+};
+
+/// All rows of a table in memory, below the header. @errors as ShopRows
 Result<std::string> shop_csv(std::string_view bytes, const ShopCsvOptions& options,
                              std::span<const std::string_view> fields);
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "base/read.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::sheet {
@@ -18,5 +21,35 @@ std::optional<Encoding> encoding_from_word(std::string_view word);
 /// mark is read in the order that its beginning shows, else little-endian.
 /// @errors TextEncoding with the byte.
 Result<std::string> to_utf8(std::string_view bytes, Encoding encoding);
+
+/// What a text is in, as to_utf8 finds it out. Reads to the end of the text.
+Result<Encoding> detected_encoding(const Read& read);
+
+/// The same as to_utf8 of a text of any size, piece by piece. Not thread-safe; of no more use after
+/// an error.
+class Utf8Input {
+ public:
+  /// @param first and again read the same text from its begin, one after the other; `first` only
+  ///   where the encoding is to be detected.
+  static Result<Utf8Input> open(const Read& first, Read again, Encoding encoding);
+
+  /// Appends the next piece. @returns false at the end. @errors TextEncoding with the byte, counted
+  /// behind the byte-order mark.
+  Result<bool> append(std::string& out);
+
+ private:
+  Utf8Input(Read read, Encoding encoding) : read_(std::move(read)), encoding_(encoding) {}
+
+  /// Reads on behind what is not decoded yet.
+  Result<void> fill();
+
+  Read read_;
+  Encoding encoding_;
+  std::string bytes_{};   ///< that are read and not decoded yet
+  std::uint64_t at_ = 0;  ///< where those stand in the text
+  bool is_big_ = false;   ///< of UTF-16
+  bool is_begun_ = false;
+  bool is_at_end_ = false;
+};
 
 }  // namespace fitgauge::sheet

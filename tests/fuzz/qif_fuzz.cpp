@@ -28,7 +28,7 @@ struct Said {
   std::string error{};
 };
 
-Said said(const aqdef::Read& first, const aqdef::Read& again) {
+Said said(const Read& first, const Read& again) {
   static const auto zone = sheet::TimeZone::load("Europe/Berlin");
   Said said;
   auto rows = QifRows::open(first, again,
@@ -45,7 +45,7 @@ Said said(const aqdef::Read& first, const aqdef::Read& again) {
 }
 
 /// A text that comes a byte at a time.
-aqdef::Read byte_by_byte(std::string_view text) {
+Read byte_by_byte(std::string_view text) {
   return [text](std::span<char> into) mutable -> Result<std::size_t> {
     const std::size_t count = text.copy(into.data(), std::min<std::size_t>(into.size(), 1));
     text.remove_prefix(count);
@@ -83,7 +83,7 @@ void write_and_read(std::string_view bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const Said whole = said(aqdef::read_text(text), aqdef::read_text(text));
+  const Said whole = said(read_text(text), read_text(text));
   require(static_cast<std::size_t>(std::count(whole.text.csv.begin(), whole.text.csv.end(),
                                               '\n')) == whole.text.lines.size());
   const Said pieces = said(byte_by_byte(text), byte_by_byte(text));

@@ -84,12 +84,12 @@ Result<void> CsvReader::read_quoted() {
   for (const char c : text) line_ += c == '\n' ? 1 : 0;
   rest_.remove_prefix(end + 1);
   if (doubled) {
-    std::string& plain = unescaped_.emplace_back();
+    plain_.clear();
     for (std::size_t i = 0; i < text.size(); ++i) {
-      plain += text[i];
+      plain_ += text[i];
       if (text[i] == '"') ++i;
     }
-    text = plain;
+    text = unescaped_->keep(plain_);
   }
   cells_.push_back({.text = text, .quoted = true});
   return {};

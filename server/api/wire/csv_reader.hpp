@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "api/wire/text_arena.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::api {
@@ -51,7 +52,10 @@ class CsvReader {
   std::size_t record_line_ = 1;
   std::vector<std::string> header_;
   std::vector<CsvCell> cells_;
-  std::deque<std::string> unescaped_;  // cells whose doubled quotes were undone, of every record
+  std::unique_ptr<TextArena>
+      unescaped_ =  // cells whose doubled quotes were undone, of every record
+      std::make_unique<TextArena>();
+  std::string plain_;
 };
 
 }  // namespace fitgauge::api

@@ -1,10 +1,8 @@
 // A DFQ read from a file: `bench_dfq FILE [rows]`. Prints how many characteristics and values it
-// has, and the seconds of the processor outside of the kernel; with `rows` as CSV of measurements,
-// else as fields alone.
+// has; with `rows` as CSV of measurements, else as fields alone.
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <string_view>
@@ -18,13 +16,6 @@ using fitgauge::aqdef::MeasurementCsv;
 using fitgauge::aqdef::Reader;
 using fitgauge::aqdef::ValueSet;
 
-double seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) +
-         static_cast<double>(usage.ru_utime.tv_usec) * 1e-6;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -37,7 +28,6 @@ int main(int argc, char** argv) {
     const ssize_t count = ::read(file, into.data(), into.size());
     return count < 0 ? 0 : static_cast<std::size_t>(count);
   };
-  const double began = seconds();
   std::size_t values = 0;
   std::string said;
   std::size_t characteristics = 0;
@@ -70,9 +60,7 @@ int main(int argc, char** argv) {
     }
     characteristics = reader.description().count();
   }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  fmt::print("{} characteristics, {} values, {:.4f} s, {} KiB{}{}\n", characteristics, values,
-             seconds() - began, usage.ru_maxrss, said.empty() ? "" : ": ", said);
+  fmt::print("{} characteristics, {} values{}{}\n", characteristics, values,
+             said.empty() ? "" : ": ", said);
   return said.empty() ? 0 : 1;
 }

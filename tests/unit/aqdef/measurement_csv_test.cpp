@@ -1,6 +1,7 @@
 #include "aqdef/measurement_csv.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <string>
 #include <vector>
@@ -254,6 +255,57 @@ TEST_CASE("fields that travel in a comment come back") {
     CHECK(parse_comment(text).text == text);
     CHECK(parse_comment(text).fields.empty());
   }
+}
+
+TEST_CASE("which times are read") {
+  const auto at = [](const std::string& time) {
+    const std::string rows = rows_of(file(kH7,
+                                          "25.01\x14"
+                                          "0\x14" +
+                                              time + "\r\n"));
+    const std::size_t from = rows.find("measured_at=");
+    return from == rows.npos ? rows
+                             : rows.substr(from + 12, rows.find_first_of(" \n", from) - from - 12);
+  };
+  for (const char* time : {"20.11.2026/08:00:00", "20.11.2026/8:00", "2026-11-20/08:00:00",
+                           "2026-11-20T08:00:00", "20.11.2026  08:00:00.000"}) {
+    CAPTURE(time);
+    CHECK(at(time).starts_with("2026-11-20T07:00:00"));
+    CHECK(at(time).find(' ') == std::string::npos);
+  }
+  CHECK(at("2026-11-20T08:00:00+01:00") == "2026-11-20T08:00:00+01:00");
+  CHECK(at("20.11.2026/08:00:00,25") == "2026-11-20T07:00:00.25Z");
+  for (const char* time : {"20.11.2026", "20.11.26/08:00:00", "11/20/2026/08:00:00",
+                           "20.11.1899/08:00:00", "31.11.2026/08:00:00", "20.11.2026/24:00:00"}) {
+    CAPTURE(time);
+    CHECK(at(time).find("write 20.11.2026/08:00:00") != std::string::npos);
+  }
+}
+
+TEST_CASE("texts that all values share are bounded, and a line of values comes in pieces") {
+  std::string described = "K0100 1000\r\nK1001/1 " + std::string(20'000, 'x') + "\r\n";
+  std::string values;
+  for (int index = 1; index <= 1000; ++index) {
+    for (const char* field : {"K2101/{} 25", "K2103/{} H", "K2104/{} 7", "K2142/{} mm"}) {
+      described += fmt::format(fmt::runtime(field), index) + "\r\n";
+    }
+    values += index == 1 ? "25.01"
+                         : "\x0F"
+                           "25.01";
+  }
+  MeasurementCsv csv(read_text(described += values + "\r\n"), options());
+  std::string rows;
+  std::vector<std::uint32_t> lines;
+  std::string said;
+  while (said.empty()) {
+    const std::size_t before = rows.size();
+    const auto more = csv.append(rows, lines);
+    if (!more) said = more.error().message;
+    if (more && !*more) said = "all is read";
+    CHECK(rows.size() - before < 100'000);
+  }
+  CAPTURE(said);
+  CHECK(said.starts_with("The texts of its characteristics"));
 }
 
 }  // namespace

@@ -50,21 +50,28 @@ TEST_CASE("a line is cut at every separator, wherever it stands in a block") {
     return byte == '\0' || byte == '\n' || byte == '\r' || byte == '\x14' || byte == '\x0F' ? 'x'
                                                                                             : byte;
   };
+  constexpr std::size_t kBlock = 64;
   for (std::size_t size = 1; size <= 3 * kBlock; ++size) {
     for (std::size_t step = 1; step <= kBlock + 1; step += 1 + size % 5) {
       std::string text;
-      std::vector<std::size_t> wanted;
+      std::vector<std::uint32_t> wanted_starts;
+      std::vector<std::uint32_t> wanted_values;
       for (std::size_t at = 0; at < size; ++at) {
         const bool is_separator = at % step == step - 1;
-        if (is_separator) wanted.push_back(at);
-        text += is_separator ? (at % 2 == 0 ? '\x14' : '\x0F') : filler(at);
+        const bool is_of_values = at % 2 == 1;
+        if (is_separator) wanted_starts.push_back(static_cast<std::uint32_t>(at) + 1);
+        if (is_separator && is_of_values) {
+          wanted_values.push_back(static_cast<std::uint32_t>(wanted_starts.size()));
+        }
+        text += is_separator ? (is_of_values ? '\x0F' : '\x14') : filler(at);
       }
-      std::vector<std::size_t> found;
-      for_each_separator(text, [&](std::size_t at) {
-        found.push_back(at);
-        return true;
-      });
-      REQUIRE(found == wanted);
+      std::vector<std::uint32_t> starts(size + kSeparateRoom);
+      std::vector<std::uint32_t> values(size + kSeparateRoom);
+      const Separated end = separate(text, starts.data(), values.data());
+      starts.resize(static_cast<std::size_t>(end.starts - starts.data()));
+      values.resize(static_cast<std::size_t>(end.values - values.data()));
+      REQUIRE(starts == wanted_starts);
+      REQUIRE(values == wanted_values);
     }
   }
 }

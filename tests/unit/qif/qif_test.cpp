@@ -96,13 +96,13 @@ TEST_CASE("a document type is refused where it stands") {
 TEST_CASE("an input that fails is told with its words") {
   const std::string text = written(200);
   std::size_t left = text.size() / 2;
-  auto failing = aqdef::read_text(text);
-  const aqdef::Read read = [&](std::span<char> into) -> Result<std::size_t> {
+  auto failing = read_text(text);
+  const Read read = [&](std::span<char> into) -> Result<std::size_t> {
     if (left < into.size()) return Error{ErrorCode::Internal, "the disk is gone"};
     left -= into.size();
     return failing(into);
   };
-  const auto opened = QifRows::open(read, aqdef::read_text(text), {});
+  const auto opened = QifRows::open(read, read_text(text), {});
   REQUIRE_FALSE(opened.has_value());
   CHECK(opened.error().message.find("the disk is gone") != std::string::npos);
 }

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 
 namespace fitgauge::sheet {
@@ -66,6 +68,53 @@ TEST_CASE("lines keep their numbers") {
         "measured_mm;comment\n\n\n\n25;\"a\nb\"\n\n26;c\n");
   CHECK(converted("measured_mm;Nr\n25;\"a\nb\"\n26;c\n", {.columns = {{"Nr", ""}}}) ==
         "measured_mm\n25\n\n26\n");
+}
+
+/// So many bytes at a time.
+Read in_pieces(std::string_view text, std::size_t most) {
+  return [read = read_text(text), most](std::span<char> into) {
+    return read(into.first(std::min(most, into.size())));
+  };
+}
+
+TEST_CASE("it does not matter in which pieces a table comes") {
+  const std::string euro = "\xE2\x82\xAC";
+  const std::string tool = "\xF0\x9F\x94\xA7";  // two units of UTF-16
+  const std::string big = utf16("measured_mm;comment\r\n25;a\r\n", true) +
+                          std::string("\xD8\x3D\xDD\x27\0;\0b\0\n", 10);
+  for (const std::string& table :
+       {"sep=;\r\n\r\nmeasured_mm;comment\r\n25;" + euro + tool + "\r\n;\r\n26;\"a\r\n\"\"b\"\r\n",
+        "\xEF\xBB\xBFmeasured_mm;comment\r25;" + euro + "\r26;\"\"\"\"\r",
+        std::string("measured_mm\tcomment\n25\t\xD8\n26\t\"x\"  \n27\t\xE2\x82"), big,
+        utf16("measured_mm;comment\n25;a\n", false), std::string("measured_mm\n\"25"),
+        std::string("measured_mm\n25;1\n"), std::string("\n\r\n \r"), std::string()}) {
+    CAPTURE(table);
+    const std::string whole = converted(table);
+    for (const std::size_t most : {1U, 2U, 3U, 5U, 7U, 64U, 65U}) {
+      auto rows = ShopRows::open(in_pieces(table, most), in_pieces(table, most), {}, kFields);
+      std::string text = rows ? rows->header() : "error: " + rows.error().message;
+      while (rows) {
+        const auto more = rows->append(text);
+        if (!more) text = "error: " + more.error().message;
+        if (!more || !*more) break;
+      }
+      CHECK(text == whole);
+    }
+  }
+}
+
+TEST_CASE("a row that does not end is refused before it is held") {
+  std::size_t given = 0;
+  const Read endless = [&given](std::span<char> into) -> Result<std::size_t> {
+    std::fill(into.begin(), into.end(), given == 0 ? '"' : 'x');
+    const std::size_t count = given == 0 ? 1 : into.size();
+    given += count;
+    return count;
+  };
+  const auto rows = ShopRows::open({}, endless, {.encoding = Encoding::Windows1252}, kFields);
+  REQUIRE_FALSE(rows.has_value());
+  CHECK(rows.error().message == "line 1 begins a row of more than 1024 KiB: is a quote open?");
+  CHECK(given < (2U << 20));
 }
 
 TEST_CASE("what is wrong names its line") {
