@@ -210,7 +210,7 @@ describe('a plan', () => {
     assert.deepEqual(noted, [[25.03, ['Insert worn', 'Insert changed', 'Kim']], [25.04, ['Clamped askew', 'Turned anew', 'Kim']], [25.05, ['Insert worn', 'Scrapped', 'Kim']]]);
     assert.ok(await page.isVisible('.arrived'));
 
-    await page.goto(`${daemon.url}/#/parts?cause=Insert+worn`);
+    await page.evaluate(() => { location.hash = '#/parts?cause=Insert+worn'; });
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 2);
     assert.match(await page.textContent('.records tbody tr'), /Insert worn → Scrapped · Kim/);
     await page.click('.records tbody tr:last-child >> text=Note');
