@@ -25,16 +25,35 @@ std::vector<std::string_view> values_of(std::string_view line) {
   }
 }
 
+/// Whether a comma in the line may stand for a decimal point: between digits, without a point.
+bool is_ambiguous(std::string_view line) {
+  const auto is_digit = [&](std::size_t i) {
+    return i < line.size() && line[i] >= '0' && line[i] <= '9';
+  };
+  if (line.find('.') != std::string_view::npos) return false;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (line[i] == ',' && is_digit(i - 1) && is_digit(i + 1)) return true;
+  }
+  return false;
+}
+
 /// Lines as arrays of strings, which keep their digits; empty lines are left out.
 /// @param flat whether every line had one value: then they are one array.
-std::string arrays_of(std::string_view text, bool& flat) {
+Outcome<std::string> arrays_of(std::string_view text, bool& flat) {
   std::string single;
   std::string nested;
   flat = true;
-  while (!text.empty()) {
+  for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const auto values = values_of(text.substr(0, end));
+    const std::string_view line = trim(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
+    if (is_ambiguous(line)) {
+      return Failure{ExitCode::Usage,
+                     fmt::format("line {}: '{}' may be one number or several: write a decimal "
+                                 "point, and blanks between values",
+                                 number, line)};
+    }
+    const auto values = values_of(line);
     if (values.empty()) continue;
     flat = flat && values.size() == 1;
     nested += nested.empty() ? "[" : ",[";
@@ -57,12 +76,15 @@ Outcome<std::string> body_of(const StatisticsOptions& options) {
                                options.figure)};
   }
   bool flat = true;
-  const std::string arrays = arrays_of(*text, flat);
+  const auto arrays = arrays_of(*text, flat);
+  if (!arrays) return arrays.error();
   const std::string_view name = options.figure == "anova" ? "groups"
                                 : flat                    ? "values"
                                                           : "subgroups";
+  const std::string_view chart = options.figure != "chart" ? "" : flat ? "i_mr" : "xbar_r";
   return JsonObject()
-      .add_raw(name, arrays)
+      .add_raw(name, *arrays)
+      .add_given("kind", std::string(chart))
       .add_given("lower", options.lower)
       .add_given("upper", options.upper)
       .add_given("reference", options.reference)

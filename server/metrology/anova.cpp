@@ -67,7 +67,9 @@ Exact sum_within(const GroupedCounts& groups) {
 }  // namespace
 
 FTest f_test(const Variation& effect, const Variation& error) {
-  if (error.sum_of_squares == 0) return {};
+  if (error.sum_of_squares == 0) {
+    return {.p = effect.sum_of_squares == 0 ? kUndefined : 0};  // F is beyond all numbers
+  }
   const long double f = nearest(effect.mean_square() / error.mean_square());
   return {.f = f,
           .p = f_above(f, static_cast<long double>(effect.degrees_of_freedom),

@@ -13,7 +13,8 @@ struct Variation {
   Exact mean_square() const { return sum_of_squares / whole(degrees_of_freedom); }
 };
 
-/// F and its probability; both undefined where nothing varies within.
+/// F and its probability. Where nothing varies within, F is undefined, and its probability 0 where
+/// something varies between.
 struct FTest {
   long double f = kUndefined;
   long double p = kUndefined;

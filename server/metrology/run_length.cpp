@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -54,19 +55,24 @@ class Equations {
   std::vector<double> cells_;
 };
 
-/// The nodes and weights of Gauss and Legendre over an interval.
+/// The nodes and weights of Gauss and Legendre over an interval, 60 for every 20 deviations of the
+/// normal density that is integrated.
 struct Node {
   double x = 0;
   double weight = 0;
 };
-std::vector<Node> nodes(double from, double to) {
+std::vector<Node> nodes(double from, double to, double deviation) {
   using Rule = boost::math::quadrature::gauss<double, 60>;
+  constexpr double kDeviations = 20;
+  const auto parts = std::ceil((to - from) / (kDeviations * deviation));
+  const double half = (to - from) / parts / 2;
   std::vector<Node> all;
-  const double middle = (from + to) / 2;
-  const double half = (to - from) / 2;
-  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-    for (const double sign : {-1.0, 1.0}) {
-      all.push_back({middle + sign * half * Rule::abscissa()[i], half * Rule::weights()[i]});
+  for (double part = 0; part < parts; ++part) {
+    const double middle = from + (2 * part + 1) * half;
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+      for (const double sign : {-1.0, 1.0}) {
+        all.push_back({middle + sign * half * Rule::abscissa()[i], half * Rule::weights()[i]});
+      }
     }
   }
   return all;
@@ -110,7 +116,7 @@ double zone_rules_run_length(ZoneRules rules) {
 
 double ewma_run_length(double lambda, double width) {
   const double limit = width * std::sqrt(lambda / (2 - lambda));
-  std::vector<Node> grid = nodes(-limit, limit);
+  std::vector<Node> grid = nodes(-limit, limit, lambda);
   grid.push_back({0, 0});  // where the chart begins
   Equations equations(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -124,7 +130,11 @@ double ewma_run_length(double lambda, double width) {
 }
 
 double cusum_run_length(double reference_value, double decision_interval) {
-  std::vector<Node> grid = nodes(0, decision_interval);
+  // Siegmund's approximation (1985) says where the equations cannot tell the answer any more.
+  const double reach = 2 * reference_value * (decision_interval + 1.166);
+  const double roughly = (std::expm1(reach) - reach) / (4 * reference_value * reference_value);
+  if (roughly > kLongestRun) return std::numeric_limits<double>::infinity();
+  std::vector<Node> grid = nodes(0, decision_interval, 1);
   grid.push_back({0, 0});
   const std::size_t zero = grid.size() - 1;
   Equations equations(grid.size());

@@ -12,11 +12,13 @@ namespace fitgauge::metrology {
 double zone_rules_run_length(ZoneRules rules);
 
 /// Of an EWMA chart with asymptotic limits of `width` standard deviations, from its integral
-/// equation (Crowder 1987). @pre 0 < lambda <= 1
+/// equation (Crowder 1987). @pre kLeastLambda <= lambda <= 1
+inline constexpr double kLeastLambda = 0.001;
 double ewma_run_length(double lambda, double width);
 
 /// Of a two-sided tabular CUSUM chart, both in standard deviations: the integral equation of one
-/// side (Page 1954), halved.
+/// side (Page 1954), halved. Infinite where it is longer than kLongestRun: rounding hides it then.
+inline constexpr double kLongestRun = 1e9;
 double cusum_run_length(double reference_value, double decision_interval);
 
 }  // namespace fitgauge::metrology

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "metrology/distributions.hpp"
@@ -51,6 +52,17 @@ std::optional<std::vector<double>> cholesky(const Budget& budget) {
   return l;
 }
 
+/// The group of each contribution: those that are correlated, also by way of others, share one.
+std::vector<std::size_t> groups_of(const Budget& budget) {
+  std::vector<std::size_t> groups(budget.contributions.size());
+  std::iota(groups.begin(), groups.end(), std::size_t{0});
+  for (const Correlation& c : budget.correlations) {
+    if (c.coefficient == 0) continue;
+    std::replace(groups.begin(), groups.end(), std::size_t{groups[c.b]}, std::size_t{groups[c.a]});
+  }
+  return groups;
+}
+
 /// SplitMix64 (Steele, Lea and Flood 2014), and what is drawn with it.
 class Random {
  public:
@@ -89,13 +101,13 @@ class Random {
 /// A deviation with the contribution's standard uncertainty.
 double draw(Random& random, const Contribution& c) {
   switch (c.distribution) {
-    case Distribution::Normal: return c.standard_uncertainty * random.normal();
     case Distribution::Rectangular:
       return c.standard_uncertainty * std::sqrt(3.0) * (2 * random.uniform() - 1);
     case Distribution::Triangular:
       return c.standard_uncertainty * std::sqrt(6.0) * (random.uniform() + random.uniform() - 1);
     case Distribution::UShaped:
       return c.standard_uncertainty * std::sqrt(2.0) * std::cos(M_PI * random.uniform());
+    case Distribution::Normal:
     case Distribution::T: break;
   }
   return c.standard_uncertainty * random.t(c.degrees_of_freedom);
@@ -127,15 +139,23 @@ Result<CombinedUncertainty> combine(const Budget& budget) {
     const Contribution& c = budget.contributions[i];
     return c.sensitivity * c.standard_uncertainty;
   };
-  double variance = 0;
-  double weighted = 0;  // the denominator of Welch and Satterthwaite
-  for (std::size_t i = 0; i < budget.contributions.size(); ++i) {
-    const double square = part(i) * part(i);
-    variance += square;
-    weighted += square * square / budget.contributions[i].degrees_of_freedom;
+  const std::vector<std::size_t> groups = groups_of(budget);
+  std::vector<double> variances(groups.size(), 0);
+  std::vector<double> freedom(groups.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    variances[groups[i]] += part(i) * part(i);
+    if (part(i) == 0) continue;
+    double& fewest = freedom[groups[i]];
+    fewest = std::min(fewest, budget.contributions[i].degrees_of_freedom);
   }
   for (const Correlation& c : budget.correlations) {
-    variance += 2 * c.coefficient * part(c.a) * part(c.b);
+    variances[groups[c.a]] += 2 * c.coefficient * part(c.a) * part(c.b);
+  }
+  double variance = 0;
+  double weighted = 0;  // the denominator of Welch and Satterthwaite
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    variance += variances[i];
+    weighted += variances[i] * variances[i] / freedom[i];
   }
   CombinedUncertainty result;
   result.combined = std::sqrt(std::max(0.0, variance));
@@ -161,6 +181,8 @@ Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, st
   const auto triangle = cholesky(budget);
   if (!triangle) return impossible();
   const std::size_t n = budget.contributions.size();
+  std::vector<bool> is_correlated(n, false);
+  for (const Correlation& c : budget.correlations) is_correlated[c.a] = is_correlated[c.b] = true;
   Random random(seed);
   std::vector<double> results(trials);
   std::vector<double> standard(n);  // normal deviates, before they are correlated
@@ -169,7 +191,7 @@ Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, st
     for (std::size_t i = 0; i < n; ++i) {
       const Contribution& c = budget.contributions[i];
       double deviation = 0;
-      if (c.distribution == Distribution::Normal) {
+      if (is_correlated[i]) {
         standard[i] = random.normal();
         for (std::size_t j = 0; j <= i; ++j) deviation += (*triangle)[i * n + j] * standard[j];
         deviation *= c.standard_uncertainty;

@@ -45,7 +45,8 @@ struct CombinedUncertainty {
 };
 
 /// The law of propagation (JCGM 100, 5.1.2 and 5.2.2) with the formula of Welch and Satterthwaite
-/// (G.4.1).
+/// (G.4.1), which holds for independent contributions: those that are correlated count as one, with
+/// the fewest degrees of freedom among them.
 /// @errors FieldInvalid: correlations that no quantities can have (the variance would be negative).
 Result<CombinedUncertainty> combine(const Budget& budget);
 
@@ -57,8 +58,9 @@ struct MonteCarloResult {
 };
 inline constexpr std::uint64_t kMostDraws = 50'000'000;  ///< trials times contributions
 
-/// The propagation of distributions (JCGM 101), of deviations from the estimate. The same seed
-/// gives the same answer everywhere.
+/// The propagation of distributions (JCGM 101), of deviations from the estimate. A normal
+/// contribution with degrees of freedom is drawn from their t distribution (6.4.9), a correlated
+/// one from a normal one. The same seed gives the same answer everywhere.
 /// @errors FieldInvalid: correlated contributions that are not normal, or correlations as above.
 Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, std::uint64_t seed);
 

@@ -9,6 +9,7 @@
 #include "api/statistics/gauge_study_reader.hpp"
 #include "api/statistics/statistics_codec.hpp"
 #include "metrology/pairing.hpp"
+#include "metrology/run_length.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -117,12 +118,12 @@ std::optional<metrology::ChartPlan::Phase> read_phase(FieldReader& fields, Field
 }
 
 /// A number within ends that belong to it, or its fallback.
-double number_between(FieldReader& fields, std::string_view name, double fallback, double above,
-                      double up_to) {
+double number_between(FieldReader& fields, std::string_view name, double fallback, double least,
+                      double most) {
   const double value = fields.number_or(name, fallback);
-  if (value > above && value <= up_to) return value;
+  if (value >= least && value <= most) return value;
   fields.report(ErrorCode::FieldInvalid, name,
-                fmt::format("{} is above {} and at most {}", name, above, up_to));
+                fmt::format("{} lies from {} to {}", name, least, most));
   return fallback;
 }
 
@@ -143,10 +144,12 @@ metrology::ChartPlan read_plan(FieldReader& fields, FieldErrors& errors) {
     fields.report(ErrorCode::FieldInvalid, "standard_deviation",
                   "a known standard deviation is above 0");
   }
-  plan.lambda = number_between(fields, "lambda", plan.lambda, 0, 1);
-  plan.reference_value = number_between(fields, "reference_value", plan.reference_value, 0, 10);
+  constexpr double kLeast = 1e-6;
+  plan.lambda = number_between(fields, "lambda", plan.lambda, metrology::kLeastLambda, 1);
+  plan.reference_value =
+      number_between(fields, "reference_value", plan.reference_value, kLeast, 10);
   plan.decision_interval =
-      number_between(fields, "decision_interval", plan.decision_interval, 0, 20);
+      number_between(fields, "decision_interval", plan.decision_interval, kLeast, 20);
   fields.optional("phase1");
   return plan;
 }

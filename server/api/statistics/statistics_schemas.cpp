@@ -137,7 +137,7 @@ void add_chart(Schemas& schemas) {
                  {"phase1", phase, "The points the limits are taken from"},
                  {"centre", schema::exact(), "Known"},
                  {"standard_deviation", schema::exact(), "Known, of single values; above 0"},
-                 {"lambda", schema::number(0, 1), "Of ewma"},
+                 {"lambda", schema::number(0.001, 1), "Of ewma"},
                  {"reference_value", schema::number(0, 10), "k of cusum, in standard deviations"},
                  {"decision_interval", schema::number(0, 20), "h of cusum, likewise"},
              }))});

@@ -197,9 +197,11 @@ std::vector<http::Parameter> with_filters(std::vector<http::Parameter> own) {
   return parameters;
 }
 
-http::Parameter positive(std::string name, std::int64_t most, std::string description) {
+/// A number up to `most`, of `least` millionths at least.
+http::Parameter number(std::string name, std::int64_t least, std::int64_t most,
+                       std::string description) {
   return {.name = std::move(name),
-          .type = http::Decimal{.scale = kScale, .min = 1, .max = most * 1'000'000},
+          .type = http::Decimal{.scale = kScale, .min = least, .max = most * 1'000'000},
           .description = std::move(description)};
 }
 
@@ -210,9 +212,9 @@ std::vector<http::Parameter> chart_parameters() {
        .type = http::Words{{"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}},
        .description = "xbar_r where the values name subgroups, else i_mr, when absent"},
       {.name = "rules", .description = "Of Western Electric 1956: 1,2,3,4; none when absent"},
-      positive("lambda", 1, "Of ewma; 0.2 when absent"),
-      positive("reference_value", 10, "k of cusum, in standard deviations; 0.5 when absent"),
-      positive("decision_interval", 20, "h of cusum, likewise; 5 when absent"),
+      number("lambda", 1'000, 1, "Of ewma; 0.2 when absent"),
+      number("reference_value", 1, 10, "k of cusum, in standard deviations; 0.5 when absent"),
+      number("decision_interval", 1, 20, "h of cusum, likewise; 5 when absent"),
       {.name = "phase1_from",
        .type = http::Integer{.min = 0, .max = kMost},
        .description = "First point the limits are taken from; 0 when absent"},

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "api/statistics/computation.hpp"
 #include "api/wire/field_reader.hpp"
@@ -67,6 +70,9 @@ Contribution read_contribution(FieldReader& row) {
       row.report(ErrorCode::FieldInvalid, "degrees_of_freedom", "degrees_of_freedom is above 0");
     }
     c.degrees_of_freedom = freedom.value_or(c.degrees_of_freedom);
+  } else if (c.distribution == Distribution::T) {
+    row.report(ErrorCode::FieldMissing, "degrees_of_freedom",
+               "a contribution with the distribution t has degrees_of_freedom");
   }
   row.optional("degrees_of_freedom");
   return c;
@@ -106,6 +112,7 @@ void read_correlations(FieldReader& fields, const Names& names, metrology::Budge
   }
   const JsonValue* array = fields.array("correlations");
   if (array == nullptr) return;
+  std::set<std::pair<std::size_t, std::size_t>> seen;
   for (std::size_t i = 0; i < array->items.size(); ++i) {
     FieldReader row(array->items[i], pointer_to(fields.at("correlations"), i), errors);
     if (!array->items[i].is(JsonValue::Kind::Object)) continue;
@@ -124,6 +131,12 @@ void read_correlations(FieldReader& fields, const Names& names, metrology::Budge
     }
     if (pair.size() != 2 || between->items.size() != 2 || pair[0] == pair[1]) {
       row.report(ErrorCode::FieldInvalid, "between", "between names two contributions");
+      continue;
+    }
+    if (!seen.insert(std::minmax(pair[0], pair[1])).second) {
+      row.report(ErrorCode::FieldConflict, "between",
+                 fmt::format("the correlation of '{}' and '{}' is given above",
+                             between->items[0].text, between->items[1].text));
       continue;
     }
     budget.correlations.push_back({pair[0], pair[1], coefficient.value_or(0)});

@@ -284,7 +284,7 @@ class Records(ClientTest):
         self.assertIn("count 5\nmean 25.011\n", self.assert_runs(0, "statistics", "summary", "values.txt"))
         self.assertIn("cpk.value 1.67", self.assert_runs(0, "statistics", "capability", "values.txt", "--lower", "25",
                                                        "--upper", "25.021"))
-        self.client.write("groups.txt", "1;2;3\n4 5 6\n7,8,10\n")
+        self.client.write("groups.txt", "1;2;3\n4 5 6\n7,\t8, 10\n")
         anova = json.loads(self.assert_runs(0, "--json", "statistics", "anova", "groups.txt"))
         self.assertEqual(anova["between"]["degrees_of_freedom"], 2)
         self.client.write("body.json", '{"kind":"xbar_r","subgroups":[[1,2],[2,3],[3,4]]}')
@@ -293,6 +293,9 @@ class Records(ClientTest):
         self.assertIn("combined_standard_uncertainty 1\n", self.assert_runs(0, "statistics", "uncertainty", "budget.json"))
         self.assertIn("JSON", self.assert_fails(4, "statistics", "grr", "groups.txt"))
         self.assertIn("/values/1", self.assert_fails(7, "statistics", "summary", self.client.write("x.txt", "1\nx\n")))
+        self.client.write("comma.txt", "25.010\n25,012\n")
+        self.assertIn("line 2: '25,012'", self.assert_fails(4, "statistics", "capability", "comma.txt", "--lower", "25"))
+        self.assertIn("average_run_length", self.assert_runs(0, "statistics", "chart", "values.txt"))
 
     def test_setups_and_runs(self):
         self.client.write("m3.json", '{"seed":7}')

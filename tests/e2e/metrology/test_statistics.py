@@ -189,6 +189,10 @@ class Uncertainty(DaemonTest):
                 ({"contributions": [one], "probability": 1}, "field.invalid"),
                 ({"contributions": [one], "correlations": [{"between": ["a", "b"], "coefficient": 1}]},
                  "field.invalid"),
+                ({"contributions": [{**one, "distribution": "t"}]}, "field.missing"),
+                ({"contributions": [one, {**one, "name": "b"}],
+                  "correlations": [{"between": ["a", "b"], "coefficient": 0.9},
+                                   {"between": ["b", "a"], "coefficient": 0.9}]}, "field.conflict"),
                 ({"contributions": [one], "monte_carlo": {"trials": 10 ** 12}}, "field.invalid")]:
             with self.subTest(body=body):
                 answer = self.daemon.post("/v1/uncertainty", body)

@@ -58,6 +58,16 @@ TEST_CASE("a process that moved is given its indices and is not called stable") 
   CHECK(c.model->model != ProcessModel::A1);
 }
 
+TEST_CASE("subgroups without spread of their own, at two places, have no constant location") {
+  std::vector<Wide> counts;
+  for (int i = 0; i < 20; ++i) counts.push_back(i < 10 ? 100 : 105);
+  const Capability c =
+      assess_capability({.values = Decimals(counts, 1), .size = 2}, limits("9", "12"), 0.95L)
+          .value();
+  CHECK(c.model->tests.location == 0);
+  CHECK((c.model->model == ProcessModel::C3 || c.model->model == ProcessModel::C4));
+}
+
 TEST_CASE("one limit leaves the indices of the other side without a value") {
   const Subgroups data = piston_rings();
   const Capability upper = assess_capability(data, limits(nullptr, "74.05"), 0.95L).value();

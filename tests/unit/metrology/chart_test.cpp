@@ -114,7 +114,17 @@ TEST_CASE("the run lengths of EWMA and CUSUM are the published ones") {
   CHECK(ewma_run_length(1, 3) == Approx(370.398).epsilon(1e-6));   // a chart of Shewhart's
   CHECK(ewma_run_length(0.1, 2.7) == Approx(369).epsilon(0.001));  // Montgomery
   CHECK(ewma_run_length(0.25, 3) == Approx(502.9).epsilon(1e-4));  // Crowder 1987, table 2
-  CHECK(cusum_run_length(0.5, 4) == Approx(168).epsilon(0.003));   // Montgomery, table 9.3
+  // With little weight the density is narrow: the same equation with 1,500 nodes, in numpy.
+  CHECK(ewma_run_length(0.01, 3) == Approx(5286.31).epsilon(1e-5));
+  CHECK(ewma_run_length(0.008, 3) == Approx(6459.2).epsilon(1e-5));
+  CHECK(ewma_run_length(0.005, 3) == Approx(9925.3).epsilon(1e-5));
+  CHECK(ewma_run_length(0.002, 3) == Approx(23457).epsilon(1e-4));
+  CHECK(ewma_run_length(kLeastLambda, 3) > 40'000);
+  // No rounded number says how rare these are.
+  CHECK(std::isinf(cusum_run_length(2, 10)));
+  CHECK(std::isinf(cusum_run_length(10, 1)));
+  CHECK(cusum_run_length(1, 8) < kLongestRun);
+  CHECK(cusum_run_length(0.5, 4) == Approx(168).epsilon(0.003));  // Montgomery, table 9.3
   CHECK(cusum_run_length(0.5, 5) == Approx(465).epsilon(0.002));
 }
 

@@ -63,6 +63,27 @@ TEST_CASE("Monte Carlo gives the intervals of JCGM 101, 9.2, and the same for th
   CHECK(simulate(budget, 1000, 5).value().upper != simulate(budget, 1000, 6).value().upper);
 }
 
+TEST_CASE("correlated contributions have no more freedom than one of them") {
+  Budget budget{.contributions = {{.standard_uncertainty = 1, .degrees_of_freedom = 5},
+                                  {.standard_uncertainty = 1, .degrees_of_freedom = 7},
+                                  {.standard_uncertainty = 0, .degrees_of_freedom = 1}},
+                .correlations = {{0, 1, 1}, {1, 2, 0.5}, {0, 2, 0.5}}};
+  const CombinedUncertainty one = combine(budget).value();
+  CHECK(one.combined == Approx(2));
+  CHECK(one.welch_satterthwaite == Approx(5));
+  CHECK(one.expanded == Approx(2 * 2.570582).epsilon(1e-6));
+  budget.correlations = {};
+  // Apart: (1 + 1)^2 / (1/5 + 1/7).
+  CHECK(combine(budget)->welch_satterthwaite == Approx(4 / (1.0 / 5 + 1.0 / 7)));
+}
+
+TEST_CASE("a normal contribution with degrees of freedom is drawn from their t") {
+  const Budget budget{.contributions = {{.standard_uncertainty = 1, .degrees_of_freedom = 5}}};
+  const MonteCarloResult drawn = simulate(budget, 400'000, 2).value();
+  CHECK(drawn.upper == Approx(2.570582).epsilon(0.015));
+  CHECK(drawn.lower == Approx(-2.570582).epsilon(0.015));
+}
+
 TEST_CASE("every shape is drawn with its standard uncertainty") {
   for (const Distribution shape : {Distribution::Normal, Distribution::Rectangular,
                                    Distribution::Triangular, Distribution::UShaped}) {
