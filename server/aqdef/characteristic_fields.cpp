@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::string_view, 5> kUserFields = {"feature", "rule", "uncertainty_um",
                                                          "coverage_factor", "probability"};
 
-constexpr std::size_t kMostBytes = std::size_t{16} << 20;  ///< of the texts of all prepared
+constexpr std::size_t kMostBytes = std::size_t{8} << 20;  ///< of the texts of all prepared
 
 /// A characteristic that has none of them has no limits.
 constexpr std::array<int, 5> kTolerances = {k::kToleranceClass, k::kLowerLimit, k::kUpperLimit,
