@@ -77,12 +77,13 @@ describe('a gauge on a serial port', () => {
     const browser = await launch();
     const daemon = await new Daemon().start();
     const context = await browser.newContext({ locale: 'en-GB', viewport: { width: 1280, height: 800 } });
-    // A port as Web Serial has it; `feed` is the gauge.
+    // A port as Web Serial has it; `feed` is the gauge. It is opened in the middle of 25.013.
     await context.addInitScript(() => {
       const port = {
         async open(options) {
           globalThis.opened = options;
           port.readable = new ReadableStream({ start: (controller) => { globalThis.feed = (text) => controller.enqueue(new TextEncoder().encode(text)); } });
+          globalThis.feed('5.013\r\n');
         },
         async close() { port.readable = null; },
       };
@@ -98,7 +99,6 @@ describe('a gauge on a serial port', () => {
     const feed = (text) => page.evaluate((sent) => globalThis.feed(sent), text);
     const note = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('#entry-note').textContent), text);
     const rows = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.recent li.stored').length === wanted, count);
-    await feed('5.013\r\n'); // the port was opened in the middle of 25.013
     await note('may be cut');
     await sleep(250);
     await feed('01A+0025.013\r');
