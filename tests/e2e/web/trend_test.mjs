@@ -274,7 +274,9 @@ describe('the trend', () => {
   it('prints in black and white with the dots of a printer, and fits A4 and Letter', async () => {
     page = await openChart(browser, daemon, '#/trend?characteristic=colours', { colorScheme: 'dark' });
     await untilPoints(page, 30);
-    const look = () => page.$eval('.control-chart canvas', (canvas) => {
+    // Looked up within: a change of the window draws on a new canvas.
+    const look = () => page.evaluate(() => {
+      const canvas = document.querySelector('.control-chart canvas');
       const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
       let colour = 0;
       for (let at = 0; at < data.length; at += 4) if (data[at + 3] === 255) colour = Math.max(colour, Math.abs(data[at] - data[at + 1]), Math.abs(data[at + 1] - data[at + 2]));
