@@ -148,13 +148,13 @@ std::optional<WallTime> parse_wall_time(std::string_view text) {
   }
   const auto hour = take_digits(text, 1, 2);
   if (!hour || !take(text, ':')) return std::nullopt;
-  const auto minute = take_digits(text, 2, 2);
+  const auto minute = take_digits(text, 1, 2);
   if (!minute || *hour > 23 || *minute > 59) return std::nullopt;
   WallTime time;
   time.seconds = days_since_1970(year, static_cast<int>(*month), static_cast<int>(day)) * kDay +
                  *hour * 3600 + *minute * 60;
   if (take(text, ':')) {
-    const auto second = take_digits(text, 2, 2);
+    const auto second = take_digits(text, 1, 2);
     if (!second || *second > 59) return std::nullopt;
     time.seconds += *second;
     if (take(text, '.') || take(text, ',')) {
