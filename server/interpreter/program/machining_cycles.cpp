@@ -58,7 +58,7 @@ constexpr CycleParameter kParameters[] = {
     length(6, "Set-up clearance"),
     coordinate(7, "Clearance height"),
     length(8, "Inside corner radius"),
-    choice(9, "Direction of rotation: +1 up-cut, -1 climb", -1, 1, 1),
+    choice(9, "Direction of rotation: +1 climb, -1 up-cut", -1, 1, 1),
     coordinate(10, "Plunging depth"),
     feed(11, "Feed rate for plunging"),
     feed(12, "Feed rate for milling"),
@@ -237,9 +237,30 @@ constexpr std::string_view kThreadText =
     "Helix at the pitch, entered and left through the centre: one turn at the depth in 263 and "
     "264, the whole depth downwards in 265, by Q355 in 262 and 267; the countersinking of 263 to "
     "267 as a move to its depth.";
-constexpr std::string_view kContourText =
-    "The tool goes to the first point of each contour label of cycle 14, in infeeds to the depth.";
-constexpr std::string_view kNoContour = "Milling the contour itself.";
+constexpr std::string_view kLabelsText =
+    "The labels of the contours, each a subprogram: a pocket where the tool is inside of it by RL "
+    "or RR and its direction, or without either; an island where it is outside. An open contour is "
+    "closed by a line. Transformations in it hold in it alone; depths, feeds and M functions have "
+    "no effect in it.";
+constexpr std::string_view kPilotText =
+    "Pecks at the points where cycle 22 plunges to mill along each contour with the tool Q13: its "
+    "radius and Q3 beside the middle of the longest line or arc, down to the floor allowance Q4.";
+constexpr std::string_view kRoughText =
+    "Straight lanes along the main axis, no further from each other than Q2 times the tool's "
+    "radius, clear the pockets around their islands; then the tool mills along each contour at its "
+    "radius and Q3, in infeeds of Q10 down to the floor allowance Q4.";
+constexpr std::string_view kFloorText = "As cycle 22, at the full depth at once.";
+constexpr std::string_view kSideText =
+    "Along each contour at the tool's radius and Q14, in infeeds of Q10 to the full depth, from "
+    "the middle of its longest line or arc: counter-clockwise in pockets and clockwise around "
+    "islands for Q9 = +1. In corners that are too small for the tool material stays.";
+constexpr std::string_view kNoLanes =
+    "The control's own way of clearing, contour-parallel, helical or reciprocating (Q19, Q404), "
+    "and Q8: the tool plunges vertically for each lane. Contours that cross each other are each "
+    "machined as a whole, and the way along one does not look at the others.";
+constexpr std::string_view kNoArcs =
+    "The arcs to the contour and away from it, and Q8: the tool plunges vertically beside the "
+    "contour. Contours that cross each other are each machined as a whole.";
 constexpr std::string_view kOldText = "As the cycle of today for it.";
 
 template <std::size_t N>
@@ -279,14 +300,16 @@ constexpr MachiningCycle kCycles[] = {
     in_lines(3, "SLOT MILLING", Shape::Slot, kOldText, kNoClearing),
     in_lines(4, "POCKET MILLING", Shape::RectangularPocket, kOldText, kNoClearing),
     in_lines(5, "CIRCULAR POCKET", Shape::CircularPocket, kOldText, kNoClearing),
-    in_lines(14, "CONTOUR", Shape::ContourLabels, "The labels of the contours."),
+    in_lines(14, "CONTOUR", Shape::ContourLabels, kLabelsText),
     in_lines(17, "RIGID TAPPING", Shape::Tapping, kDrillingText),
     in_lines(18, "THREAD CUTTING", Shape::Tapping, kDrillingText),
-    in_q(20, "CONTOUR DATA", Shape::ContourData, k20, "Depth, surface, clearances.", "", true),
-    in_q(21, "PILOT DRILLING", Shape::Contour, k21, kContourText, kNoContour),
-    in_q(22, "ROUGH-OUT", Shape::Contour, k22, kContourText, kNoContour),
-    in_q(23, "FLOOR FINISHING", Shape::Contour, k23, kContourText, kNoContour),
-    in_q(24, "SIDE FINISHING", Shape::Contour, k24, kContourText, kNoContour),
+    in_q(20, "CONTOUR DATA", Shape::ContourData, k20,
+         "Depth, surface, clearances, allowances, overlap and direction of cycles 21 to 24.", "",
+         true),
+    in_q(21, "PILOT DRILLING", Shape::Contour, k21, kPilotText),
+    in_q(22, "ROUGH-OUT", Shape::Contour, k22, kRoughText, kNoLanes),
+    in_q(23, "FLOOR FINISHING", Shape::Contour, k23, kFloorText, kNoLanes),
+    in_q(24, "SIDE FINISHING", Shape::Contour, k24, kSideText, kNoArcs),
     in_q(200, "DRILLING", Shape::Drilling, k200, kDrillingText),
     in_q(201, "REAMING", Shape::Drilling, k201, kDrillingText),
     in_q(202, "BORING", Shape::Boring, k202, kDrillingText,

@@ -47,6 +47,11 @@ std::optional<Vec3> end_direction(const Element& element) {
   return travel;
 }
 
+NcError no_approach() {
+  return nc_error(1024,
+                  "an SL cycle approaches its contour itself: APPR and DEP do not stand in it");
+}
+
 }  // namespace
 
 WorkingPlane working_plane(const machine::Machine& machine) {
@@ -65,7 +70,7 @@ void Contour::compensate(klartext::RadiusCompensation compensation) {
 }
 
 machine::Position Contour::position(const machine::Machine& machine) const {
-  machine::Position position = machine.position();
+  machine::Position position = drawing_ ? drawing_->position() : machine.position();
   if (beside_ && (cutter_.is_pending() || position == beside_->tool)) {
     position = beside_->programmed;
   }
@@ -80,6 +85,7 @@ machine::Position Contour::position(const machine::Machine& machine) const {
 
 /// Gives an element to the cutter and keeps where the programmed path then is.
 NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
+  if (drawing_) return drawing_->add(element);
   const bool is_beside = element.side != 0 || cutter_.side() != 0;
   if (!is_beside) return CutterPath::move(machine, element);
   machine::Position programmed = position(machine);
@@ -94,6 +100,7 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
 
 NcResult<void> Contour::add(machine::Machine& machine, Element element, bool corner_follows) {
   if (element.system != machine::CoordinateSystem::Input) {
+    if (drawing_) return nc_error("M91 and M92 do not stand in the contour of an SL cycle");
     if (auto done = finish(machine); !done) return done;
     return CutterPath::move(machine, element);
   }
@@ -154,6 +161,7 @@ NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
 }
 
 NcResult<void> Contour::add(machine::Machine& machine, Approach approach) {
+  if (drawing_) return no_approach();
   if (auto done = finish(machine); !done) return done;
   cutter_.leave();
   approach_ = approach;
@@ -208,6 +216,7 @@ NcResult<void> Contour::approach(machine::Machine& machine, const Element& next)
 }
 
 NcResult<Vec2> Contour::depart(machine::Machine& machine, const WorkingPlane& plane) {
+  if (drawing_) return no_approach();
   if (auto done = finish(machine); !done) return done.error();
   cutter_.leave();
   beside_.reset();

@@ -6,6 +6,7 @@
 #include "klartext/statement.hpp"
 #include "run/cutter_path.hpp"
 #include "run/element.hpp"
+#include "run/sl_drawing.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -43,6 +44,11 @@ class Contour {
   NcResult<void> add(machine::Machine& machine, Approach approach);
   /// DEP: goes to the end of the contour. @returns where the centre of the tool is.
   NcResult<Vec2> depart(machine::Machine& machine, const WorkingPlane& plane);
+  /// From here on nothing moves: the path is the contour of an SL cycle.
+  void draw(const machine::Machine& machine) { drawing_.emplace(machine); }
+  /// Null while the path moves the machine.
+  const SlDrawing* drawing() const { return drawing_ ? &*drawing_ : nullptr; }
+
   /// Before anything but a positioning block: moves what was kept.
   /// @errors 1022, 1024 when the element that RND, CHF or APPR refers to is missing.
   NcResult<void> finish(machine::Machine& machine);
@@ -77,6 +83,7 @@ class Contour {
   NcResult<void> approach(machine::Machine& machine, const Element& first);
 
   CutterPath cutter_;
+  std::optional<SlDrawing> drawing_;
   std::optional<Element> kept_;
   std::optional<Corner> corner_;
   std::optional<Approach> approach_;

@@ -90,10 +90,10 @@ NcResult<void> CutterPath::enter(machine::Machine& machine, const Element& next)
 }
 
 NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) {
-  const double distance = side_ * radius(machine);
+  const double distance = side_ * reach(machine);
   const auto leaving = next.curve.start_direction();  // the element moves in the plane
   if (const auto offset = offset_curve(next.curve, distance); !offset) {
-    return too_large(radius(machine), next.curve.end, "arc");
+    return too_large(reach(machine), next.curve.end, "arc");
   }
   const Vec2 corner = next.curve.start;
   Vec2 begin = corner + left_of(*leaving) * distance;
@@ -114,7 +114,7 @@ NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) 
     if (!is_straight && turn * distance > 0) {
       const auto met = inner_corner(last_->curve, next.curve, distance);
       if (!met || !goes_forward(last_->curve, at_, *met)) {
-        return too_large(radius(machine), corner, "corner");
+        return too_large(reach(machine), corner, "corner");
       }
       begin = *met;
       if (auto done = move_to(machine, begin); !done) return done;
@@ -141,7 +141,7 @@ NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
   Element element = *std::exchange(last_, std::nullopt);
   if (!is_entry_) {
     if (!goes_forward(element.curve, at_, end)) {
-      return too_large(radius(machine), element.curve.end, "corner");
+      return too_large(reach(machine), element.curve.end, "corner");
     }
     element.curve.start = at_;
     element.curve.end = end;
@@ -166,7 +166,7 @@ NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
 NcResult<void> CutterPath::finish(machine::Machine& machine) {
   if (!last_) return {};
   const auto direction = last_->curve.end_direction();
-  const Vec2 end = last_->curve.end + left_of(*direction) * (side_ * radius(machine));
+  const Vec2 end = last_->curve.end + left_of(*direction) * (side_ * reach(machine));
   return move_to(machine, end);
 }
 

@@ -9,11 +9,15 @@
 namespace fitgauge::interpreter {
 
 /// Leads the centre of the cutter along a contour: on it, or with RL and RR at the tool's radius
-/// (R + DR) beside it. The path begins and ends square to the first and last point of the contour,
-/// goes around outer corners on an arc, and meets inner corners where the two offset curves cross.
-/// An element moves when the one after it in the plane is known.
+/// (R + DR) and an allowance beside it. The path begins and ends square to the first and last point
+/// of the contour, goes around outer corners on an arc, and meets inner corners where the two
+/// offset curves cross. An element moves when the one after it in the plane is known.
 class CutterPath {
  public:
+  CutterPath() = default;
+  /// @param allowance stays on the contour, in mm beside the tool's radius
+  explicit CutterPath(double allowance) : allowance_(allowance) {}
+
   /// @errors 1003 the tool does not fit into a corner or arc; 1021 RL or RR begins with an arc.
   NcResult<void> add(machine::Machine& machine, const Element& next);
   /// Moves along what was kept, up to the point square to its end.
@@ -37,6 +41,10 @@ class CutterPath {
   /// stood between it and the next one.
   NcResult<void> move_to(machine::Machine& machine, Vec2 end);
 
+  /// From the contour to the centre of the cutter.
+  double reach(const machine::Machine& machine) const { return radius(machine) + allowance_; }
+
+  double allowance_ = 0;
   int side_ = 0;
   std::optional<Element> last_;
   bool is_entry_ = false;       ///< `last_` brings the tool to the contour

@@ -60,9 +60,7 @@ class Drilling {
   /// Where feed begins again above the depth that is reached: the clearance, in 205 its advanced
   /// stop distance.
   double stop_above(double reached) const {
-    if (number_ == 1) {  // the old cycle's own: a fiftieth of the hole, from 0.6 to 7 mm
-      return std::clamp(std::abs(heights_.bottom - heights_.surface) / 50, 0.6, 7.0);
-    }
+    if (number_ == 1) return advanced_stop(heights_.bottom - heights_.surface);
     if (!is_universal()) return cycle_.value(200);
     if (number_ == 264) return cycle_.value(258);
     const double part = (reached - begin_) / (heights_.bottom - begin_);
@@ -148,6 +146,8 @@ Vec2 withdrawal(const Machining& cycle, double by) {
 }
 
 }  // namespace
+
+double advanced_stop(double depth) { return std::clamp(std::abs(depth) / 50, 0.6, 7.0); }
 
 NcResult<void> drill(Machining& cycle) { return Drilling(cycle).run(); }
 

@@ -75,6 +75,7 @@ class Positioning {
   Contour& contour() { return channel_.contour; }
 
   NcResult<machine::Feed> block_feed() {
+    if (contour().drawing() != nullptr) return machine::Feed::rapid();
     const auto feed = use_feed(channel_, words_.feed);
     if (feed) contour().last_feed = *feed;
     return feed;
@@ -400,6 +401,10 @@ NcResult<Next> execute(Channel& channel, const Motion& motion) {
   auto words = read_words(channel, motion.words);
   if (!words) return words.error();
   channel.contour.compensate(motion.compensation);
+  if (channel.contour.drawing() != nullptr) {
+    if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
+    return Next{};
+  }
   if (auto noted = note_what_has_no_effect(channel, motion, *words); !noted) return noted.error();
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
   if (auto done = orient_tool(channel, motion, *words); !done) return done.error();
@@ -410,6 +415,7 @@ NcResult<Next> execute(Channel& channel, const Motion& motion) {
 NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions) {
   const auto words = read_words(channel, functions.words);
   if (!words) return words.error();
+  if (channel.contour.drawing() != nullptr) return Next{};
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
   return end_m_functions(channel, *words);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "program/arithmetic.hpp"
@@ -26,15 +27,30 @@ namespace {
 template <bool kFollowed>
 class Executor {
  public:
-  explicit Executor(Channel& channel) : channel_(channel) {}
+  explicit Executor(Channel& channel) : channel_(channel), depth_(channel.calls.depth()) {}
 
   Ending run() {
     load_program();
-    loop();
+    loop(code_);
     return {channel_.budget.executed(fuel_), std::move(error_)};
   }
 
+  NcResult<void> run_label(std::uint32_t label) {
+    const std::uint32_t caller = channel_.block;
+    if (auto called = channel_.calls.call_label(kBackToCycle); !called) return called;
+    load_program();
+    loop(code_ + label);
+    channel_.budget.give_back(fuel_);
+    if (error_) return *std::move(error_);
+    if (!has_returned_) return nc_error("the subprogram of a contour ends with LBL 0");
+    channel_.block = caller;
+    return {};
+  }
+
  private:
+  /// Where LBL 0 of a subprogram that a cycle runs goes on.
+  static constexpr std::uint32_t kBackToCycle = std::numeric_limits<std::uint32_t>::max();
+
   void load_program() {
     code_ = channel_.linked().code().data();
     cells_ = channel_.parameters.cells();
@@ -70,9 +86,11 @@ class Executor {
     error_ = std::move(error);
     return nullptr;
   }
-  void loop();
+  void loop(const Instruction* first);
 
   Channel& channel_;
+  const std::size_t depth_;  ///< of the program in which this began
+  bool has_returned_ = false;
   const Instruction* code_ = nullptr;
   double* cells_ = nullptr;
   std::int64_t fuel_ = 0;
@@ -166,6 +184,8 @@ const Instruction* Executor<kFollowed>::call_label(std::uint32_t target, const I
 template <bool kFollowed>
 const Instruction* Executor<kFollowed>::end_label(const Instruction* pc) {
   const auto target = channel_.calls.return_from_label();
+  has_returned_ = target == kBackToCycle;
+  if (has_returned_) return nullptr;
   return target ? code_ + *target : pc + 1;
 }
 
@@ -192,6 +212,7 @@ const Instruction* Executor<kFollowed>::statement(const Instruction* pc) {
   if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
   if constexpr (!kFollowed) channel_.environment.observer.entered(channel_.place());
   auto next = execute_statement(channel_, *pc);
+  cells_ = channel_.parameters.cells();  // a cycle may have run a subprogram
   if (!next) return fail(next.error());
   switch (next->kind) {
     case Next::Kind::Block: return pc + 1;
@@ -214,7 +235,7 @@ const Instruction* Executor<kFollowed>::end_block(const Instruction* pc) {
 /// @returns where the caller goes on, or null at the end of the main program.
 template <bool kFollowed>
 const Instruction* Executor<kFollowed>::end_program() {
-  if (channel_.calls.is_in_main()) return nullptr;
+  if (channel_.calls.depth() == depth_) return nullptr;
   const CallStack::Caller caller = channel_.calls.return_from_program();
   channel_.parameters.enter(channel_.linked(), caller.locals);
   load_program();
@@ -285,7 +306,7 @@ const Instruction* Executor<kFollowed>::end_program() {
   FITGAUGE_NEXT()
 
 template <bool kFollowed>
-void Executor<kFollowed>::loop() {
+void Executor<kFollowed>::loop(const Instruction* first) {
 #if FITGAUGE_THREADED
   static const void* const kHandlers[] = {
       &&op_Add,         &&op_Subtract,      &&op_Multiply,    &&op_Divide,
@@ -300,7 +321,7 @@ void Executor<kFollowed>::loop() {
   const Instruction* code = code_;
   double* cells = cells_;
   std::int64_t fuel = fuel_;
-  const Instruction* pc = code;
+  const Instruction* pc = first;
   const Instruction* next = nullptr;
 
 #if FITGAUGE_THREADED
@@ -429,6 +450,12 @@ done:
 Ending execute_program(Channel& channel) {
   return channel.environment.observer.follows_every_block() ? Executor<true>(channel).run()
                                                             : Executor<false>(channel).run();
+}
+
+NcResult<void> execute_label(Channel& channel, std::uint32_t label) {
+  return channel.environment.observer.follows_every_block()
+             ? Executor<true>(channel).run_label(label)
+             : Executor<false>(channel).run_label(label);
 }
 
 }  // namespace fitgauge::interpreter

@@ -13,4 +13,8 @@ struct Ending {
 /// Runs the main program of a channel to its end. Where it fails, `channel.place()` is the block.
 Ending execute_program(Channel& channel);
 
+/// Runs the blocks from the instruction of a label to its LBL 0, for a cycle that needs what a
+/// subprogram programs. @errors those of the blocks; no LBL 0 comes.
+NcResult<void> execute_label(Channel& channel, std::uint32_t label);
+
 }  // namespace fitgauge::interpreter

@@ -37,6 +37,8 @@ struct Machining {
 machine::Feed feed_of(double rate);
 
 // drilling.cpp
+/// Where 1 and 21 stop above what is drilled: a fiftieth of the hole, from 0.6 to 7 mm.
+double advanced_stop(double depth);
 NcResult<void> drill(Machining& cycle);
 NcResult<void> tap(Machining& cycle);
 NcResult<void> bore(Machining& cycle);

@@ -7,7 +7,7 @@
 namespace fitgauge::interpreter {
 
 NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed) {
-  granted_ -= static_cast<std::uint64_t>(left);
+  give_back(left);
   if (auto checked = check(); !checked) return checked.error();
   const auto remaining = static_cast<std::int64_t>(limits_.blocks - granted_);
   if (needed > remaining) {

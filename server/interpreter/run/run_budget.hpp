@@ -21,6 +21,8 @@ class RunBudget {
   /// Takes back what is left of a portion and grants a new one of at least `needed` blocks.
   /// @errors limit (blocks, time), cancelled.
   NcResult<std::int64_t> refuel(std::int64_t left, std::int64_t needed);
+  /// What is left of a portion when its executor ends before the run.
+  void give_back(std::int64_t left) { granted_ -= static_cast<std::uint64_t>(left); }
   /// To be called for each block that is more than arithmetic, and in loops.
   /// @errors limit (time, memory), cancelled.
   NcResult<void> check() {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "run/channel.hpp"
 
 namespace fitgauge::interpreter {
@@ -49,12 +52,33 @@ class Dispatcher {
   const Instruction& instruction_;
 };
 
+template <class... Kinds>
+bool is_one_of(const klartext::Statement& statement) {
+  return (std::holds_alternative<Kinds>(statement) || ...);
+}
+
+/// Whether a block may stand in the contour of an SL cycle: it programs the contour, computes, or
+/// transforms coordinates.
+bool may_stand_in_contour(const klartext::Statement& statement) {
+  if (const auto* part = std::get_if<klartext::CyclePart>(&statement)) {
+    constexpr std::array<int, 5> kTransformations{7, 8, 10, 11, 26};
+    return std::count(kTransformations.begin(), kTransformations.end(), part->number) != 0;
+  }
+  return is_one_of<klartext::Empty, klartext::Structure, klartext::Motion, klartext::MFunctions,
+                   klartext::LabelDefinition, klartext::LabelCall, klartext::ConditionalJump,
+                   klartext::Assignment, klartext::SetUndefined, klartext::CircleData,
+                   klartext::Trans>(statement);
+}
+
 }  // namespace
 
 NcResult<Next> execute_statement(Channel& channel, const Instruction& instruction) {
   const klartext::Statement& statement = channel.place().source().statement;
   if (!std::holds_alternative<klartext::Motion>(statement)) {
     if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
+    if (channel.contour.drawing() != nullptr && !may_stand_in_contour(statement)) {
+      return nc_error("this block does not stand in the contour of an SL cycle");
+    }
   }
   auto next = std::visit(Dispatcher(channel, instruction), statement);
   if (next && channel.stop_after_block) {

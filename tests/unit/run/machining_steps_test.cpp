@@ -190,24 +190,5 @@ TEST_CASE("a cutter does not mill up from the surface") {
   }
 }
 
-TEST_CASE("21, 23 and 24 go to the first point of each contour") {
-  Workshop mill;
-  const auto cycle = [&](const std::string& called) {
-    return mill.path(
-        "CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1\n"
-        "CYCL DEF 20 CONTOUR DATA Q1=-10 Q5=+1 Q6=2 Q7=+50\nCYCL DEF " +
-        called + "\nCYCL CALL\nL M2\nLBL 1\nL X+20 Y+30 RL\nL X+40\nLBL 0");
-  };
-  const std::string above = "L X+20 Y+30 Z+3 FMAX";
-  CHECK(cycle("21 PILOT DRILLING Q10=-6 Q11=100") ==
-        Lines{"L X+20 Y+30 Z+50 FMAX", above, "L X+20 Y+30 Z-5 F100", "L X+20 Y+30 Z-9 F100",
-              "L X+20 Y+30 Z+50 FMAX"});
-  CHECK(cycle("23 FLOOR FINISHING Q11=100 Q12=350") ==
-        Lines{"L X+20 Y+30 Z+50 FMAX", above, "L X+20 Y+30 Z-9 F100", "L X+20 Y+30 Z+50 FMAX"});
-  CHECK(cycle("24 SIDE FINISHING Q9=+1 Q10=-5 Q11=100 Q12=350") ==
-        Lines{"L X+20 Y+30 Z+50 FMAX", above, "L X+20 Y+30 Z-4 F100", "L X+20 Y+30 Z-9 F100",
-              "L X+20 Y+30 Z+50 FMAX"});
-}
-
 }  // namespace
 }  // namespace fitgauge::interpreter

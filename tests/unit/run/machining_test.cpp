@@ -203,22 +203,6 @@ TEST_CASE("PATTERN DEF gives CYCL CALL PAT its points") {
   CHECK(mill.last.messages.back().number == 1017);
 }
 
-TEST_CASE("SL cycles go to the first point of each contour, in infeeds") {
-  Workshop mill;
-  const std::string pocket =
-      "CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1 /2\nCYCL DEF 20 CONTOUR DATA Q1=-10 "
-      "Q5=+0 Q6=2 Q7=+50\nCYCL DEF 22 ROUGH-OUT Q10=-5 Q11=100 Q12=350\nCYCL CALL M3\nL M2\n"
-      "LBL 1\nL X+20 Y+30 RL\nL X+40\nLBL 0\nLBL 2\nCC X+60 Y+50\nL X+50 Y+50 RR\nC X+50 Y+50 DR-\n"
-      "LBL 0";
-  CHECK(mill.path(pocket) == Lines{"L X+20 Y+30 Z+50 FMAX", "L X+20 Y+30 Z+2 FMAX",
-                                   "L X+20 Y+30 Z-5 F100", "L X+20 Y+30 Z-10 F100",
-                                   "L X+20 Y+30 Z+50 FMAX", "L X+50 Y+50 Z+50 FMAX",
-                                   "L X+50 Y+50 Z+2 FMAX", "L X+50 Y+50 Z-5 F100",
-                                   "L X+50 Y+50 Z-10 F100", "L X+50 Y+50 Z+50 FMAX"});
-  mill.path("CYCL DEF 22 ROUGH-OUT Q10=-5\nCYCL CALL");
-  CHECK(mill.last.messages.back().number == 1017);
-}
-
 TEST_CASE("values out of a parameter's range are refused before the program runs") {
   Control control;
   control.program("CYCL DEF 200 DRILLING Q202=-5 Q305=3");
