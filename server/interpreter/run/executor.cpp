@@ -2,13 +2,10 @@
 
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "program/arithmetic.hpp"
-#include "run/preassigned.hpp"
-#include "run/statements.hpp"
-#include "run/values.hpp"
+#include "run/executor_steps.hpp"
 
 // Direct threading: each operation jumps to the next one's code, so that the processor predicts
 // every pair of operations apart. Labels as values are an extension of GCC and Clang; other
@@ -25,9 +22,9 @@ namespace {
 /// The loop over the code of a run. `kFollowed`: every block is announced to the observer; a second
 /// instantiation, so that the usual one does not even ask.
 template <bool kFollowed>
-class Executor {
+class Executor : ExecutorSteps {
  public:
-  explicit Executor(Channel& channel) : channel_(channel), depth_(channel.calls.depth()) {}
+  explicit Executor(Channel& channel) : ExecutorSteps(channel, kFollowed) {}
 
   Ending run() {
     load_program();
@@ -48,199 +45,8 @@ class Executor {
   }
 
  private:
-  /// Where LBL 0 of a subprogram that a cycle runs goes on.
-  static constexpr std::uint32_t kBackToCycle = std::numeric_limits<std::uint32_t>::max();
-
-  void load_program() {
-    code_ = channel_.linked().code().data();
-    cells_ = channel_.parameters.cells();
-  }
-
-  std::uint32_t index_of(const Instruction* pc) const {
-    return static_cast<std::uint32_t>(pc - code_);
-  }
-
-  /// Says which block runs.
-  void enter(const Instruction* pc) { channel_.block = channel_.linked().block_of(index_of(pc)); }
-
-  void announce(const Instruction* pc) {
-    if (pc->blocks == 0) return;
-    enter(pc);
-    channel_.environment.observer.entered(channel_.place());
-  }
-
-  NcError value_error(const Instruction& instruction) const;
-  bool give_preassigned(const Instruction& instruction);
-  bool refuel(std::int64_t needed);
-  bool evaluate_node(const Instruction* pc);
-  bool call_program(std::shared_ptr<const LinkedProgram> program, std::uint32_t return_to);
-  // Where the run goes on; null after an error and at the end of the run.
-  const Instruction* jump_when(const Instruction* pc);
-  const Instruction* call_label(std::uint32_t target, const Instruction* pc);
-  const Instruction* end_label(const Instruction* pc);
-  const Instruction* repeat(const Instruction* pc);
-  const Instruction* statement(const Instruction* pc);
-  const Instruction* end_block(const Instruction* pc);
-  const Instruction* end_program();
-  const Instruction* fail(NcError error) {
-    error_ = std::move(error);
-    return nullptr;
-  }
   void loop(const Instruction* first);
-
-  Channel& channel_;
-  const std::size_t depth_;  ///< of the program in which this began
-  bool has_returned_ = false;
-  const Instruction* code_ = nullptr;
-  double* cells_ = nullptr;
-  std::int64_t fuel_ = 0;
-  std::optional<NcError> error_;
 };
-
-/// Why the result of an instruction is not finite, or its comparison not possible.
-template <bool kFollowed>
-NcError Executor<kFollowed>::value_error(const Instruction& instruction) const {
-  const double a = cells_[instruction.a];
-  const double b = cells_[instruction.b];
-  if (!is_defined(a)) return undefined_error(parameter_of(instruction.a));
-  if (!is_defined(b)) return undefined_error(parameter_of(instruction.b));
-  return nc_error(failure(
-      instruction.op == Op::Divide ? klartext::Operator::Divide : instruction.function, a, b));
-}
-
-/// Whether an undefined operand was one that the control gives a value.
-template <bool kFollowed>
-bool Executor<kFollowed>::give_preassigned(const Instruction& instruction) {
-  for (const std::uint32_t cell : {instruction.a, instruction.b}) {
-    if (!is_defined(cells_[cell]) && is_preassigned(cell)) {
-      update_preassigned(channel_);
-      return true;
-    }
-  }
-  return false;
-}
-
-template <bool kFollowed>
-bool Executor<kFollowed>::refuel(std::int64_t needed) {
-  const auto portion = channel_.budget.refuel(std::exchange(fuel_, 0), needed);
-  if (!portion) {
-    error_ = portion.error();
-    return false;
-  }
-  fuel_ = *portion;
-  channel_.environment.observer.progressed(channel_.budget.executed(fuel_));
-  return true;
-}
-
-template <bool kFollowed>
-bool Executor<kFollowed>::call_program(std::shared_ptr<const LinkedProgram> program,
-                                       std::uint32_t return_to) {
-  QParameters& parameters = channel_.parameters;
-  auto locals = parameters.save_locals(channel_.linked());
-  if (auto called = channel_.calls.call_program(std::move(program), {return_to, std::move(locals)});
-      !called) {
-    error_ = called.error();
-    return false;
-  }
-  parameters.enter(channel_.linked());
-  load_program();
-  return true;
-}
-
-template <bool kFollowed>
-bool Executor<kFollowed>::evaluate_node(const Instruction* pc) {
-  enter(pc);
-  if (auto checked = channel_.budget.check(); !checked) {
-    error_ = checked.error();
-    return false;
-  }
-  const auto value = evaluate(channel_, klartext::NodeIndex{pc->a});
-  if (!value) {
-    error_ = value.error();
-    return false;
-  }
-  cells_[pc->c] = *value;
-  return true;
-}
-
-template <bool kFollowed>
-const Instruction* Executor<kFollowed>::jump_when(const Instruction* pc) {
-  enter(pc);
-  if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
-  const auto holds = condition(channel_, klartext::NodeIndex{pc->a});
-  if (!holds) return fail(holds.error());
-  return *holds ? code_ + pc->c : pc + 1;
-}
-
-template <bool kFollowed>
-const Instruction* Executor<kFollowed>::call_label(std::uint32_t target, const Instruction* pc) {
-  if (auto called = channel_.calls.call_label(index_of(pc + 1)); !called) {
-    return fail(called.error());
-  }
-  return code_ + target;
-}
-
-/// LBL 0, which is passed over outside of a subprogram.
-template <bool kFollowed>
-const Instruction* Executor<kFollowed>::end_label(const Instruction* pc) {
-  const auto target = channel_.calls.return_from_label();
-  has_returned_ = target == kBackToCycle;
-  if (has_returned_) return nullptr;
-  return target ? code_ + *target : pc + 1;
-}
-
-/// CALL LBL REP: the counter cell is undefined while the part is not being repeated.
-template <bool kFollowed>
-const Instruction* Executor<kFollowed>::repeat(const Instruction* pc) {
-  double& counter = cells_[pc->b];
-  if (!is_defined(counter)) {
-    const double count = cells_[pc->a];
-    if (!is_defined(count)) return fail(undefined_error(parameter_of(pc->a)));
-    counter = std::round(count);  // decision 7
-  }
-  if (counter < 1) {
-    counter = kUndefined;
-    return pc + 1;
-  }
-  counter -= 1;
-  return code_ + pc->c;
-}
-
-template <bool kFollowed>
-const Instruction* Executor<kFollowed>::statement(const Instruction* pc) {
-  enter(pc);
-  if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
-  if constexpr (!kFollowed) channel_.environment.observer.entered(channel_.place());
-  auto next = execute_statement(channel_, *pc);
-  cells_ = channel_.parameters.cells();  // a cycle may have run a subprogram
-  if (!next) return fail(next.error());
-  switch (next->kind) {
-    case Next::Kind::Block: return pc + 1;
-    case Next::Kind::Jump: return code_ + next->target;
-    case Next::Kind::CallLabel: return call_label(next->target, pc);
-    case Next::Kind::CallProgram:
-      return call_program(std::move(next->program), index_of(pc + 1)) ? code_ : nullptr;
-    case Next::Kind::EndRun: break;
-  }
-  return nullptr;
-}
-
-template <bool kFollowed>
-const Instruction* Executor<kFollowed>::end_block(const Instruction* pc) {
-  enter(pc);
-  if (auto done = channel_.contour.finish(channel_.machine()); !done) return fail(done.error());
-  return end_program();
-}
-
-/// @returns where the caller goes on, or null at the end of the main program.
-template <bool kFollowed>
-const Instruction* Executor<kFollowed>::end_program() {
-  if (channel_.calls.depth() == depth_) return nullptr;
-  const CallStack::Caller caller = channel_.calls.return_from_program();
-  channel_.parameters.enter(channel_.linked(), caller.locals);
-  load_program();
-  return code_ + caller.return_to;
-}
 
 // The table of labels and the jump through it are the extension.
 #pragma GCC diagnostic push
