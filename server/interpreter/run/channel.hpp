@@ -68,6 +68,7 @@ class Channel {
 
   Contour contour;
   std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are those of AXIS SPAT
+  bool turns_along_vector = false;              ///< PATHCTRL VECTOR
   ActiveCycle active_cycle;
   /// What PREDEF takes, by the number of the Q parameter: mm, degrees, mm/min (GLOBAL DEF).
   std::map<int, double> predefined;

@@ -87,6 +87,7 @@ machine::Position Contour::position(const machine::Machine& machine) const {
 NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
   if (drawing_) return drawing_->add(element);
   const bool is_beside = element.side != 0 || cutter_.side() != 0;
+  if (!is_beside && (is_shifted_ || element.shift != Vec3{})) return move_shifted(machine, element);
   if (!is_beside) return CutterPath::move(machine, element);
   machine::Position programmed = position(machine);
   for (const machine::Axis axis : machine::kAllAxes) {
@@ -95,6 +96,21 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
   programmed.linear = element.plane.with(programmed.linear, element.curve.end);
   if (auto done = cutter_.add(machine, element); !done) return done;
   beside_ = Beside{programmed, machine.position()};
+  return {};
+}
+
+/// LN with DR: the tool stands beside the programmed path until a block without a normal.
+NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element) {
+  machine::Position programmed = position(machine);
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (const auto& value = element.target[axis]) programmed[axis] = *value;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    element.target.values[axis] = programmed.linear[axis] + element.shift[axis];
+  }
+  if (auto done = CutterPath::move(machine, element); !done) return done;
+  beside_ = Beside{programmed, machine.position()};
+  is_shifted_ = element.shift != Vec3{};
   return {};
 }
 

@@ -79,6 +79,7 @@ class Contour {
   };
 
   NcResult<void> cut(machine::Machine& machine, const Element& element);
+  NcResult<void> move_shifted(machine::Machine& machine, Element element);
   NcResult<void> turn_corner(machine::Machine& machine, Element& next);
   NcResult<void> approach(machine::Machine& machine, const Element& first);
 
@@ -88,6 +89,7 @@ class Contour {
   std::optional<Corner> corner_;
   std::optional<Approach> approach_;
   std::optional<Beside> beside_;
+  bool is_shifted_ = false;  ///< by LN
   int side_ = 0;
   int lengthening_ = 0;
 };

@@ -16,6 +16,7 @@ struct Element {
   machine::Feed feed;
   machine::CoordinateSystem system = machine::CoordinateSystem::Input;
   int side = 0;  ///< of the contour that the tool is on: 1 left (RL), -1 right (RR), 0 on it
+  machine::Vec3 shift{};  ///< of the tool from the programmed path (LN with DR), without RL and RR
 
   bool moves_in_plane() const {
     return curve.is_arc() || norm(curve.end - curve.start) > tolerance::kSamePoint;

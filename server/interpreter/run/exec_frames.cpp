@@ -214,12 +214,7 @@ NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
   const auto says = [&](std::string_view words) { return options.find(words) != options.npos; };
   channel.spatial_angles.reset();
   if (says("AXIS SPAT")) channel.spatial_angles.emplace();
-  if (says("PATHCTRL VECTOR")) {
-    auto noted = channel.note(
-        "PATHCTRL VECTOR: the rotary axes move evenly, as with PATHCTRL AXIS; "
-        "only the ends of a block are the same");
-    if (!noted) return noted;
-  }
+  channel.turns_along_vector = says("PATHCTRL VECTOR");
   machine::Modes modes = channel.machine().state().modes;
   modes.tcpm = tcpm.active;
   return checked(channel.machine().set_modes(modes));

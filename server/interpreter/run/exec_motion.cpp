@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "run/channel.hpp"
 #include "run/m_functions.hpp"
 #include "run/positioning.hpp"
@@ -12,24 +8,11 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Motion;
-using klartext::Path;
 
 /// What the control takes into account and the simulated machine does not.
-NcResult<void> note_what_has_no_effect(Channel& channel, const Motion& motion,
-                                       const MotionWords& words) {
-  if (words.has_m(92)) {
-    auto noted = channel.note("M92 counts from the machine datum, as M91: the setup has no second");
-    if (!noted) return noted;
-  }
-  if (motion.path != Path::Ln) return {};
-  const auto view = channel.program().view(motion.words);
-  const bool has_normal = std::any_of(view.begin(), view.end(), [](const klartext::Word& word) {
-    return word.letter >= klartext::Letter::Nx && word.letter <= klartext::Letter::Nz;
-  });
-  const machine::Tool* tool = channel.machine().state().active_tool();
-  const double oversize = channel.machine().state().tool.dr + (tool == nullptr ? 0 : tool->dr);
-  if (oversize == 0 || !has_normal) return {};
-  return channel.note("LN: DR does not move the path along the normal NX NY NZ");
+NcResult<void> note_what_has_no_effect(Channel& channel, const MotionWords& words) {
+  if (!words.has_m(92)) return {};
+  return channel.note("M92 counts from the machine datum, as M91: the setup has no second");
 }
 
 }  // namespace
@@ -42,7 +25,7 @@ NcResult<Next> execute(Channel& channel, const Motion& motion) {
     if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
     return Next{};
   }
-  if (auto noted = note_what_has_no_effect(channel, motion, *words); !noted) return noted.error();
+  if (auto noted = note_what_has_no_effect(channel, *words); !noted) return noted.error();
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
   if (auto done = orient_tool(channel, motion, *words); !done) return done.error();
   if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();

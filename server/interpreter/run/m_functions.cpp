@@ -73,6 +73,7 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
       case 129:
         modes.tcpm = call.number == 128;
         channel.spatial_angles.reset();
+        channel.turns_along_vector = false;
         break;
       case 144: modes.kinematics_in_display = true; break;
       case 145: modes.kinematics_in_display = false; break;

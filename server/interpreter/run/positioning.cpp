@@ -6,7 +6,9 @@
 #include <array>
 
 #include "machine/tolerance.hpp"
+#include "run/tool_orientation.hpp"
 #include "run/values.hpp"
+#include "run/vector_path.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -189,7 +191,60 @@ NcResult<void> Positioning::line() {
   const auto end = end_point();
   if (!end) return end.error();
   if (contour().lengthening() != 0 && motion_.path != Path::Ln) return lengthened_line(*end);
-  return add({start_, *end, std::nullopt, 0});
+  auto made = element({start_, *end, std::nullopt, 0});
+  if (!made) return made.error();
+  const auto shift = shift_of_surface();
+  if (!shift) return shift.error();
+  made->shift = *shift;
+  const bool is_pieced = channel_.turns_along_vector && channel_.machine().state().modes.tcpm;
+  return is_pieced ? add_along_vector(*made) : move_along(*std::move(made));
+}
+
+NcResult<machine::Vec3> Positioning::shift_of_surface() {
+  const auto normal = vector_of(channel_, motion_, klartext::Letter::Nx);
+  if (!normal) return normal.error();
+  if (!*normal || contour().side() != 0) return machine::Vec3{};
+  const machine::MachineState& state = channel_.machine().state();
+  const machine::Tool* tool = state.active_tool();
+  const double oversize = state.tool.dr + (tool == nullptr ? 0 : tool->dr);
+  return machine::unit(**normal) * oversize;
+}
+
+NcResult<void> Positioning::add_along_vector(const Element& line) {
+  const machine::MachineState& state = channel_.machine().state();
+  machine::Position end = position_;
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (const auto& value = line.target[axis]) end[axis] = *value;
+  }
+  const auto to_machine = [&](const machine::Vec3& rotary) {
+    return state.frames.rotary_to_machine(rotary, CoordinateSystem::Input);
+  };
+  const auto stops =
+      vector_stops(state, to_machine(position_.rotary), to_machine(end.rotary), channel_.budget);
+  if (!stops) return stops.error();
+  if (stops->size() == 1) return move_along(line);
+  const machine::Vec3 shifted = contour().side() == 0
+                                    ? channel_.machine().position().linear - position_.linear
+                                    : machine::Vec3{};
+  Element piece = line;
+  for (const VectorStop& stop : *stops) {
+    const bool is_last = stop.part == 1;
+    const machine::Vec3 point =
+        is_last ? end.linear : position_.linear + (end.linear - position_.linear) * stop.part;
+    const machine::Vec3 rotary =
+        state.frames.rotary_from_machine(stop.rotary, CoordinateSystem::Input);
+    for (std::size_t axis = 0; axis < 3; ++axis) piece.target.values[axis] = point[axis];
+    for (const machine::RotaryAxis& axis : state.kinematics.axes()) {
+      piece.target[axis.axis] = rotary[machine::index(axis.axis) - 3];
+    }
+    piece.curve.end = plane_.project(point);
+    piece.shift = shifted + (line.shift - shifted) * stop.part;
+    if (is_last) break;
+    if (auto done = contour().add(channel_.machine(), piece, false); !done) return done;
+    piece.curve.start = piece.curve.end;
+    piece.from = point;
+  }
+  return move_along(std::move(piece));
 }
 
 NcResult<void> Positioning::lengthened_line(Vec2 end) {

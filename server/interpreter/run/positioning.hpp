@@ -53,6 +53,10 @@ class Positioning {
   /// M91, M92: coordinates of the spindle nose from the machine datum.
   NcResult<void> machine_line();
   NcResult<void> line();
+  /// PATHCTRL VECTOR: the same line in pieces, where it turns the tool.
+  NcResult<void> add_along_vector(const Element& line);
+  /// LN: from the programmed path, the tool's DR along the surface's normal.
+  NcResult<machine::Vec3> shift_of_surface();
 
   /// R+ and R-: each named axis of the plane goes on, or stops short, by the tool's radius.
   NcResult<void> lengthened_line(Vec2 end);

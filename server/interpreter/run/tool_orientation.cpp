@@ -31,40 +31,14 @@ std::optional<double> nearest_turn(double angle, double from, const machine::Axi
   return nearest;
 }
 
-/// Where the rotary axes stand the tool along `direction` (input coordinates), the nearest to
-/// `from`, in machine coordinates.
-std::optional<Vec3> positions_along(const machine::MachineState& state, const Vec3& direction,
-                                    const Vec3& from) {
-  machine::Frames on_table = state.frames;
-  on_table.set_table({});
-  const Vec3 normal = machine::unit(on_table.direction_to_machine(direction));
-  std::optional<Vec3> nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (Vec3 rotary : state.kinematics.orientations(normal, from, state.tool_axis())) {
-    double way = 0;
-    for (const RotaryAxis& axis : state.kinematics.axes()) {
-      const std::size_t letter = machine::index(axis.axis) - 3;
-      const auto& range = state.ranges[machine::index(axis.axis)];
-      const auto turned = range ? nearest_turn(rotary[letter], from[letter], *range) : std::nullopt;
-      if (!turned) {
-        way = std::numeric_limits<double>::infinity();
-        break;
-      }
-      rotary[letter] = *turned;
-      way += std::abs(*turned - from[letter]);
-    }
-    if (way >= least) continue;
-    least = way;
-    nearest = rotary;
-  }
-  return nearest;
-}
-
 NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords& words) {
   const machine::MachineState& state = channel.machine().state();
   const machine::Position position = channel.contour.position(channel.machine());
   const Vec3 from = state.frames.rotary_to_machine(position.rotary, CoordinateSystem::Input);
-  const auto rotary = positions_along(state, direction, from);
+  machine::Frames on_table = state.frames;
+  on_table.set_table({});
+  const Vec3 normal = machine::unit(on_table.direction_to_machine(direction));
+  const auto rotary = rotary_along(state, normal, from);
   if (!rotary) {
     return nc_error(1013, fmt::format("no position of the rotary axes stands the tool along {:.4f} "
                                       "{:.4f} {:.4f}",
@@ -76,24 +50,6 @@ NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords&
     words.axes[machine::index(axis.axis)] = {shown[machine::index(axis.axis) - 3], false};
   }
   return {};
-}
-
-/// TX, TY, TZ of an LN block.
-NcResult<std::optional<Vec3>> tool_vector(Channel& channel, const klartext::Motion& motion) {
-  std::optional<Vec3> vector;
-  if (motion.path != klartext::Path::Ln) return vector;
-  for (const klartext::Word& word : channel.program().view(motion.words)) {
-    if (word.letter < Letter::Tx || word.letter > Letter::Tz) continue;
-    const auto value = number(channel, word.value);
-    if (!value) return value.error();
-    if (!vector) vector.emplace();
-    (*vector)[static_cast<std::size_t>(word.letter) - static_cast<std::size_t>(Letter::Tx)] =
-        *value;
-  }
-  if (vector && norm(*vector) < tolerance::kSameDirection) {
-    return nc_error("LN: the tool vector TX TY TZ has no length");
-  }
-  return vector;
 }
 
 NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWords& words) {
@@ -122,11 +78,58 @@ NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWor
 
 }  // namespace
 
+std::optional<Vec3> rotary_along(const machine::MachineState& state, const Vec3& normal,
+                                 const Vec3& from) {
+  std::optional<Vec3> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (Vec3 rotary : state.kinematics.orientations(normal, from, state.tool_axis())) {
+    double way = 0;
+    for (const RotaryAxis& axis : state.kinematics.axes()) {
+      const std::size_t letter = machine::index(axis.axis) - 3;
+      const auto& range = state.ranges[machine::index(axis.axis)];
+      const auto turned = range ? nearest_turn(rotary[letter], from[letter], *range) : std::nullopt;
+      if (!turned) {
+        way = std::numeric_limits<double>::infinity();
+        break;
+      }
+      rotary[letter] = *turned;
+      way += std::abs(*turned - from[letter]);
+    }
+    if (way >= least) continue;
+    least = way;
+    nearest = rotary;
+  }
+  return nearest;
+}
+
+NcResult<std::optional<Vec3>> vector_of(Channel& channel, const klartext::Motion& motion,
+                                        Letter first) {
+  std::optional<Vec3> vector;
+  if (motion.path != klartext::Path::Ln) return vector;
+  for (const klartext::Word& word : channel.program().view(motion.words)) {
+    const int axis = static_cast<int>(word.letter) - static_cast<int>(first);
+    if (axis < 0 || axis > 2) continue;
+    const auto value = number(channel, word.value);
+    if (!value) return value.error();
+    if (!vector) vector.emplace();
+    (*vector)[static_cast<std::size_t>(axis)] = *value;
+  }
+  if (vector && norm(*vector) < tolerance::kSameDirection) {
+    return nc_error(first == Letter::Tx ? "LN: the tool vector TX TY TZ has no length"
+                                        : "LN: the normal NX NY NZ has no length");
+  }
+  return vector;
+}
+
 NcResult<void> orient_tool(Channel& channel, const klartext::Motion& motion, MotionWords& words) {
   if (words.has_m(91) || words.has_m(92)) return {};
   const bool follows = channel.machine().state().modes.tcpm;
-  const auto vector = tool_vector(channel, motion);
+  auto vector = vector_of(channel, motion, Letter::Tx);
   if (!vector) return vector.error();
+  if (!*vector && follows && !channel.machine().state().kinematics.axes().empty()) {
+    vector = vector_of(channel, motion, Letter::Nx);  // square to the surface
+    if (!vector) return vector.error();
+  }
   if (*vector) {
     if (follows) return stand_along(channel, **vector, words);
     return channel.note(

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include "workshop.hpp"
 
@@ -102,6 +103,71 @@ TEST_CASE("AXIS SPAT: A, B and C are spatial angles of the tool") {
   CHECK(is_near(mill.rotary_after(begin + "A+0 B+25 C+0\nM128\nL A+5 C+6 F1000"), {5, 0, 6}));
   mill.path(begin + "A+30 C+0");
   CHECK(outcome(mill.last).find("B is missing") != std::string::npos);
+}
+
+/// The ends of the moves: X, Y, Z, A and C.
+std::vector<std::array<double, 5>> stops_of(const Lines& moves) {
+  std::vector<std::array<double, 5>> stops;
+  std::array<double, 5> at{};
+  for (const std::string& line : moves) {
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      const auto axis = std::string("XYZAC").find(word[0]);
+      if (word.size() > 1 && axis != std::string::npos) at[axis] = std::stod(word.substr(1));
+    }
+    stops.push_back(at);
+  }
+  return stops;
+}
+
+TEST_CASE("PATHCTRL VECTOR turns the tool evenly in the plane of its first and last direction") {
+  for (const auto mount : {machine::AxisMount::Table, machine::AxisMount::Head}) {
+    FiveAxes mill(mount);
+    const auto along = [&](const std::string& control) {
+      const Lines moves =
+          mill.path("M128\nL X+0 Y+0 Z+0 A+30 C+0 FMAX\nFUNCTION TCPM F TCP AXIS POS PATHCTRL " +
+                    control + "\nL X+10 Y+5 A+40 C+80 F1000");
+      REQUIRE(outcome(mill.last) == "completed");
+      return stops_of(moves);
+    };
+    CHECK(along("AXIS").size() == 2);
+    const auto stops = along("VECTOR");
+    const Vec3 first = tool_at(30, 0);
+    const Vec3 last = tool_at(40, 80);
+    const Vec3 across = machine::unit(cross(first, last));
+    const double whole = std::acos(dot(first, last));
+    REQUIRE(stops.size() > 20);
+    CHECK(is_near({stops.back()[3], stops.back()[4], 0}, {40, 80, 0}));
+    for (std::size_t i = 1; i < stops.size(); ++i) {  // after the first block's end
+      const Vec3 tool = tool_at(stops[i][3], stops[i][4]);
+      CHECK(std::abs(dot(tool, across)) < 1e-5);
+      CHECK(std::abs(std::acos(dot(first, tool)) / whole - stops[i][0] / 10) < 1e-4);
+      CHECK(std::abs(stops[i][1] - stops[i][0] / 2) < 1e-3);
+    }
+  }
+  // Over the pole; a tool that keeps its direction; and the same line with RL.
+  FiveAxes mill;
+  const std::string begin =
+      "FUNCTION TCPM F TCP AXIS POS PATHCTRL VECTOR\nL X+0 Y+0 Z+0 A+30 C+0 "
+      "FMAX\n";
+  CHECK(is_near(mill.rotary_after(begin + "L X+1 Y+2 Z+3 C+180 F1000"), {30, 0, 180}));
+  CHECK(is_near(mill.rotary_after(begin + "L A+0 FMAX\nL X+1 Y+2 Z+3 C+180 F1000"), {0, 0, 180}));
+  const auto beside = stops_of(mill.path(begin + "L X+0 Y+0 A+0 RL FMAX\nL X+50 A+20 C+30 F1000\n"
+                                                 "L X+50 Y+50 R0 FMAX"));
+  CHECK(outcome(mill.last) == "completed");
+  CHECK(beside[beside.size() / 2][1] == 4);  // the radius of the cutter
+}
+
+TEST_CASE("LN moves a larger tool along the normal, and stands it square to the surface") {
+  Workshop mill;
+  CHECK(mill.path("TOOL CALL 5 Z S1000 DR+0.5\nLN X+1 Y+2 Z+3 NX+3 NY+0 NZ+4 F1000\n"
+                  "LN IX+10 NX+0 NY+0 NZ+1\nL Y+7\nL Z+8") ==
+        Lines{"L X+1.3000 Y+2 Z+3.4000 F1000", "L X+11 Y+2 Z+3.5000 F1000", "L X+11 Y+7 Z+3 F1000",
+              "L X+11 Y+7 Z+8 F1000"});
+  CHECK(mill.last.messages.empty());
+  FiveAxes five;
+  CHECK(is_near(five.rotary_after("M128\nLN X+1 Y+2 Z+3 NX+0 NY-0.5 NZ+0.8660254038 F1000"),
+                {30, 0, 0}));
 }
 
 TEST_CASE("what the rotary axes do not reach, and vectors that turn nothing, are said") {
