@@ -89,24 +89,25 @@ NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& move
   machine::Modes during = before;
   during.tcpm = moves.positioning == PlanePositioning::Move;
   if (auto set = checked(machine.set_modes(during)); !set) return set;
+  const Vec3 shown =
+      machine.state().frames.rotary_from_machine(rotary, machine::CoordinateSystem::Input);
   machine::AxisWords target;
   for (const machine::RotaryAxis& axis : machine.state().kinematics.axes()) {
-    target[axis.axis] = rotary[machine::index(axis.axis) - 3];
+    target[axis.axis] = shown[machine::index(axis.axis) - 3];
   }
-  auto moved = checked(machine.move({target, moves.feed, machine::CoordinateSystem::Machine}));
+  auto moved = checked(machine.move({target, moves.feed}));
   if (auto set = checked(machine.set_modes(before)); !set) return set;
   return moved;
 }
 
-NcResult<void> apply(Channel& channel, const Frames& frames, const PlaneMoves& moves) {
-  const auto rotary = rotary_positions(channel, frames, moves);
-  if (!rotary) return rotary.error();
+NcResult<void> apply(Channel& channel, const Frames& frames, const std::optional<Vec3>& rotary,
+                     const PlaneMoves& moves) {
   if (auto set = checked(channel.machine().set_frames(frames)); !set) return set;
-  if (!*rotary) return {};
-  set_plane_angles(channel, **rotary);
+  if (!rotary) return {};
+  set_plane_angles(channel, *rotary);
   const bool turns =
       moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;
-  return turns ? turn(channel, **rotary, moves) : NcResult<void>();
+  return turns ? turn(channel, *rotary, moves) : NcResult<void>();
 }
 
 /// The datum shift relative to the workpiece system, tilted or not.
@@ -170,7 +171,9 @@ NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const Pl
   frames.set_plane(machine::TiltedPlane{machine::spatial_angles(rotation), shift.linear});
   shift.linear = {};
   frames.set_datum_shift(shift);
-  return apply(channel, frames, moves);
+  const auto rotary = rotary_positions(channel, frames, moves);
+  if (!rotary) return rotary.error();
+  return apply(channel, frames, *rotary, moves);
 }
 
 NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves) {
@@ -178,7 +181,8 @@ NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves) {
   const machine::Position shift = untilted_shift(frames);
   frames.set_plane(std::nullopt);
   frames.set_datum_shift(shift);
-  return apply(channel, frames, moves);
+  const Vec3 home = frames.rotary_to_machine({}, machine::CoordinateSystem::Workpiece);
+  return apply(channel, frames, home, moves);
 }
 
 }  // namespace fitgauge::interpreter

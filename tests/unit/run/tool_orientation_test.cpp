@@ -105,6 +105,8 @@ TEST_CASE("AXIS SPAT: A, B and C are spatial angles of the tool") {
   CHECK(outcome(mill.last).find("B is missing") != std::string::npos);
 }
 
+Vec3 machine_rotary(FiveAxes& mill) { return mill.machine->state().nose.rotary; }
+
 /// The ends of the moves: X, Y, Z, A and C.
 std::vector<std::array<double, 5>> stops_of(const Lines& moves) {
   std::vector<std::array<double, 5>> stops;
@@ -168,6 +170,38 @@ TEST_CASE("LN moves a larger tool along the normal, and stands it square to the 
   FiveAxes five;
   CHECK(is_near(five.rotary_after("M128\nLN X+1 Y+2 Z+3 NX+0 NY-0.5 NZ+0.8660254038 F1000"),
                 {30, 0, 0}));
+}
+
+TEST_CASE("PLANE RESET brings all rotary axes home where it turns them") {
+  FiveAxes mill;
+  const std::string tilted = "PLANE SPATIAL SPA+20 SPB+0 SPC+30 TURN FMAX\nL X+1 Y+2 Z+3 FMAX\n";
+  mill.path(tilted + "PLANE RESET STAY\nQ1 = Q122");
+  CHECK(norm(machine_rotary(mill)) > 30);
+  CHECK(value(mill.last, "Q1") == "0");
+  mill.path(tilted + "PLANE RESET TURN FMAX");
+  CHECK(is_near(machine_rotary(mill), {}));
+}
+
+TEST_CASE("PLANE MOVE keeps the tip where it is on the workpiece, TURN where the axes are") {
+  // X, Y, Z of the plane A+20, C+30 in the workpiece.
+  const auto in_workpiece = [](const Vec3& p) {
+    const Vec3 tilted{p.x, p.y * cosine(20) - p.z * sine(20), p.y * sine(20) + p.z * cosine(20)};
+    return Vec3{tilted.x * cosine(30) - tilted.y * sine(30),
+                tilted.x * sine(30) + tilted.y * cosine(30), tilted.z};
+  };
+  for (const auto mount : {machine::AxisMount::Table, machine::AxisMount::Head}) {
+    FiveAxes mill(mount);
+    const std::string begin = "L X+50 Y+40 Z+30 FMAX\nPLANE SPATIAL SPA+20 SPB+0 SPC+30 ";
+    const auto position = [&] { return mill.machine->state().position().linear; };
+    mill.path(begin + "MOVE DIST0 FMAX");
+    REQUIRE(outcome(mill.last) == "completed");
+    CHECK(norm(in_workpiece(position()) - Vec3{50, 40, 30}) < 1e-7);
+    mill.path(begin + "TURN FMAX");
+    CHECK(norm(mill.machine->state().nose.linear - Vec3{50, 40, 130}) < 1e-7);
+    mill.path(begin + "TURN FMAX\nL X+1 Y+2 Z+3 FMAX\nPLANE RESET MOVE DIST0 FMAX");
+    CHECK(is_near(machine_rotary(mill), {}));
+    CHECK(norm(position() - in_workpiece({1, 2, 3})) < 1e-7);
+  }
 }
 
 TEST_CASE("what the rotary axes do not reach, and vectors that turn nothing, are said") {
