@@ -15,6 +15,7 @@
 #include "cli/measure_table.hpp"
 #include "cli/problem.hpp"
 #include "qif/qif_csv.hpp"
+#include "sheet/append_next.hpp"
 #include "sheet/exported_record.hpp"
 #include "sheet/measurement_fields.hpp"
 #include "sheet/ndjson_rows.hpp"
@@ -167,12 +168,7 @@ Outcome<bool> RowInput::fill() {
   state.taken = 0;
   return std::visit(
       [&state](auto& source) -> Outcome<bool> {
-        Result<bool> more = false;
-        if constexpr (requires { source.append(state.rows, state.lines); }) {
-          more = source.append(state.rows, state.lines);
-        } else {
-          more = source.append(state.rows);
-        }
+        const auto more = sheet::append_next(source, state.rows, state.lines);
         if (!more) return cannot_read(state.name, more.error());
         if (*more) return true;
         if constexpr (requires { source.check(); }) {

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "http/request.hpp"
 #include "qif/qif_csv.hpp"
+#include "sheet/append_next.hpp"
 #include "sheet/exported_record.hpp"
 #include "sheet/measurement_fields.hpp"
 #include "sheet/ndjson_rows.hpp"
@@ -35,18 +36,12 @@ Error too_large(std::string_view what) {
           fmt::format("it has more than {}: cut it into several files", what)};
 }
 
-/// @param source has append() and perhaps lines of its own
 template <class Source>
 Result<void> append_all(Source& source, FileRows& rows) {
   std::size_t count = 0;  // of rows with text, where each call appends one
   for (;;) {
     const std::size_t before = rows.text.size();
-    Result<bool> more = false;
-    if constexpr (requires { source.append(rows.text, rows.lines); }) {
-      more = source.append(rows.text, rows.lines);
-    } else {
-      more = source.append(rows.text);
-    }
+    const auto more = sheet::append_next(source, rows.text, rows.lines);
     if (!more) return more.error();
     if (!*more) return {};
     if (rows.text.size() > before && rows.text[before] != '\n') ++count;

@@ -251,16 +251,4 @@ Result<ShopRows> ShopRows::open(const Read& first, Read again, ShopCsvOptions op
 
 Result<bool> ShopRows::append(std::string& rows) { return converter_->append(rows); }
 
-Result<std::string> shop_csv(std::string_view bytes, const ShopCsvOptions& options,
-                             std::span<const std::string_view> fields) {
-  auto rows = ShopRows::open(read_text(bytes), read_text(bytes), options, fields);
-  if (!rows) return rows.error();
-  std::string text = rows->header();
-  for (;;) {
-    const auto more = rows->append(text);
-    if (!more) return more.error();
-    if (!*more) return text;
-  }
-}
-
 }  // namespace fitgauge::sheet

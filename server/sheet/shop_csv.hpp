@@ -64,8 +64,4 @@ class ShopRows {
   std::string header_;
 };
 
-/// All rows of a table in memory, below the header. @errors as ShopRows
-Result<std::string> shop_csv(std::string_view bytes, const ShopCsvOptions& options,
-                             std::span<const std::string_view> fields);
-
 }  // namespace fitgauge::sheet

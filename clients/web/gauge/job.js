@@ -7,7 +7,7 @@ import { explain, number, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { limitsText, toleranceText } from '../verdict.js';
 import { Fields } from './fields.js';
-import { limitsOf } from './held_limits.js';
+import { limitsOf } from './held.js';
 import { gaugeInUse, gaugeText } from './in_use.js';
 import { Prefixes } from './prefixes.js';
 import { Rule } from './rule.js';

@@ -1,14 +1,14 @@
 /** What is measured at a part, in order: the plan of a part number, which of its characteristics is next, and how each was. */
 
-import { getJson, PATIENCE_MS, url } from '../api.js';
+import { getJson, url } from '../api.js';
 import { h, refill } from '../dom.js';
 import { designationText } from '../designation.js';
 import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
 import { number, signed, t } from '../i18n.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, verdictShape } from '../verdict.js';
+import { held } from './held.js';
 
-const KEPT_PLAN = 'plan';
 const KEPT_LIST = 'plans';
 
 const given = (um) => (um === undefined ? undefined : nmFromUm(um));
@@ -34,17 +34,8 @@ export function ownLimits(one) {
   };
 }
 
-/** The plan the service gives, or gave last where it is away; undefined where there is none. */
-async function planOf(part) {
-  const kept = `${KEPT_PLAN}.${part}`;
-  try {
-    const plan = await getJson(url(['plans', part]), { timeout: PATIENCE_MS });
-    store(kept, JSON.stringify(plan));
-    return plan;
-  } catch (problem) {
-    return problem.status === undefined ? readJson(kept, undefined) : undefined;
-  }
-}
+/** The plan of a part number; undefined where there is none. */
+const planOf = (part) => held(['plans', part]).catch(() => undefined);
 
 export class Plan {
   /** @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none */

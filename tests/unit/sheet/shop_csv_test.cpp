@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace fitgauge::sheet {
 namespace {
@@ -13,9 +14,19 @@ namespace {
 constexpr std::array<std::string_view, 6> kFields = {"designation", "measured_mm", "part_id",
                                                      "measured_at", "comment",     "machine"};
 
+std::string converted(const Read& first, Read again, const ShopCsvOptions& options) {
+  auto rows = ShopRows::open(first, std::move(again), options, kFields);
+  if (!rows) return "error: " + rows.error().message;
+  std::string text = rows->header();
+  for (;;) {
+    const auto more = rows->append(text);
+    if (!more) return "error: " + more.error().message;
+    if (!*more) return text;
+  }
+}
+
 std::string converted(std::string_view bytes, const ShopCsvOptions& options = {}) {
-  const auto text = shop_csv(bytes, options, kFields);
-  return text ? *text : "error: " + text.error().message;
+  return converted(read_text(bytes), read_text(bytes), options);
 }
 
 std::string utf16(std::string_view ascii, bool is_big) {
@@ -91,14 +102,7 @@ TEST_CASE("it does not matter in which pieces a table comes") {
     CAPTURE(table);
     const std::string whole = converted(table);
     for (const std::size_t most : {1U, 2U, 3U, 5U, 7U, 64U, 65U}) {
-      auto rows = ShopRows::open(in_pieces(table, most), in_pieces(table, most), {}, kFields);
-      std::string text = rows ? rows->header() : "error: " + rows.error().message;
-      while (rows) {
-        const auto more = rows->append(text);
-        if (!more) text = "error: " + more.error().message;
-        if (!more || !*more) break;
-      }
-      CHECK(text == whole);
+      CHECK(converted(in_pieces(table, most), in_pieces(table, most), {}) == whole);
     }
   }
 }

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "engine.hpp"
-#include "store/database.hpp"
 #include "store/canonical_digest.hpp"
+#include "store/database.hpp"
 #include "store/measurement_fields.hpp"
 
 namespace fitgauge::store::test {
