@@ -10,7 +10,9 @@
 namespace fitgauge::store::postgres {
 
 /// A connection with its stores. Transactions that write hold the row `head` from their first
-/// statement to their commit, so that they follow each other, whoever makes them.
+/// statement to their commit, so that they follow each other, whoever makes them. The next one need
+/// not wait until the disk has the one before: the WAL keeps their order, and commit() returns, of
+/// what was written as of what was read, when all of it is on the disk.
 class Session final : public sql::Session {
  public:
   /// @param daemon what open runs are marked with. @param names outlive the session.
@@ -30,16 +32,23 @@ class Session final : public sql::Session {
 
  private:
   void read_head(sql::Statement& head);
+  void commit_written();
+  void commit_read();
+  void flush(const char* setting);
 
   Connection connection_;
   Stores stores_;
   Names& names_;
+  const bool is_durable_;
   sql::Statement head_;
   sql::Statement locked_head_;
   sql::Statement set_head_;
+  sql::Statement release_early_;
+  sql::Statement flushed_;
   bool writes_ = false;
   Head begun_;  ///< as the transaction found it
   Head before_job_;
+  std::int64_t seen_wal_ = 0;  ///< the WAL's end when the transaction began to look
 };
 
 }  // namespace fitgauge::store::postgres

@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* kCluster = "tests/support/postgres_cluster";
 
-/// Lives until the process ends. Its files are of a test: nothing waits for a disk.
+/// Lives until the process ends. Its files are of a test: nothing waits for a disk, and nothing is
+/// written out because time has passed.
 class Cluster {
  public:
   Cluster() {
@@ -24,7 +25,8 @@ class Cluster {
     REQUIRE(::mkdtemp(name.data()) != nullptr);
     folder_ = name;
     const std::string start =
-        fmt::format("{} start {} fsync=off full_page_writes=off", kCluster, folder_.string());
+        fmt::format("{} start {} fsync=off full_page_writes=off wal_writer_delay=10s", kCluster,
+                    folder_.string());
     REQUIRE_MESSAGE(std::system(start.c_str()) == 0,
                     "PostgreSQL does not start: scripts/install test");
   }
