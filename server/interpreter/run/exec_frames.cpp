@@ -124,12 +124,21 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Word
 }
 
 NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane, const Words& words) {
-  PlaneMoves moves{plane.positioning, machine::Feed::rapid(), words.contains(Letter::TableRot), 0};
+  PlaneMoves moves{.positioning = plane.positioning,
+                   .feed = machine::Feed::rapid(),
+                   .turns_table = words.contains(Letter::TableRot)};
   if (words.contains(Letter::F)) {
     const double unit = channel.linked().is_inch() ? channel.length_unit() / 10 : 1;
     moves.feed = machine::Feed::at(get(words, Letter::F) * unit);
   }
-  moves.sequence = static_cast<int>(get(words, Letter::Seq));
+  if (words.contains(Letter::MbMax) || words.contains(Letter::Mb)) {
+    moves.retraction = MCall{.number = 140,
+                             .length = get(words, Letter::Mb) * channel.length_unit(),
+                             .to_limit = words.contains(Letter::MbMax),
+                             .feed = moves.feed};
+  }
+  moves.distance = get(words, Letter::Dist) * channel.length_unit();
+  moves.sequence = static_cast<int>(get(words, Letter::Seq) + get(words, Letter::Sym));
   return moves;
 }
 

@@ -7,6 +7,7 @@
 
 #include "machine/tolerance.hpp"
 #include "run/channel.hpp"
+#include "run/m_functions.hpp"
 #include "run/plane_geometry.hpp"
 #include "run/preassigned.hpp"
 
@@ -82,9 +83,21 @@ NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& f
   return std::optional<Vec3>();
 }
 
+/// Along the tool to the spindle, in input coordinates, with the rotary axes at `rotary`.
+Vec3 tool_at(const machine::MachineState& state, const Vec3& rotary) {
+  Frames on_table = state.frames;
+  on_table.set_table({});
+  const Vec3 tool = state.kinematics.tool_direction(rotary, state.tool_axis());
+  const Vec3 workpiece = state.kinematics.table(rotary).inverse().direction(tool);
+  return machine::unit(on_table.direction_from_machine(workpiece));
+}
+
 /// MOVE keeps the tip where it is on the workpiece, TURN leaves the linear axes alone.
 NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& moves) {
   machine::Machine& machine = channel.machine();
+  if (moves.retraction) {
+    if (auto done = retract(channel, *moves.retraction); !done) return done;
+  }
   const machine::Modes before = machine.state().modes;
   machine::Modes during = before;
   during.tcpm = moves.positioning == PlanePositioning::Move;
@@ -94,6 +107,12 @@ NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& move
   machine::AxisWords target;
   for (const machine::RotaryAxis& axis : machine.state().kinematics.axes()) {
     target[axis.axis] = shown[machine::index(axis.axis) - 3];
+  }
+  if (during.tcpm && moves.distance != 0) {
+    const machine::MachineState& state = machine.state();
+    const Vec3 swing = tool_at(state, rotary) - tool_at(state, state.nose.rotary);
+    const Vec3 tip = machine.position().linear + swing * moves.distance;
+    for (std::size_t axis = 0; axis < 3; ++axis) target.values[axis] = tip[axis];
   }
   auto moved = checked(machine.move({target, moves.feed}));
   if (auto set = checked(machine.set_modes(before)); !set) return set;

@@ -31,7 +31,9 @@ struct PlaneMoves {
   klartext::PlanePositioning positioning = klartext::PlanePositioning::Stay;
   machine::Feed feed;
   bool turns_table = false;  ///< TABLE ROT: a free rotary axis turns, else the coordinates do
-  int sequence = 0;          ///< SEQ+ 1, SEQ- -1: the sign of the master axis; 0: the shortest way
+  std::optional<MCall> retraction{};  ///< MB: before the axes turn
+  double distance = 0;  ///< DIST: from the tip along the tool to the point that keeps its place
+  int sequence = 0;     ///< SEQ+ 1, SEQ- -1: the sign of the master axis; 0: the shortest way
 };
 
 /// Tilts the working plane by a rotation relative to the workpiece system and puts the rotary

@@ -44,8 +44,8 @@ double room(const machine::MachineState& state, const machine::Vec3& direction) 
   return std::max(room, 0.0);
 }
 
-/// M140 MB: away from the workpiece along the tool axis, in rapid traverse without a feed of its
-/// own.
+}  // namespace
+
 NcResult<void> retract(Channel& channel, const MCall& call) {
   const machine::MachineState& state = channel.machine().state();
   const machine::Vec3 direction = state.tool_direction(machine::CoordinateSystem::Reference);
@@ -55,8 +55,6 @@ NcResult<void> retract(Channel& channel, const MCall& call) {
                                          call.feed.value_or(machine::Feed::rapid()),
                                          machine::CoordinateSystem::Reference}));
 }
-
-}  // namespace
 
 NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls) {
   machine::Modes modes = channel.machine().state().modes;

@@ -14,4 +14,8 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
 /// program.
 NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words);
 
+/// M140 MB, and MB of PLANE: away from the workpiece along the tool axis, in rapid traverse without
+/// a feed of its own.
+NcResult<void> retract(Channel& channel, const MCall& call);
+
 }  // namespace fitgauge::interpreter

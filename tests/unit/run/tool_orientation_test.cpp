@@ -196,6 +196,14 @@ TEST_CASE("PLANE MOVE keeps the tip where it is on the workpiece, TURN where the
     mill.path(begin + "MOVE DIST0 FMAX");
     REQUIRE(outcome(mill.last) == "completed");
     CHECK(norm(in_workpiece(position()) - Vec3{50, 40, 30}) < 1e-7);
+    // DIST20: the point 20 mm before the tip keeps its place, the tip swings around it.
+    mill.path(begin + "MOVE DIST20 FMAX");
+    CHECK(norm(in_workpiece(position() - Vec3{0, 0, 20}) - Vec3{50, 40, 10}) < 1e-7);
+    // MB retracts along the tool before.
+    mill.path(begin + "MOVE DIST0 MB15 FMAX");
+    CHECK(norm(in_workpiece(position()) - Vec3{50, 40, 45}) < 1e-7);
+    mill.path(begin + "TURN MB MAX FMAX");
+    CHECK(mill.machine->state().nose.linear.z == mill.setup.machine.axes[2]->max);
     mill.path(begin + "TURN FMAX");
     CHECK(norm(mill.machine->state().nose.linear - Vec3{50, 40, 130}) < 1e-7);
     mill.path(begin + "TURN FMAX\nL X+1 Y+2 Z+3 FMAX\nPLANE RESET MOVE DIST0 FMAX");
