@@ -138,7 +138,7 @@ class ContourCycle {
     const machine::Tool* tool = roughing_tool();
     if (tool == nullptr) return nc_error(1003, "Q13 is not the number of a tool");
     for (const SlContour& contour : contours_) {
-      const double reach = tool->r + tool->dr + data_.value(3);
+      const double reach = radius_in_plane(motion_.state(), tool->r + tool->dr) + data_.value(3);
       if (auto done = go_over(path_along(contour, reach, is_climb()).start); !done) return done;
       if (auto done = peck(); !done) return done;
       if (auto done = motion_.to_height(depths_.safe, Feed::rapid()); !done) return done;

@@ -35,7 +35,9 @@ void remove_plane_target(Element& element) {
 
 }  // namespace
 
-double CutterPath::radius(const machine::Machine& machine) { return machine.state().tool_radius(); }
+double CutterPath::radius(const machine::Machine& machine) {
+  return radius_in_plane(machine.state(), machine.state().tool_radius());
+}
 
 NcResult<void> CutterPath::move(machine::Machine& machine, const Element& element) {
   if (!element.curve.is_arc()) {
@@ -56,6 +58,10 @@ void CutterPath::begin(Vec2 centre, int side) {
 
 NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
   if (next.side == 0 && side_ == 0) return move(machine, next);
+  const machine::Vec3 factor = machine.state().frames.scaling().factor;
+  if (next.side != 0 && factor[next.plane.first] != factor[next.plane.second]) {
+    return nc_error(1108, "RL and RR do not know a plane whose axes are scaled differently");
+  }
   if (!next.moves_in_plane() && next.side == side_) {
     Element beside = next;
     remove_plane_target(beside);

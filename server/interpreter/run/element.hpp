@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "machine/machine.hpp"
 #include "machine/tolerance.hpp"
 #include "run/plane_geometry.hpp"
@@ -22,6 +24,13 @@ struct Element {
     return curve.is_arc() || norm(curve.end - curve.start) > tolerance::kSamePoint;
   }
 };
+
+/// A radius of the tool as the working plane of the input system shows it: scaling (11, 26) does
+/// not scale the tool.
+inline double radius_in_plane(const machine::MachineState& state, double radius) {
+  const WorkingPlane plane = WorkingPlane::across(state.tool_axis());
+  return radius / std::abs(state.frames.scaling().factor[plane.first]);
+}
 
 inline void set_plane_target(Element& element, Vec2 point) {
   element.target.values[element.plane.first] = point.x;

@@ -207,7 +207,7 @@ NcResult<machine::Vec3> Positioning::shift_of_surface() {
   const machine::MachineState& state = channel_.machine().state();
   const machine::Tool* tool = state.active_tool();
   const double oversize = state.tool.dr + (tool == nullptr ? 0 : tool->dr);
-  return machine::unit(**normal) * oversize;
+  return machine::unit(**normal) * radius_in_plane(state, oversize);
 }
 
 NcResult<void> Positioning::add_along_vector(const Element& line) {

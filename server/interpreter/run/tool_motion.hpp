@@ -1,6 +1,7 @@
 #pragma once
 
 #include "machine/machine.hpp"
+#include "run/element.hpp"
 #include "run/nc_error.hpp"
 #include "run/plane_geometry.hpp"
 #include "run/run_budget.hpp"
@@ -27,7 +28,8 @@ class ToolMotion {
   double height() const;
   const WorkingPlane& plane() const { return plane_; }
   const machine::MachineState& state() const { return machine_.state(); }
-  double tool_radius() const { return state().tool_radius(); }
+  /// In the plane: scaling does not scale the tool.
+  double tool_radius() const { return radius_in_plane(state(), state().tool_radius()); }
 
  private:
   machine::Machine& machine_;

@@ -52,6 +52,20 @@ TEST_CASE("RL goes around outer corners on an arc of the tool's radius") {
   CHECK(mill.last.messages.empty());
 }
 
+TEST_CASE("scaling scales the contour, not the tool") {
+  Mill mill;
+  // In the machine: a contour of 20 mm to 60 mm, the path 4 mm beside it; the moves show input.
+  CHECK(mill.path("CYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL 2\nL X+10 Y+10 RR F100\nL Y+30\n"
+                  "L X+30\nL X+30 Y+0 R0") ==
+        Lines{"L X+12 Y+10 F100", "L X+12 Y+28 F100", "L X+30 Y+28 F100", "L X+30 Y+0 F100"});
+  CHECK(mill.machine->state().nose.linear.x == 60);
+  CHECK(mill.path("CYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL 2\nCYCL DEF 252 CIRCULAR POCKET "
+                  "Q223=20 Q201=-1 Q202=1 Q207=100 Q206=100 Q200=1\nCYCL CALL")[2] ==
+        "L X+8 Y+0 Z-1 F100");
+  mill.path("CYCL DEF 26.0 SCALING\nCYCL DEF 26.1 X2 Y3 CCX+0 CCY+0\nL X+10 Y+10 RR F100\nL Y+30");
+  CHECK(mill.last.messages.back().number == 1108);
+}
+
 TEST_CASE("RR meets inner corners where the offset lines cross") {
   Mill mill;
   CHECK(mill.path("L X+10 Y+10 RR F100\nL Y+30\nL X+30\nL Y+10\nL X+10\nL X+0 Y+0 R0") ==
