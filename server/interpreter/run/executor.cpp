@@ -246,6 +246,7 @@ void Executor<kFollowed>::loop(const Instruction* first) {
 #endif
 done:
   if (error_) enter(pc);
+  if (failed_at_) channel_.block = *failed_at_;
 }
 
 // clang-format on

@@ -116,7 +116,10 @@ const Instruction* ExecutorSteps::statement(const Instruction* pc) {
   if (!announces_) channel_.environment.observer.entered(channel_.place());
   auto next = execute_statement(channel_, *pc);
   cells_ = channel_.parameters.cells();  // a cycle may have run a subprogram
-  if (!next) return fail(next.error());
+  if (!next) {
+    failed_at_ = channel_.block;
+    return fail(next.error());
+  }
   switch (next->kind) {
     case Next::Kind::Block: return pc + 1;
     case Next::Kind::Jump: return code_ + next->target;

@@ -60,7 +60,8 @@ class ExecutorSteps {
   double* cells_ = nullptr;
   std::int64_t fuel_ = 0;
   std::optional<NcError> error_;
-  bool has_returned_ = false;  ///< to the cycle that runs a subprogram
+  bool has_returned_ = false;               ///< to the cycle that runs a subprogram
+  std::optional<std::uint32_t> failed_at_;  ///< the block, where it is one of that subprogram
 
  private:
   const std::size_t depth_;  ///< of the program in which this began

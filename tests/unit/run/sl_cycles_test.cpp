@@ -89,6 +89,8 @@ TEST_CASE(
   CHECK(mill.last.messages.empty());
   mill.path(called(finish, "\nL X+20 Y+30 RL\nCYCL CALL\nL X+60\n"));
   CHECK(outcome(mill.last).find("does not stand in the contour") != std::string::npos);
+  CHECK(mill.last.messages.back().source == "CYCL CALL");
+  CHECK(mill.last.messages.back().line == 12);  // that of the contour
   mill.path(called(finish, "\nL X+20 Y+30 RL\nL X+60\n"));
   CHECK(mill.last.messages.back().number == 1024);
   mill.path("CYCL DEF 22 ROUGH-OUT Q10=-5\nCYCL CALL");
