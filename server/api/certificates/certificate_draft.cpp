@@ -38,9 +38,29 @@ std::string limits_text(const app::Measurement& m) {
   return fmt::format("{} to {}", mm_text(m.lower_limit()), mm_text(m.upper_limit()));
 }
 
+/// ` at 25 °C, steel`, ` at 25 °C, 11.5 µm/(m·K)`.
+std::string body_text(const std::optional<std::int64_t>& temperature,
+                      const std::optional<std::int64_t>& expansion,
+                      const std::optional<std::string_view>& material) {
+  const auto text = [](std::int64_t value) {
+    return format_decimal(value, app::kTemperatureDecimals);
+  };
+  constexpr std::int64_t kReference = 20'000'000;
+  std::string out = fmt::format(" at {} \u00b0C", text(temperature.value_or(kReference)));
+  if (material) return fmt::format("{}, {}", out, *material);
+  return fmt::format("{}, {} \u00b5m/(m\u00b7K)", out, text(expansion.value_or(0)));
+}
+
+/// The size at 20 °C with the reading and what it was corrected for.
 std::string measured_text(const app::Measurement& m) {
   if (!m.corrected) return mm_text(m.measured);
-  return fmt::format("{} (read {})", mm_text(*m.corrected), mm_text(m.measured));
+  const app::Expansions& of = m.expansions;
+  std::string text = fmt::format("{} (read {})", mm_text(*m.corrected), mm_text(m.measured));
+  text += body_text(m.temperature, of.part, of.part_material);
+  if (of.scale || of.scale_material) {
+    text += "; scale" + body_text(of.scale_temperature, of.scale, of.scale_material);
+  }
+  return text;
 }
 
 std::string rule_text(const app::Measurement& m) {
@@ -52,7 +72,9 @@ std::string rule_text(const app::Measurement& m) {
                          format(m.rule.coverage_factor()));
     case gauging::DecisionRule::Kind::Conformance: break;
   }
-  return fmt::format("conformance {}, u {} \u00b5m", format(m.rule.probability()), format_um(u));
+  const std::int64_t found = m.conformance ? m.conformance->probability : 0;
+  return fmt::format("conformance {}, found {}, u {} \u00b5m", format(m.rule.probability()),
+                     format_decimal(found, 9), format_um(u));
 }
 
 /// `2026-11-22 08:00:00Z`
@@ -85,13 +107,15 @@ void CertificateDraft::add(const app::Measurement& m) {
                     .rule = rule_text(m),
                     .gauge = std::string(m.texts.gauge.value_or("")),
                     .measured_at = time_text(m.measured_at)});
+  overdue_.emplace_back(m.calibration_due.value_or(""));
 }
 
 void CertificateDraft::add_gauges(const GaugeBook& book) {
   for (auto& [name, gauge] : gauges_) {
     if (const auto known = book.find(name); known != book.end()) gauge = known->second;
   }
-  for (certificate::Line& line : lines_) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    certificate::Line& line = lines_[i];
     const auto used = gauges_.find(line.gauge);
     if (used == gauges_.end()) continue;
     const GaugeInUse& gauge = used->second;
@@ -99,6 +123,7 @@ void CertificateDraft::add_gauges(const GaugeBook& book) {
       line.gauge += fmt::format(", u {} \u00b5m", format_um(*gauge.standard_uncertainty));
     }
     if (!gauge.calibration_due.empty()) line.gauge += ", due " + gauge.calibration_due;
+    if (!overdue_[i].empty()) line.gauge += "; OVERDUE when measured: " + overdue_[i];
   }
 }
 

@@ -49,6 +49,7 @@ class CertificateDraft {
   std::array<std::int64_t, 4> verdicts_{};  ///< by gauging::Verdict
   std::string records_;                     ///< JSON, with commas between them
   std::vector<certificate::Line> lines_;
+  std::vector<std::string> overdue_;  ///< of each line: when its gauge was due; empty: it was not
   std::map<std::string, GaugeInUse> gauges_;  ///< those that were used
   std::map<std::string, int> revisions_;
   std::string first_id_;

@@ -52,6 +52,22 @@ class Certificates(DaemonTest):
         for word in ("10.006525", "(read 10.0071)", "conformance", "up to 10.010", "10 shaft"):
             self.assertIn(word, text)
 
+    def test_what_a_reader_has_to_know_stands_in_it(self):
+        """Calibration that was overdue, the probability found, and what a size was corrected for."""
+        self.daemon.request("PUT", "/v1/gauges-in-use/G-old", {"uncertainty": "bore gauge", "calibration_due": "2026-01-31"})
+        given = {"designation": "25 H7", "order": "WO-K", "gauge": "G-old", "rule": "conformance", "uncertainty_um": 1}
+        record = self.daemon.measure({**given, "measured_mm": "25.0202", "part_id": "K1", "measured_at": "2026-02-01T08:00:00Z"}).json
+        self.assertTrue(record["calibration_overdue"])
+        self.daemon.measure({**given, "measured_mm": "25.01", "part_id": "K2", "measured_at": "2026-01-31T08:00:00Z",
+                             "temperature_c": 25, "part_material": "steel", "scale_temperature_c": 19.5,
+                             "scale_expansion_um_per_m_k": 8})
+        flat = [re.sub(r"\s+", " ", self.pdf(f"part_id={part}")[0]) for part in ("K1", "K2")]
+        self.assertEqual(["OVERDUE" in text for text in flat], [True, False])
+        self.assertIn("2026-01-31", flat[0])
+        self.assertIn(str(record["conformance_probability"]), flat[0])
+        for word in ("read 25.010", "25 °C", "steel", "19.5 °C", "8 µm/(m·K)"):
+            self.assertIn(word, flat[1])
+
     def test_designations_of_other_standards_stand_as_they_are_written(self):
         for designation, size in (("M10x1.25-6g", "9.1"), ("R5 ISO 2768-m", "5.2"), ("12 ISO 2768-f", "12.05")):
             self.daemon.measure({"designation": designation, "measured_mm": size, "order": "WO-S", "part_id": "S"})
