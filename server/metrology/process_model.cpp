@@ -28,13 +28,22 @@ constexpr std::array<Row, 8> kRows = {{
     {"D", "location and dispersion change"},
 }};
 
-/// Where whole subgroups end, of a size of their own where the values come one by one.
-std::vector<std::size_t> ends_of_groups(const Subgroups& data) {
-  const std::size_t size = data.size > 1 ? data.size : kSizeOfValues;
-  std::vector<std::size_t> ends(data.values.size() / size);
-  for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = (i + 1) * size;
+/// Where groups of one size end.
+std::vector<std::size_t> ends_of(std::size_t groups, std::size_t size) {
+  std::vector<std::size_t> ends(groups);
+  for (std::size_t i = 0; i < groups; ++i) ends[i] = (i + 1) * size;
   return ends;
 }
+
+/// The same of whole subgroups, of a size of their own where the values come one by one.
+std::vector<std::size_t> ends_of_groups(const Subgroups& data) {
+  const std::size_t size = data.size > 1 ? data.size : kSizeOfValues;
+  return ends_of(data.values.size() / size, size);
+}
+
+/// Of an odd group the median is one of the values: its distance is 0 whatever the dispersion, and
+/// is left out (Hines and Hines 2000; Noguchi and Gel 2010).
+std::size_t structural_zeros(std::size_t size) { return size % 2; }
 
 /// Distances from the median of their group, doubled so that they stay whole numbers.
 std::vector<Wide> distances_from_medians(const GroupedCounts& groups) {
@@ -46,11 +55,26 @@ std::vector<Wide> distances_from_medians(const GroupedCounts& groups) {
     sorted.assign(group.begin(), group.end());
     std::sort(sorted.begin(), sorted.end());
     const Wide twice = sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2];
+    std::size_t left_out = structural_zeros(group.size());
     for (const Wide value : group) {
+      if (left_out > 0 && 2 * value == twice) {
+        --left_out;
+        continue;
+      }
       distances.push_back(2 * value > twice ? 2 * value - twice : twice - 2 * value);
     }
   }
   return distances;
+}
+
+/// Whether the dispersion changes from group to group (Brown and Forsythe 1974): the probability of
+/// so much by chance. Undefined for groups of two, whose two distances are always equal.
+long double dispersion_test(const GroupedCounts& groups) {
+  const std::size_t size = groups[0].size();
+  if (size < 3) return kUndefined;
+  const std::vector<Wide> distances = distances_from_medians(groups);
+  const auto ends = ends_of(groups.size(), size - structural_zeros(size));
+  return analyse_variance({distances, groups.scale, ends}).value().test.p;
 }
 
 /// Whether the means rise or fall with their index: the probability of so steep a slope by chance;
@@ -108,8 +132,7 @@ std::optional<ModelChoice> choose_model(const Subgroups& data, const NormalityTe
   choice.tests.trend = course.trend;
   choice.tests.subgroup_size = groups[0].size();
   choice.tests.location = analyse_variance(groups).value().test.p;
-  const std::vector<Wide> distances = distances_from_medians(groups);
-  choice.tests.dispersion = analyse_variance({distances, scale, ends}).value().test.p;
+  choice.tests.dispersion = dispersion_test(groups);
   // An undefined probability (no spread within) is not below the significance.
   const bool moves = choice.tests.location < kModelSignificance;
   const bool widens = choice.tests.dispersion < kModelSignificance;

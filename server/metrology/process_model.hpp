@@ -18,10 +18,12 @@ std::string_view meaning(ProcessModel model);
 
 /// What the model was chosen by; each a probability, compared with `significance`.
 struct ModelTests {
-  long double location = kUndefined;    ///< subgroup means are equal: analysis of variance
-  long double dispersion = kUndefined;  ///< subgroup spreads are equal: Brown and Forsythe 1974
-  long double trend = kUndefined;       ///< subgroup means have no slope: regression on their index
-  std::size_t subgroup_size = 0;        ///< individual values are taken five by five
+  long double location = kUndefined;  ///< subgroup means are equal: analysis of variance
+  /// Subgroup spreads are equal: Brown and Forsythe 1974, without structural zeros; undefined of
+  /// subgroups of two.
+  long double dispersion = kUndefined;
+  long double trend = kUndefined;  ///< subgroup means have no slope: regression on their index
+  std::size_t subgroup_size = 0;   ///< individual values are taken five by five
 };
 inline constexpr double kModelSignificance = 0.01;
 

@@ -45,7 +45,9 @@ TEST_CASE("the capability of the piston rings is qcc's, with its intervals") {
   CHECK(c.normality->statistic == Approx(0.19101938332570967).epsilon(1e-9));
   CHECK(c.model->model == ProcessModel::A1);
   CHECK(static_cast<double>(c.model->tests.location) == Approx(0.24453206012550643).epsilon(1e-8));
-  CHECK(static_cast<double>(c.model->tests.dispersion) == Approx(0.5166939144966884).epsilon(1e-8));
+  // With the zero of each median, as scipy's levene has it, it is 0.516694; without, in fractions:
+  CHECK(static_cast<double>(c.model->tests.dispersion) ==
+        Approx(0.08082649763063564).epsilon(1e-8));
   CHECK(static_cast<double>(c.model->tests.trend) == Approx(0.745461592390955).epsilon(1e-8));
   CHECK_FALSE(c.percentile);
 }
@@ -66,6 +68,29 @@ TEST_CASE("subgroups without spread of their own, at two places, have no constan
           .value();
   CHECK(c.model->tests.location == 0);
   CHECK((c.model->model == ProcessModel::C3 || c.model->model == ProcessModel::C4));
+}
+
+TEST_CASE("a dispersion that doubles is found in subgroups of five, and not sought in pairs") {
+  std::vector<Wide> counts;
+  for (int i = 0; i < 24; ++i) {
+    for (const Wide at : {-2, -1, 0, 1, 2}) counts.push_back((i < 12 ? 10 : 20) * at + i % 3);
+  }
+  const Capability five =
+      assess_capability({.values = Decimals(counts, 1), .size = 5}, limits("-90", "90"), 0.95L)
+          .value();
+  CHECK(five.model->tests.dispersion < 1e-3L);
+  CHECK(five.model->model == ProcessModel::B);
+
+  counts.clear();
+  for (const Wide at : {-1, 2, -3, 4, -5, 6}) {
+    counts.push_back(-at);
+    counts.push_back(at);
+  }
+  const Capability two =
+      assess_capability({.values = Decimals(counts, 1), .size = 2}, limits("-90", "90"), 0.95L)
+          .value();
+  CHECK(std::isnan(two.model->tests.dispersion));
+  CHECK(two.model->model == ProcessModel::A1);
 }
 
 TEST_CASE("one limit leaves the indices of the other side without a value") {
