@@ -1,6 +1,8 @@
 #include "cli/limits_commands.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 
 #include "base/length.hpp"
 #include "cli/address.hpp"
@@ -153,6 +155,29 @@ std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
   return text;
 }
 
+namespace {
+
+/// What stored values say; nothing where none were asked for.
+std::string measured_clearance(const JsonValue& stored, const Terminal& terminal) {
+  if (!stored.is(JsonValue::Kind::Object)) return "";
+  const auto number = [](const JsonValue& of, std::string_view name) {
+    return std::strtod(std::string(of.text_of(name)).c_str(), nullptr);
+  };
+  const auto count = [&stored](std::string_view side) {
+    return stored.member(side).member("selection").text_of("count");
+  };
+  return fmt::format(
+      "measured: {} holes, {} shafts; clearance {:.3f} {unit}, s {:.3f} {unit}; interference with "
+      "a probability of {:.3g}\n{}",
+      count("hole"), count("shaft"), number(stored, "mean_clearance_um"),
+      number(stored, "standard_deviation_um"), number(stored, "probability_of_interference"),
+      stored.text_of("stable") == "true" ? ""
+                                         : "NOT STABLE: what is made next, this does not say\n",
+      fmt::arg("unit", terminal.micrometre()));
+}
+
+}  // namespace
+
 std::string format_fit(const JsonValue& fit, const Terminal& terminal) {
   const JsonValue& hole = fit.member("hole");
   const JsonValue& shaft = fit.member("shaft");
@@ -165,15 +190,29 @@ std::string format_fit(const JsonValue& fit, const Terminal& terminal) {
     text += fmt::format("{:5}  {} to {} mm\n", part->text_of("feature"),
                         part->text_of("lower_limit_mm"), part->text_of("upper_limit_mm"));
   }
-  return text;
+  return text + measured_clearance(fit.member("statistical").member("stored"), terminal);
 }
 
 Outcome<ExitCode> run_limits(const Context& context, const std::string& designation) {
   return show(context, "/v1/limits/" + percent_encoded(designation), format_limits);
 }
 
-Outcome<ExitCode> run_fit(const Context& context, const std::string& designation) {
-  return show(context, "/v1/fits/" + percent_encoded(designation), format_fit);
+Outcome<ExitCode> run_fit(const Context& context, const FitQuery& query) {
+  std::string target = "/v1/fits/" + percent_encoded(query.designation);
+  char separator = '?';
+  const auto add = [&](std::string_view side, const std::vector<std::string>& filters) {
+    for (const std::string& filter : filters) {
+      const std::size_t equals = std::min(filter.find('='), filter.size());
+      const std::string value = filter.substr(std::min(equals + 1, filter.size()));
+      target += fmt::format("{}{}_{}={}", separator, side,
+                            percent_encoded(filter.substr(0, equals)), percent_encoded(value));
+      separator = '&';
+    }
+  };
+  add("hole", query.holes);
+  add("shaft", query.shafts);
+  if (!query.subgroups.empty()) target += fmt::format("{}subgroups={}", separator, query.subgroups);
+  return show(context, target, format_fit);
 }
 
 Outcome<ExitCode> run_limit_gauge(const Context& context, const std::string& designation) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
@@ -10,8 +11,14 @@ namespace fitgauge::cli {
 /// `fitgauge limits 25H7`
 Outcome<ExitCode> run_limits(const Context& context, const std::string& designation);
 
-/// `fitgauge fit 25H7/g6`, with the tolerance zones drawn.
-Outcome<ExitCode> run_fit(const Context& context, const std::string& designation);
+struct FitQuery {
+  std::string designation;
+  std::vector<std::string> holes{};  ///< filters of stored values: `characteristic=bore`
+  std::vector<std::string> shafts{};
+  std::string subgroups{};  ///< use or ignore
+};
+/// `fitgauge fit 25H7/g6`, with the tolerance zones drawn, and the clearance of stored values.
+Outcome<ExitCode> run_fit(const Context& context, const FitQuery& query);
 
 /// `fitgauge limit-gauge 25H7`: the sizes of its limit gauges.
 Outcome<ExitCode> run_limit_gauge(const Context& context, const std::string& designation);

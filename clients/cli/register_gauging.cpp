@@ -15,11 +15,17 @@ void add_limits(CLI::App& app, Action& chosen) {
                            designation, run_limits)
       ->add_option("designation", *designation, "Size and class")
       ->required();
-  const auto fit = std::make_shared<std::string>();
-  add_command<std::string>(app, "fit", "A fit with its zones: fitgauge fit 25H7/g6", chosen, fit,
-                           run_fit)
-      ->add_option("fit", *fit, "Size, class of the hole, class of the shaft")
+  const auto query = std::make_shared<FitQuery>();
+  CLI::App* fit =
+      add_command(app, "fit", "A fit with its zones: fitgauge fit 25H7/g6", chosen, query, run_fit);
+  fit->add_option("fit", query->designation, "Size, class of the hole, class of the shaft")
       ->required();
+  fit->add_option("--hole", query->holes, "Stored holes, by filters: characteristic=bore")
+      ->expected(1)
+      ->take_all();
+  fit->add_option("--shaft", query->shafts, "Stored shafts, likewise")->expected(1)->take_all();
+  fit->add_option("--subgroups", query->subgroups, "use or ignore those that the values name")
+      ->check(CLI::IsMember({"use", "ignore"}));
 }
 
 void add_tools(CLI::App& app, Action& chosen) {

@@ -75,6 +75,9 @@ struct MeasurementsStore::Statements {
                     fmt::format("SELECT correction_of FROM measurements m WHERE id = ? AND NOT {}",
                                 CurrentCondition(std::to_string(kLastId)).has_no_later_rival)),
         corrections(c, "SELECT count(*) FROM measurements WHERE correction_of = ?"),
+        all_corrections(c,
+                        "SELECT id, correction_of FROM measurements WHERE correction_of IS NOT "
+                        "NULL AND id <= ?"),
         hand_on(
             c,
             "WITH RECURSIVE back(target, origin) AS (SELECT correction_of, origin FROM "
@@ -198,6 +201,7 @@ struct MeasurementsStore::Statements {
   Statement correction;
   Statement lost_target;
   Statement corrections;
+  Statement all_corrections;
   Statement hand_on;
   Statement revision;
   Statement first_forwarded;
@@ -348,6 +352,12 @@ std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilt
   };
   values.run(filter, ids, ListOrder::OldestFirst, take_row, take_block);
   return page.next();
+}
+
+void MeasurementsStore::list_corrections(std::int64_t last, const CorrectionVisitor& visit) const {
+  for (Rows rows = statements_->all_corrections.query(last); rows.next();) {
+    visit(rows.get<std::int64_t>(0), rows.get<std::int64_t>(1));
+  }
 }
 
 std::optional<std::int64_t> MeasurementsStore::first_of_newest(const MeasurementFilter& filter,

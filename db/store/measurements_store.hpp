@@ -78,6 +78,10 @@ class MeasurementsStore {
   std::optional<std::int64_t> list_values(const MeasurementFilter& filter, std::int64_t after,
                                           std::size_t limit, const RunVisitor& visit) const;
 
+  /// Calls `visit` with every correction up to `last` and the row that it corrects, in any order.
+  using CorrectionVisitor = std::function<void(std::int64_t id, std::int64_t correction_of)>;
+  void list_corrections(std::int64_t last, const CorrectionVisitor& visit) const;
+
   /// The oldest of the newest `count` rows that match; none when none does.
   std::optional<std::int64_t> first_of_newest(const MeasurementFilter& filter,
                                               std::size_t count) const;

@@ -34,7 +34,7 @@ http::RouteTable make_routes(const Services& services) {
   std::vector<http::Route> routes;
   const auto cache = std::make_shared<ResponseCache>(services.tables);
   add_limits_routes(routes, cache);
-  add_fits_routes(routes, cache);
+  add_fits_routes(routes, services, cache);
   add_gauges_routes(routes, cache);
   add_standards_routes(routes, cache);
   add_press_fits_routes(routes, services);

@@ -28,6 +28,12 @@ schema::Fields limits_fields();
 /// Beside the limits: the measured value and what follows from it.
 schema::Fields verdict_fields();
 
+/// What an answer was computed by.
+schema::Fields formula_fields();
+
+/// Which stored measurements a figure is of.
+schema::Fields selection_field();
+
 inline std::string verdict_words() {
   return schema::words({"good", "rework", "reject", "indeterminate"});
 }

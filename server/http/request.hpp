@@ -49,6 +49,7 @@ class Request {
   /// empty when an optional one is absent. Reading a parameter the route does not declare, or as
   /// another type than declared, is a bug: std::logic_error.
   std::optional<std::string_view> text(std::string_view name) const;
+  bool has(std::string_view name) const { return argument(name).has_value(); }
   std::optional<std::int64_t> integer(std::string_view name) const;  ///< Integer and Decimal
   std::optional<Length> length(std::string_view name) const;
   std::optional<Timestamp> time(std::string_view name) const;

@@ -259,13 +259,14 @@ void find_beyond(const Chart& chart, std::vector<ChartViolation>& violations) {
 Result<Phase> phase_of(const Subgroups& data, const ChartPlan& plan) {
   const Phase phase = plan.phase1.value_or(Phase{0, data.count()});
   if (phase.from > phase.to || phase.to > data.count()) {
-    return Error{
-        ErrorCode::FieldInvalid,
-        fmt::format("phase1 takes points from <= index < to, to at most {}", data.count())};
+    return Error{ErrorCode::FieldInvalid,
+                 fmt::format("phase1 takes points from <= index < to, to at most {}", data.count()),
+                 "phase1"};
   }
   if (phase.to - phase.from < 2) {
     return Error{ErrorCode::StatisticsTooFew,
-                 "the limits of a chart are taken from two points or more"};
+                 "the limits of a chart are taken from two points or more",
+                 plan.phase1 ? "phase1" : ""};
   }
   return phase;
 }

@@ -67,7 +67,8 @@ struct ControlCharts {
 /// Limits are three standard deviations from the centre; a spread chart's lower one at least 0. All
 /// rules watch the location chart, the first one alone a spread chart, EWMA and CUSUM.
 /// @errors StatisticsTooFew: values for xbar_r and xbar_s, fewer than two points to take the limits
-///   from; FieldInvalid: subgroups for i_mr, a phase outside the points.
+///   from; FieldInvalid: subgroups for i_mr, a phase outside the points. Of a phase, `where` says
+///   `phase1`.
 Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan);
 
 /// The standard deviation of single values from within: the mean range over d2, the mean moving

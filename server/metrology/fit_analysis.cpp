@@ -64,6 +64,15 @@ FitProbabilities probability_of_interference(const iso286::Fit& fit) {
   return found;
 }
 
+MeasuredClearance clearance_of(const MeasuredSizes& holes, const MeasuredSizes& shafts) {
+  MeasuredClearance found{
+      .mean = holes.mean - shafts.mean,
+      .standard_deviation = std::hypot(holes.standard_deviation, shafts.standard_deviation)};
+  found.probability_of_interference =
+      normal_below(static_cast<double>(-found.mean / found.standard_deviation));
+  return found;
+}
+
 std::vector<FoundFit> find_fits(const iso286::ToleranceTables& tables, iso286::NominalSize size,
                                 const ClearanceBounds& bounds) {
   std::vector<FoundFit> found;

@@ -16,6 +16,22 @@ struct FitProbabilities {
 };
 FitProbabilities probability_of_interference(const iso286::Fit& fit);
 
+/// Sizes as they were measured, in mm.
+struct MeasuredSizes {
+  long double mean = 0;
+  long double standard_deviation = 0;  ///< overall, n - 1
+};
+
+/// The clearance of measured holes and shafts that meet by chance: the difference of two
+/// independent normal sizes.
+struct MeasuredClearance {
+  long double mean = 0;
+  long double standard_deviation = 0;
+  double probability_of_interference = 0;
+};
+/// @pre one of them has spread
+MeasuredClearance clearance_of(const MeasuredSizes& holes, const MeasuredSizes& shafts);
+
 /// Bounds of clearance; interference is negative.
 struct ClearanceBounds {
   Length least;

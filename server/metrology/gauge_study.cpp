@@ -144,13 +144,17 @@ Result<GaugeStudy> crossed(const Balanced& s, StudyModel wanted) {
   FTest of_interaction;
   if (r > 1) of_interaction = f_test(interaction, error);
   study.interaction_p = of_interaction.p;
+  if (wanted != StudyModel::Pooled && r == 1) {
+    return too_few(
+        "one trial does not tell the repeatability from the interaction of part and operator: "
+        "measure every part twice or more, or say model \"pooled\", which takes there to be no "
+        "interaction and calls all of it repeatability");
+  }
   if (wanted == StudyModel::Auto) {
-    // Without a p there is no repeatability to pool with, or nothing but it.
-    const bool pool = r == 1 || of_interaction.p > kPoolingProbability ||
+    // Without a p there is nothing but repeatability to pool with.
+    const bool pool = of_interaction.p > kPoolingProbability ||
                       (error.sum_of_squares == 0 && interaction.sum_of_squares == 0);
     wanted = pool ? StudyModel::Pooled : StudyModel::Interaction;
-  } else if (wanted == StudyModel::Interaction && r == 1) {
-    return too_few("the interaction takes two trials or more; model \"pooled\" takes one");
   }
   study.model = wanted;
   if (wanted == StudyModel::Interaction) {

@@ -65,6 +65,7 @@ _fitgauge() {
     list) options="$filters --limit --after" ;;
     export) options="$filters --format --time-zone --output" ;;
     summary) options="$filters --group-by" ;;
+    fit) options='--hole --shaft --subgroups' ;;
     capability) options="$filters --target-mm --confidence --subgroups" ;;
     chart) options="$filters --kind --rules --subgroups" ;;
     correct) options='--reason' ;;

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from typing import Any, Literal, Mapping, Sequence
 
 from ._json import Size, dumps, loads
 from ._transport import Request, Transport, path_of, query_of
@@ -24,9 +24,13 @@ class LimitsCalls(Transport):
         """The same from a size and a class."""
         return self._get("/v1/limits", {"nominal_mm": nominal_mm, "tolerance_class": tolerance_class})
 
-    def fit(self, designation: str) -> Fit:
-        """The fit `25 H7/g6`."""
-        return self._get(path_of("fits", designation))
+    def fit(self, designation: str, *, hole: Mapping[str, Parameter] | None = None,
+            shaft: Mapping[str, Parameter] | None = None, subgroups: Literal["use", "ignore"] | None = None) -> Fit:
+        """The fit `25 H7/g6`. With filters of stored holes and shafts, `hole={"characteristic": "bore"}`, also how
+        likely those interfere: `statistical.stored`."""
+        chosen = {f"{side}_{name}": value for side, filters in (("hole", hole), ("shaft", shaft))
+                  for name, value in (filters or {}).items()}
+        return self._get(path_of("fits", designation), {**chosen, "subgroups": subgroups})
 
     def fits(self, nominal_mm: Size, *, min_clearance_um: Size | None = None, max_clearance_um: Size | None = None,
              limit: int | None = None) -> dict[str, Any]:

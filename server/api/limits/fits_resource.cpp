@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "api/handlers.hpp"
+#include "api/limits/fit_of_values.hpp"
 #include "api/limits/limits_codec.hpp"
+#include "api/wire/formulas.hpp"
+#include "app/tables/table_catalog.hpp"
 #include "iso286/designation.hpp"
 #include "metrology/fit_analysis.hpp"
 
@@ -12,13 +16,16 @@ namespace {
 using iso286::ToleranceTables;
 
 /// How likely sizes in the middle of their tolerances interfere; worst case stands beside it.
-void write_statistical(JsonWriter& json, const iso286::Fit& fit) {
+/// @param stored writes the same of stored values; none: there are none asked for
+void write_statistical(JsonWriter& json, const iso286::Fit& fit, const WriteStored& stored) {
   const metrology::FitProbabilities found = metrology::probability_of_interference(fit);
   json.key("statistical").begin_object();
   json.key("normal").begin_object();
   json.member("probability_of_interference", found.normal).end_object();
   json.key("uniform").begin_object();
-  json.member("probability_of_interference", found.uniform).end_object().end_object();
+  json.member("probability_of_interference", found.uniform).end_object();
+  if (stored) stored(json);
+  json.end_object();
 }
 
 std::string fit_designation(Length nominal_size, std::string_view hole, std::string_view shaft) {
@@ -28,7 +35,7 @@ std::string fit_designation(Length nominal_size, std::string_view hole, std::str
 }
 
 void write_fit_members(JsonWriter& json, const iso286::Fit& fit, std::string_view designation,
-                       const ToleranceTables& tables) {
+                       const ToleranceTables& tables, const WriteStored& stored = {}) {
   json.member("designation", designation).key("hole");
   write_limits(json, fit.hole, tables);
   json.key("shaft");
@@ -36,44 +43,83 @@ void write_fit_members(JsonWriter& json, const iso286::Fit& fit, std::string_vie
   json.member("type", word(fit.kind()))
       .member_um("max_clearance_um", fit.max_clearance())
       .member_um("min_clearance_um", fit.min_clearance());
-  write_statistical(json, fit);
+  write_formula(json, "fit");
+  write_statistical(json, fit, stored);
 }
 
-Result<http::Response> fit_response(const iso286::FitDesignation& designation,
-                                    const ToleranceTables& tables) {
+Result<iso286::Fit> find_fit(const iso286::FitDesignation& designation,
+                             const ToleranceTables& tables) {
   const auto hole = tables.find_class(designation.hole_class);
   if (!hole) return hole.error();
   const auto shaft = tables.find_class(designation.shaft_class);
   if (!shaft) return shaft.error();
-  const auto fit = tables.fit(designation.nominal_size, *hole, *shaft);
-  if (!fit) return fit.error();
+  return tables.fit(designation.nominal_size, *hole, *shaft);
+}
 
+http::Response fit_response(const iso286::FitDesignation& designation, const iso286::Fit& fit,
+                            const ToleranceTables& tables, const WriteStored& stored = {}) {
   std::string body;
   JsonWriter json(body);
   json.begin_object();
-  write_fit_members(json, *fit,
+  write_fit_members(json, fit,
                     fit_designation(designation.nominal_size.length(), designation.hole_class,
                                     designation.shaft_class),
-                    tables);
+                    tables, stored);
   json.end_object();
-  http::Response response(200, "application/json", std::move(body));
-  response.etag = etag_of(tables);
-  return response;
+  return {200, "application/json", std::move(body)};
 }
 
-Result<http::Response> fit_of_two_segments(const http::Request& request,
-                                           const ToleranceTables& tables) {
-  const auto designation =
-      iso286::parse_fit_designation(*request.text("hole"), *request.text("shaft"));
-  if (!designation) return designation.error();
-  return fit_response(*designation, tables);
+Result<iso286::FitDesignation> of_two_segments(const http::Request& request) {
+  return iso286::parse_fit_designation(*request.text("hole"), *request.text("shaft"));
 }
 
-Result<http::Response> fit_of_one_segment(const http::Request& request,
-                                          const ToleranceTables& tables) {
-  const auto designation = iso286::parse_fit_designation(*request.text("fit"));
-  if (!designation) return designation.error();
-  return fit_response(*designation, tables);
+Result<iso286::FitDesignation> of_one_segment(const http::Request& request) {
+  return iso286::parse_fit_designation(*request.text("fit"));
+}
+
+/// The fit of a designation: from the tables and cached, and with stored values where a query
+/// chooses them.
+template <class Designation>
+http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<ResponseCache>& cache,
+                              const Designation& designation_of) {
+  auto from_tables = ResponseCache::cached(
+      cache,
+      [designation_of](const http::Request& request,
+                       const ToleranceTables& tables) -> Result<http::Response> {
+        const auto designation = designation_of(request);
+        if (!designation) return designation.error();
+        const auto fit = find_fit(*designation, tables);
+        if (!fit) return fit.error();
+        http::Response response = fit_response(*designation, *fit, tables);
+        response.etag = etag_of(tables);
+        return response;
+      });
+  return [&services, designation_of, from_tables = std::move(from_tables)](
+             const http::Request& request, http::Responder responder) {
+    if (request.query().empty()) {
+      auto made = from_tables(request);
+      return made ? responder.answer(*std::move(made)) : responder.fail(made.error());
+    }
+    const auto tables = services.tables.tables();
+    if (!tables) return responder.fail(tables.error());
+    const auto designation = designation_of(request);
+    if (!designation) return responder.fail(designation.error());
+    const auto fit = find_fit(*designation, **tables);
+    if (!fit) return responder.fail(fit.error());
+    read_fit_of_values(services, request, *fit,
+                       [shared = share(std::move(responder)), tables = *tables,
+                        designation = *designation, fit = *fit](Result<WriteStored> stored) {
+                         if (!stored) return shared->fail(stored.error());
+                         shared->answer(fit_response(designation, fit, *tables, *stored));
+                       });
+  };
+}
+
+/// A path's parameters with those that choose stored values.
+std::vector<http::Parameter> with_filters(std::vector<http::Parameter> parameters) {
+  const auto filters = fit_filter_parameters();
+  parameters.insert(parameters.end(), filters.begin(), filters.end());
+  return parameters;
 }
 
 /// The fit as its own address answers it, with the names of its classes.
@@ -119,20 +165,24 @@ Result<http::Response> search_fits(const http::Request& request, const Tolerance
 
 }  // namespace
 
-void add_fits_routes(std::vector<http::Route>& routes,
+void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
                      const std::shared_ptr<ResponseCache>& cache) {
   routes.push_back({
       .pattern = "/v1/fits/{hole}/{shaft}",
-      .handler = ResponseCache::cached(cache, fit_of_two_segments),
+      .handler = answer_fit(services, cache, of_two_segments),
       .summary = "Fit of a hole and a shaft",
-      .description = "Limits of both and the clearances; interference is negative clearance.",
-      .parameters = {{.name = "hole",
-                      .place = http::ParameterPlace::Path,
-                      .description = "Size and class of the hole: 25H7"},
-                     {.name = "shaft",
-                      .place = http::ParameterPlace::Path,
-                      .description = "Class of the shaft: g6"}},
+      .description =
+          "Limits of both and the clearances; interference is negative clearance. Filters "
+          "for holes and for shafts add `statistical.stored`, from what was measured; "
+          "with a query it is for viewers.",
+      .parameters = with_filters({{.name = "hole",
+                                   .place = http::ParameterPlace::Path,
+                                   .description = "Size and class of the hole: 25H7"},
+                                  {.name = "shaft",
+                                   .place = http::ParameterPlace::Path,
+                                   .description = "Class of the shaft: g6"}}),
       .access = "open",
+      .query_access = "viewer",
       .operation = "getFit",
       .tag = "limits",
       .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
@@ -140,13 +190,14 @@ void add_fits_routes(std::vector<http::Route>& routes,
   });
   routes.push_back({
       .pattern = "/v1/fits/{fit}",
-      .handler = ResponseCache::cached(cache, fit_of_one_segment),
+      .handler = answer_fit(services, cache, of_one_segment),
       .summary = "Fit of a hole and a shaft, written as one",
       .description = "The same with an encoded stroke: 25H7%2Fg6.",
-      .parameters = {{.name = "fit",
-                      .place = http::ParameterPlace::Path,
-                      .description = "25H7/g6, the stroke percent-encoded"}},
+      .parameters = with_filters({{.name = "fit",
+                                   .place = http::ParameterPlace::Path,
+                                   .description = "25H7/g6, the stroke percent-encoded"}}),
       .access = "open",
+      .query_access = "viewer",
       .operation = "getFitAsOne",
       .tag = "limits",
       .outcomes = {{.meaning = "The fit", .schema = "Fit"}},

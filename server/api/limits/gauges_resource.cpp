@@ -5,6 +5,7 @@
 #include "api/limits/limits_codec.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/field_reader.hpp"
+#include "api/wire/formulas.hpp"
 #include "iso286/designation.hpp"
 #include "metrology/limit_gauge.hpp"
 #include "metrology/press_fit.hpp"
@@ -24,11 +25,12 @@ Result<http::Response> gauge(const http::Request& request, const iso286::Toleran
       designation_text(designation->nominal_size.length(), designation->class_name);
   std::string body;
   JsonWriter json(body);
-  json.begin_object()
-      .member("designation", designation_of)
-      .member("scheme", metrology::kLimitGaugeScheme)
+  const std::string_view kind = limits->feature == iso286::Feature::Hole ? "plug" : "ring or snap";
+  json.begin_object().member("designation", designation_of);
+  write_formula(json, kind);
+  json.member("scheme", metrology::kLimitGaugeScheme)
       .member("note", "the tables of the later editions, ISO 1938-1:2015 and 2026, are not public")
-      .member("kind", limits->feature == iso286::Feature::Hole ? "plug" : "ring or snap")
+      .member("kind", kind)
       .member_mm("upper_limit_mm", limits->upper_limit())
       .member_mm("lower_limit_mm", limits->lower_limit())
       .key("go")

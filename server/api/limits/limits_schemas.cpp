@@ -55,6 +55,8 @@ void add_limit_gauge(Schemas& schemas) {
   const schema::Fields wear = {{"wear_limit_mm", schema::number(), "Worn out"}};
   schemas.push_back({"LimitGauge", schema::object({
                                        {"designation", schema::text(), ""},
+                                       {"formula", schema::text(), "What was computed"},
+                                       {"clause", schema::text(), "Where that is from"},
                                        {"scheme", schema::text(), "The standard of the values"},
                                        {"note", schema::text(), "On other editions"},
                                        {"kind", schema::words({"plug", "ring or snap"}), ""},
@@ -156,17 +158,31 @@ void add_limits_schemas(Schemas& schemas) {
   schemas.push_back({"Limits", schema::object(limits_fields(), Others::Allowed, kLimits)});
   const std::string likely =
       schema::object({{"probability_of_interference", schema::number(), ""}});
+  const std::string side = schema::object(
+      selection_field() + schema::Fields{{"mean", schema::number(), "In mm"},
+                                         {"standard_deviation_overall", schema::number(), "In mm"},
+                                         {"stable", schema::boolean(), "No rule is broken"}});
+  const std::string stored = schema::object(
+      {{"probability_of_interference", schema::number(), "Independent and normal, as measured"},
+       {"mean_clearance_um", schema::number(), ""},
+       {"standard_deviation_um", schema::number(), "Of the clearance"},
+       {"stable", schema::boolean(), "Both are: else the next parts may be others"},
+       {"hole", side, ""},
+       {"shaft", side, ""}});
   const std::string statistical =
-      schema::object({{"normal", likely, "Six standard deviations wide"}, {"uniform", likely, ""}});
-  const schema::Fields fit = {
+      schema::object({{"normal", likely, "Six standard deviations wide"},
+                      {"uniform", likely, ""},
+                      {"stored", stored, "Of the values that filters choose", false}});
+  const schema::Fields fit_members = {
       {"designation", schema::text(), "25 H7/g6"},
       {"hole", schema::ref("Limits"), ""},
       {"shaft", schema::ref("Limits"), ""},
       {"type", schema::words({"clearance", "transition", "interference"}), ""},
       {"max_clearance_um", schema::number(), "ES - ei; negative: interference"},
       {"min_clearance_um", schema::number(), "EI - es; negative: interference"},
-      {"statistical", statistical, "Sizes independent and centred"},
+      {"statistical", statistical, "Sizes independent; centred but where stored"},
   };
+  const schema::Fields fit = fit_members + formula_fields();
   schemas.push_back({"Fit", schema::object(fit)});
   add_found_fits(schemas, fit);
   add_limit_gauge(schemas);

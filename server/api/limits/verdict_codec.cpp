@@ -1,6 +1,19 @@
 #include "api/limits/verdict_codec.hpp"
 
+#include <array>
+
+#include "api/wire/applicable.hpp"
+
 namespace fitgauge::api {
+namespace {
+
+/// A coverage factor stands in a record of the simple rule too, as the uncertainty does.
+constexpr std::array<Applicable, 2> kRuleMembers = {{
+    {"coverage_factor", "simple guard_band"},
+    {"probability", "conformance"},
+}};
+
+}  // namespace
 
 Result<void> check_measured(Length measured) {
   if (measured > Length() && measured <= kLargestMeasured) return {};
@@ -24,12 +37,17 @@ Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
     if (!given) return given.error();
     probability = *given;
   }
-  if (words.probability_millionths && words.kind != Kind::Conformance) {
-    return Error{ErrorCode::RuleInvalid,
-                 "rule " + std::string(word(words.kind)) +
-                     " has no probability: say rule conformance, or leave probability out",
-                 "probability"};
-  }
+  std::optional<Error> unused;
+  refuse_not_applicable(
+      kRuleMembers, "rule", word(words.kind),
+      [&](const Applicable& row) {
+        return row.member == "probability" ? words.probability_millionths.has_value()
+                                           : words.coverage_millionths.has_value();
+      },
+      [&](std::string_view member, std::string message) {
+        unused = Error{ErrorCode::RuleInvalid, std::move(message), std::string(member)};
+      });
+  if (unused) return *std::move(unused);
   if (words.kind == Kind::Simple) return gauging::DecisionRule();
   if (!words.standard_uncertainty) {
     return Error{ErrorCode::RuleInvalid, "rule " + std::string(word(words.kind)) +

@@ -152,7 +152,7 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                      {.name = "uncertainty_um",
                       .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
                       .description =
-                          "Standard uncertainty u; required by guard_band and conformance"},
+                          "u, with that of a correction; required by guard_band and conformance"},
                      {.name = "coverage_factor",
                       .type = http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
                       .description = "k of guard_band; 2 when absent"},

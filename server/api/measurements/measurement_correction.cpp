@@ -72,11 +72,12 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
   if (original.standard_uncertainty && !original.uncertainty_budget) {
     offer(reader, "uncertainty_um", format_um(*original.standard_uncertainty));
   }
-  if (original.coverage_factor) {
+  const JsonValue* rule = body.find("rule");
+  const std::string_view decides = rule == nullptr ? word(original.rule.kind()) : rule->text;
+  if (original.coverage_factor && decides != word(gauging::DecisionRule::Kind::Conformance)) {
     offer(reader, "coverage_factor", format(*original.coverage_factor));
   }
-  const JsonValue* rule = body.find("rule");
-  const bool conforms = rule == nullptr || rule->text == word(original.rule.kind());
+  const bool conforms = decides == word(original.rule.kind());
   if (original.conformance && conforms) {
     offer(reader, "probability", format(original.rule.probability()));
   }

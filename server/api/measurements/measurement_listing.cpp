@@ -158,7 +158,7 @@ void answer_page(const http::Request& request, http::Responder& responder, Form 
 
 }  // namespace
 
-std::vector<http::Parameter> measurement_filter_parameters() {
+std::vector<http::Parameter> measurement_filter_parameters(std::string_view prefix) {
   std::vector<http::Parameter> parameters;
   for (const std::string_view name : app::kTextFilters) {
     parameters.push_back(
@@ -183,37 +183,43 @@ std::vector<http::Parameter> measurement_filter_parameters() {
        .description = "all shows corrected rows too"},
   };
   parameters.insert(parameters.end(), others.begin(), others.end());
+  for (http::Parameter& parameter : parameters) parameter.name.insert(0, prefix);
   return parameters;
 }
 
 Result<app::MeasurementQuery> measurement_query(const Services& services,
-                                                const http::Request& request) {
+                                                const http::Request& request,
+                                                std::string_view prefix) {
+  const auto named = [prefix](std::string_view name) { return std::string(prefix).append(name); };
+  const auto text_of = [&](std::string_view name) { return request.text(named(name)); };
   app::MeasurementQuery query;
   for (std::size_t i = 0; i < app::kTextFilters.size(); ++i) {
-    if (const auto text = request.text(app::kTextFilters[i])) query.texts[i].emplace(*text);
+    if (const auto text = text_of(app::kTextFilters[i])) query.texts[i].emplace(*text);
   }
-  if (const auto text = request.text("designation")) {
+  if (const auto text = text_of("designation")) {
     auto designation = parse_designation(*text);
     if (!designation) return designation.error();
     query.designation = *std::move(designation);
   }
-  if (const auto text = request.text("run_id")) {
+  if (const auto text = text_of("run_id")) {
     const auto run = services.measurements.parse_run(*text);
-    if (!run) return Error{ErrorCode::QueryInvalid, "run_id is the id of a run", "run_id"};
+    if (!run) {
+      return Error{ErrorCode::QueryInvalid, "run_id is the id of a run", named("run_id")};
+    }
     query.run_id = *run;
     query.source.reset();  // what a run stores is no gauge's
   }
-  if (const auto verdict = request.text("verdict")) {
+  if (const auto verdict = text_of("verdict")) {
     query.verdict = gauging::verdict_from_word(*verdict);
   }
   // `all` is no source, so that the filter is off.
-  if (const auto source = request.text("source")) query.source = app::source_from_word(*source);
-  query.from = request.time("from");
-  query.to = request.time("to");
-  query.received_from = request.time("received_from");
-  query.received_to = request.time("received_to");
-  if (const auto cause = request.text("cause")) query.cause.emplace(*cause);
-  query.history = request.text("history") == "all";
+  if (const auto source = text_of("source")) query.source = app::source_from_word(*source);
+  query.from = request.time(named("from"));
+  query.to = request.time(named("to"));
+  query.received_from = request.time(named("received_from"));
+  query.received_to = request.time(named("received_to"));
+  if (const auto cause = text_of("cause")) query.cause.emplace(*cause);
+  query.history = text_of("history") == "all";
   return query;
 }
 

@@ -11,8 +11,9 @@ constexpr std::string_view kTokenPrefix = "fg_";
 /// `station` is what an administrator may too, and no operator.
 enum class Access { Public, Open, Viewer, Operator, Admin, Station };
 
-Access access_of(const http::Route& route) {
-  const std::string_view access = route.access;
+Access access_of(const http::Route& route, const http::Request& request) {
+  const bool asks_more = !request.query().empty() && !route.query_access.empty();
+  const std::string_view access = asks_more ? route.query_access : route.access;
   if (access == "open") return Access::Open;
   if (access == "viewer") return Access::Viewer;
   if (access == "operator") return Access::Operator;
@@ -95,7 +96,7 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
     }
   }
 
-  const Access access = access_of(route);
+  const Access access = access_of(route, request);
   if (access == Access::Public) return std::optional<http::Response>();
   if (request.is_health_only()) {
     return Error{ErrorCode::Forbidden, "this port answers /livez and /readyz alone"};

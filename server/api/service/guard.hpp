@@ -16,7 +16,8 @@ namespace fitgauge::api {
 /// Who needs a key (`--auth`).
 enum class AuthMode {
   Open,      ///< nobody on this machine; others as ReadOpen
-  ReadOpen,  ///< everybody but for limits, fits, tables, verdicts, documents and the page
+  ReadOpen,  ///< everybody but for limits, fits of the tables, tables, verdicts, documents, the
+             ///< page
   Keys,      ///< everybody, but for the health checks
 };
 

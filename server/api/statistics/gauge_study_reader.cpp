@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <set>
+#include <span>
 
 #include "api/statistics/exact_reader.hpp"
 #include "api/statistics/statistics_codec.hpp"
+#include "api/wire/applicable.hpp"
+#include "api/wire/formulas.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -65,6 +69,18 @@ void read_value(FieldReader& row, const std::string& pointer, metrology::Decimal
   }
 }
 
+/// What methods take beside readings. The tolerance is of the parts, and a model of `auto` leaves
+/// the choice: whatever the method, both are taken.
+constexpr std::array<Applicable, 1> kMembers = {{{"model", "anova", "interaction and pooled"}}};
+
+void refuse(FieldReader& fields, std::span<const Applicable> table, std::string_view method) {
+  refuse_not_applicable(
+      table, "method", method, [&](const Applicable& row) { return fields.has(row.member); },
+      [&](std::string_view member, std::string message) {
+        fields.report(ErrorCode::FieldConflict, member, std::move(message));
+      });
+}
+
 metrology::Readings read_readings(FieldReader& fields, StudyMethod method, FieldErrors& errors) {
   const bool with_operators = method != StudyMethod::Type3;
   metrology::Readings readings;
@@ -100,13 +116,12 @@ void number_within_operators(metrology::Readings& readings) {
   }
 }
 
-/// What every method takes: a linearity and a stability have no use for it.
 struct Choices {
   StudyModel model = StudyModel::Auto;
   std::optional<Exact> tolerance;
 };
 
-Choices read_choices(FieldReader& fields, FieldErrors& errors) {
+Choices read_choices(FieldReader& fields, std::string_view method, FieldErrors& errors) {
   Choices choices;
   if (const auto text = fields.optional_text("model")) {
     const auto given = metrology::study_model_from_word(*text);
@@ -114,6 +129,7 @@ Choices read_choices(FieldReader& fields, FieldErrors& errors) {
       fields.report(ErrorCode::FieldInvalid, "model", "model is auto, interaction or pooled");
     }
     choices.model = given.value_or(choices.model);
+    if (choices.model != StudyModel::Auto) refuse(fields, kMembers, method);
   }
   choices.tolerance = read_exact(fields, "tolerance", false, errors);
   if (choices.tolerance && *choices.tolerance <= 0) {
@@ -192,7 +208,9 @@ Result<std::string> stability(FieldReader& fields, FieldErrors& errors) {
   if (!charts) return at_member("measurements", charts.error());
   std::string out;
   JsonWriter json(out);
-  json.begin_object().member("method", "stability").member("stable", charts->violations.empty());
+  json.begin_object().member("method", "stability");
+  write_formula(json, "stability");
+  json.member("stable", charts->violations.empty());
   write_chart_members(json, *charts);
   json.end_object();
   return out;
@@ -204,7 +222,7 @@ Result<std::string> gauge_study(const JsonValue& body) {
   FieldErrors errors;
   FieldReader fields(body, "", errors);
   const std::string word = fields.optional_text("method").value_or("anova");
-  const Choices choices = read_choices(fields, errors);
+  const Choices choices = read_choices(fields, word, errors);
   if (word == "linearity") return linearity(fields, errors);
   if (word == "stability") return stability(fields, errors);
   const auto method = metrology::study_method_from_word(word);

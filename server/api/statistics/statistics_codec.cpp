@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "api/wire/formulas.hpp"
 #include "base/write_text.hpp"
 
 namespace fitgauge::api {
@@ -138,8 +139,25 @@ void write_percentile(JsonWriter& json,
 
 }  // namespace
 
+std::span<const Applicable> chart_members() {
+  static constexpr std::array<Applicable, 4> kMembers = {{
+      {"lambda", "ewma"},
+      {"reference_value", "cusum"},
+      {"decision_interval", "cusum"},
+      {"rules", "i_mr xbar_r xbar_s", "2, 3 and 4"},
+  }};
+  return kMembers;
+}
+
+bool is_given(const Applicable& row, const metrology::ZoneRules& rules, bool has_member) {
+  if (row.values.empty()) return has_member;
+  return rules.has(2) || rules.has(3) || rules.has(4);
+}
+
 void write_summary(JsonWriter& json, const metrology::Summary& summary) {
-  json.begin_object().member("count", count_of(summary.moments.count));
+  json.begin_object();
+  write_formula(json, "summary");
+  json.member("count", count_of(summary.moments.count));
   write_exact(json, "mean", summary.moments.mean);
   json.key("standard_deviation").figure(summary.moments.standard_deviation());
   json.key("autocorrelation_lag_1").figure(summary.autocorrelation_lag_1);
@@ -188,6 +206,7 @@ void write_capability_members(JsonWriter& json, const metrology::Capability& c,
                               const PointName& name) {
   constexpr std::string_view kWidth = "chi-square, n - 1";
   constexpr std::string_view kDistance = "normal, Bissell 1990";
+  write_formula(json, "capability");
   json.member("count", count_of(c.count)).key("mean").figure(c.mean);
   json.key("standard_deviation_within").figure(c.within);
   json.key("standard_deviation_overall").figure(c.overall);
@@ -225,7 +244,9 @@ void write_gauge_study(JsonWriter& json, const metrology::GaugeStudy& study,
     json.end_object();
   };
   constexpr long double kPercent = 100;
-  json.begin_object().member("method", word(method)).key("model");
+  json.begin_object().member("method", word(method));
+  write_formula(json, word(method));
+  json.key("model");
   if (study.model) {
     json.value(word(*study.model));
   } else {
@@ -266,6 +287,7 @@ void write_linearity(JsonWriter& json, const metrology::LinearityStudy& study) {
     json.key("standard_error").figure(c.standard_error).key("p").figure(c.p).end_object();
   };
   json.begin_object().member("method", "linearity");
+  write_formula(json, "linearity");
   coefficient("slope", study.slope);
   coefficient("intercept", study.intercept);
   json.key("r_squared").figure(study.r_squared);

@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string_view>
 
+#include "api/wire/applicable.hpp"
 #include "api/wire/json_writer.hpp"
 #include "metrology/anova.hpp"
 #include "metrology/capability.hpp"
@@ -14,6 +16,11 @@
 // The answers of /v1/statistics. Figures have 17 significant digits; what is undefined is null.
 
 namespace fitgauge::api {
+
+/// What charts of some kinds alone take, of what is sent as of what is stored.
+std::span<const Applicable> chart_members();
+/// Whether a row of it is given: a member, or those values of it.
+bool is_given(const Applicable& row, const metrology::ZoneRules& rules, bool has_member);
 
 void write_summary(JsonWriter& json, const metrology::Summary& summary);
 

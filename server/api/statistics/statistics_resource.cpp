@@ -8,6 +8,7 @@
 #include "api/statistics/exact_reader.hpp"
 #include "api/statistics/gauge_study_reader.hpp"
 #include "api/statistics/statistics_codec.hpp"
+#include "api/wire/formulas.hpp"
 #include "metrology/pairing.hpp"
 #include "metrology/run_length.hpp"
 
@@ -38,7 +39,9 @@ Result<std::string> anova(const JsonValue& body) {
   if (!made) return at_member("groups", made.error());
   std::string out;
   JsonWriter json(out);
-  json.begin_object().key("between").begin_object();
+  json.begin_object();
+  write_formula(json, "anova_one_way");
+  json.key("between").begin_object();
   write_variation_members(json, made->between);
   json.end_object().key("within").begin_object();
   write_variation_members(json, made->within);
@@ -151,6 +154,12 @@ metrology::ChartPlan read_plan(FieldReader& fields, FieldErrors& errors) {
   plan.decision_interval =
       number_between(fields, "decision_interval", plan.decision_interval, kLeast, 20);
   fields.optional("phase1");
+  refuse_not_applicable(
+      chart_members(), "kind", word(plan.kind),
+      [&](const Applicable& row) { return is_given(row, plan.rules, fields.has(row.member)); },
+      [&](std::string_view member, std::string message) {
+        fields.report(ErrorCode::FieldConflict, member, std::move(message));
+      });
   return plan;
 }
 
@@ -162,10 +171,14 @@ Result<std::string> chart(const JsonValue& body) {
   fields.refuse_unknown();
   if (auto error = errors.take()) return *std::move(error);
   const auto made = metrology::make_charts(data, plan);
-  if (!made) return at_member(data_member(body), made.error());
+  if (!made) {
+    const std::string& where = made.error().where;
+    return at_member(where.empty() ? data_member(body) : where, made.error());
+  }
   std::string out;
   JsonWriter json(out);
   json.begin_object().member("kind", word(plan.kind));
+  write_formula(json, word(plan.kind));
   write_chart_members(json, *made);
   json.end_object();
   return out;
@@ -186,7 +199,9 @@ Result<std::string> type1(const JsonValue& body) {
   }
   std::string out;
   JsonWriter json(out);
-  json.begin_object().member("count", std::uint64_t{made->count}).key("mean").figure(made->mean);
+  json.begin_object();
+  write_formula(json, "type1");
+  json.member("count", std::uint64_t{made->count}).key("mean").figure(made->mean);
   json.key("standard_deviation").figure(made->standard_deviation).key("bias").figure(made->bias);
   json.key("t").figure(made->t).key("p").figure(made->p);
   json.key("cg").figure(made->cg).key("cgk").figure(made->cgk).end_object();
@@ -231,7 +246,9 @@ Result<std::string> pairing(const JsonValue& body) {
   if (!made) return at_member(holes.empty() ? "holes" : "shafts", made.error());
   std::string out;
   JsonWriter json(out);
-  json.begin_object().key("pairs").begin_array();
+  json.begin_object();
+  write_formula(json, "pairing");
+  json.key("pairs").begin_array();
   for (const metrology::Pair& pair : *made) {
     json.begin_object()
         .member("hole", std::uint64_t{pair.hole})

@@ -2,6 +2,24 @@
 #include "metrology/uncertainty.hpp"
 
 namespace fitgauge::api {
+
+schema::Fields formula_fields() {
+  return {{"formula", schema::text(), "What was computed"},
+          {"clause", schema::text(), "Where that is from"}};
+}
+
+schema::Fields selection_field() {
+  const std::string selection =
+      schema::object({{"count", schema::count(), "Values"},
+                      {"subgroups", schema::count(), "0 where the values are taken one by one"},
+                      {"first_id", schema::text(), "The first of them in storage order"},
+                      {"last_id", schema::text(), ""},
+                      {"as_of", schema::text(), "The newest measurement there was"},
+                      {"lower_limit_mm", schema::number(), "That all of them have", false},
+                      {"upper_limit_mm", schema::number(), "", false}});
+  return {{"selection", selection, "Which measurements it is of"}};
+}
+
 namespace {
 
 using schema::Fields;
@@ -47,19 +65,6 @@ Fields chart_fields() {
           {"average_run_length", figure(), "Points to a false alarm of the location chart"}};
 }
 
-/// Which stored measurements a figure is of.
-Fields selection_field() {
-  const std::string selection =
-      schema::object({{"count", schema::count(), "Values"},
-                      {"subgroups", schema::count(), "0 where the values are taken one by one"},
-                      {"first_id", schema::text(), "The first of them in storage order"},
-                      {"last_id", schema::text(), ""},
-                      {"as_of", schema::text(), "The newest measurement there was"},
-                      {"lower_limit_mm", schema::number(), "That all of them have", false},
-                      {"upper_limit_mm", schema::number(), "", false}});
-  return {{"selection", selection, "Which measurements it is of"}};
-}
-
 Fields variation_fields() {
   return {{"degrees_of_freedom", schema::count(), ""},
           {"sum_of_squares", figure(), ""},
@@ -72,7 +77,7 @@ void add_summary(Schemas& schemas) {
       schema::object({{"type", schema::integer(7, 7), "Hyndman and Fan 1996"},
                       {"values", schema::array(schema::object(figures({"p", "value"}))), ""}});
   schemas.push_back(
-      {"ValueSummary", schema::object(Fields{{"count", schema::count(), ""}} +
+      {"ValueSummary", schema::object(formula_fields() + Fields{{"count", schema::count(), ""}} +
                                       figures({"mean", "standard_deviation",
                                                "autocorrelation_lag_1", "min", "max"}) +
                                       Fields{{"quantiles", quantiles, ""}})});
@@ -81,7 +86,8 @@ void add_summary(Schemas& schemas) {
   const std::string variation = schema::object(variation_fields());
   schemas.push_back(
       {"Anova",
-       schema::object(Fields{{"between", variation, "Groups"}, {"within", variation, "Rest"}} +
+       schema::object(formula_fields() +
+                      Fields{{"between", variation, "Groups"}, {"within", variation, "Rest"}} +
                       figures({"f", "p", "r_squared", "residual_standard_deviation"}))});
 }
 
@@ -110,7 +116,7 @@ void add_capability(Schemas& schemas) {
   const std::string percentile =
       schema::object(Fields{{"quantiles", schema::text(), "How they are taken"}} +
                      figures({"x_0135", "x_50", "x_99865", "pp", "ppk"}));
-  Fields fields = Fields{{"count", schema::count(), ""}} +
+  Fields fields = formula_fields() + Fields{{"count", schema::count(), ""}} +
                   figures({"mean", "standard_deviation_within", "standard_deviation_overall",
                            "lower", "upper", "confidence"});
   for (const char* name : {"cp", "cpk", "cpl", "cpu", "pp", "ppk", "cpm", "cm", "cmk"}) {
@@ -141,7 +147,7 @@ void add_chart(Schemas& schemas) {
                  {"reference_value", schema::number(0, 10), "k of cusum, in standard deviations"},
                  {"decision_interval", schema::number(0, 20), "h of cusum, likewise"},
              }))});
-  const Fields fields = Fields{{"kind", schema::text(), ""}} + chart_fields();
+  const Fields fields = Fields{{"kind", schema::text(), ""}} + formula_fields() + chart_fields();
   schemas.push_back({"ControlChart", schema::object(fields)});
   schemas.push_back({"StoredControlChart", schema::object(selection_field() + fields)});
 }
@@ -203,9 +209,10 @@ void add_gauge_study_orders(Schemas& schemas) {
 }
 
 void add_gauge_studies(Schemas& schemas) {
-  schemas.push_back({"Type1Study", schema::object(Fields{{"count", schema::count(), ""}} +
-                                                  figures({"mean", "standard_deviation", "bias",
-                                                           "t", "p", "cg", "cgk"}))});
+  schemas.push_back(
+      {"Type1Study",
+       schema::object(formula_fields() + Fields{{"count", schema::count(), ""}} +
+                      figures({"mean", "standard_deviation", "bias", "t", "p", "cg", "cgk"}))});
   const Fields components = figures({"ev", "av", "interaction", "grr", "pv", "tv"});
   const std::string shares = schema::object(components);
   const std::string line = schema::object(variation_fields() + figures({"f", "p"}));
@@ -214,7 +221,7 @@ void add_gauge_studies(Schemas& schemas) {
        schema::object(
            Fields{{"method", schema::words({"anova", "average_range", "type3", "nested"}), ""},
                   {"model", schema::null_or(schema::text()), "interaction or pooled, of anova"}} +
-           components +
+           formula_fields() + components +
            Fields{{"ndc", schema::null_or(schema::count()), "Distinct categories"},
                   {"contribution_percent", shares, "Of the variance"},
                   {"study_variation_percent", shares, "Of six total standard deviations"},
@@ -224,17 +231,18 @@ void add_gauge_studies(Schemas& schemas) {
   const std::string coefficient = schema::object(figures({"value", "standard_error", "p"}));
   const std::string bias = schema::object(
       Fields{{"reference", figure(), ""}, {"count", schema::count(), ""}} + figures({"bias", "p"}));
-  schemas.push_back({"LinearityStudy",
-                     schema::object(Fields{{"method", schema::words({"linearity"}), ""},
-                                           {"slope", coefficient, "Of the bias on the reference"},
-                                           {"intercept", coefficient, ""}} +
-                                    figures({"r_squared", "residual_standard_deviation",
-                                             "linearity_percent", "average_bias"}) +
-                                    Fields{{"references", schema::array(bias), ""}})});
+  schemas.push_back(
+      {"LinearityStudy",
+       schema::object(Fields{{"method", schema::words({"linearity"}), ""},
+                             {"slope", coefficient, "Of the bias on the reference"},
+                             {"intercept", coefficient, ""}} +
+                      figures({"r_squared", "residual_standard_deviation", "linearity_percent",
+                               "average_bias"}) +
+                      Fields{{"references", schema::array(bias), ""}} + formula_fields())});
   schemas.push_back(
       {"StabilityStudy", schema::object(Fields{{"method", schema::words({"stability"}), ""},
                                                {"stable", schema::boolean(), "No rule is broken"}} +
-                                        chart_fields())});
+                                        formula_fields() + chart_fields())});
   schemas.push_back(
       {"GaugeStudy", schema::any_of({schema::ref("VariationStudy"), schema::ref("LinearityStudy"),
                                      schema::ref("StabilityStudy")})});
@@ -249,7 +257,8 @@ void add_pairing(Schemas& schemas) {
   const std::string pair = schema::object({{"hole", schema::count(), "Its place, from 0"},
                                            {"shaft", schema::count(), "Its place, from 0"},
                                            {"clearance_um", schema::number(), ""}});
-  schemas.push_back({"Pairing", schema::object({{"pairs", schema::array(pair), ""}})});
+  schemas.push_back(
+      {"Pairing", schema::object(formula_fields() + Fields{{"pairs", schema::array(pair), ""}})});
 }
 
 void add_uncertainty(Schemas& schemas) {
@@ -261,7 +270,7 @@ void add_uncertainty(Schemas& schemas) {
           {"half_width", schema::number(0, kLargest), ""},
           {"distribution", schema::words({"normal", "rectangular", "triangular", "u_shaped", "t"}),
            "rectangular with a half width, else normal"},
-          {"sensitivity", schema::with_default(schema::number(), "1"), ""},
+          {"sensitivity", schema::with_default(schema::number(-kLargest, kLargest), "1"), ""},
           {"degrees_of_freedom", schema::number(0, kLargest), "Without end when absent"},
       }));
   const std::string correlation =
@@ -285,7 +294,8 @@ void add_uncertainty(Schemas& schemas) {
        {"interval", schema::object(figures({"lower", "upper"})), "Equal probability outside"}});
   schemas.push_back(
       {"Uncertainty",
-       schema::object(figures({"combined_standard_uncertainty", "effective_degrees_of_freedom",
+       schema::object(formula_fields() +
+                      figures({"combined_standard_uncertainty", "effective_degrees_of_freedom",
                                "welch_satterthwaite", "probability", "coverage_factor",
                                "expanded_uncertainty"}) +
                       Fields{{"monte_carlo", simulated, "Where it was asked for", false}})});

@@ -6,6 +6,7 @@
 #include "api/measurements/measurement_listing.hpp"
 #include "api/statistics/statistics_codec.hpp"
 #include "api/statistics/value_selection.hpp"
+#include "api/wire/formulas.hpp"
 #include "app/runs/run_service.hpp"
 
 namespace fitgauge::api {
@@ -29,40 +30,13 @@ void answer_with(const Services& services, const http::Request& request, http::R
   services.runs.prepare(
       [&services, shared, query = *std::move(query), figure = std::move(figure)] {
         ValueSelection selection;
-        const auto as_of = services.measurements.read_values(
-            query, [&](const app::MeasuredRun& run) { return selection.add(run); });
-        if (!as_of) return shared->fail(as_of.error());
-        auto answer = figure(std::move(selection), *as_of);
+        const auto read = selection.read(services.measurements, query);
+        if (!read) return shared->fail(read.error());
+        auto answer = figure(std::move(selection), *read);
         if (!answer) return shared->fail(answer.error());
         shared->answer({200, "application/json", *std::move(answer)});
       },
       [shared](Error error) { shared->fail(std::move(error)); });
-}
-
-/// Takes values by subgroup where they name one, unless that is to be ignored.
-Result<SelectedValues> take(ValueSelection&& selection, bool ignore_subgroups) {
-  return selection.names_subgroups() && !ignore_subgroups ? std::move(selection).by_subgroup()
-                                                          : std::move(selection).one_by_one();
-}
-
-bool ignores_subgroups(const http::Request& request) {
-  return request.text("subgroups") == "ignore";
-}
-
-void write_selection(JsonWriter& json, const SelectedValues& selected, const std::string& as_of) {
-  const auto limit = [&json](std::string_view name, const std::optional<Length>& value) {
-    if (value) json.member_mm(name, *value);
-  };
-  json.key("selection")
-      .begin_object()
-      .member("count", std::uint64_t{selected.count})
-      .member("subgroups", std::uint64_t{selected.subgroups.size()})
-      .member("first_id", std::string_view(selected.first_id))
-      .member("last_id", std::string_view(selected.last_id))
-      .member("as_of", as_of);
-  limit("lower_limit_mm", selected.lower_limit);
-  limit("upper_limit_mm", selected.upper_limit);
-  json.end_object();
 }
 
 /// The subgroup or the measurement that a point is of. A moving range is named by its later value.
@@ -86,7 +60,7 @@ void find_capability(const Services& services, const http::Request& request,
   answer_with(services, request, std::move(responder),
               [target, confidence, ignore = ignores_subgroups(request)](
                   ValueSelection&& selection, const std::string& as_of) -> Result<std::string> {
-                auto selected = take(std::move(selection), ignore);
+                auto selected = std::move(selection).selected(ignore);
                 if (!selected) return selected.error();
                 if (target) selected->limits.target = exact_mm(*target);
                 const auto made =
@@ -151,6 +125,14 @@ Result<StoredChartPlan> chart_plan(const http::Request& request) {
   const auto from = request.integer("phase1_from");
   const auto to = request.integer("phase1_to");
   if (from && !to) return invalid("phase1_to", "phase1_from needs phase1_to, which is exclusive");
+  std::optional<Error> unused;
+  refuse_not_applicable(
+      chart_members(), "kind", word(plan.kind),
+      [&](const Applicable& row) { return is_given(row, plan.rules, request.has(row.member)); },
+      [&](std::string_view member, std::string message) {
+        unused = invalid(member, std::move(message));
+      });
+  if (unused) return *std::move(unused);
   if (to) {
     plan.phase1 = {static_cast<std::size_t>(from.value_or(0)), static_cast<std::size_t>(*to)};
   }
@@ -164,7 +146,7 @@ void find_chart(const Services& services, const http::Request& request, http::Re
               [stored = *std::move(stored)](ValueSelection&& selection,
                                             const std::string& as_of) -> Result<std::string> {
                 metrology::ChartPlan plan = stored.plan;
-                auto selected = take(std::move(selection), stored.ignores_subgroups);
+                auto selected = std::move(selection).selected(stored.ignores_subgroups);
                 if (!selected) return selected.error();
                 if (!stored.has_kind && selected->data.size > 1) plan.kind = ChartKind::XbarR;
                 const auto made = metrology::make_charts(selected->data, plan);
@@ -177,6 +159,7 @@ void find_chart(const Services& services, const http::Request& request, http::Re
                 json.begin_object();
                 write_selection(json, *selected, as_of);
                 json.member("kind", word(plan.kind));
+                write_formula(json, word(plan.kind));
                 write_chart_members(json, *made, name_in(*selected));
                 json.end_object();
                 return out;
@@ -185,10 +168,7 @@ void find_chart(const Services& services, const http::Request& request, http::Re
 
 std::vector<http::Parameter> with_filters(std::vector<http::Parameter> own) {
   auto parameters = measurement_filter_parameters();
-  own.push_back({.name = "subgroups",
-                 .type = http::Words{{"use", "ignore"}},
-                 .description = "use when absent: by `subgroup` where the values name one; ignore "
-                                "takes them one by one"});
+  own.push_back(subgroups_parameter());
   constexpr std::int64_t kMostOfLast = 1'000'000;
   own.push_back({.name = "last",
                  .type = http::Integer{.min = 1, .max = kMostOfLast},

@@ -10,6 +10,7 @@
 
 #include "api/statistics/computation.hpp"
 #include "api/wire/field_reader.hpp"
+#include "api/wire/formulas.hpp"
 #include "api/wire/json_writer.hpp"
 #include "metrology/uncertainty.hpp"
 
@@ -21,6 +22,17 @@ using metrology::Distribution;
 
 constexpr std::size_t kMostContributions = 100;
 
+/// Of figures and sensitivities, whose products to the fourth power are doubles then.
+constexpr double kLeast = 1e-30;
+constexpr double kMost = 1e15;
+
+void check_magnitude(FieldReader& row, std::string_view name, double value) {
+  const double magnitude = std::abs(value);
+  if (magnitude == 0 || (magnitude >= kLeast && magnitude <= kMost)) return;
+  row.report(ErrorCode::FieldInvalid, name,
+             fmt::format("{} is 0 or from {} to {}: choose a unit that fits", name, kLeast, kMost));
+}
+
 /// A number that is 0 or more, where the member is given.
 std::optional<double> not_negative(FieldReader& row, std::string_view name) {
   if (!row.has(name)) {
@@ -30,6 +42,8 @@ std::optional<double> not_negative(FieldReader& row, std::string_view name) {
   const auto value = row.number(name);
   if (value && *value < 0) {
     row.report(ErrorCode::FieldInvalid, name, fmt::format("{} is 0 or more", name));
+  } else if (value) {
+    check_magnitude(row, name, *value);
   }
   return value;
 }
@@ -64,6 +78,7 @@ Contribution read_contribution(FieldReader& row) {
                "standard_uncertainty");
   }
   c.sensitivity = row.number_or("sensitivity", 1);
+  check_magnitude(row, "sensitivity", c.sensitivity);
   if (row.has("degrees_of_freedom")) {
     const auto freedom = row.number("degrees_of_freedom");
     if (freedom && !(*freedom > 0)) {
@@ -213,8 +228,9 @@ Result<std::string> compute_uncertainty(const JsonValue& body) {
   const auto& [budget, simulation, combined] = *read;
   std::string out;
   JsonWriter json(out);
-  json.begin_object()
-      .member("combined_standard_uncertainty", combined.combined)
+  json.begin_object();
+  write_formula(json, "uncertainty");
+  json.member("combined_standard_uncertainty", combined.combined)
       .member("effective_degrees_of_freedom", combined.degrees_of_freedom)
       .member("welch_satterthwaite", combined.welch_satterthwaite)
       .member("probability", budget.probability)

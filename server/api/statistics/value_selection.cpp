@@ -40,16 +40,39 @@ void MeasurementIds::add(std::int64_t number, std::string_view origin) {
   offsets_.push_back(static_cast<std::uint32_t>(number - parts_.back().base));
 }
 
-std::string MeasurementIds::text(std::size_t index) const {
+const MeasurementIds::Part& MeasurementIds::part_of(std::size_t index) const {
   const auto later = [](std::size_t at, const Part& part) { return at < part.begin; };
-  const Part& part = *std::prev(std::upper_bound(parts_.begin(), parts_.end(), index, later));
+  return *std::prev(std::upper_bound(parts_.begin(), parts_.end(), index, later));
+}
+
+std::string MeasurementIds::text(std::size_t index) const {
+  const Part& part = part_of(index);
   return app::measurement_id_text(part.base + offsets_.at(index), part.origin);
+}
+
+MeasurementIds MeasurementIds::in_order(const std::vector<std::uint32_t>& order) const {
+  MeasurementIds ids;
+  ids.offsets_.reserve(order.size());
+  for (const std::uint32_t index : order) {
+    const Part& part = part_of(index);
+    ids.add(part.base + offsets_[index], part.origin);
+  }
+  return ids;
 }
 
 std::string ValueSelection::text_of(const Limits& limits) {
   if (!limits.lower) return fmt::format("up to {} mm", format_mm(*limits.upper));
   if (!limits.upper) return fmt::format("{} mm or more", format_mm(*limits.lower));
   return fmt::format("{} to {} mm", format_mm(*limits.lower), format_mm(*limits.upper));
+}
+
+Result<std::string> ValueSelection::read(app::MeasurementService& measurements,
+                                         const app::MeasurementQuery& query) {
+  auto values =
+      measurements.read_values(query, [this](const app::MeasuredRun& run) { return add(run); });
+  if (!values) return values.error();
+  move(values->moves);
+  return std::move(values->as_of);
 }
 
 Result<void> ValueSelection::add(const app::MeasuredRun& run) {
@@ -99,7 +122,44 @@ void ValueSelection::join(std::string_view subgroup, std::size_t values) {
   groups_.insert(groups_.end(), values, groups_.back());
 }
 
-Result<SelectedValues> ValueSelection::selected() {
+void ValueSelection::move(const std::vector<app::MovedValue>& moves) {
+  if (moves.empty()) return;
+  std::vector<bool> is_moved(counts_.size());
+  for (const app::MovedValue& value : moves) is_moved[value.from] = true;
+  std::vector<std::uint32_t> order;
+  order.reserve(counts_.size());
+  auto next = moves.begin();
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    for (; next != moves.end() && next->to <= i; ++next) {
+      order.push_back(static_cast<std::uint32_t>(next->from));
+    }
+    if (!is_moved[i]) order.push_back(static_cast<std::uint32_t>(i));
+  }
+  const auto in_order = [&order](const auto& of) {
+    std::remove_cvref_t<decltype(of)> sorted;
+    sorted.reserve(order.size());
+    for (const std::uint32_t index : order) sorted.push_back(of[index]);
+    return sorted;
+  };
+  counts_ = in_order(counts_);
+  ids_ = ids_.in_order(order);
+  if (ungrouped_) return;
+  groups_ = in_order(groups_);
+  // The subgroups stand in the order they begin in.
+  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(names_.size(), kNone);
+  std::vector<const std::string*> names;
+  for (std::uint32_t& group : groups_) {
+    if (number[group] == kNone) {
+      number[group] = static_cast<std::uint32_t>(names.size());
+      names.push_back(names_[group]);
+    }
+    group = number[group];
+  }
+  names_ = std::move(names);
+}
+
+Result<SelectedValues> ValueSelection::described() {
   if (counts_.empty()) return none_selected();
   const auto exact = [](const std::optional<Length>& limit) {
     return limit ? std::optional(exact_mm(*limit)) : std::nullopt;
@@ -114,7 +174,7 @@ Result<SelectedValues> ValueSelection::selected() {
 }
 
 Result<SelectedValues> ValueSelection::one_by_one() && {
-  auto made = selected();
+  auto made = described();
   if (!made) return made;
   made->data = {.values = Decimals(std::move(counts_), kDecimals)};
   made->ids = std::move(ids_);
@@ -122,7 +182,7 @@ Result<SelectedValues> ValueSelection::one_by_one() && {
 }
 
 Result<SelectedValues> ValueSelection::by_subgroup() && {
-  auto made = selected();
+  auto made = described();
   if (!made) return made;
   if (ungrouped_) {
     return unbalanced(fmt::format("measurement {} names no subgroup", *ungrouped_));
@@ -148,6 +208,39 @@ Result<SelectedValues> ValueSelection::by_subgroup() && {
   made->subgroups.reserve(names_.size());
   for (const std::string* name : names_) made->subgroups.push_back(*name);
   return made;
+}
+
+Result<SelectedValues> ValueSelection::selected(bool ignores_subgroups) && {
+  return names_subgroups_ && !ignores_subgroups ? std::move(*this).by_subgroup()
+                                                : std::move(*this).one_by_one();
+}
+
+http::Parameter subgroups_parameter() {
+  return {.name = "subgroups",
+          .type = http::Words{{"use", "ignore"}},
+          .description =
+              "use when absent: by `subgroup` where the values name one; ignore takes "
+              "them one by one"};
+}
+
+bool ignores_subgroups(const http::Request& request) {
+  return request.text("subgroups") == "ignore";
+}
+
+void write_selection(JsonWriter& json, const SelectedValues& selected, const std::string& as_of) {
+  const auto limit = [&json](std::string_view name, const std::optional<Length>& value) {
+    if (value) json.member_mm(name, *value);
+  };
+  json.key("selection")
+      .begin_object()
+      .member("count", std::uint64_t{selected.count})
+      .member("subgroups", std::uint64_t{selected.subgroups.size()})
+      .member("first_id", std::string_view(selected.first_id))
+      .member("last_id", std::string_view(selected.last_id))
+      .member("as_of", as_of);
+  limit("lower_limit_mm", selected.lower_limit);
+  limit("upper_limit_mm", selected.upper_limit);
+  json.end_object();
 }
 
 }  // namespace fitgauge::api

@@ -7,7 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "api/wire/json_writer.hpp"
 #include "app/measurements/measurement_service.hpp"
+#include "http/route.hpp"
 #include "metrology/capability.hpp"
 #include "metrology/control_chart.hpp"
 
@@ -25,6 +27,8 @@ class MeasurementIds {
     return offsets_.size() * sizeof(offsets_.front()) + parts_.size() * sizeof(parts_.front());
   }
   std::string text(std::size_t index) const;
+  /// The same ids in another order, of indices.
+  MeasurementIds in_order(const std::vector<std::uint32_t>& order) const;
 
  private:
   struct Part {
@@ -32,6 +36,8 @@ class MeasurementIds {
     std::int64_t base = 0;  ///< what the offsets of its numbers are from
     std::string_view origin;
   };
+
+  const Part& part_of(std::size_t index) const;
 
   std::vector<std::uint32_t> offsets_;
   std::vector<Part> parts_;
@@ -46,7 +52,7 @@ struct SelectedValues {
   MeasurementIds ids{};                  ///< of the values, where they come one by one
   std::vector<std::string> subgroups{};  ///< the names of the subgroups, else
   std::size_t count = 0;
-  std::string first_id{};  ///< in storage order
+  std::string first_id{};  ///< as they stand in a chart
   std::string last_id{};
 };
 
@@ -58,18 +64,22 @@ class ValueSelection {
 
   explicit ValueSelection(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
 
+  /// Takes all that a query chooses, a correction in the place of what it replaces. Blocks.
+  /// @returns the id of the newest measurement there was. @errors those of add() and of reading
+  Result<std::string> read(app::MeasurementService& measurements,
+                           const app::MeasurementQuery& query);
+
   /// @errors LimitsMixed: other limits than those of the first; StatisticsTooMany.
   Result<void> add(const app::MeasuredRun& run);
 
-  /// Whether a value names a subgroup.
-  bool names_subgroups() const { return names_subgroups_; }
+  /// Puts values where they belong, when all are added.
+  void move(const std::vector<app::MovedValue>& moves);
 
-  /// The values one by one, in storage order, whatever they name. @errors StatisticsTooFew: none.
-  Result<SelectedValues> one_by_one() &&;
   /// The values by the subgroup they name: the subgroups in the order they begin in, the values of
-  /// each in storage order. @errors StatisticsTooFew: none, or subgroups of one value;
-  ///   StatisticsUnbalanced: a value without subgroup, or subgroups of different sizes.
-  Result<SelectedValues> by_subgroup() &&;
+  /// each in their order; one by one where none is named, or they are ignored.
+  /// @errors StatisticsTooFew: none, or subgroups of one value; StatisticsUnbalanced: a value
+  ///   without subgroup, or subgroups of different sizes.
+  Result<SelectedValues> selected(bool ignores_subgroups) &&;
 
  private:
   struct Limits {
@@ -80,9 +90,11 @@ class ValueSelection {
 
   /// `25 to 25.021 mm`, as an error says them.
   static std::string text_of(const Limits& limits);
+  Result<SelectedValues> one_by_one() &&;
+  Result<SelectedValues> by_subgroup() &&;
   /// Puts the values that are being added into their subgroup.
   void join(std::string_view subgroup, std::size_t values);
-  Result<SelectedValues> selected();
+  Result<SelectedValues> described();
 
   const std::size_t most_bytes_;
   std::size_t bytes_ = 0;
@@ -96,5 +108,12 @@ class ValueSelection {
   std::unordered_map<std::string, std::uint32_t> numbers_;
   std::vector<const std::string*> names_;  ///< by number
 };
+
+/// `subgroups=ignore`
+http::Parameter subgroups_parameter();
+bool ignores_subgroups(const http::Request& request);
+
+/// The member `selection`.
+void write_selection(JsonWriter& json, const SelectedValues& selected, const std::string& as_of);
 
 }  // namespace fitgauge::api

@@ -150,14 +150,15 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
       std::move(done));
 }
 
-Result<std::string> MeasurementService::read_values(const MeasurementQuery& query,
-                                                    const RunVisitor& visit) {
+Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query,
+                                                   const RunVisitor& visit) {
   constexpr std::size_t kRowsAJob = 20'000;  // other readers get their turn between two jobs
   store::MeasurementFilter filter = measurement_filter(query);
   std::optional<std::int64_t> after = 0;
   std::string newest = measurement_id_text(query.as_of.value_or(0), origins_.own());
   std::int64_t origin = 0;  // of the run before, mostly that of the next
   std::string_view digits = origins_.digits(origin);
+  CorrectedPlaces places;
   std::vector<MeasuredRun::Value> values;
   while (after) {
     auto next = database_.readers().wait(
@@ -168,6 +169,9 @@ Result<std::string> MeasurementService::read_values(const MeasurementQuery& quer
               newest = measurement_id_text(row.public_number(),
                                            origins_.digits(row.is_forwarded() ? *row.origin : 0));
             });
+            stores.measurements.list_corrections(
+                *filter.as_of_id, [&](std::int64_t id, std::int64_t of) { places.add(id, of); });
+            places.finish_adding();
             if (query.last) {
               const auto first = stores.measurements.first_of_newest(filter, *query.last);
               if (!first) return std::optional<std::int64_t>();
@@ -180,6 +184,7 @@ Result<std::string> MeasurementService::read_values(const MeasurementQuery& quer
                 if (!taken) return;
                 values.clear();
                 for (const auto& value : run.values) {
+                  places.pass(value.id);
                   values.push_back({value.number, Length::nanometres(value.measured_nm)});
                 }
                 if (run.origin != origin) digits = origins_.digits(origin = run.origin);
@@ -195,7 +200,7 @@ Result<std::string> MeasurementService::read_values(const MeasurementQuery& quer
     if (!next) return next.error();
     after = *next;
   }
-  return newest;
+  return ReadValues{.as_of = std::move(newest), .moves = places.moves()};
 }
 
 void MeasurementService::summary(const MeasurementQuery& query, std::string_view group_by,

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/measurements/corrected_places.hpp"
 #include "app/measurements/measurement.hpp"
 
 namespace fitgauge::store {
@@ -94,6 +95,12 @@ struct MeasuredRun {
   std::optional<Length> upper_limit;
   std::optional<std::string_view> subgroup;
   std::span<const Value> values{};
+};
+
+/// What is said of values when all of them are read.
+struct ReadValues {
+  std::string as_of;              ///< the id of the newest measurement there was
+  std::vector<MovedValue> moves;  ///< of corrections, to the places of what they replace
 };
 
 /// Counts and statistics of one group; texts are exact decimals in mm.
@@ -205,10 +212,9 @@ class MeasurementService {
 
   /// Visits what figures are computed from of all that match, in storage order and in one state,
   /// and ends with the first error the visitor gives. Blocks: for threads that take long requests.
-  /// @returns the id of the newest measurement in that state. @errors StorageBusy,
-  /// StorageUnavailable, ShuttingDown
+  /// @errors StorageBusy, StorageUnavailable, ShuttingDown
   using RunVisitor = std::function<Result<void>(const MeasuredRun&)>;
-  Result<std::string> read_values(const MeasurementQuery& query, const RunVisitor& visit);
+  Result<ReadValues> read_values(const MeasurementQuery& query, const RunVisitor& visit);
 
   /// Groups by one of kTextFilters. @errors QueryInvalid for another field or too many groups.
   void summary(const MeasurementQuery& query, std::string_view group_by,

@@ -108,6 +108,14 @@ class ReadOpen(Callers):
         self.assert_needs_a_key(self.daemon.get("/v1/measurements"))
         self.assert_needs_a_key(self.daemon.measure(PART))
         self.assert_needs_a_key(self.daemon.get("/v1/events"))
+        # A fit is of the tables, what measured parts do is not.
+        stored = "?hole_characteristic=a&shaft_characteristic=b"
+        for path in ("/v1/fits/25H7/g6", "/v1/fits/25H7%2Fg6"):
+            self.assertEqual(self.daemon.get(path).status, 200)
+            self.assert_needs_a_key(self.daemon.get(path + stored))
+            key = f"Bearer {self.make_key('viewer' + str(len(path)), 'viewer')}"
+            self.wait_for(lambda: self.daemon.get(path + stored, Authorization=key).status != 401)
+            self.assert_problem(self.daemon.get(path + stored, Authorization=key), 422, "statistics.too_few")
 
     def test_the_first_start_shows_the_administrators_key_once(self):
         shown = [line for line in self.daemon.output.splitlines() if "administrator" in line]

@@ -93,6 +93,56 @@ class Statistics(DaemonTest):
         type1 = self.compute("type1", {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6})
         self.assertAlmostEqual(type1["cg"], 1.2 / (6 * (0.04 / 3) ** 0.5), places=14)
 
+    def test_one_trial_needs_a_model(self):
+        """Its residue is repeatability and interaction together: nobody is told that it is the first alone."""
+        single = {"measurements": [row for row in STUDY if row["trial"] == 0]}
+        for model in ({}, {"model": "auto"}, {"model": "interaction"}):
+            answer = self.send("grr", {**single, **model})
+            self.assert_problem(answer, 422, "request.invalid")
+            self.assertEqual(answer.json["errors"][0]["code"], "statistics.too_few")
+            self.assertIn('"pooled"', answer.json["errors"][0]["detail"])
+        self.assertEqual(self.compute("grr", {**single, "model": "pooled"})["model"], "pooled")
+
+    def test_a_member_that_would_change_nothing_is_refused_by_name(self):
+        answer = self.send("chart", {"kind": "i_mr", "values": [1, 2, 3], "lambda": 0.3})
+        self.assertEqual([(e["pointer"], e["detail"]) for e in answer.json["errors"]],
+                         [("/lambda", "lambda would change nothing with kind i_mr: it belongs to kind ewma")])
+        answer = self.send("chart", {"kind": "ewma", "values": [1, 2, 3], "rules": [1, 4]})
+        self.assertEqual([(e["pointer"], e["detail"]) for e in answer.json["errors"]], [(
+            "/rules", "rules 2, 3 and 4 would change nothing with kind ewma: it belongs to kind i_mr, xbar_r or xbar_s")])
+        answer = self.daemon.get("/v1/measurements/chart?kind=cusum&lambda=0.3")
+        self.assert_problem(answer, 400, "query.invalid")
+        self.assertIn("kind ewma", answer.json["detail"])
+
+    def test_what_is_wrong_with_a_phase_points_to_it(self):
+        for phase in ({"from": 0, "to": 9}, {"from": 1, "to": 2}):
+            answer = self.send("chart", {"kind": "i_mr", "values": [1, 2, 3], "phase1": phase})
+            self.assertEqual([e["pointer"] for e in answer.json["errors"]], ["/phase1"])
+
+    def test_every_answer_names_formula_and_clause(self):
+        """And the reference has the source: an edition or an author is written there."""
+        reference = (ROOT / "docs/reference/statistics.md").read_text()
+        rows = [{"part": row["part"], "value": row["value"]} for row in STUDY]
+        linear = [{"reference": x, "value": x} for x in (1, 2, 2)]
+        stable = [{"at": at, "value": at % 2} for at in range(4)]
+        answers = [
+            self.compute("summary", {"values": [1, 2]}), self.compute("anova", {"groups": [[1, 2], [2, 4]]}),
+            self.compute("capability", {"values": [1, 2, 3], "upper": 4}),
+            *(self.compute("chart", {"kind": kind, "subgroups": [[1, 2], [2, 4]]}) for kind in ("xbar_r", "xbar_s", "ewma", "cusum")),
+            self.compute("chart", {"kind": "i_mr", "values": [1, 2]}),
+            self.compute("type1", {"values": [1, 2], "reference": 1, "tolerance": 1}),
+            *(self.compute("grr", {"method": method, "measurements": STUDY}) for method in ("anova", "average_range", "nested")),
+            self.compute("grr", {"method": "type3", "measurements": rows}),
+            self.compute("grr", {"method": "linearity", "measurements": linear}),
+            self.compute("grr", {"method": "stability", "measurements": stable}),
+            self.compute("pairing", {"holes": [1], "shafts": [1], "target_clearance_um": 0}),
+            self.daemon.post("/v1/uncertainty", {"contributions": [{"name": "a", "standard_uncertainty": 1}]}).json,
+            *(self.daemon.get(path).json for path in ("/v1/fits/25H7/g6", "/v1/gauges/25H7", "/v1/gauges/25g6"))]
+        self.assertEqual(len({answer["formula"] for answer in answers}), len(answers))
+        for answer in answers:
+            source = answer["clause"].split(";")[0].split(",")[0]
+            self.assertTrue("no standard" in source or source in reference, source)
+
     def test_two_thousand_pairs(self):
         source = random.Random(3)
         holes = [f"{25 + source.random() / 100:.6f}" for _ in range(2000)]
@@ -101,7 +151,7 @@ class Statistics(DaemonTest):
         self.assertEqual(sorted(p["hole"] for p in pairs), list(range(2000)))
         self.assertEqual(sorted(p["shaft"] for p in pairs), list(range(2000)))
         few = self.compute("pairing", {"holes_mm": [25.01], "shafts_mm": [24.99, 25.001], "target_clearance_um": 8})
-        self.assertEqual(few, {"pairs": [{"hole": 0, "shaft": 1, "clearance_um": 9}]})
+        self.assertEqual(few["pairs"], [{"hole": 0, "shaft": 1, "clearance_um": 9}])
 
     def test_what_is_refused(self):
         capability = {"values": [1, 2, 3], "lower": 0, "upper": 4}
@@ -134,6 +184,11 @@ class Statistics(DaemonTest):
                 ("chart", {"kind": "xbar_r", "values": [1, 2]}, "statistics.too_few"),
                 ("chart", {"kind": "i_mr", "values": [1, 2], "phase1": {"from": 0, "to": 9}}, "field.invalid"),
                 ("chart", {"kind": "ewma", "values": [1, 2], "lambda": 0}, "field.invalid"),
+                ("chart", {"kind": "i_mr", "values": [1, 2], "lambda": 0.2}, "field.conflict"),
+                ("chart", {"kind": "xbar_r", "subgroups": [[1, 2], [2, 4]], "decision_interval": 4}, "field.conflict"),
+                ("chart", {"kind": "ewma", "values": [1, 2], "reference_value": 1}, "field.conflict"),
+                ("chart", {"kind": "cusum", "values": [1, 2], "rules": [1, 2]}, "field.conflict"),
+                ("grr", {"method": "average_range", "model": "pooled", "measurements": STUDY}, "field.conflict"),
                 ("type1", {"values": [1, 1], "reference": 1, "tolerance": 1}, "statistics.zero_spread"),
                 ("type1", {"values": [1, 2], "reference": 1, "tolerance": -1}, "limits.invalid"),
                 ("type1", {"values": [1, 2], "tolerance": 1}, "field.missing"),
@@ -187,6 +242,9 @@ class Uncertainty(DaemonTest):
                 ({"contributions": [{**one, "degrees_of_freedom": 0}]}, "field.invalid"),
                 ({"contributions": [one, one]}, "field.conflict"),
                 ({"contributions": [one], "probability": 1}, "field.invalid"),
+                ({"contributions": [{**one, "standard_uncertainty": 1e300}]}, "field.invalid"),
+                ({"contributions": [{**one, "standard_uncertainty": 1e-300}]}, "field.invalid"),
+                ({"contributions": [{**one, "sensitivity": -1e300}]}, "field.invalid"),
                 ({"contributions": [one], "correlations": [{"between": ["a", "b"], "coefficient": 1}]},
                  "field.invalid"),
                 ({"contributions": [{**one, "distribution": "t"}]}, "field.missing"),

@@ -1,6 +1,7 @@
 """Capability and charts of stored values: certified figures, which values they are of, and what is refused."""
 
 import math
+import statistics
 
 from support.daemon import ROOT, DaemonTest
 
@@ -111,6 +112,71 @@ class Stored(DaemonTest):
                          self.find("chart", "characteristic=worn")["charts"])
         self.assert_problem(self.daemon.get("/v1/measurements/chart?characteristic=none&last=3"), 422, "statistics.too_few")
         self.assert_problem(self.daemon.get("/v1/measurements/chart?last=0"), 400, "query.invalid")
+
+    def test_the_clearance_of_measured_parts(self):
+        bores = ["25.011", "25.014", "25.012", "25.016", "25.013", "25.011", "25.015"]
+        pins = ["24.992", "24.994", "24.991", "24.993", "24.995", "24.992"]
+        self.store("fit bore", bores, {"designation": "25H7"})
+        self.store("fit pin", pins, {"designation": "25g6"})
+        path = "/v1/fits/25H7/g6?hole_characteristic=fit%20bore&shaft_characteristic=fit%20pin"
+        fit = self.daemon.get(path).json
+        stored = fit["statistical"]["stored"]
+        hole, shaft = (statistics.NormalDist.from_samples([float(value) for value in values]) for values in (bores, pins))
+        self.assertAlmostEqual(stored["probability_of_interference"], (hole - shaft).cdf(0), places=12)
+        self.assertAlmostEqual(stored["mean_clearance_um"], (hole.mean - shaft.mean) * 1000, places=9)
+        self.assertAlmostEqual(stored["standard_deviation_um"], (hole - shaft).stdev * 1000, places=9)
+        self.assertEqual((stored["hole"]["selection"]["count"], stored["shaft"]["selection"]["count"]), (7, 6))
+        self.assertTrue(stored["stable"])
+        del fit["statistical"]["stored"]
+        self.assertEqual(fit, self.daemon.get("/v1/fits/25H7/g6").json)
+        self.assertEqual(self.daemon.get(path.replace("/g6", "%2Fg6")).json["statistical"]["stored"], stored)
+        # What is measured from now on counts, and a process that ran away is said to have.
+        self.store("fit pin", ["24.980"], {"designation": "25g6"})
+        moved = self.daemon.get(path).json["statistical"]["stored"]
+        self.assertEqual((moved["shaft"]["selection"]["count"], moved["stable"], moved["hole"]["stable"]), (7, False, True))
+        for query, status, code, word in [
+                ("?hole_characteristic=fit%20bore", 400, "query.invalid", "shaft_characteristic"),
+                ("?hole_characteristic=fit%20pin&shaft_characteristic=fit%20pin", 422, "limits.mixed", "hole"),
+                ("?hole_characteristic=none&shaft_characteristic=fit%20pin", 422, "statistics.too_few", "hole"),
+                ("?characteristic=bore", 400, "query.unknown", "characteristic")]:
+            with self.subTest(query):
+                answer = self.daemon.get("/v1/fits/25H7/g6" + query)
+                self.assert_problem(answer, status, code)
+                self.assertIn(word, answer.json["detail"])
+
+    def test_a_correction_stands_where_the_value_stood(self):
+        answer = self.store("placed", ["74.001", "75", "74.002", "76"])
+        first, origin = answer["first_id"][1:].split("-")
+        def correct(id, value):
+            made = self.daemon.post(f"/v1/measurements/{id}/corrections", {"measured_mm": value, "reason": "misread"})
+            self.assertEqual(made.status, 201, made)
+            return made.json["id"]
+        again = correct(f"m{int(first) + 3}-{origin}", "74.9")
+        one = correct(f"m{int(first) + 1}-{origin}", "74.004")
+        self.store("placed", ["74.006"])
+        last = correct(again, "74.005")  # a correction's correction, stored behind all
+        chart = self.find("chart", "characteristic=placed&rules=1")
+        self.assertEqual(chart["charts"][0]["points"], [74.001, 74.004, 74.002, 74.005, 74.006])
+        self.assertEqual(chart["selection"]["count"], 5)
+        self.assertEqual(self.find("chart", "characteristic=placed&last=3")["charts"][0]["points"], [74.004, 74.005, 74.006])
+        # All values with those they replace: each behind it.
+        self.assertEqual(self.find("chart", "characteristic=placed&history=all")["charts"][0]["points"],
+                         [74.001, 75, 74.004, 74.002, 76, 74.9, 74.005, 74.006])
+        jumped = correct(one, "74.5")
+        found = self.find("chart", "characteristic=placed&rules=1&phase1_from=2&phase1_to=5")
+        self.assertEqual([v["id"] for v in found["violations"] if v["chart"] == "i"], [jumped])
+        self.assertNotEqual(jumped, last)
+
+    def test_a_corrected_subgroup_keeps_its_place(self):
+        ids = []
+        for subgroup, values in (("a", ["74.001", "74.003"]), ("b", ["74.005", "74.007"]), ("c", ["74.009", "74.011"])):
+            ids.append(self.store("sub", values, subgroup=subgroup)["first_id"])
+        number, origin = ids[0][1:].split("-")
+        for i, value in enumerate(("74.021", "74.023")):
+            self.daemon.post(f"/v1/measurements/m{int(number) + i}-{origin}/corrections",
+                             {"measured_mm": value, "reason": "misread"})
+        found = self.find("chart", "characteristic=sub&kind=xbar_r")
+        self.assertEqual(found["charts"][0]["points"], [74.022, 74.006, 74.01])
 
     def test_a_correction_counts_in_place_of_what_it_corrects(self):
         answer = self.store("mended", ["74.001", "74.002", "75"])

@@ -51,15 +51,14 @@ std::vector<std::int64_t> nanometres_of(const SelectedValues& selected) {
 ErrorCode by_subgroup_error(std::initializer_list<Run> values) {
   ValueSelection selection;
   for (const Run& one : values) REQUIRE(selection.add(one).has_value());
-  return std::move(selection).by_subgroup().error().code;
+  return std::move(selection).selected(false).error().code;
 }
 
 TEST_CASE("values one by one keep the order they are stored in, whatever subgroup they name") {
   ValueSelection selection;
   REQUIRE(selection.add(value(7, 3)).has_value());
   REQUIRE(selection.add(value(9, 1, "a")).has_value());
-  CHECK(selection.names_subgroups());
-  const SelectedValues selected = std::move(selection).one_by_one().value();
+  const SelectedValues selected = std::move(selection).selected(true).value();
   CHECK(nanometres_of(selected) == std::vector<std::int64_t>{3, 1});
   REQUIRE(selected.ids.size() == 2);
   CHECK(selected.ids.text(0) == "m7-");
@@ -93,7 +92,7 @@ TEST_CASE("subgroups stand in the order they begin in, their values in that of s
                           value(4, 21, "a"), value(5, 12, "b"), value(6, 22, "a")}) {
     REQUIRE(selection.add(one).has_value());
   }
-  const SelectedValues selected = std::move(selection).by_subgroup().value();
+  const SelectedValues selected = std::move(selection).selected(false).value();
   CHECK(nanometres_of(selected) == std::vector<std::int64_t>{10, 11, 12, 20, 21, 22});
   CHECK(selected.data.size == 3);
   CHECK(selected.subgroups == std::vector<std::string>{"b", "a"});
@@ -106,7 +105,7 @@ TEST_CASE("a run is taken as its values one by one") {
   REQUIRE(in_runs.add(Run(1, {10, 11}, "b")).has_value());
   REQUIRE(in_runs.add(Run(3, {20, 21, 22}, "a")).has_value());
   REQUIRE(in_runs.add(Run(6, {12}, "b")).has_value());
-  const SelectedValues selected = std::move(in_runs).by_subgroup().value();
+  const SelectedValues selected = std::move(in_runs).selected(false).value();
   CHECK(nanometres_of(selected) == std::vector<std::int64_t>{10, 11, 12, 20, 21, 22});
   CHECK(selected.subgroups == std::vector<std::string>{"b", "a"});
   CHECK(selected.last_id == "m6-");
@@ -121,7 +120,7 @@ TEST_CASE("subgroups that make no chart are refused") {
         ErrorCode::StatisticsUnbalanced);
   CHECK(by_subgroup_error({value(1, 1), value(2, 2, "a")}) == ErrorCode::StatisticsUnbalanced);
   CHECK(by_subgroup_error({value(1, 1, "a"), value(2, 2)}) == ErrorCode::StatisticsUnbalanced);
-  CHECK(std::move(ValueSelection()).one_by_one().error().code == ErrorCode::StatisticsTooFew);
+  CHECK(std::move(ValueSelection()).selected(true).error().code == ErrorCode::StatisticsTooFew);
 }
 
 TEST_CASE("values with other limits are not of one selection") {

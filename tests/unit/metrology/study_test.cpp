@@ -132,7 +132,8 @@ TEST_CASE("studies that say nothing are refused with their code") {
                       .operator_count = 2};
   CHECK(code(once, StudyMethod::Anova, StudyModel::Interaction) == ErrorCode::StatisticsTooFew);
   CHECK(code(once, StudyMethod::AverageRange, StudyModel::Auto) == ErrorCode::StatisticsTooFew);
-  CHECK(study_gauge(once, StudyMethod::Anova, StudyModel::Auto).value().model ==
+  CHECK(code(once, StudyMethod::Anova, StudyModel::Auto) == ErrorCode::StatisticsTooFew);
+  CHECK(study_gauge(once, StudyMethod::Anova, StudyModel::Pooled).value().model ==
         StudyModel::Pooled);
 }
 

@@ -1,0 +1,124 @@
+#include "api/limits/fit_of_values.hpp"
+
+#include <fmt/format.h>
+
+#include "api/measurements/measurement_listing.hpp"
+#include "api/statistics/value_selection.hpp"
+#include "app/runs/run_service.hpp"
+#include "metrology/fit_analysis.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::string_view kHole = "hole";
+constexpr std::string_view kShaft = "shaft";
+
+/// The values of one side of a fit, with what they come to.
+struct Side {
+  SelectedValues selected;
+  std::string as_of;
+  metrology::Capability capability;
+
+  metrology::MeasuredSizes sizes() const { return {capability.mean, capability.overall}; }
+};
+
+Error of_side(std::string_view side, Error error) {
+  error.message = fmt::format("the stored values of the {}: {}", side, error.message);
+  return error;
+}
+
+/// @errors QueryInvalid where no filter of this side is given
+Result<app::MeasurementQuery> side_query(const Services& services, const http::Request& request,
+                                         std::string_view side) {
+  const std::string prefix = fmt::format("{}_", side);
+  const std::string_view query = request.query();
+  if (!query.starts_with(prefix) && query.find('&' + prefix) == std::string_view::npos) {
+    const std::string wanted = prefix + "characteristic";
+    return Error{ErrorCode::QueryInvalid,
+                 fmt::format("a clearance of stored values is of holes and shafts: choose the {0}s "
+                             "too, by {0}_characteristic or {0}_designation for instance",
+                             side),
+                 wanted};
+  }
+  return measurement_query(services, request, prefix);
+}
+
+Result<Side> read_side(const Services& services, const app::MeasurementQuery& query,
+                       const iso286::LimitsOfSize& limits, bool ignores_subgroups) {
+  ValueSelection selection;
+  auto as_of = selection.read(services.measurements, query);
+  if (!as_of) return as_of.error();
+  auto selected = std::move(selection).selected(ignores_subgroups);
+  if (!selected) return selected.error();
+  if (selected->lower_limit != limits.lower_limit() ||
+      selected->upper_limit != limits.upper_limit()) {
+    const auto mm = [](const std::optional<Length>& limit) {
+      return limit ? format_mm(*limit) : std::string("none");
+    };
+    return Error{ErrorCode::LimitsMixed,
+                 fmt::format("they have the limits {} and {} mm, the fit has {} and {} mm",
+                             mm(selected->lower_limit), mm(selected->upper_limit),
+                             format_mm(limits.lower_limit()), format_mm(limits.upper_limit()))};
+  }
+  constexpr long double kConfidence = 0.95L;
+  auto capability = metrology::assess_capability(selected->data, selected->limits, kConfidence);
+  if (!capability) return capability.error();
+  selected->data = {};
+  return Side{*std::move(selected), *std::move(as_of), *std::move(capability)};
+}
+
+void write_side(JsonWriter& json, std::string_view name, const Side& side) {
+  json.key(name).begin_object();
+  write_selection(json, side.selected, side.as_of);
+  json.key("mean").figure(side.capability.mean);
+  json.key("standard_deviation_overall").figure(side.capability.overall);
+  json.member("stable", side.capability.stable).end_object();
+}
+
+void write_stored(JsonWriter& json, const Side& hole, const Side& shaft) {
+  constexpr long double kMicrometres = 1000;
+  const auto clearance = metrology::clearance_of(hole.sizes(), shaft.sizes());
+  json.key("stored").begin_object();
+  json.member("probability_of_interference", clearance.probability_of_interference);
+  json.key("mean_clearance_um").figure(kMicrometres * clearance.mean);
+  json.key("standard_deviation_um").figure(kMicrometres * clearance.standard_deviation);
+  json.member("stable", hole.capability.stable && shaft.capability.stable);
+  write_side(json, kHole, hole);
+  write_side(json, kShaft, shaft);
+  json.end_object();
+}
+
+}  // namespace
+
+std::vector<http::Parameter> fit_filter_parameters() {
+  std::vector<http::Parameter> parameters;
+  for (const std::string_view side : {kHole, kShaft}) {
+    auto filters = measurement_filter_parameters(fmt::format("{}_", side));
+    for (http::Parameter& filter : filters) {
+      filter.description = fmt::format("Stored {}s: {}", side, filter.description);
+      parameters.push_back(std::move(filter));
+    }
+  }
+  parameters.push_back(subgroups_parameter());
+  return parameters;
+}
+
+void read_fit_of_values(const Services& services, const http::Request& request,
+                        const iso286::Fit& fit, std::function<void(Result<WriteStored>)> done) {
+  auto holes = side_query(services, request, kHole);
+  if (!holes) return done(holes.error());
+  auto shafts = side_query(services, request, kShaft);
+  if (!shafts) return done(shafts.error());
+  services.runs.prepare(
+      [&services, done, fit, holes = *std::move(holes), shafts = *std::move(shafts),
+       ignores = ignores_subgroups(request)] {
+        auto hole = read_side(services, holes, fit.hole, ignores);
+        if (!hole) return done(of_side(kHole, hole.error()));
+        auto shaft = read_side(services, shafts, fit.shaft, ignores);
+        if (!shaft) return done(of_side(kShaft, shaft.error()));
+        done(WriteStored([&](JsonWriter& json) { write_stored(json, *hole, *shaft); }));
+      },
+      [done](Error error) { done(std::move(error)); });
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,65 @@
+#include "api/wire/formulas.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::array kFormulas = {
+    Formula{"summary", "x̄ = Σx/n, s = √(Σ(x − x̄)²/(n − 1)), r(1) = Σ(xᵢ − x̄)(xᵢ₋₁ − x̄)/Σ(xᵢ − x̄)²",
+            "NIST/SEMATECH e-Handbook, 1.3.5; quantiles: Hyndman and Fan 1996, type 7"},
+    Formula{"anova_one_way", "F = (SSB/(k − 1))/(SSW/(n − k))",
+            "NIST/SEMATECH e-Handbook, 1.3.5.4"},
+    Formula{"capability",
+            "Cp = (U − L)/6σ, Cpk = min(x̄ − L, U − x̄)/3σ; Pp, Ppk the same with s; "
+            "Cpm = (U − L)/6√(s² + (x̄ − T)²)",
+            "ISO 22514-2:2017; each interval names its own source"},
+    Formula{"i_mr", "x̄ ± 3σ, σ = mean moving range/1.128", "ISO 7870-2:2013"},
+    Formula{"xbar_r", "x̿ ± 3σ/√n, σ = R̄/d₂", "ISO 7870-2:2013"},
+    Formula{"xbar_s", "x̿ ± 3σ/√n, σ = s̄/c₄", "ISO 7870-2:2013"},
+    Formula{"ewma", "z = λx + (1 − λ)z, x̿ ± 3σ√(λ/(2 − λ))", "ISO 7870-6:2016; Crowder 1987"},
+    Formula{"cusum", "sums beyond kσ on each side, limits ± hσ", "ISO 7870-4; Page 1954"},
+    Formula{"type1", "Cg = 0.2T/6s, Cgk = (0.1T − |x̄ − reference|)/3s",
+            "AIAG MSA 4; ISO 22514-7:2021"},
+    Formula{"anova",
+            "EV² = MSₑ, INT² = (MSₚₒ − MSₑ)/r, AV² = (MSₒ − MSₚₒ)/pr, PV² = (MSₚ − MSₚₒ)/or; "
+            "pooled: MSₚₒ and MSₑ are one",
+            "AIAG MSA 4, III-B; ISO 22514-7:2021"},
+    Formula{"average_range", "EV = R̄/d₂, AV = √((Δx̄/d₂*)² − EV²/pr), PV = Rₚ/d₂*",
+            "AIAG MSA 4, III-B"},
+    Formula{"nested", "EV² = MSₑ, PV² = (MSₚ − MSₑ)/r, AV² = (MSₒ − MSₚ)/pr",
+            "AIAG MSA 4, IV; ISO 22514-7:2021"},
+    Formula{"type3", "EV² = MSₑ, PV² = (MSₚ − MSₑ)/r", "AIAG MSA 4, III-B; ISO 22514-7:2021"},
+    Formula{"linearity", "bias = a + b · reference by least squares, over all readings",
+            "AIAG MSA 4, III-B"},
+    Formula{"stability", "a chart of the readings of each time, Western Electric rules 1 to 4",
+            "AIAG MSA 4, III-B; ISO 7870-2:2013"},
+    Formula{"pairing", "least Σ(clearance − target)² of all assignments",
+            "no standard: an assignment of least squares"},
+    Formula{"uncertainty", "u_c² = Σ(cᵢuᵢ)² + 2ΣΣcᵢcⱼuᵢuⱼrᵢⱼ, ν = u_c⁴/Σ((cᵢuᵢ)⁴/νᵢ), U = k u_c",
+            "JCGM 100:2008, 5.1.2, 5.2.2, 6.2.1, G.4.1; Monte Carlo: JCGM 101:2008, 7"},
+    Formula{"fit",
+            "clearance = hole − shaft; P(interference) = Φ(−mean/√(σ_hole² + σ_shaft²)), "
+            "normal with σ = T/6; uniform by convolution",
+            "ISO 286-1:2010, 3.3; the probabilities are no part of it"},
+    Formula{"plug", "GO (Dmin + z) ± H/2, worn Dmin − y + α, NO-GO (Dmax − α) ± H/2",
+            "ISO/R 1938:1971"},
+    Formula{"ring or snap", "GO (dmax − z₁) ± H₁/2, worn dmax + y₁ − α₁, NO-GO (dmin + α₁) ± H₁/2",
+            "ISO/R 1938:1971"},
+};
+
+}  // namespace
+
+std::span<const Formula> formulas() { return kFormulas; }
+
+void write_formula(JsonWriter& json, std::string_view of) {
+  const auto found = std::find_if(kFormulas.begin(), kFormulas.end(),
+                                  [of](const Formula& formula) { return formula.of == of; });
+  if (found == kFormulas.end()) throw std::logic_error("no formula of " + std::string(of));
+  json.member("formula", found->formula).member("clause", found->clause);
+}
+
+}  // namespace fitgauge::api
