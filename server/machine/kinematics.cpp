@@ -1,6 +1,8 @@
 #include "machine/kinematics.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "machine/tolerance.hpp"
 
@@ -159,8 +161,14 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown
       }
     }
   }
+  // Of two that are as near the one with the larger angles of A and B, as the control's manuals
+  // have it in a table of examples (PLANE without SEQ).
+  const auto order = [&](const Vec3& rotary) {
+    return std::pair(std::round(way(current, rotary) / tolerance::kSameAngle),
+                     -(rotary.x + rotary.y));
+  };
   std::stable_sort(found.begin(), found.end(),
-                   [&](const Vec3& a, const Vec3& b) { return way(current, a) < way(current, b); });
+                   [&](const Vec3& a, const Vec3& b) { return order(a) < order(b); });
   if (zeros != Vec3{}) {
     for (Vec3& rotary : found) rotary = rotary - zeros;
   }

@@ -138,6 +138,7 @@ NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane, co
                              .feed = moves.feed};
   }
   moves.distance = get(words, Letter::Dist) * channel.length_unit();
+  moves.is_symmetric = words.contains(Letter::Sym);
   moves.sequence = static_cast<int>(get(words, Letter::Seq) + get(words, Letter::Sym));
   return moves;
 }

@@ -10,6 +10,7 @@
 #include "run/m_functions.hpp"
 #include "run/plane_geometry.hpp"
 #include "run/preassigned.hpp"
+#include "run/tool_orientation.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -49,7 +50,21 @@ void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec
   if (angle < -180 + tolerance::kSameDirection) angle = 180;
 }
 
-/// The rotary positions for a plane, the one that SEQ asks for first.
+/// SEQ and SYM: the first axis that is not C, of the head from the tool, has a sign of its angle
+/// from 0 or from the middle of its range.
+bool is_on_side(const machine::MachineState& state, const PlaneMoves& moves, const Vec3& rotary) {
+  const auto& axes = state.kinematics.axes();
+  const auto primary =
+      std::find_if(axes.begin(), axes.end(), [](const auto& axis) { return axis.axis != Axis::C; });
+  if (moves.sequence == 0 || primary == axes.end()) return true;
+  const auto& range = state.ranges[machine::index(primary->axis)];
+  const double zero = moves.is_symmetric && range ? (range->min + range->max) / 2 : 0;
+  const double angle = rotary[machine::index(primary->axis) - 3] - zero;
+  return moves.sequence > 0 ? angle >= 0 : angle <= 0;
+}
+
+/// The rotary positions for a plane: of those in range on the side that SEQ or SYM asks for the
+/// nearest.
 NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& frames,
                                                const PlaneMoves& moves) {
   const machine::MachineState& state = channel.machine().state();
@@ -58,22 +73,12 @@ NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& f
   plane.set_plane(frames.plane());
   const Vec3 normal =
       machine::unit(plane.direction_to_machine(machine::unit_vector(state.tool_axis())));
-  auto solutions = state.kinematics.orientations(normal, state.nose.rotary, state.tool_axis());
-  // The master axis is the last one of the machine that a solution turns.
-  const auto fits = [&](const Vec3& rotary) {
-    if (moves.sequence == 0) return true;
-    const auto& axes = state.kinematics.axes();
-    const auto master = std::find_if(axes.begin(), axes.end(),
-                                     [](const auto& axis) { return axis.axis != Axis::C; });
-    if (master == axes.end()) return true;
-    const double angle = rotary[machine::index(master->axis) - 3];
-    return moves.sequence > 0 ? angle >= 0 : angle <= 0;
-  };
-  std::erase_if(solutions, [&](const Vec3& rotary) { return !fits(rotary); });
-  if (!solutions.empty()) {
-    Vec3 rotary = solutions.front();
-    if (moves.turns_table) turn_free_axis(state, plane, rotary);
-    return std::optional(rotary);
+  for (const Vec3& found :
+       state.kinematics.orientations(normal, state.nose.rotary, state.tool_axis())) {
+    auto rotary = in_range(state, found, found);
+    if (!rotary || !is_on_side(state, moves, *rotary)) continue;
+    if (moves.turns_table) turn_free_axis(state, plane, *rotary);
+    return rotary;
   }
   const bool turns =
       moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;

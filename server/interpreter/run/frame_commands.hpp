@@ -33,7 +33,8 @@ struct PlaneMoves {
   bool turns_table = false;  ///< TABLE ROT: a free rotary axis turns, else the coordinates do
   std::optional<MCall> retraction{};  ///< MB: before the axes turn
   double distance = 0;  ///< DIST: from the tip along the tool to the point that keeps its place
-  int sequence = 0;     ///< SEQ+ 1, SEQ- -1: the sign of the master axis; 0: the shortest way
+  bool is_symmetric = false;  ///< SYM: the sign counts from the middle of the axis' range
+  int sequence = 0;           ///< SEQ+ 1, SEQ- -1: the sign of the master axis; 0: the shortest way
 };
 
 /// Tilts the working plane by a rotation relative to the workpiece system and puts the rotary

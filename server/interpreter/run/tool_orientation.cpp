@@ -78,23 +78,26 @@ NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWor
 
 }  // namespace
 
+std::optional<Vec3> in_range(const machine::MachineState& state, Vec3 rotary, const Vec3& from) {
+  for (const RotaryAxis& axis : state.kinematics.axes()) {
+    const std::size_t letter = machine::index(axis.axis) - 3;
+    const auto& range = state.ranges[machine::index(axis.axis)];
+    const auto turned = range ? nearest_turn(rotary[letter], from[letter], *range) : std::nullopt;
+    if (!turned) return std::nullopt;
+    rotary[letter] = *turned;
+  }
+  return rotary;
+}
+
 std::optional<Vec3> rotary_along(const machine::MachineState& state, const Vec3& normal,
                                  const Vec3& from) {
   std::optional<Vec3> nearest;
   double least = std::numeric_limits<double>::infinity();
-  for (Vec3 rotary : state.kinematics.orientations(normal, from, state.tool_axis())) {
-    double way = 0;
-    for (const RotaryAxis& axis : state.kinematics.axes()) {
-      const std::size_t letter = machine::index(axis.axis) - 3;
-      const auto& range = state.ranges[machine::index(axis.axis)];
-      const auto turned = range ? nearest_turn(rotary[letter], from[letter], *range) : std::nullopt;
-      if (!turned) {
-        way = std::numeric_limits<double>::infinity();
-        break;
-      }
-      rotary[letter] = *turned;
-      way += std::abs(*turned - from[letter]);
-    }
+  for (const Vec3& solution : state.kinematics.orientations(normal, from, state.tool_axis())) {
+    const auto rotary = in_range(state, solution, from);
+    if (!rotary) continue;
+    const Vec3 turn = *rotary - from;
+    const double way = std::abs(turn.x) + std::abs(turn.y) + std::abs(turn.z);
     if (way >= least) continue;
     least = way;
     nearest = rotary;

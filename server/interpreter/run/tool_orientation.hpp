@@ -12,6 +12,10 @@ namespace fitgauge::interpreter {
 /// last.
 using SpatialAngles = std::array<std::optional<double>, 3>;
 
+/// The same positions by whole turns in the ranges of the axes, each the nearest to `from`.
+std::optional<machine::Vec3> in_range(const machine::MachineState& state, machine::Vec3 rotary,
+                                      const machine::Vec3& from);
+
 /// Where the rotary axes stand the tool along `normal`, a unit vector fixed to the table: in their
 /// ranges and the nearest to `from`, in machine coordinates.
 std::optional<machine::Vec3> rotary_along(const machine::MachineState& state,

@@ -172,6 +172,40 @@ TEST_CASE("LN moves a larger tool along the normal, and stands it square to the 
                 {30, 0, 0}));
 }
 
+/// The examples that the manual of the iTNC 530 tabulates for a table C on a tilting table A.
+TEST_CASE("PLANE takes the solution of the manual's examples") {
+  struct Example {
+    double min, max;
+    std::string start, side;
+    double a, c;
+  };
+  for (const auto& [min, max, start, side, a, c] : {Example{-200, 200, "+0", "", 45, 90},
+                                                    {-200, 200, "+0", " SEQ+", 45, 90},
+                                                    {-200, 200, "+0", " SEQ-", -45, -90},
+                                                    {-200, 200, "-105", "", -45, -90},
+                                                    {-200, 200, "-105", " SEQ+", 45, 90},
+                                                    {-200, 200, "-105", " SEQ-", -45, -90},
+                                                    {-90, 10, "+0", "", -45, -90},
+                                                    {-200, 200, "-135", " SEQ+", 45, 90},
+                                                    {-100, 0, "+0", " SYM-", 0, 0},
+                                                    {-100, 0, "+0", " SYM+", -45, -90}}) {
+    CAPTURE(start + side);
+    FiveAxes mill;
+    mill.setup.machine.axes[machine::index(Axis::A)]->min = min;
+    mill.setup.machine.axes[machine::index(Axis::A)]->max = max;
+    mill.path("L A+0 C" + start + " FMAX\nPLANE SPATIAL SPA+0 SPB+45 SPC+0 TURN FMAX" + side);
+    if (a == 0) {
+      CHECK(mill.last.messages.back().number == 1013);
+      continue;
+    }
+    CHECK(is_near(machine_rotary(mill), {a, 0, c}));
+  }
+  FiveAxes mill;
+  mill.setup.machine.axes[machine::index(Axis::A)]->max = 10;
+  mill.path("PLANE SPATIAL SPA+0 SPB+45 SPC+0 TURN FMAX SEQ+");
+  CHECK(mill.last.messages.back().number == 1013);
+}
+
 TEST_CASE("PLANE RESET brings all rotary axes home where it turns them") {
   FiveAxes mill;
   const std::string tilted = "PLANE SPATIAL SPA+20 SPB+0 SPC+30 TURN FMAX\nL X+1 Y+2 Z+3 FMAX\n";
