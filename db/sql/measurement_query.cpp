@@ -216,45 +216,65 @@ std::vector<MeasurementQuery::Posting> MeasurementQuery::postings_of(
   return postings;
 }
 
+/// A source is mostly looked at in the rows: nearly all have the one that is asked for.
+bool MeasurementQuery::is_source(const Posting& posting) {
+  return posting.field == number_of(IndexField::Source);
+}
+
 bool MeasurementQuery::run_indexed(const Reading& reading, Statement& matching, const IdSpan& ids) {
   if (ids.empty()) return true;
   const auto& [filter, order, visit, read_block] = reading;
   if (filter.cause || filter.has_notes) return run_noted(reading, matching, ids);
-  const std::vector<Posting> postings = postings_of(filter);
+  std::vector<Posting> postings = postings_of(filter);
   if (postings.empty() && !filter.has_times() && !read_block) {
     return scan(matching, ids, order, visit);
   }
-  std::string sql =
-      postings.empty()
-          ? "SELECT b.node FROM measurement_nodes b WHERE b.level = 0 AND b.node BETWEEN ? AND ?"
-          : "SELECT p.block, p.rows FROM measurement_postings p CROSS JOIN measurement_nodes b "
-            "WHERE b.level = 0 AND b.node = p.block AND p.block BETWEEN ? AND ? AND p.field = ? "
-            "AND "
-            "p.value = ?";
-  for_each_time_condition(filter, [&](std::string_view condition, std::int64_t) {
-    sql += " AND ";
-    sql += condition;
-  });
-  Statement& blocks = statement(fmt::format(
-      "{} ORDER BY {}{}", sql, postings.empty() ? "b.node" : "p.block", direction(order)));
+  if (postings.size() > 1 && read_block == nullptr && is_source(postings.back())) {
+    postings.pop_back();
+  }
+  Statement& blocks = matching_blocks(filter, postings, order);
   int index = 0;
+  for (const Posting& posting : postings) {
+    blocks.bind(++index, posting.field);
+    blocks.bind(++index, std::string_view(posting.value));
+  }
   blocks.bind(++index, IndexNode::of(ids.first, 0).node);
   blocks.bind(++index, IndexNode::of(ids.last, 0).node);
-  if (!postings.empty()) {
-    blocks.bind(++index, postings.front().field);
-    blocks.bind(++index, std::string_view(postings.front().value));
-  }
   for_each_time_condition(
       filter, [&](std::string_view, std::int64_t value) { blocks.bind(++index, value); });
   for (Rows rows(blocks); rows.next();) {
-    const auto block = rows.get<std::int64_t>(0);
-    RowSet wanted = postings.empty() ? RowSet::all() : RowSet::decode(rows.get<Blob>(1).bytes);
-    if (!postings.empty()) {
-      keep_rows_of(std::span(postings).subspan(1), read_block != nullptr, block, wanted);
-    }
-    if (!run_block(reading, matching, ids, wanted, block)) return false;
+    RowSet wanted = RowSet::all();
+    for (int i = 1; i < rows.columns(); ++i) wanted &= RowSet::decode(rows.get<Blob>(i).bytes);
+    if (wanted.empty()) continue;
+    if (!run_block(reading, matching, ids, wanted, rows.get<std::int64_t>(0))) return false;
   }
   return true;
+}
+
+/// The blocks that have all values, each with the rows of each.
+Statement& MeasurementQuery::matching_blocks(const MeasurementFilter& filter,
+                                             std::span<const Posting> postings, ListOrder order) {
+  const bool has_nodes = postings.empty() || filter.has_times();
+  std::string block = "b.node", columns, tables, conditions;
+  for (std::size_t i = 0; i < postings.size(); ++i) {
+    columns += fmt::format(", p{}.rows", i);
+    tables += fmt::format("{}measurement_postings p{}", i == 0 ? "" : " CROSS JOIN ", i);
+    conditions += fmt::format("p{0}.field = ? AND p{0}.value = ? AND ", i);
+    if (i > 0) conditions += fmt::format("p{}.block = p0.block AND ", i);
+    block = "p0.block";
+  }
+  if (has_nodes) {
+    tables += fmt::format("{}measurement_nodes b", postings.empty() ? "" : " CROSS JOIN ");
+    conditions += "b.level = 0 AND ";
+    if (!postings.empty()) conditions += "b.node = p0.block AND ";
+  }
+  conditions += block + " BETWEEN ? AND ?";
+  for_each_time_condition(filter, [&](std::string_view condition, std::int64_t) {
+    conditions += " AND ";
+    conditions += condition;
+  });
+  return statement(fmt::format("SELECT {0}{1} FROM {2} WHERE {3} ORDER BY {0}{4}", block, columns,
+                               tables, conditions, direction(order)));
 }
 
 /// Notes are few, as people write them: from one block with some to the next.
@@ -282,7 +302,10 @@ bool MeasurementQuery::run_noted(const Reading& reading, Statement& matching, co
     in_block.bind(2, whole.last);
     RowSet wanted;
     for (Rows rows(in_block); rows.next();) wanted.add(rows.get<std::int64_t>(0) - whole.first);
-    keep_rows_of(postings, false, block.node, wanted);
+    for (const Posting& posting : postings) {
+      if (wanted.empty() || is_source(posting)) break;
+      wanted &= rows_in_block(posting, block.node);
+    }
     if (!run_block(reading, matching, ids, wanted, block.node)) return false;
     if (newest) {
       left.last = whole.first - 1;
@@ -291,16 +314,6 @@ bool MeasurementQuery::run_noted(const Reading& reading, Statement& matching, co
     }
   }
   return true;
-}
-
-/// Takes the rows of a block that lack a value out of `wanted`. A source is mostly looked at in the
-/// rows: nearly all have the one that is asked for. @param all a source too
-void MeasurementQuery::keep_rows_of(std::span<const Posting> postings, bool all, std::int64_t block,
-                                    RowSet& wanted) {
-  for (const Posting& posting : postings) {
-    if (wanted.empty() || (!all && posting.field == number_of(IndexField::Source))) return;
-    wanted &= rows_in_block(posting, block);
-  }
 }
 
 RowSet MeasurementQuery::rows_in_block(const Posting& posting, std::int64_t block) {

@@ -66,6 +66,7 @@ class MeasurementQuery {
     std::string value;
   };
   static std::vector<Posting> postings_of(const MeasurementFilter& filter);
+  static bool is_source(const Posting& posting);
 
   /// What a run hands down to its parts.
   struct Reading {
@@ -83,8 +84,8 @@ class MeasurementQuery {
   bool run_block(const Reading& reading, sql::Statement& matching, const IdSpan& ids,
                  const RowSet& rows, std::int64_t block);
   bool has_corrected(const IdSpan& block);
-  void keep_rows_of(std::span<const Posting> postings, bool all, std::int64_t block,
-                    RowSet& wanted);
+  sql::Statement& matching_blocks(const MeasurementFilter& filter,
+                                  std::span<const Posting> postings, ListOrder order);
   RowSet rows_in_block(const Posting& posting, std::int64_t block);
   sql::Statement& statement(const std::string& sql);
 
