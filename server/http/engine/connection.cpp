@@ -145,7 +145,7 @@ void Connection::run_handler() {
   if (!exchange_.is_synchronous()) return exchange_.run(Responder(shared_from_this()));
   Result<Response> result = exchange_.run();
   if (!result) return answer(exchange_.error_response(result.error()));
-  answer(*std::move(result));
+  answer(std::move(*result));
 }
 
 void Connection::refuse(const Refusal& refusal) {

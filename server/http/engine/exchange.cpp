@@ -74,13 +74,13 @@ std::optional<Response> Exchange::dispatch() {
          "The path holds a % that two hexadecimal digits do not follow, a NUL, or "
          "bytes that are not UTF-8."});
   }
-  const RouteMatch match = routes_.tree().find(segments);
-  if (match.resource == nullptr) {
+  const Resource* const resource = routes_.tree().find(segments);
+  if (resource == nullptr) {
     return error_response({404, ErrorCode::NotFound, "There is nothing at this path."});
   }
-  const std::int16_t index = match.resource->route(request_.method_);
+  const std::int16_t index = resource->route(request_.method_);
   if (index == Resource::kNone) {
-    std::string allow = match.resource->allow();
+    std::string allow = resource->allow();
     if (request_.method_ == Method::Options) return Response(204).with("Allow", std::move(allow));
     Response refused = error_response(
         {405, ErrorCode::MethodNotAllowed, fmt::format("The methods here are {}.", allow)});
@@ -92,7 +92,7 @@ std::optional<Response> Exchange::dispatch() {
     auto answer = ask_guard();
     if (answer) return answer;
   }
-  if (const auto error = take_arguments(match, routes_.tree().plan(route_index))) {
+  if (const auto error = take_arguments(segments, routes_.tree().plan(route_index))) {
     const bool is_readable =
         error->code == ErrorCode::LengthTooFine || error->code == ErrorCode::LengthOutOfRange;
     return error_response(*error, is_readable ? 422 : 400);
@@ -134,21 +134,21 @@ std::optional<Response> Exchange::ask_guard() {
 }
 
 std::optional<Response> Exchange::check_head() {
-  for (const auto check :
-       {&Exchange::negotiate, &Exchange::check_body, &Exchange::check_expectation}) {
-    if (const auto refusal = (this->*check)()) return error_response(*refusal);
-  }
+  if (const auto refusal = negotiate()) return error_response(*refusal);
+  if (const auto refusal = check_body()) return error_response(*refusal);
+  if (const auto refusal = check_expectation()) return error_response(*refusal);
   return std::nullopt;
 }
 
-std::optional<Error> Exchange::take_arguments(const RouteMatch& match,
+std::optional<Error> Exchange::take_arguments(const PathSegments& path,
                                               const RouteTree::Plan& plan) {
   request_.arguments_.resize(request_.route_->parameters.size());
-  for (std::size_t i = 0; i < match.capture_count; ++i) {
-    const std::size_t parameter = plan.captured[i];
-    auto value = parse_argument(request_.route_->parameters[parameter], match.captures[i]);
+  for (const RouteTree::Plan::Capture& capture : plan.captures) {
+    auto value = parse_argument(
+        request_.route_->parameters[capture.parameter],
+        capture.takes_rest ? path.rest(capture.segment) : path.segment(capture.segment));
     if (!value) return std::move(value).error();
-    request_.arguments_[parameter] = *value;
+    request_.arguments_[capture.parameter] = *value;
   }
   if (plan.has_query) {
     if (auto error = take_query()) return error;
@@ -161,7 +161,7 @@ std::optional<Error> Exchange::take_query() {
   const std::vector<Parameter>& parameters = request_.route_->parameters;
   std::string_view rest = request_.query_;
   const auto decode = [&](std::string_view text) -> std::optional<std::string_view> {
-    if (is_plain(text)) return text;
+    if (std::all_of(text.begin(), text.end(), is_plain)) return text;
     const std::size_t start = decoded_.size();
     if (!append_percent_decoded(decoded_, text, true)) return std::nullopt;
     return std::string_view(decoded_).substr(start);

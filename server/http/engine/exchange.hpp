@@ -64,7 +64,7 @@ class Exchange {
   std::optional<Refusal> take_target();
   std::optional<Response> ask_guard();
   std::optional<Response> check_head();
-  std::optional<Error> take_arguments(const RouteMatch& match, const RouteTree::Plan& plan);
+  std::optional<Error> take_arguments(const PathSegments& path, const RouteTree::Plan& plan);
   std::optional<Error> take_query();
   std::optional<Error> take_headers();
   std::optional<Refusal> negotiate();

@@ -11,28 +11,29 @@ namespace fitgauge::http {
 
 bool split_path(std::string_view path, std::string& decoded, PathSegments& out) {
   if (!path.starts_with('/')) return false;
-  const bool plain = is_plain(path);
-  if (plain) out.end = path.data() + path.size();
   path.remove_prefix(1);
-  bool first = true;
-  for (bool more = true; more; first = false) {
-    const std::size_t slash = path.find('/');
-    std::string_view segment = path.substr(0, slash);
-    more = slash != std::string_view::npos;
-    if (!plain) {
-      if (!first) decoded.push_back('/');
-      const std::size_t start = decoded.size();
-      if (!append_percent_decoded(decoded, segment, false)) return false;
-      segment = std::string_view(decoded).substr(start);
-    }
-    if (out.count < kMaxSegments) {
-      out.segments[out.count++] = segment;
-    } else {
-      out.longer = true;
-    }
-    if (more) path.remove_prefix(slash + 1);
+  bool plain = true;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i] == '/') out.end_segment(i + 1);
+    plain &= is_plain(path[i]);
   }
-  if (!plain) out.end = decoded.data() + decoded.size();
+  out.end_segment(path.size() + 1);
+  out.path_ = path;
+  if (plain) return true;
+
+  out = {};
+  const std::size_t start = decoded.size();
+  for (bool more = true; more;) {
+    const std::size_t slash = path.find('/');
+    more = slash != std::string_view::npos;
+    if (!append_percent_decoded(decoded, path.substr(0, slash), false)) return false;
+    if (more) {
+      decoded.push_back('/');
+      path.remove_prefix(slash + 1);
+    }
+    out.end_segment(decoded.size() - start + (more ? 0 : 1));
+  }
+  out.path_ = std::string_view(decoded).substr(start);
   return true;
 }
 
@@ -63,7 +64,8 @@ void RouteTree::add(Route& route, std::int16_t index) {
     throw std::logic_error(fmt::format("route {} {}: {}", name(route.method), route.pattern, why));
   };
   Plan& plan = plans_[static_cast<std::size_t>(index)];
-  const auto capture = [&](std::string_view parameter) {
+  std::size_t depth = 0;
+  const auto capture = [&](std::string_view parameter, bool takes_rest) {
     auto found = std::find_if(
         route.parameters.begin(), route.parameters.end(), [&](const Parameter& candidate) {
           return candidate.place == ParameterPlace::Path && candidate.name == parameter;
@@ -73,14 +75,17 @@ void RouteTree::add(Route& route, std::int16_t index) {
           found, Parameter{.name = std::string(parameter), .place = ParameterPlace::Path});
     }
     found->required = true;
-    plan.captured.push_back(static_cast<std::size_t>(found - route.parameters.begin()));
+    plan.captures.push_back(
+        {.parameter = static_cast<std::size_t>(found - route.parameters.begin()),
+         .segment = depth,
+         .takes_rest = takes_rest});
   };
 
   if (route.method == Method::Other) fail("has no method");
   if (!route.pattern.starts_with('/')) fail("does not begin with a slash");
   Node* node = &root_;
   std::string_view pattern = std::string_view(route.pattern).substr(1);
-  for (bool more = true; more;) {
+  for (bool more = true; more; ++depth) {
     const std::size_t slash = pattern.find('/');
     const std::string_view segment = pattern.substr(0, slash);
     more = slash != std::string_view::npos;
@@ -88,10 +93,10 @@ void RouteTree::add(Route& route, std::int16_t index) {
     std::unique_ptr<Node>* next = nullptr;
     if (segment.starts_with('{') && segment.ends_with("*}")) {
       if (more) fail("goes on after the rest of the path");
-      capture(segment.substr(1, segment.size() - 3));
+      capture(segment.substr(1, segment.size() - 3), true);
       next = &node->rest;
     } else if (segment.starts_with('{') && segment.ends_with('}')) {
-      capture(segment.substr(1, segment.size() - 2));
+      capture(segment.substr(1, segment.size() - 2), false);
       next = &node->parameter;
     } else if (segment.find_first_of("{}") != std::string_view::npos) {
       fail("has a parameter that is not a whole segment");
@@ -118,40 +123,24 @@ void RouteTree::add(Route& route, std::int16_t index) {
   const auto path_parameters =
       std::count_if(route.parameters.begin(), route.parameters.end(),
                     [](const Parameter& each) { return each.place == ParameterPlace::Path; });
-  if (static_cast<std::size_t>(path_parameters) != plan.captured.size()) {
+  if (static_cast<std::size_t>(path_parameters) != plan.captures.size()) {
     fail("declares a path parameter that the pattern does not have");
   }
 }
 
-RouteMatch RouteTree::find(const PathSegments& path) const {
-  RouteMatch match;
-  descend(root_, path, 0, match);
-  return match;
-}
-
-bool RouteTree::descend(const Node& node, const PathSegments& path, std::size_t depth,
-                        RouteMatch& match) {
-  if (depth == path.count) {
-    if (!node.is_resource || path.longer) return false;
-    match.resource = &node.resource;
-    return true;
+const Resource* RouteTree::descend(const Node& node, const PathSegments& path, std::size_t depth) {
+  if (depth == path.count()) {
+    return node.is_resource && !path.is_longer() ? &node.resource : nullptr;
   }
-  const std::string_view segment = path.segments[depth];
+  const std::string_view segment = path.segment(depth);
   for (const auto& [text, child] : node.literals) {
-    if (text == segment && descend(*child, path, depth + 1, match)) return true;
+    if (text != segment) continue;
+    if (const Resource* found = descend(*child, path, depth + 1)) return found;
   }
   if (node.parameter && !segment.empty()) {
-    const std::size_t mark = match.capture_count;
-    match.captures[match.capture_count++] = segment;
-    if (descend(*node.parameter, path, depth + 1, match)) return true;
-    match.capture_count = mark;
+    if (const Resource* found = descend(*node.parameter, path, depth + 1)) return found;
   }
-  if (node.rest && !path.rest(depth).empty()) {
-    match.captures[match.capture_count++] = path.rest(depth);
-    match.resource = &node.rest->resource;
-    return true;
-  }
-  return false;
+  return node.rest && !path.rest(depth).empty() ? &node.rest->resource : nullptr;
 }
 
 }  // namespace fitgauge::http

@@ -16,16 +16,36 @@ namespace fitgauge::http {
 inline constexpr std::size_t kMaxSegments = 16;
 
 /// A request's path, split at its slashes and then decoded.
-struct PathSegments {
-  std::array<std::string_view, kMaxSegments> segments{};
-  std::size_t count = 0;      ///< at most kMaxSegments
-  bool longer = false;        ///< there are more, which only a `{rest*}` reaches
-  const char* end = nullptr;  ///< of the decoded path
+class PathSegments {
+ public:
+  std::size_t count() const { return count_; }  ///< at most kMaxSegments
+  /// There are more, which only a `{rest*}` reaches.
+  bool is_longer() const { return is_longer_; }
 
+  std::string_view segment(std::size_t index) const {
+    return {path_.data() + begins_[index], begins_[index + 1] - begins_[index] - 1};
+  }
   /// Everything from segment `index` on.
   std::string_view rest(std::size_t index) const {
-    return {segments[index].data(), static_cast<std::size_t>(end - segments[index].data())};
+    return {path_.data() + begins_[index], path_.size() - begins_[index]};
   }
+
+ private:
+  friend bool split_path(std::string_view path, std::string& decoded, PathSegments& out);
+
+  /// A segment has ended; the next one would begin at `begin`.
+  void end_segment(std::size_t begin) {
+    if (count_ == kMaxSegments) {
+      is_longer_ = true;
+    } else {
+      begins_[++count_] = static_cast<std::uint32_t>(begin);
+    }
+  }
+
+  std::string_view path_;  ///< behind its first slash, decoded
+  std::array<std::uint32_t, kMaxSegments + 1> begins_{};
+  std::size_t count_ = 0;
+  bool is_longer_ = false;
 };
 
 /// @param decoded receives the path where it differs from what was sent; its capacity must hold
@@ -45,19 +65,18 @@ struct Resource {
   std::string allow() const;
 };
 
-struct RouteMatch {
-  const Resource* resource = nullptr;
-  std::array<std::string_view, kMaxSegments> captures{};
-  std::size_t capture_count = 0;
-};
-
 /// The routes as a tree of path segments; a literal goes before a parameter, a parameter before a
 /// rest. Immutable after construction.
 class RouteTree {
  public:
   /// What dispatch needs to know of a route besides the route itself.
   struct Plan {
-    std::vector<std::size_t> captured;  ///< path parameter of each capture, in pattern order
+    struct Capture {
+      std::size_t parameter = 0;
+      std::size_t segment = 0;
+      bool takes_rest = false;
+    };
+    std::vector<Capture> captures;  ///< in pattern order
     bool has_query = false;
     bool has_headers = false;
   };
@@ -65,7 +84,8 @@ class RouteTree {
   /// Adds the path parameters that `routes` leave out.
   explicit RouteTree(std::vector<Route>& routes);
 
-  RouteMatch find(const PathSegments& path) const;
+  /// The resource at a path, or null.
+  const Resource* find(const PathSegments& path) const { return descend(root_, path, 0); }
   const Plan& plan(std::size_t route) const { return plans_[route]; }
 
  private:
@@ -78,8 +98,7 @@ class RouteTree {
   };
 
   void add(Route& route, std::int16_t index);
-  static bool descend(const Node& node, const PathSegments& path, std::size_t depth,
-                      RouteMatch& match);
+  static const Resource* descend(const Node& node, const PathSegments& path, std::size_t depth);
 
   Node root_;
   std::vector<Plan> plans_;

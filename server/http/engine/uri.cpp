@@ -27,19 +27,9 @@ constexpr std::array<bool, 256> kHostCharacters = [] {
   return table;
 }();
 
-/// What stands for itself in a path or query: printable ASCII but for `%` and `+`.
-constexpr std::array<bool, 256> kPlainCharacters = [] {
-  std::array<bool, 256> table{};
-  for (std::size_t c = '!'; c <= '~'; ++c) table[c] = c != '%' && c != '+';
-  return table;
-}();
-
 // Objects, not functions: an algorithm calls them inline.
 constexpr auto is_host_character = [](char c) {
   return kHostCharacters[static_cast<unsigned char>(c)];
-};
-constexpr auto is_plain_character = [](char c) {
-  return kPlainCharacters[static_cast<unsigned char>(c)];
 };
 constexpr auto is_ip_literal_character = [](char c) {
   return is_ascii_alphanumeric(c) || c == ':' || c == '.';
@@ -67,24 +57,19 @@ bool append_percent_decoded(std::string& out, std::string_view text, bool plus_i
   return is_utf8(std::string_view(out).substr(start));
 }
 
-bool is_plain(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), is_plain_character);
-}
-
 bool is_authority(std::string_view text) {
-  std::string_view port;
+  std::size_t host = 0;
   if (text.starts_with('[')) {
     const std::size_t end = text.find(']');
     if (end == std::string_view::npos || end == 1) return false;
     const std::string_view literal = text.substr(1, end - 1);
     if (!std::all_of(literal.begin(), literal.end(), is_ip_literal_character)) return false;
-    port = text.substr(end + 1);
+    host = end + 1;
   } else {
-    const std::size_t colon = std::min(text.find(':'), text.size());
-    const std::string_view host = text.substr(0, colon);
-    if (host.empty() || !std::all_of(host.begin(), host.end(), is_host_character)) return false;
-    port = text.substr(colon);
+    while (host < text.size() && is_host_character(text[host])) ++host;
+    if (host == 0) return false;
   }
+  const std::string_view port = text.substr(host);
   if (port.empty()) return true;
   return port.front() == ':' && port.size() <= 6 &&
          std::all_of(port.begin() + 1, port.end(), [](char c) { return c >= '0' && c <= '9'; });

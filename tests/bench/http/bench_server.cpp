@@ -28,7 +28,7 @@ RouteTable routes() {
   answer.etag = "\"1\"";
   auto limits = [prepared = prepare(answer)](const Request& request) -> Result<Response> {
     if (*request.text("designation") != "25H7") return Error{ErrorCode::NotFound, "Only 25H7."};
-    return Response(prepared);
+    return prepared;
   };
   auto echo = [](const Request& request) -> Result<Response> {
     return Response(200, "text/plain", std::to_string(request.body().size()));
