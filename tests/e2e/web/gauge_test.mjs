@@ -1,7 +1,7 @@
 /** The gauging station: values in, records and verdicts out. */
 
 import assert from 'node:assert/strict';
-import { after, afterEach, before, beforeEach, describe, it } from 'node:test';
+import { afterEach, before, beforeEach, describe, it } from 'node:test';
 
 import { browserName, close, launch, open, openIn, picture } from './support/browser.mjs';
 import { asSeenWith, difference, parseColour } from './support/colour.mjs';
@@ -18,7 +18,6 @@ describe('the gauging station', () => {
   let page;
 
   before(async () => { browser = await launch(); });
-  after(() => browser.close());
   beforeEach(async () => {
     daemon = await new Daemon().start();
     page = await open(browser, daemon, '#/gauge/25H7');

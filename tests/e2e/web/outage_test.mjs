@@ -1,7 +1,7 @@
 /** The service is killed, the page and every value stay: the service worker, two tabs, a scanner that goes on. */
 
 import assert from 'node:assert/strict';
-import { after, afterEach, before, beforeEach, describe, it } from 'node:test';
+import { afterEach, before, beforeEach, describe, it } from 'node:test';
 
 import { close, launch, open, openIn, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
@@ -13,7 +13,6 @@ describe('while the service is away', () => {
   let page;
 
   before(async () => { browser = await launch(); });
-  after(() => browser.close());
   beforeEach(async () => { daemon = await new Daemon().start(); });
   afterEach(async () => {
     await close(page);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
-import { after, before, describe, it } from 'node:test';
+import { before, describe, it } from 'node:test';
 
 import { browserName, close, findings, launch, open, picture } from './support/browser.mjs';
 import { untilPoints } from './support/chart.mjs';
@@ -55,10 +55,6 @@ describe('the page', () => {
     }
     await daemon.send('PUT', '/v1/setups/bore', fs.readFileSync('clients/nc/8255/setups/hole-good.json', 'utf8'));
     await daemon.send('POST', '/v1/measurements', ['24.999', '25.0131', '25.02', '25.0215'].map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'bore-A' })));
-  });
-  after(async () => {
-    await browser.close();
-    await daemon.cleanup();
   });
 
   /** A view with something in it. */
@@ -256,37 +252,33 @@ describe('the page', () => {
 
   it('asks for a key where the service wants one, and uses it for events too', async () => {
     const locked = await new Daemon('--auth', 'read-open').start();
-    try {
-      const key = await locked.key('station', 'operator');
-      const page = await open(browser, locked, '#/gauge/25H7');
-      await page.waitForSelector('.echo .figures');
-      await page.keyboard.type('25.0131\n');
-      await page.waitForSelector('dialog');
-      await page.keyboard.press('Escape');
-      await sleep(1000); // who wants no key is not asked again and again, but with the next value
-      assert.equal(await page.$('dialog'), null);
-      await page.focus('#value');
-      await page.keyboard.type('25.0132\n');
-      await page.fill('dialog input', 'fg_wrong');
-      await page.click('dialog .primary');
-      await page.waitForFunction(() => document.querySelector('dialog input')?.value === '');
-      await picture(page, 'key');
-      await page.fill('dialog input', key);
-      await page.press('dialog input', 'Enter');
-      await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
-      await page.click('#views a[href^="#/trend"]');
-      await untilPoints(page, 2);
-      const stored = await page.evaluate(() => [Object.values(localStorage), Object.values(sessionStorage)].map((values) => values.join()));
-      assert.ok(!stored[0].includes(key) && stored[1].includes(key));
-      const answer = await fetch(`${locked.url}/v1/measurements`, {
-        method: 'POST', body: '{"designation":"25 H7","measured_mm":25.02}',
-        headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` },
-      });
-      assert.equal(answer.status, 201);
-      await untilPoints(page, 3);
-      await close(page);
-    } finally {
-      await locked.cleanup();
-    }
+    const key = await locked.key('station', 'operator');
+    const page = await open(browser, locked, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    await page.keyboard.type('25.0131\n');
+    await page.waitForSelector('dialog');
+    await page.keyboard.press('Escape');
+    await sleep(1000); // who wants no key is not asked again and again, but with the next value
+    assert.equal(await page.$('dialog'), null);
+    await page.focus('#value');
+    await page.keyboard.type('25.0132\n');
+    await page.fill('dialog input', 'fg_wrong');
+    await page.click('dialog .primary');
+    await page.waitForFunction(() => document.querySelector('dialog input')?.value === '');
+    await picture(page, 'key');
+    await page.fill('dialog input', key);
+    await page.press('dialog input', 'Enter');
+    await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
+    await page.click('#views a[href^="#/trend"]');
+    await untilPoints(page, 2);
+    const stored = await page.evaluate(() => [Object.values(localStorage), Object.values(sessionStorage)].map((values) => values.join()));
+    assert.ok(!stored[0].includes(key) && stored[1].includes(key));
+    const answer = await fetch(`${locked.url}/v1/measurements`, {
+      method: 'POST', body: '{"designation":"25 H7","measured_mm":25.02}',
+      headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` },
+    });
+    assert.equal(answer.status, 201);
+    await untilPoints(page, 3);
+    await close(page);
   });
 });

@@ -134,29 +134,25 @@ describe('what is saved as a file', () => {
 
   it('is saved with the key where one is needed', async () => {
     const locked = await new Daemon('--auth', 'read-open').start();
-    try {
-      const key = await locked.key('quality', 'operator');
-      await fetch(`${locked.url}/v1/measurements`, {
-        method: 'POST', body: '{"designation":"25 H7","measured_mm":25.02,"part_id":"SN-1"}', headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` } });
-      page = await open(browser, locked, '#/parts');
-      await page.fill('dialog input', key);
-      await page.press('dialog input', 'Enter');
-      await page.waitForSelector('.records tbody tr');
-      for (const [view, link, what] of [['parts', 'a:has-text("All of it as CSV")', /SN-1/], ['tables', '#whole-table', /H7/]]) {
-        await page.click(`#views a[href^="#/${view}"]`);
-        await page.waitForSelector('.records tbody tr, .grid td');
-        const [download] = await Promise.all([page.waitForEvent('download'), page.click(link)]);
-        assert.match(fs.readFileSync(await download.path(), 'utf8'), what);
-      }
-      await page.click('#views a[href^="#/parts"]');
-      await page.fill('[name="part_id"]', 'SN-1');
-      await page.press('[name="part_id"]', 'Enter');
-      await page.click('.certificate summary');
-      const asked = page.waitForResponse((answer) => answer.url().includes('/v1/certificates'));
-      await page.click('.certificate a');
-      assert.equal((await asked).headers()['content-type'], 'application/pdf');
-    } finally {
-      await locked.cleanup();
+    const key = await locked.key('quality', 'operator');
+    await fetch(`${locked.url}/v1/measurements`, {
+      method: 'POST', body: '{"designation":"25 H7","measured_mm":25.02,"part_id":"SN-1"}', headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` } });
+    page = await open(browser, locked, '#/parts');
+    await page.fill('dialog input', key);
+    await page.press('dialog input', 'Enter');
+    await page.waitForSelector('.records tbody tr');
+    for (const [view, link, what] of [['parts', 'a:has-text("All of it as CSV")', /SN-1/], ['tables', '#whole-table', /H7/]]) {
+      await page.click(`#views a[href^="#/${view}"]`);
+      await page.waitForSelector('.records tbody tr, .grid td');
+      const [download] = await Promise.all([page.waitForEvent('download'), page.click(link)]);
+      assert.match(fs.readFileSync(await download.path(), 'utf8'), what);
     }
+    await page.click('#views a[href^="#/parts"]');
+    await page.fill('[name="part_id"]', 'SN-1');
+    await page.press('[name="part_id"]', 'Enter');
+    await page.click('.certificate summary');
+    const asked = page.waitForResponse((answer) => answer.url().includes('/v1/certificates'));
+    await page.click('.certificate a');
+    assert.equal((await asked).headers()['content-type'], 'application/pdf');
   });
 });

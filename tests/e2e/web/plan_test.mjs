@@ -1,7 +1,7 @@
 /** What the station knows beforehand: plans and gauges in use. */
 
 import assert from 'node:assert/strict';
-import { after, before, describe, it } from 'node:test';
+import { before, describe, it } from 'node:test';
 
 import { close, findings, launch, open, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
@@ -21,10 +21,6 @@ describe('a plan', () => {
     browser = await launch();
     daemon = await new Daemon().start();
     await daemon.send('PUT', '/v1/plans/4711-A', PLAN);
-  });
-  after(async () => {
-    await browser.close();
-    await daemon.cleanup();
   });
 
   const line = (text) => scan(page, text);
@@ -271,10 +267,6 @@ describe('a gauge in use', () => {
     await daemon.send('PUT', '/v1/gauges-in-use/G-07', { uncertainty: 'plug', calibration_due: '2099-03-31' });
     await daemon.send('PUT', '/v1/gauges-in-use/G-08', { calibration_due: '2020-03-31' });
   });
-  after(async () => {
-    await browser.close();
-    await daemon.cleanup();
-  });
 
   it('is offered, says until when it is calibrated, and gives a guard band its uncertainty', async () => {
     const page = await open(browser, daemon, '#/gauge/25H7?gauge=G-07&rule=guard_band');
@@ -299,31 +291,27 @@ describe('a gauge in use', () => {
 
   it('and what was recorded before are in pick lists, for which nobody is asked for a key', async () => {
     const locked = await new Daemon('--auth', 'read-open').start();
-    try {
-      const key = await locked.key('station', 'admin');
-      const headers = { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` };
-      const send = (method, target, body) => fetch(locked.url + target, { method, body: JSON.stringify(body), headers });
-      await send('PUT', '/v1/gauges-in-use/G-09', { calibration_due: '2099-03-31' });
-      await send('PUT', '/v1/plans/4711', { characteristics: [{ name: 'bore-A', designation: '25 H7' }] });
-      await send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', machine: 'M3', operator: 'Ada' });
-      const page = await open(browser, locked, '#/gauge/25H7?gauge=G-09');
-      const asked = ['plans', 'gauges-in-use/G-09'].map((name) => page.waitForResponse((answer) => answer.url().includes(name)));
-      await page.reload();
-      await Promise.all(asked);
-      await page.waitForSelector('.echo .figures');
-      assert.equal(await page.$('dialog'), null);
-      await page.keyboard.type('25.01\n');
-      await page.fill('dialog input', key);
-      await page.press('dialog input', 'Enter');
-      await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
-      await page.waitForSelector('.plan select:visible');
-      await page.waitForFunction(() => /G-09 calibrated/.test(document.querySelector('.gauge-note').textContent));
-      await page.click('.more summary');
-      for (const [name, value] of [['gauge', 'G-09'], ['machine', 'M3'], ['operator', 'Ada']]) await page.waitForSelector(`#offered-${name} option[value="${value}"]`, { state: 'attached' });
-      page.errors.length = 0;
-      await close(page);
-    } finally {
-      await locked.cleanup();
-    }
+    const key = await locked.key('station', 'admin');
+    const headers = { 'Content-Type': 'application/json', Authorization: `Bearer ${key}` };
+    const send = (method, target, body) => fetch(locked.url + target, { method, body: JSON.stringify(body), headers });
+    await send('PUT', '/v1/gauges-in-use/G-09', { calibration_due: '2099-03-31' });
+    await send('PUT', '/v1/plans/4711', { characteristics: [{ name: 'bore-A', designation: '25 H7' }] });
+    await send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', machine: 'M3', operator: 'Ada' });
+    const page = await open(browser, locked, '#/gauge/25H7?gauge=G-09');
+    const asked = ['plans', 'gauges-in-use/G-09'].map((name) => page.waitForResponse((answer) => answer.url().includes(name)));
+    await page.reload();
+    await Promise.all(asked);
+    await page.waitForSelector('.echo .figures');
+    assert.equal(await page.$('dialog'), null);
+    await page.keyboard.type('25.01\n');
+    await page.fill('dialog input', key);
+    await page.press('dialog input', 'Enter');
+    await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
+    await page.waitForSelector('.plan select:visible');
+    await page.waitForFunction(() => /G-09 calibrated/.test(document.querySelector('.gauge-note').textContent));
+    await page.click('.more summary');
+    for (const [name, value] of [['gauge', 'G-09'], ['machine', 'M3'], ['operator', 'Ada']]) await page.waitForSelector(`#offered-${name} option[value="${value}"]`, { state: 'attached' });
+    page.errors.length = 0;
+    await close(page);
   });
 });

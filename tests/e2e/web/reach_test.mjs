@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
-import { after, before, describe, it } from 'node:test';
+import { before, describe, it } from 'node:test';
 
 import { close, launch, open, picture } from './support/browser.mjs';
 import { leastLettering, openChart } from './support/chart.mjs';
@@ -28,10 +28,6 @@ describe('the reach of the page', () => {
     }
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 40 }, (_, i) => (
       { designation: '25 H7', measured_mm: `25.00${i % 10}`, part_id: `SN-${i}`, characteristic: 'bore-A', order: 'WO-17', operator: '42' })));
-  });
-  after(async () => {
-    await browser.close();
-    await daemon.cleanup();
   });
 
   async function openView(view, options) {

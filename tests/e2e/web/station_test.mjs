@@ -1,7 +1,7 @@
 /** Nothing false and nothing unseen gets into the record: scanners, parts, outages, corrections. */
 
 import assert from 'node:assert/strict';
-import { after, afterEach, before, beforeEach, describe, it } from 'node:test';
+import { afterEach, before, beforeEach, describe, it } from 'node:test';
 
 import { close, launch, open, openIn, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
@@ -13,7 +13,6 @@ describe('a station with a scanner', () => {
   let page;
 
   before(async () => { browser = await launch(); });
-  after(() => browser.close());
   beforeEach(async () => {
     daemon = await new Daemon().start();
     page = await open(browser, daemon, '#/gauge/25H7');
@@ -168,7 +167,6 @@ describe('a station with a scanner', () => {
 describe('a station in an unfriendly browser', () => {
   let browser;
   before(async () => { browser = await launch(); });
-  after(() => browser.close());
 
   for (const [what, script] of [
     ['storage is denied', () => {

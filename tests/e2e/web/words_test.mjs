@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
-import { after, before, describe, it } from 'node:test';
+import { before, describe, it } from 'node:test';
 
 import { close, launch, open } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
@@ -27,10 +27,6 @@ describe('the words', () => {
     await daemon.send('PUT', '/v1/plans/WO-17', { characteristics: [{ name: 'bore-1', designation: '25 H7' }] });
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({
       designation: '25 H7', measured_mm: i === 7 ? '25.03' : `25.00${i % 10}`, part_id: `SN-${i}`, order: 'WO-17', characteristic: 'bore-1', machine: 'M3' })));
-  });
-  after(async () => {
-    await browser.close();
-    await daemon.cleanup();
   });
 
   it('are there for every code the service knows, in every language', async () => {

@@ -5,6 +5,8 @@ import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
 
+import { atEnd } from './ending.mjs';
+
 const require = createRequire(path.join(process.env.WEB_TEST_MODULES, 'package.json'));
 const playwright = require('playwright-core');
 const AXE = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
@@ -23,7 +25,12 @@ const BROWSERS = {
 };
 export const browserName = process.env.WEB_TEST_BROWSER ?? 'chromium';
 
-export const launch = () => BROWSERS[browserName]();
+/** A browser, which is closed at the end of the file, whatever becomes of its tests. */
+export async function launch() {
+  const browser = await BROWSERS[browserName]();
+  atEnd(() => browser.close());
+  return browser;
+}
 
 /** A page at a state, in a browser context of its own; `errors` holds what it logged. */
 export async function open(browser, daemon, fragment = '', options = {}) {
@@ -54,11 +61,11 @@ export async function openIn(context, daemon, fragment = '') {
 /** The state that a page's address names. */
 export const hashOf = (page) => decodeURIComponent(new URL(page.url()).hash);
 
-/** Closes a page's context after checking that it logged no error and asked nobody else. */
+/** Closes a page's context, and checks that it logged no error and asked nobody else. */
 export async function close(page) {
+  await page.context().close();
   assert.deepEqual(page.errors, []);
   assert.deepEqual(page.foreign, []);
-  await page.context().close();
 }
 
 /** Writes a picture for people to look at into build/screenshots. */

@@ -5,6 +5,8 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 
+import { atEnd } from './ending.mjs';
+
 const FITGAUGED = path.resolve(process.env.FITGAUGED ?? 'build/release/bin/fitgauged');
 const LONGEST_START_MS = 20000;
 
@@ -15,6 +17,7 @@ export class Daemon {
     this.folder = fs.mkdtempSync(path.join(os.tmpdir(), 'fitgauge-web-'));
     this.flags = flags;
     this.port = 0;
+    atEnd(() => this.cleanup());
   }
 
   get url() {
@@ -45,8 +48,9 @@ export class Daemon {
     return this.stop('SIGKILL');
   }
 
+  /** Ends it if it runs, and removes its data. */
   async cleanup() {
-    if (this.process.exitCode === null && this.process.signalCode === null) await this.kill();
+    if (this.process?.exitCode === null && this.process.signalCode === null) await this.kill();
     fs.rmSync(this.folder, { recursive: true, force: true });
   }
 

@@ -1,6 +1,6 @@
 /** What a file of tests stands on: a browser and a service for all of it. To import it is to have both. */
 
-import { after, before } from 'node:test';
+import { before } from 'node:test';
 
 import { launch } from './browser.mjs';
 import { Daemon } from './daemon.mjs';
@@ -11,8 +11,4 @@ export let daemon;
 before(async () => {
   browser = await launch();
   daemon = await new Daemon().start();
-});
-after(async () => {
-  await browser.close();
-  await daemon.cleanup();
 });
