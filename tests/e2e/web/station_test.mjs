@@ -210,6 +210,7 @@ describe('a station in an unfriendly browser', () => {
       const now = Date.now.bind(Date);
       Date.now = () => now() + 3 * 3600e3;
     });
+    await context.route('**/livez', async (route) => { await sleep(1500); await route.continue(); });
     const page = await openIn(context, daemon, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
     await page.keyboard.type('25.0131\n');

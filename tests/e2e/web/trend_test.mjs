@@ -46,6 +46,30 @@ describe('answers that come late', () => {
   });
 });
 
+describe('a chart', () => {
+  it('is of the characteristic that was chosen last, however late the answer for another comes', async () => {
+    for (const [characteristic, designation, measured_mm] of [['late-B', '40 H7', '40.01'], ['late-C', '30 H7', '30.01']]) {
+      await daemon.send('POST', '/v1/measurements', { designation, measured_mm, characteristic });
+    }
+    page = await open(browser, daemon, '#/trend?characteristic=late-A');
+    await page.waitForSelector('#trend-characteristic option[value="late-C"]', { state: 'attached' });
+    let answered = false;
+    await page.route('**/v1/measurements?*characteristic=late-B*', async (route) => {
+      await sleep(800);
+      await route.continue().catch(() => {});
+      answered = true;
+    });
+    await page.selectOption('#trend-characteristic', 'late-B');
+    await page.selectOption('#trend-characteristic', 'late-C');
+    await untilPoints(page, 1);
+    while (!answered) await sleep(20);
+    await sleep(500);
+    assert.deepEqual([await page.inputValue('#trend-characteristic'), await page.inputValue('#trend-designation')], ['late-C', '30 H7']);
+    assert.match(hash(), /characteristic=late-C&designation=30/);
+    assert.match(await page.textContent('.trend > .scroll tbody tr'), /30\.010 mm/);
+  });
+});
+
 describe('the trend', () => {
   let gate;
   before(async () => { gate = await new Gate(daemon).open(); });
@@ -148,7 +172,9 @@ describe('the trend', () => {
     const measure = (designation, measured) => daemon.send('POST', '/v1/measurements', { designation, measured_mm: measured, characteristic: 'hops' });
     await measure('25 H7', '25.0115');
     await points(3); // from here on it follows the events
-    for (const [designation, measured] of [['40 H7', '40.01'], ['25 H7', '25.012'], ['40 H7', '40.011'], ['25 H7', '25.013']]) await measure(designation, measured);
+    for (const [designation, measured] of [['40 H7', '40.01'], ['25 H7', '25.012'], ['25 H7', '25.013'], ['40 H7', '40.011']]) await measure(designation, measured);
+    await points(5);
+    await sleep(500); // what came last is drawn by then
     await points(5);
     assert.equal(await page.inputValue('#trend-designation'), '25 H7');
     assert.deepEqual(await page.$$eval('#trend-designation option', (all) => all.map(({ value }) => value)), ['25 H7', '40 H7']);
