@@ -1,0 +1,32 @@
+/** The records behind the chart: that of one point, and the last ones. */
+
+import { h } from '../dom.js';
+import { umText } from '../exact.js';
+import { dateTime, signed, t } from '../i18n.js';
+import { fragment } from '../route.js';
+import { distanceText, measuredText, verdictMark } from '../verdict.js';
+
+const ROWS = 12;
+const HEAD = ['trend.verdict', 'trend.value', 'trend.distance', 'field.part_id', 'trend.time'];
+
+/** The record of one point, or those that its mean is of. @param broken the numbers of the rules it breaks, if any */
+export function pointDetail({ record, members, deviation }, broken) {
+  const marks = broken && h('span.stability.doubt', t('trend.broken', { rules: [...broken].join(', ') }));
+  if (members) {
+    return h('div.line', verdictMark(record.verdict), h('strong', `x̄ = ${signed(umText(Math.round(deviation)))} µm`), h('span', record.subgroup),
+      h('span.aside', members.map((each) => `${measuredText(each.record)} mm`).join(' · ')), marks);
+  }
+  return h('div.line', verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)),
+    record.part_id && h('a', { href: fragment({ view: 'parts', options: { part_id: record.part_id } }) }, record.part_id),
+    h('span.aside', [record.characteristic, record.machine, record.operator, record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
+    marks);
+}
+
+/** The last values, the newest first. */
+export function lastRows(points) {
+  return h('table', h('caption', t('recent.title')),
+    h('thead', h('tr', HEAD.map((name) => h('th', { scope: 'col' }, t(name))))),
+    h('tbody', points.slice(-ROWS).reverse().map(({ record }) => h('tr',
+      h('td', verdictMark(record.verdict)), h('td', `${measuredText(record)} mm`), h('td', distanceText(record)),
+      h('td', record.part_id ?? ''), h('td', dateTime(new Date(record.measured_at)))))));
+}
