@@ -157,7 +157,10 @@ Outcome<std::string> run_order(const RunOptions& options) {
     order.add_raw("setup", *setup);
   }
   if (!options.parameters.empty()) order.add_raw("parameters", parameters.text());
-  order.add_given("on_stop", options.on_stop).add_given("language", options.language);
+  order.add_given("on_stop", options.on_stop)
+      .add_given("language", options.language)
+      .add_given("part_id", options.part_id)
+      .add_given("order", options.order);
   if (options.block_skip) order.add_raw("block_skip", "true");
   return order.text();
 }

@@ -41,6 +41,8 @@ struct RunOptions {
   std::vector<std::string> parameters{};  ///< `Q1=25`, `QS1=H7`
   std::string on_stop{};
   std::string language{};
+  std::string part_id{};
+  std::string order{};
   bool block_skip = false;
 };
 

@@ -102,7 +102,7 @@ _fitgauge() {
       case ${words[1]-} in
         '') options='check run put get ls' ;;
         get) options=--force ;;
-        run) options='--setup --setup-file --set --on-stop --language --block-skip' ;;
+        run) options='--setup --setup-file --set --on-stop --language --part-id --order --block-skip' ;;
       esac ;;
   esac
   case ${words[*]} in

@@ -75,26 +75,28 @@ class ControlCalls(Transport):
                     parameters: Mapping[str, Size] | None = None, limits: RunLimits | None = None,
                     on_stop: Literal["continue", "end"] | None = None, block_skip: bool | None = None,
                     language: Literal["english", "german", "dutch", "italian"] | None = None,
+                    part_id: str | None = None, order: str | None = None,
                     idempotency_key: str | None = None) -> Run:
         """Runs `nc_prog/8255.h` or `TNC:\\nc_prog\\8255.h` and waits for its end. A program that fails is a
-        run with that status; one that cannot start is ProgramInvalid."""
-        order = {"setup": setup, "parameters": parameters, "limits": limits, "on_stop": on_stop,
-                 "block_skip": block_skip, "language": language}
-        return self._order(program, order, idempotency_key, "")
+        run with that status; one that cannot start is ProgramInvalid. Its records have the part and the order."""
+        body = {"setup": setup, "parameters": parameters, "limits": limits, "on_stop": on_stop,
+                "block_skip": block_skip, "language": language, "part_id": part_id, "order": order}
+        return self._order(program, body, idempotency_key, "")
 
     def start_run(self, program: str, setup: Union[str, Mapping[str, Any], None] = None, *,
                   parameters: Mapping[str, Size] | None = None, limits: RunLimits | None = None,
                   on_stop: Literal["continue", "end"] | None = None, block_skip: bool | None = None,
                   language: Literal["english", "german", "dutch", "italian"] | None = None,
+                  part_id: str | None = None, order: str | None = None,
                   idempotency_key: str | None = None) -> Run:
         """The same without waiting."""
-        order = {"setup": setup, "parameters": parameters, "limits": limits, "on_stop": on_stop,
-                 "block_skip": block_skip, "language": language}
-        return self._order(program, order, idempotency_key, "respond-async")
+        body = {"setup": setup, "parameters": parameters, "limits": limits, "on_stop": on_stop,
+                "block_skip": block_skip, "language": language, "part_id": part_id, "order": order}
+        return self._order(program, body, idempotency_key, "respond-async")
 
-    def _order(self, program: str, order: Mapping[str, Any], key: str | None, prefer: str) -> Run:
+    def _order(self, program: str, given: Mapping[str, Any], key: str | None, prefer: str) -> Run:
         body = {"program": "TNC:\\" + below_drive(program).replace("/", "\\"),
-                **{name: value for name, value in order.items() if value is not None}}
+                **{name: value for name, value in given.items() if value is not None}}
         return self._post("/v1/runs", dumps(body).encode(), "application/json", key, prefer, RUN_S)
 
     def wait_for_run(self, run_id: str) -> Run:

@@ -29,6 +29,7 @@ export class RunForm {
     this.workpiece = new WorkpieceForm((features) => this.#shaped(features));
     this.setupName = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false' });
     this.parameters = h('textarea', { rows: 2, spellcheck: 'false', placeholder: 'Q1 = 25\nQS1 = H7' });
+    this.subject = Object.fromEntries(['part_id', 'order'].map((name) => [name, h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', maxlength: 200 })]));
     this.note = h('p.note', { role: 'alert' });
     this.start = h('button.primary', { type: 'submit' }, t('programs.run'));
     this.cancel = h('button', { type: 'button', hidden: true, onclick: () => this.#cancel() }, t('programs.cancel'));
@@ -36,7 +37,8 @@ export class RunForm {
     this.report = h('div.report');
     this.element = h('section.run', h('h2', t('programs.run_title')),
       h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.run(); } },
-        h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters)),
+        h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters),
+          Object.entries(this.subject).map(([name, input]) => field(t(`field.${name}`), input))),
         h('details', { ontoggle: ({ target }) => target.open && this.#showWorkpiece() }, h('summary', t('programs.setup_text')), this.workpiece.element,
           h('details', h('summary', t('programs.setup_whole')), field(t('programs.setup_json'), this.setupText)),
           h('div.line', field(t('programs.setup_name'), this.setupName),
@@ -142,7 +144,9 @@ export class RunForm {
     const parameters = toJson(readParameters(this.parameters.value, (text) => t('programs.parameter_malformed', { text })));
     const setup = this.setup.value ? JSON.stringify(this.setup.value) : this.setupText.value.trim() || '{}';
     if (!this.setup.value) JSON.parse(setup);
-    return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters}}`;
+    const subject = Object.entries(this.subject).filter(([, input]) => input.value.trim())
+      .map(([name, input]) => `,"${name}":${JSON.stringify(input.value.trim())}`).join('');
+    return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters}${subject}}`;
   }
 
   /** Runs the program as it is set up here. */

@@ -10,6 +10,7 @@ import { fragment, go } from '../route.js';
 import { CertificateForm } from '../parts/certificate.js';
 import { correct } from '../parts/correction.js';
 import { note } from '../parts/note.js';
+import { runRow } from '../parts/run_row.js';
 import { limitsText, measuredText, noteText, verdictMark, VERDICTS } from '../verdict.js';
 
 const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator', 'cause'];
@@ -49,6 +50,7 @@ export function mount(main, route) {
   // The list goes on by itself where its end comes into sight.
   const end = new IntersectionObserver(([{ isIntersecting }]) => isIntersecting && !reading && read(), { rootMargin: '400px' });
   let after = '';
+  let run;
   let reading = false;
 
   main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
@@ -59,15 +61,17 @@ export function mount(main, route) {
     h('p.actions', Object.values(exported)), certificate.element, said, table, h('p.actions', more)));
 
   /** As the address has it. */
-  const options = () => ({ ...filter(), ...Object.fromEntries(DAYS.map((name) => [name, inputs[name].value])) });
-  /** As the service takes it: the last day is among those shown. */
+  const options = () => ({ ...filter(), source: '', ...Object.fromEntries(DAYS.map((name) => [name, inputs[name].value])) });
+  /** As the service takes it: the last day is among those shown. What runs have measured belongs to the history of a part. */
   const filter = () => ({
+    source: inputs.part_id.value.trim() ? 'all' : '',
     from: beginOf(inputs.from.value), to: beginOf(inputs.to.value, 1), ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
   });
 
   function search() {
     go({ view: 'parts', options: options() }, { refine: true });
     after = '';
+    run = undefined;
     more.hidden = true;
     rows.replaceChildren();
     for (const [format, link] of Object.entries(exported)) link.href = url(['measurements'], { ...filter(), format, time_zone: format === 'xlsx' ? ZONE : '' });
@@ -83,7 +87,7 @@ export function mount(main, route) {
       if (!page) return;
       // A correction is newer than what it corrects, so it was read before.
       for (const { correction_of: old } of page.measurements) if (old) replaced.add(old);
-      rows.append(...page.measurements.map((record) => row(record, replaced.has(record.id), { onCorrect: () => change(record), onNote: () => addNote(record) })));
+      rows.append(...page.measurements.flatMap(rowsOf));
       after = page.next ?? '';
       more.hidden = !after;
       said.textContent = rows.children.length ? '' : t('parts.none');
@@ -96,6 +100,14 @@ export function mount(main, route) {
     // What is in sight already tells nobody that it is.
     end.unobserve(more);
     end.observe(more);
+  }
+
+  /** What a run has measured stands below it. */
+  function rowsOf(record) {
+    const isNext = record.run_id && record.run_id !== run;
+    run = record.run_id;
+    return [isNext && runRow(run, leaving.signal),
+      row(record, replaced.has(record.id), { onCorrect: () => change(record), onNote: () => addNote(record) })].filter(Boolean);
   }
 
   async function change(record) {
@@ -125,7 +137,7 @@ function row(record, isReplaced, { onCorrect, onNote }) {
       && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · ')),
     (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), one.operator, dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),
     h('td.number', measuredText(record)), h('td.number', `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
-    h('td', [record.operator, record.machine, record.gauge].filter(Boolean).join(' · ')),
+    h('td', [record.source === 'simulation' && t('parts.simulated'), record.operator, record.machine, record.gauge].filter(Boolean).join(' · ')),
     h('td', date(new Date(record.measured_at)), h('span.aside', time(new Date(record.measured_at)))),
     h('td', !isReplaced && act('parts.correct', onCorrect), act('note.add', onNote)));
 }

@@ -1,9 +1,10 @@
 /** NC programs: put them on the control's disk, check them, run them, see what they did. */
 
+import { getJson, url } from '../api.js';
 import { confirm } from '../confirm.js';
 import { h } from '../dom.js';
 import { explain, t } from '../i18n.js';
-import { fileName, isProgram, listFiles, removeFile, writeFile } from '../programs/disk.js';
+import { fileName, isProgram, listFiles, relative, removeFile, writeFile } from '../programs/disk.js';
 import { bringExample, EXAMPLES } from '../programs/examples.js';
 import { FileList } from '../programs/file_list.js';
 import { ProgramText } from '../programs/program_text.js';
@@ -147,6 +148,9 @@ export function mount(main, route) {
   }
 
   attempt(async () => {
+    const { run } = route.options;
+    // Where only the run is known, it knows its program.
+    if (run && !current) current = relative((await getJson(url(['runs', run]))).program);
     await list();
     await open(route.options);
   });

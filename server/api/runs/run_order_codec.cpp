@@ -94,6 +94,22 @@ void read_limits(FieldReader& fields, FieldErrors& errors, interpreter::RunLimit
   reader.refuse_unknown();
 }
 
+/// What is measured, as the records of the run have it.
+app::RunSubject read_subject(FieldReader& fields) {
+  const auto read = [&fields](std::string_view name) {
+    auto text = fields.optional_text(name).value_or("");
+    if (text.size() > kLongestSubject) {
+      fields.report(ErrorCode::FieldTooLong, name,
+                    fmt::format("{} takes at most {} bytes", name, kLongestSubject));
+    }
+    if (text.find('\0') != std::string::npos) {
+      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} holds a NUL character", name));
+    }
+    return text;
+  };
+  return {.part_id = read("part_id"), .order = read("order")};
+}
+
 /// `[50.1, 40, -5]`: where the ball's centre stood when it touched.
 std::optional<machine::Vec3> read_point(const JsonValue& value) {
   if (!value.is(Kind::Array) || value.items.size() != 3) return std::nullopt;
@@ -190,6 +206,7 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
   read_limits(fields, errors, options.limits);
   read_words(fields, options);
   options.block_skip = fields.boolean_or("block_skip", options.block_skip);
+  auto subject = read_subject(fields);
   const JsonValue nothing{.kind = Kind::Object};
   const JsonValue* const given = fields.optional("setup");
   machine::Setup setup =
@@ -205,7 +222,8 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
                        .setup = std::move(setup),
                        .options = std::move(options),
                        .request = std::move(request),
-                       .contacts = std::move(contacts)};
+                       .contacts = std::move(contacts),
+                       .subject = std::move(subject)};
 }
 
 }  // namespace fitgauge::api

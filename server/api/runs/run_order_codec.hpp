@@ -13,6 +13,8 @@ namespace fitgauge::api {
 
 inline constexpr std::int64_t kMostBlocks = 100'000'000;
 inline constexpr double kMostSeconds = 60;
+/// Bytes of a part and of an order, as a record takes them.
+inline constexpr std::size_t kLongestSubject = 200;
 
 /// Finds a named setup; may wait.
 using FindSetup = std::function<Result<app::NamedDocument>(const std::string& name)>;

@@ -53,6 +53,9 @@ void add_order_schema(Schemas& schemas) {
        schema::with_default(schema::words({"english", "german", "dutch", "italian"}),
                             "\"english\""),
        "Of FN 16 masks"},
+      {"part_id", schema::text(kLongestSubject),
+       "The part that is measured: in each record of the run"},
+      {"order", schema::text(kLongestSubject), "Its order, likewise"},
   });
   schemas.push_back(
       {"RunOrder", schema::object(program + others, Others::Refused,

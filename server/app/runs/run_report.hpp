@@ -21,6 +21,12 @@ namespace fitgauge::app {
 
 struct ControlTables;
 
+/// What a run measures, for its records; empty: unknown.
+struct RunSubject {
+  std::string part_id{};
+  std::string order{};
+};
+
 /// A run as it is ordered.
 struct RunOrder {
   interpreter::ControlPath program;
@@ -29,6 +35,7 @@ struct RunOrder {
   std::string request;  ///< kept with the run, so that it can be repeated
   /// What each probing move of a real machine found, in order; nothing: the machine is simulated.
   std::optional<std::vector<machine::ScriptedContact>> contacts{};
+  RunSubject subject{};
   std::optional<std::string> caller{};
 };
 
@@ -56,6 +63,7 @@ struct RunReport {
   std::string program;
   interpreter::RunResult result{};
   std::uint64_t seed = 1;
+  RunSubject subject{};
   Timestamp created_at{};
   Timestamp finished_at{};
 

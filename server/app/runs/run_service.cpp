@@ -145,6 +145,7 @@ void RunService::end(ActiveRun& active, ExecutedRun executed) {
                          .program = active.program(),
                          .result = std::move(executed.result),
                          .seed = active.order().setup.seed,
+                         .subject = active.order().subject,
                          .created_at = active.created_at(),
                          .finished_at = clock_.now()};
   Result<FinishedRun> kept = Error{ErrorCode::Internal, "the end of the run could not be stored"};

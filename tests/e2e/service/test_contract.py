@@ -270,7 +270,8 @@ class Answers(ContractTest):
         self.expect("deletePlan", 204, part="4711-A")
         self.connections()
         order = {"program": "TNC:\\nc_prog\\hole.h", "setup": SETUP, "parameters": {"Q1": 25, "QS1": "H7"},
-                 "limits": {"blocks": 1000, "seconds": 5}, "on_stop": "end", "unreadable": "refuse"}
+                 "limits": {"blocks": 1000, "seconds": 5}, "on_stop": "end", "unreadable": "refuse",
+                 "part_id": "SN-17", "order": "WO-9"}
         run = self.expect("postRun", 201, order).json
         self.assertEqual(run["status"], "completed", run)
         self.expect("postRun", 202, order, {"Prefer": "respond-async"})

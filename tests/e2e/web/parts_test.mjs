@@ -34,6 +34,32 @@ describe('the parts', () => {
     assert.match(history[2][1], /Reject.*25\.050/);
   });
 
+  it('have the runs that measured them in the same history, each with the way to it', async () => {
+    const cycle = ['TCH PROBE 427 MEASURE COORDINATE', 'Q263=+50', 'Q264=+40', 'Q261=+0', 'Q320=+0', 'Q272=+3', 'Q267=-1', 'Q260=+50', 'Q281=+0', 'Q288=+0.1', 'Q289=-0.1', 'Q309=+0', 'Q330=+0'].join(' ~\n  ');
+    await daemon.send('PUT', '/v1/files/nc_prog/427.h', `BEGIN PGM 427 MM\nTOOL CALL 30 Z\n${cycle}\nEND PGM 427 MM\n`, 'text/plain');
+    await daemon.send('PUT', '/v1/setups/plate', { workpiece: { features: [{ type: 'block', min_mm: [0, 0, -40], max_mm: [100, 80, 0.02] }] } });
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', part_id: 'SN-R', characteristic: 'by hand' });
+    page = await open(browser, daemon, '#/programs/nc_prog/427.h?setup=plate');
+    await page.waitForFunction(() => document.querySelector('.run select')?.value === 'plate');
+    await page.fill('.run [name="part_id"]', ' SN-R');
+    await page.fill('.run [name="order"]', 'WO-R');
+    await page.click('.run button[type="submit"]');
+    await page.waitForSelector('.report .headline:has-text("Completed")');
+    const ran = /run=([^&]+)/.exec(hash())[1];
+    const [{ run_id: run, order, source }] = await daemon.stored('part_id=SN-R&source=simulation');
+    assert.deepEqual([run, order, source], [ran, 'WO-R', 'simulation']);
+    await page.evaluate(() => { location.hash = '#/parts?part_id=SN-R&history=all'; });
+    await page.waitForFunction(() => /427\.h · Completed/.test(document.querySelector('.records .run')?.textContent));
+    const rows = await page.$$eval('.records tbody tr', (all) => all.map((each) => each.className || each.children[1].textContent));
+    assert.deepEqual(rows, ['run', 'Coordinate', 'by handØ 25 H7']);
+    assert.match(await page.textContent('.records tbody tr:nth-child(2)'), /simulated/);
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'parts-run', { fullPage: true });
+    await page.click('.records .run a');
+    await page.waitForSelector('.report .headline:has-text("Completed")');
+    assert.match(await page.textContent('.title'), /427\.h/);
+  });
+
   it('are corrected, value or part, with the reason, and not by mistake', async () => {
     await daemon.send('POST', '/v1/measurements', ['25.01', '25.012'].map((text) => ({ designation: '25 H7', measured_mm: text, part_id: 'SN-C', order: 'WO-C' })));
     page = await open(browser, daemon, '#/parts?order=WO-C');

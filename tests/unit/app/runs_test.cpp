@@ -76,6 +76,7 @@ TEST_CASE("a measuring cycle leaves a record of the simulation") {
       " Q309=+0 ~\n Q330=+0");
   RunOrder order = Service::order();
   order.setup.features = {machine::Plane{{0, 0, 0.05}, {0, 0, 1}}};
+  order.subject = {.part_id = "SN-17", .order = "WO-9"};
   const RunReport report = service.run(std::move(order));
   REQUIRE(report.result.status == RunStatus::Completed);
   const auto records = measurements_of(report, "test");
@@ -83,6 +84,8 @@ TEST_CASE("a measuring cycle leaves a record of the simulation") {
   CHECK(records[0].source == Source::Simulation);
   CHECK(records[0].cycle == 427);
   CHECK(records[0].run_id == report.id);
+  CHECK(records[0].texts.part_id == "SN-17");
+  CHECK(records[0].texts.order == "WO-9");
   CHECK(records[0].measured == Length::micrometres(50));
   CHECK(records[0].result.verdict == gauging::Verdict::Good);
 }
