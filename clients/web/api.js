@@ -22,11 +22,19 @@ export class Problem extends Error {
     return this.errors[0]?.detail ?? this.message;
   }
 
+  /** Whether a reverse proxy says it of a service that is away. */
+  get away() {
+    return [502, 503, 504].includes(this.status);
+  }
+
   /** Whether the same request may succeed later. */
   get passing() {
     return this.status >= 500 || [408, 429].includes(this.status) || this.code === 'idempotency.in_progress';
   }
 }
+
+/** Whether the service could not be reached: then what is kept has to do. */
+export const isAway = (problem) => problem.status === undefined || problem.away;
 
 let askForKey = async () => null;
 /** @param ask shows why a key is needed and resolves to one, or to null. */

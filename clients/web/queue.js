@@ -4,7 +4,7 @@
  * service is away or the page is loaded again meanwhile. One is sent at a time, in the order of typing.
  */
 
-import { Problem, request, url } from './api.js';
+import { isAway, Problem, request, url } from './api.js';
 import { connection } from './connection.js';
 import { forget, readJson, store, storedKeys } from './stored.js';
 
@@ -36,7 +36,10 @@ class Queue extends EventTarget {
     const kept = storedKeys(PREFIX).map((name) => ({ name, ...readJson(name, {}) }));
     // Another window may have sent one meanwhile. What an earlier page left was not seen by anybody.
     this.#entries = kept.filter((entry) => (entry.path || entry.of) && entry.body && entry.shown);
-    for (const entry of this.#entries) entry.shown.late = true;
+    for (const entry of this.#entries) {
+      entry.shown.late = true;
+      entry.kept = true;
+    }
     connection.addEventListener('change', () => this.#wake());
   }
 
@@ -46,6 +49,11 @@ class Queue extends EventTarget {
 
   get entries() {
     return this.#entries;
+  }
+
+  /** Whether all of it would be there after a reload. */
+  get isKept() {
+    return this.#entries.every((entry) => entry.kept);
   }
 
   /** Those that are no notes. */
@@ -87,8 +95,9 @@ class Queue extends EventTarget {
     this.#keep(entry);
   }
 
-  #keep({ name, ...entry }) {
-    store(name, JSON.stringify(entry));
+  #keep(entry) {
+    const { name, kept, ...content } = entry;
+    entry.kept = store(name, JSON.stringify(content));
   }
 
   /** From here on every repeat has the same body. */
@@ -141,10 +150,9 @@ class Queue extends EventTarget {
       this.#finish(entry, entry.of ? 'noted' : 'stored', { entry, record });
       return 'answered';
     } catch (problem) {
-      const reached = problem.status !== undefined;
-      connection.report(reached);
+      connection.report(!isAway(problem));
       if (problem.status === 401) return 'locked';
-      if (!reached || problem.passing) return 'later';
+      if (isAway(problem) || problem.passing) return 'later';
       this.#finish(entry, 'refused', { entry, problem });
       return 'answered';
     }

@@ -9,10 +9,11 @@ import { h } from '../dom.js';
 import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
 import { isBadge } from './badge.js';
-import { BurstWatch, isFar, readLine } from './reading.js';
+import { BurstWatch, isFar, isReading, readLine } from './reading.js';
 
 const SECOND_ENTER_MS = 300;
-const FIELDS = 'input, select, textarea, dialog, [contenteditable]';
+/** Where characters are typed: what is chosen or ticked takes none of a gauge's. */
+const FIELDS = 'input:not([type="checkbox"], [type="radio"]), textarea, dialog, [contenteditable]';
 
 export class Entry {
   /**
@@ -57,7 +58,7 @@ export class Entry {
       if (!writes || event.target.closest?.(FIELDS)) return;
       // The character itself follows the focus, so nothing before it is lost.
       this.focus();
-      this.burst.key(event.timeStamp);
+      this.#follow(event);
     }, { signal, capture: true });
   }
 
@@ -67,16 +68,25 @@ export class Entry {
     this.#say(reason);
   }
 
-  /** A line that came another way: a gauge that typed into the dialog for keys. */
-  take(text) {
-    if (this.input.readOnly) {
+  /** A line that came another way: by a wire, or typed into the dialog for keys. @param burst whether it came as fast as a scanner types */
+  take(text, burst = false) {
+    if (this.adopting) {
       // What is measured now is still being asked: the value belongs to nothing.
       if (parseMeasured(text) !== null) this.onDropped(parseMeasured(text));
       return this.unread(t('entry.busy'));
     }
     this.input.value = text;
     this.#typed();
-    this.#enter();
+    if (burst) this.burst.took(text);
+    return this.#enter();
+  }
+
+  /** A value that was typed where a name goes: it stands in the field, and Enter stores it. */
+  hold(text) {
+    this.input.value = text;
+    this.#typed();
+    this.focus();
+    this.#refuse(t('entry.reading', { typed: text }));
   }
 
   /** The next value, or the next name, corrects a record. @param what `measured_mm` or `part_id` */
@@ -93,25 +103,29 @@ export class Entry {
 
   #enter(event) {
     event?.preventDefault();
-    if (this.input.readOnly) return;
+    // A size is being asked for: what is typed stays in the field.
+    if (this.adopting) return this.input.value.trim() ? this.#refuse(t('entry.busy')) : undefined;
     const now = performance.now();
     const second = now - this.lastEnter < SECOND_ENTER_MS;
     this.lastEnter = now;
     if (this.unchanged) {
-      if (second) return;
+      if (second) return undefined;
       if (this.asked) return this.#accept(this.asked);
     }
     this.unchanged = true;
-    this.#read();
+    return this.#read();
   }
 
   #read() {
     const typed = this.input.value.trim();
     if (typed === '') return this.#refuse(t('entry.empty'));
     if (isBadge(typed)) return this.#finish(() => this.onBadge(typed));
-    if (this.correcting?.what === 'part_id') return this.#finish(() => this.onField('part_id', this.#withoutPrefix(typed), this.correcting.record));
+    const burst = this.burst.isBurst(typed);
+    // A scanner's 25H7 comes as 25h7 then: another thing.
+    if (burst && this.caps && parseMeasured(typed) === null) return this.#refuse(t('entry.caps'));
+    if (this.correcting?.what === 'part_id') return this.#correctPart(typed);
     if (!this.correcting && parseMeasured(typed) === null && this.isName(typed)) return this.#finish(() => this.onField('part_id', typed));
-    const read = readLine(typed, { burst: this.burst.isBurst(typed), prefixes: this.prefixes() });
+    const read = readLine(typed, { burst, prefixes: this.prefixes() });
     if (read.kind === 'value') return this.#judge(read.text);
     if (this.correcting) return this.#refuse(t('entry.malformed', { typed }));
     if (read.kind === 'job') return this.#adopt(read);
@@ -121,12 +135,24 @@ export class Entry {
 
   /** `25.013in` is written like a size and a class, the number of a part like a thread: the service knows whether there is one. */
   async #adopt({ text, name }) {
-    this.input.readOnly = true;
+    // What is typed until it is known is another line.
+    this.#finish(() => {});
+    this.adopting = true;
     const known = await this.onJob(text);
-    this.input.readOnly = false;
-    if (known) this.#finish(() => {});
-    else if (known === false && name) this.#finish(() => this.onField(name, text));
-    else this.#refuse(t('entry.malformed', { typed: text }));
+    this.adopting = false;
+    if (known) return;
+    if (known === false && name) {
+      this.onField(name, text);
+      return;
+    }
+    this.input.value ||= text;
+    this.#refuse(t('entry.malformed', { typed: text }));
+  }
+
+  #correctPart(typed) {
+    const { record } = this.correcting;
+    if (isReading(typed, { limits: record })) return this.#refuse(t('entry.reading', { typed }));
+    return this.#finish(() => this.onField('part_id', this.#withoutPrefix(typed), record));
   }
 
   #withoutPrefix(typed) {
@@ -184,13 +210,13 @@ export class Entry {
     if (this.input.value.trim()) this.onOpen(this.input.value.trim());
     this.#say(reason);
     this.input.select();
-    this.burst.reset();
+    this.#forgetKeys();
   }
 
   #typed() {
     this.unchanged = false;
     if (this.input.value) this.onTyped();
-    if (this.input.value === '') this.burst.reset();
+    if (this.input.value === '') this.#forgetKeys();
     if (this.asked) this.onDropped(this.asked);
     this.asked = null;
     this.#offer([]);
@@ -202,12 +228,22 @@ export class Entry {
     const { selectionStart, selectionEnd, value } = this.input;
     if (event.key.length === 1) {
       // A character over a selection of all begins a new line.
-      if (selectionStart === 0 && selectionEnd === value.length) this.burst.reset();
-      this.burst.key(event.timeStamp);
+      if (selectionStart === 0 && selectionEnd === value.length) this.#forgetKeys();
+      this.#follow(event);
     }
     if (event.key === 'Enter' && event.repeat) event.preventDefault();
     if (event.key === 'Tab' && !event.shiftKey && value.trim() && !this.asked) this.#enter(event);
     if (event.key === 'Escape') this.#drop();
+  }
+
+  #follow(event) {
+    this.burst.key(event.timeStamp);
+    this.caps ||= event.getModifierState('CapsLock');
+  }
+
+  #forgetKeys() {
+    this.burst.reset();
+    this.caps = false;
   }
 
   #reset() {
@@ -215,7 +251,7 @@ export class Entry {
     this.correcting = null;
     this.unchanged = false;
     this.input.value = '';
-    this.burst.reset();
+    this.#forgetKeys();
     this.#offer([]);
     this.label.textContent = t('entry.label');
     this.element.classList.remove('asking', 'refusing', 'correcting');

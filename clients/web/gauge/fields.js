@@ -26,10 +26,16 @@ export function textField(name, onchange, attributes = {}) {
 }
 
 export class Fields {
-  /** @param given {field: text} */
-  constructor(given, onChange) {
-    this.inputs = Object.fromEntries(FIELDS.map((name) => [name, textField(name, onChange)]));
-    for (const name of FIELDS) this.inputs[name].value = given[name] ?? '';
+  /**
+   * @param given {field: text}
+   * @param isReading tells whether a text is a value of the gauge; @param onReading takes it, and whether its line was ended by a key
+   */
+  constructor(given, { onChange, isReading, onReading }) {
+    Object.assign(this, { onChange, isReading, onReading });
+    this.inputs = Object.fromEntries(FIELDS.map((name) => [name, textField(name, () => this.#changed(name), {
+      onkeydown: ({ key }) => { this.ended = ['Enter', 'Tab'].includes(key); },
+    })]));
+    for (const name of FIELDS) this.set(name, given[name] ?? '');
     this.inputs.part_id.classList.add('part');
     this.lists = Object.fromEntries(SIDE_FIELDS.map((name) => [name, h('datalist', { id: `offered-${name}` })]));
     for (const name of SIDE_FIELDS) this.inputs[name].setAttribute('list', this.lists[name].id);
@@ -51,6 +57,20 @@ export class Fields {
 
   set(name, text) {
     this.inputs[name].value = text;
+    this.inputs[name].named = text;
+  }
+
+  /** A gauge that typed into the field of a name has named nothing. */
+  #changed(name) {
+    const input = this.inputs[name];
+    const text = this.of(name);
+    if (!this.isReading(text)) {
+      input.named = text;
+      this.onChange();
+      return;
+    }
+    input.value = input.named;
+    this.onReading(text, this.ended);
   }
 
   /** {field: text} of them all. */

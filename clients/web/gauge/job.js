@@ -7,9 +7,11 @@ import { explain, number, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { limitsText, toleranceText } from '../verdict.js';
 import { Fields } from './fields.js';
-import { limitsOf } from './held.js';
+import { limitsAtHand, limitsOf } from './held.js';
 import { gaugeInUse, gaugeText } from './in_use.js';
+import { designationOf } from './plan.js';
 import { Prefixes } from './prefixes.js';
+import { isReading } from './reading.js';
 import { Rule } from './rule.js';
 
 const ECHO_MS = 150;
@@ -20,8 +22,9 @@ export class Job {
   /**
    * @param choices what else stands among the fields
    * @param onChange is told of every change, with whether another thing is gauged now; @param onDone when Enter ends the typing
+   * @param onReading takes a value that was typed where a name goes, and whether its line was ended
    */
-  constructor({ designation, options, choices, onChange, onDone }) {
+  constructor({ designation, options, choices, onChange, onDone, onReading }) {
     this.onChange = onChange;
     this.limits = null;
     this.reason = '';
@@ -31,7 +34,7 @@ export class Job {
     });
     this.input.value = designation;
     this.echo = h('p.echo', { id: 'echo', role: 'status' });
-    this.fields = new Fields(options, () => this.#changed());
+    this.fields = new Fields(options, { onChange: () => this.#changed(), isReading: (text) => isReading(text, this.current()), onReading });
     this.rule = new Rule(options, { onChange: () => this.#changed(), onRule: () => this.#ruleChanged() });
     this.prefixes = new Prefixes();
     this.side = h('select', { name: 'feature', onchange: () => this.#show(this.read, this.reason) },
@@ -103,13 +106,15 @@ export class Job {
     this.own = limits;
     this.limits = null;
     this.side.value = one.feature ?? SIDES[0];
-    this.input.value = one.designation ?? (limits ? '' : `${one.nominal_mm}${one.tolerance_class}`);
+    this.input.value = designationOf(one);
     this.fields.set('characteristic', one.name);
     // What a plan does not name is measured with the station's own gauge, not with that of the one before.
     if (this.fields.of('gauge') !== this.planGauge) this.ownGauge = this.fields.of('gauge');
     this.planGauge = one.gauge ?? this.ownGauge;
     this.fields.set('gauge', this.planGauge);
     this.rule.set(one);
+    const held = limits ? null : limitsAtHand(parseDesignation(this.designation)?.text);
+    if (held) this.#show(held, '');
     this.#look();
   }
 
@@ -124,6 +129,7 @@ export class Job {
     if (!parsed) return { reason: this.designation ? t('error.designation.malformed') : t('job.missing') };
     if (this.reason) return { reason: this.reason };
     if (this.rule.reason) return { reason: this.rule.reason };
+    if (this.looking && !this.limits) return { reason: t('entry.busy') };
     return { ...parsed, limits: this.limits, ...(isOpen(parsed) && { feature: this.side.value }) };
   }
 
@@ -166,6 +172,7 @@ export class Job {
     clearTimeout(this.timer);
     this.reason = '';
     this.limits = null;
+    this.looking = true;
     this.timer = setTimeout(() => this.#look(), ECHO_MS);
   }
 
@@ -188,6 +195,7 @@ export class Job {
       this.#show(null, typed ? t('error.designation.malformed') : '');
       return;
     }
+    this.looking = true;
     try {
       const limits = await limitsOf(parsed.text);
       if (typed === this.designation) this.#show(limits, '');
@@ -197,6 +205,7 @@ export class Job {
   }
 
   #show(limits, reason) {
+    this.looking = false;
     this.read = limits;
     this.sideField.hidden = !isOpen(limits);
     this.limits = isOpen(limits) ? { ...limits, feature: this.side.value } : limits;

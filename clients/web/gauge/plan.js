@@ -10,8 +10,12 @@ import { limitsText, verdictShape } from '../verdict.js';
 import { held } from './held.js';
 
 const KEPT_LIST = 'plans';
+const KEPT_STATE = 'plan-at';
 
 const given = (um) => (um === undefined ? undefined : nmFromUm(um));
+
+/** Size and class of a characteristic, or another designation; '' where it has limits of a drawing. */
+export const designationOf = (one) => one.designation ?? (one.tolerance_class ? `${one.nominal_mm}${one.tolerance_class}` : '');
 
 /** What a characteristic is measured against, for people: Ø 25 H7, M10-6H, 40 +0.1/-0.1, or ≤ 0.05 mm. */
 export const sizeText = (one) => {
@@ -42,12 +46,13 @@ export class Plan {
   constructor({ onStep, onChoose }) {
     this.onStep = onStep;
     this.known = readJson(KEPT_LIST, []);
-    this.at = 0;
-    this.verdicts = [];
+    this.subject = '';
+    this.#clear();
     this.select = h('select', { onchange: () => onChoose(this.select.value), 'aria-label': t('plan.label') });
     this.progress = h('p.progress', { role: 'status' });
     this.tiles = h('ol.tiles-of-plan');
-    this.element = h('section.plan', { 'aria-label': t('plan.label'), hidden: true }, h('div.line', this.select, this.progress), this.tiles);
+    this.note = h('p.note.of-plan', { role: 'alert' });
+    this.element = h('section.plan', { 'aria-label': t('plan.label'), hidden: true }, h('div.line', this.select, this.progress), this.tiles, this.note);
   }
 
   /** Asks which plans there are; keeps the list for when the service is away, and until it has answered. */
@@ -70,6 +75,11 @@ export class Plan {
     return this.plan?.part ?? '';
   }
 
+  /** The designations that it measures by. */
+  get designations() {
+    return (this.plan?.characteristics ?? []).map(designationOf).filter(Boolean);
+  }
+
   /** The catalogues that its characteristics ask for. */
   get catalogues() {
     return [...new Set((this.plan?.characteristics ?? []).map((one) => one.catalogue).filter(Boolean))];
@@ -85,29 +95,68 @@ export class Plan {
     return this.asked !== undefined;
   }
 
-  /** Takes up the plan of a part number; without one there is none. @returns whether it has: another may be asked for meanwhile */
-  async load(part) {
+  /**
+   * Takes up the plan of a part number; without one there is none.
+   * @param subject the part that is measured; @param again whether to go on where it was left: after a reload
+   * @returns whether it has: another may be asked for meanwhile
+   */
+  async load(part, subject, again = false) {
     const asked = Symbol(part);
     this.asked = asked;
     const plan = part ? await planOf(part) : undefined;
     if (this.asked !== asked) return false;
     this.asked = undefined;
+    const { missing } = this;
     this.plan = plan;
-    this.begin();
+    if (again && plan && this.#resume(subject)) return true;
+    this.begin(subject, missing);
+    if (part && !plan) this.note.textContent = t('plan.gone', { part });
     return true;
   }
 
-  /** Another part: from the first characteristic on. */
-  begin() {
-    this.verdicts = [];
+  /** Another part: from the first characteristic on. Says what was not measured at the one before. */
+  begin(subject, missing = this.missing) {
+    this.note.textContent = missing.length ? t('plan.missing', { part: this.subject || t('part.none'), names: missing.join(', ') }) : '';
+    this.subject = subject;
+    this.#clear();
     this.go(0);
   }
 
-  /** A value of the current characteristic is on its way: the next one, after the last the first. */
+  #clear() {
+    this.at = 0;
+    this.verdicts = [];
+    this.taken = [];
+  }
+
+  /** The names of what was not measured at a part that was begun. */
+  get missing() {
+    return this.taken.some(Boolean) ? this.plan.characteristics.filter((_, i) => !this.taken[i]).map(({ name }) => name) : [];
+  }
+
+  /** Goes on where this window was with this part. @returns whether it was there */
+  #resume(subject) {
+    const kept = readJson(KEPT_STATE, {}, 'session');
+    if (kept.part !== this.part || kept.subject !== subject || !this.plan.characteristics[kept.at]) return false;
+    Object.assign(this, { subject, verdicts: kept.verdicts, taken: kept.taken });
+    this.go(kept.at, kept.finished);
+    return true;
+  }
+
+  /** A value of the current characteristic is on its way: the next one that has none. */
   step() {
     if (!this.plan) return;
-    this.finished = this.at === this.plan.characteristics.length - 1;
-    this.go(this.finished ? 0 : this.at + 1, this.finished);
+    this.taken[this.at] = true;
+    const { length } = this.plan.characteristics;
+    const next = Array.from({ length }, (_, i) => (this.at + 1 + i) % length).find((at) => !this.taken[at]);
+    this.go(next ?? 0, next === undefined);
+  }
+
+  /** A value of a characteristic was not stored: it is still to be measured. */
+  refused(name) {
+    const at = this.plan?.characteristics.findIndex((one) => one.name === name) ?? -1;
+    if (at < 0) return;
+    this.taken[at] = false;
+    if (this.finished) this.go(at);
   }
 
   /** Notes how a characteristic was, by its name. */
@@ -116,12 +165,19 @@ export class Plan {
     if (at < 0) return;
     this.verdicts[at] = verdict;
     this.#draw();
+    this.#keep();
+  }
+
+  #keep() {
+    const { part, subject, at, finished, verdicts, taken } = this;
+    store(KEPT_STATE, JSON.stringify({ part, subject, at, finished, verdicts, taken }), 'session');
   }
 
   go(at, finished = false) {
     this.at = at;
     this.finished = finished;
     this.#draw();
+    this.#keep();
     if (this.plan) this.onStep(this.current);
   }
 

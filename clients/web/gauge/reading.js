@@ -51,6 +51,12 @@ export class BurstWatch {
     ++this.#keys;
   }
 
+  /** What came whole, by another way. */
+  took(text) {
+    this.reset();
+    this.#keys = text.length;
+  }
+
   isBurst(text) {
     return !this.#slow && this.#keys >= 3 && this.#keys >= text.length;
   }
@@ -63,6 +69,12 @@ export class BurstWatch {
 
 /** A value farther than this many tolerances outside the limits is asked about. */
 const FAR = 5;
+
+/** Whether a text in the place of a name is what a gauge says of the job: 25.013 for 25 H7, but not 4711. */
+export function isReading(text, job) {
+  const value = /[.,]\d/.test(text) ? parseMeasured(text) : null;
+  return value !== null && !job.reason && !isFar(nmFromMm(value), job);
+}
 
 /** Whether a value is asked about. Without limits (the service is away and never gave them) half to twice the nominal size has to do. */
 export function isFar(nm, { limits, nominal_nm: nominal }) {

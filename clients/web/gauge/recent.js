@@ -29,9 +29,10 @@ export class Recent {
     this.element.hidden = this.rows.length === 0;
   }
 
-  /** The last record that can be corrected. */
+  /** The last value that was taken: its record, null while it is not stored, undefined where there is none. */
   get last() {
-    return this.rows.find((row) => row.state === 'stored' && !row.corrected)?.record;
+    const row = this.rows.find(({ state, corrected }) => ['stored', 'waiting'].includes(state) && !corrected);
+    return row && (row.record ?? null);
   }
 
   /** @param row {key, state: waiting | stored | refused | dropped, shown, record, reason} */

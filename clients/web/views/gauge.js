@@ -2,6 +2,7 @@
 
 import { url } from '../api.js';
 import { connection } from '../connection.js';
+import { parseDesignation } from '../designation.js';
 import { h } from '../dom.js';
 import { Decimal, judge, nmFromMm, toJson } from '../exact.js';
 import { Arrivals } from '../gauge/arrivals.js';
@@ -9,6 +10,7 @@ import { Badge } from '../gauge/badge.js';
 import { followTables } from '../events.js';
 import { Entry } from '../gauge/entry.js';
 import { FIELDS } from '../gauge/fields.js';
+import { forgetAtHand, limitsOf } from '../gauge/held.js';
 import { Job } from '../gauge/job.js';
 import { NumberPad } from '../gauge/number_pad.js';
 import { Panel } from '../gauge/panel.js';
@@ -30,7 +32,8 @@ export function mount(main, route) {
   let partBefore = route.options.part_id ?? '';
   const panel = new Panel();
   /** Why no value is taken now; '' where one is. */
-  const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '');
+  const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '')
+    || (plan.finished && job.part ? t('plan.finished_first', { part: job.part }) : '');
   const badge = new Badge();
   const reactions = new Reactions({ onDone: () => entry.focus(), onNote: (said) => note(said) });
   const entry = new Entry({
@@ -52,6 +55,7 @@ export function mount(main, route) {
   const job = new Job({
     designation: route.path[0] ?? '', options: route.options, choices: [soundChoice(), pad.choice, serial.element],
     onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
+    onReading: (text, ended) => (ended ? entry.take(text) : entry.hold(text)),
   });
   const recent = new Recent({ onCorrect: (record, what) => entry.correct(record, what), leaving: leaving.signal });
   const arrivals = new Arrivals(leaving.signal);
@@ -65,12 +69,28 @@ export function mount(main, route) {
     panel.next({ limits: job.limits, part: job.part, characteristic: plan.finished ? '' : plan.current?.name, finished: plan.finished });
   };
 
-  async function choosePlan(part) {
-    if (!await plan.load(part)) return;
-    reactions.prepare(plan.catalogues);
+  async function choosePlan(part, again) {
+    if (!await plan.load(part, job.part, again)) return;
+    prepare();
     stepped = false;
     jobChanged(true);
     entry.focus();
+  }
+
+  /** Fetches what the steps of the plan will need, so that none waits for it. */
+  function prepare() {
+    reactions.prepare(plan.catalogues);
+    for (const text of plan.designations) limitsOf(parseDesignation(text)?.text ?? text).catch(() => {});
+  }
+
+  /** The next part: the plan may have been changed since the last. */
+  async function begin() {
+    if (!plan.part || !connection.up) return plan.begin(job.part);
+    if (await plan.load(plan.part, job.part)) {
+      prepare();
+      jobChanged(true);
+    }
+    return undefined;
   }
 
   /** A part number that has a plan is no part: it says what is measured from now on. */
@@ -85,7 +105,7 @@ export function mount(main, route) {
     go({ view: 'gauge', path, options: { ...job.options, plan: plan.part, ...(plan.part && { gauge: job.ownGauge }) } }, { refine: true });
     if (job.part !== partBefore) {
       partBefore = job.part;
-      plan.begin();
+      begin();
       stepped = false;
     }
     if (stepped) return;
@@ -146,7 +166,7 @@ export function mount(main, route) {
   const { signal } = leaving;
   entry.input.addEventListener('focus', () => job.fold());
   entry.takeKeys(signal);
-  addEventListener('strayline', ({ detail }) => entry.take(detail), { signal });
+  addEventListener('strayline', ({ detail: { text, burst } }) => entry.take(text, burst), { signal });
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
     recent.set({ key, state: 'stored', shown, record });
     if ((record.part_id ?? '') === job.part) plan.judged(record.characteristic, record.verdict);
@@ -161,11 +181,16 @@ export function mount(main, route) {
     recent.set({ key, state: 'refused', shown, reason });
     if (of) return entry.unread(t('note.refused', { reason }));
     reactions.refused(key);
+    if ((shown.part_id ?? '') === job.part) plan.refused(shown.characteristic);
     if (shown.late) arrivals.refused(shown, explain(problem));
     else panel.refused(shown, explain(problem));
   }, { signal });
+  function sayUnkept() {
+    unkept.textContent = connection.up || (isKept() && queue.isKept) ? '' : t(isKept() ? 'gauge.unstored' : 'gauge.unkept');
+  }
+  queue.addEventListener('change', sayUnkept, { signal });
   connection.addEventListener('change', () => {
-    unkept.textContent = connection.up || isKept() ? '' : t('gauge.unkept');
+    sayUnkept();
     if (connection.up || !queue.values.length) return;
     for (const waiting of queue.entries) queue.mark(waiting, { late: true });
     panel.waiting(queue.values.at(-1).shown, true);
@@ -174,9 +199,11 @@ export function mount(main, route) {
   document.addEventListener('keydown', (event) => {
     const typing = event.target.closest?.('input, select, textarea, dialog');
     const undo = (event.ctrlKey || event.metaKey) && event.key === 'z';
-    if (undo && recent.last && (!typing || (typing === entry.input && !entry.input.value))) {
+    const { last } = recent;
+    if (undo && last !== undefined && (!typing || (typing === entry.input && !entry.input.value))) {
       event.preventDefault();
-      entry.correct(recent.last);
+      if (last) entry.correct(last);
+      else entry.unread(t('recent.not_yet'));
     }
   }, { signal });
   addEventListener('focus', () => document.activeElement === document.body && entry.focus(), { signal });
@@ -185,13 +212,17 @@ export function mount(main, route) {
     h('div.station', plan.element, job.element, pad.element, entry.element, badge.element, unkept, reactions.element, arrivals.element, panel.element), recent.element));
   remember('gauge');
   job.start(leaving.signal);
-  followTables(leaving.signal, () => job.renew());
+  followTables(leaving.signal, () => {
+    forgetAtHand();
+    prepare();
+    job.renew();
+  });
   addEventListener('keyentered', () => {
     badge.draw();
     plan.list();
     job.keyed();
   }, { signal });
-  if (route.options.plan) choosePlan(route.options.plan);
+  if (route.options.plan) choosePlan(route.options.plan, true);
   plan.list().then(() => {
     // Where there are plans, a station begins with the scan of one.
     if (plan.known.length && document.activeElement === job.input && !job.designation) entry.focus();

@@ -84,6 +84,7 @@ describe('a plan', () => {
     await page.click('.tiles-of-plan li:first-child button');
     await daemon.stop();
     await measure('flange', '2.051', 'rework', '[data-provisional="away"]');
+    await page.click('.tiles-of-plan li:last-child button');
     await measure('depth', '11.9', 'good', '[data-provisional="away"]');
     await daemon.start();
     await page.waitForSelector('.link[data-state="up"]');
@@ -155,6 +156,8 @@ describe('a plan', () => {
     await page.waitForSelector('.link[data-state="up"]');
     assert.equal(await page.$$eval('.reactions .line', (all) => all.length), 1);
     await page.reload();
+    await progress('2 of 3');
+    await page.click('.tiles-of-plan li:first-child button');
     await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
     await line('25.01');
     assert.match(await page.textContent('#entry-note'), /Stop and tell the setter/);

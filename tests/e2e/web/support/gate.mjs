@@ -1,4 +1,4 @@
-/** A way to the daemon that sees what passes: how many event streams a browser holds open. */
+/** A way to the daemon, as a reverse proxy is: it sees how many event streams a browser holds open, and says 502 where there is no daemon. */
 
 import http from 'node:http';
 
@@ -8,7 +8,7 @@ export class Gate {
   constructor(daemon) {
     this.server = http.createServer((asked, answer) => {
       const isStream = asked.url.startsWith('/v1/events');
-      const onward = http.request(`${daemon.url}${asked.url}`, { method: asked.method, headers: { ...asked.headers, host: new URL(daemon.url).host } }, (answered) => {
+      const onward = http.request(`${daemon.url}${asked.url}`, { method: asked.method, headers: { ...asked.headers, host: new URL(daemon.url).host, ...(asked.headers.origin && { origin: daemon.url }) } }, (answered) => {
         answer.writeHead(answered.statusCode, answered.headers);
         answered.pipe(answer);
       });
@@ -17,7 +17,7 @@ export class Gate {
         if (isStream) this.streams -= 1;
         onward.destroy();
       });
-      onward.on('error', () => answer.destroy());
+      onward.on('error', () => (answer.headersSent ? answer.destroy() : answer.writeHead(502).end()));
       asked.pipe(onward);
     });
   }
