@@ -2,6 +2,8 @@
 
 import http from 'node:http';
 
+import { atEnd } from './ending.mjs';
+
 export class Gate {
   streams = 0;
 
@@ -24,6 +26,7 @@ export class Gate {
 
   async open() {
     await new Promise((resolve) => { this.server.listen(0, '127.0.0.1', resolve); });
+    atEnd(() => this.close());
     this.url = `http://127.0.0.1:${this.server.address().port}`;
     return this;
   }
