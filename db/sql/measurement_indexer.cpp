@@ -87,7 +87,7 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
                    "AND ?"),
       child_aggregates_(c, fmt::format("SELECT node, field, value, kind, statistics, {} FROM "
                                        "measurement_aggregates WHERE level = ? AND node BETWEEN ? "
-                                       "AND ?",
+                                       "AND ? ORDER BY node",
                                        AggregatedValue(c).is_none)),
       make_stale_(c, "UPDATE measurement_nodes SET stale = 1 WHERE level = ? AND node = ?"),
       rivals_(
@@ -226,8 +226,9 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   return index;
 }
 
-/// Joins the nodes below. A field that one of them has too many values of may still have few
-/// enough for this one: those of 32 blocks are read again, more are not.
+/// Joins the nodes below, in their order: sums count from the first value. A field that one of them
+/// has too many values of may still have few enough for this one: those of 32 blocks are read
+/// again, more are not.
 NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
   NodeIndex index;
   const IndexNode first = node.child(0);
