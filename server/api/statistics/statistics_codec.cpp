@@ -140,18 +140,12 @@ void write_percentile(JsonWriter& json,
 }  // namespace
 
 std::span<const Applicable> chart_members() {
-  static constexpr std::array<Applicable, 4> kMembers = {{
+  static constexpr std::array<Applicable, 3> kMembers = {{
       {"lambda", "ewma"},
       {"reference_value", "cusum"},
       {"decision_interval", "cusum"},
-      {"rules", "i_mr xbar_r xbar_s", "2, 3 and 4"},
   }};
   return kMembers;
-}
-
-bool is_given(const Applicable& row, const metrology::ZoneRules& rules, bool has_member) {
-  if (row.values.empty()) return has_member;
-  return rules.has(2) || rules.has(3) || rules.has(4);
 }
 
 void write_summary(JsonWriter& json, const metrology::Summary& summary) {

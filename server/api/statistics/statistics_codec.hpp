@@ -19,8 +19,6 @@ namespace fitgauge::api {
 
 /// What charts of some kinds alone take, of what is sent as of what is stored.
 std::span<const Applicable> chart_members();
-/// Whether a row of it is given: a member, or those values of it.
-bool is_given(const Applicable& row, const metrology::ZoneRules& rules, bool has_member);
 
 void write_summary(JsonWriter& json, const metrology::Summary& summary);
 

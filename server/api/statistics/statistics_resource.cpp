@@ -156,7 +156,7 @@ metrology::ChartPlan read_plan(FieldReader& fields, FieldErrors& errors) {
   fields.optional("phase1");
   refuse_not_applicable(
       chart_members(), "kind", word(plan.kind),
-      [&](const Applicable& row) { return is_given(row, plan.rules, fields.has(row.member)); },
+      [&](const Applicable& row) { return fields.has(row.member); },
       [&](std::string_view member, std::string message) {
         fields.report(ErrorCode::FieldConflict, member, std::move(message));
       });

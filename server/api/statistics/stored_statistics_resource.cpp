@@ -128,7 +128,7 @@ Result<StoredChartPlan> chart_plan(const http::Request& request) {
   std::optional<Error> unused;
   refuse_not_applicable(
       chart_members(), "kind", word(plan.kind),
-      [&](const Applicable& row) { return is_given(row, plan.rules, request.has(row.member)); },
+      [&](const Applicable& row) { return request.has(row.member); },
       [&](std::string_view member, std::string message) {
         unused = invalid(member, std::move(message));
       });

@@ -12,7 +12,7 @@ namespace fitgauge::api {
 struct Applicable {
   std::string_view member;
   std::string_view kinds;     ///< those that take it: `xbar_r xbar_s`
-  std::string_view values{};  ///< which of its values; empty: all
+  std::string_view values{};  ///< which of its values it is asked for; empty: all
 };
 
 /// Why a member is refused; none where the kind takes it.

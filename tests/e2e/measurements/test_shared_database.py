@@ -318,9 +318,11 @@ class Together(unittest.TestCase):
 
     def endless_run(self, daemon):
         """Starts a run that only a cancellation or a minute ends. @returns its place"""
+        # The most blocks a run may have would be over in half a second, if they did nothing.
+        words = "QS1 = TOCHAR ( DAT+Q1 DECIMALS4 )\n" * 20
         self.one.request("PUT", "/v1/files/nc_prog/ENDLESS.H",
-                         "BEGIN PGM ENDLESS MM\nFN 16: F-PRINT BEGUN.A / SCREEN:\nLBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\n"
-                         "END PGM ENDLESS MM\n", {"Content-Type": "text/plain"})
+                         f"BEGIN PGM ENDLESS MM\nFN 16: F-PRINT BEGUN.A / SCREEN:\nQ1 = 1\nLBL 1\n{words}"
+                         "FN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM ENDLESS MM\n", {"Content-Type": "text/plain"})
         self.one.request("PUT", "/v1/files/nc_prog/BEGUN.A", '"BEGUN";\n', {"Content-Type": "text/plain"})
         order = {"program": "TNC:\\nc_prog\\ENDLESS.H", "limits": {"blocks": 100_000_000, "seconds": 60}}
         begun = daemon.post("/v1/runs", order, {"Prefer": "respond-async"})
