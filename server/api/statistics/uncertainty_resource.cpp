@@ -23,14 +23,15 @@ using metrology::Distribution;
 constexpr std::size_t kMostContributions = 100;
 
 /// Of figures and sensitivities, whose products to the fourth power are doubles then.
-constexpr double kLeast = 1e-30;
-constexpr double kMost = 1e15;
+constexpr double kLeastFigure = 1e-30;
+constexpr double kMostFigure = 1e15;
 
 void check_magnitude(FieldReader& row, std::string_view name, double value) {
   const double magnitude = std::abs(value);
-  if (magnitude == 0 || (magnitude >= kLeast && magnitude <= kMost)) return;
+  if (magnitude == 0 || (magnitude >= kLeastFigure && magnitude <= kMostFigure)) return;
   row.report(ErrorCode::FieldInvalid, name,
-             fmt::format("{} is 0 or from {} to {}: choose a unit that fits", name, kLeast, kMost));
+             fmt::format("{} is 0 or from {} to {}: choose a unit that fits", name, kLeastFigure,
+                         kMostFigure));
 }
 
 /// A number that is 0 or more, where the member is given.
