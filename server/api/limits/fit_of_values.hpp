@@ -16,13 +16,13 @@ namespace fitgauge::api {
 /// What chooses the stored values of a fit: the filters of a list twice, `hole_…` and `shaft_…`.
 std::vector<http::Parameter> fit_filter_parameters();
 
-/// Reads the values that the filters of a request choose and hands over what writes the member
-/// `stored` of a fit: the probability of interference from their location and spread.
-/// @param done gets QueryInvalid where one of the two is not chosen; LimitsMixed where the limits
-/// of
-///   what is chosen are not those of the fit; the errors of a capability, with `hole` or `shaft`
-///   said in front
+/// Writes the member `stored` of a fit.
 using WriteStored = std::function<void(JsonWriter&)>;
+
+/// Reads the values that the filters of a request choose, for the probability of interference from
+/// their location and spread.
+/// @param done gets what writes it; QueryInvalid where holes or shafts are not chosen; LimitsMixed
+///   where their limits are not the fit's; the errors of a capability, which say whose they are
 void read_fit_of_values(const Services& services, const http::Request& request,
                         const iso286::Fit& fit, std::function<void(Result<WriteStored>)> done);
 
