@@ -134,7 +134,7 @@ class Shared(unittest.TestCase):
         for follower in followers:
             follower.start()
         begin = time.monotonic()
-        outages = [self.restart, lambda living: self.fail_over(living, standby)]
+        outages = [self.restart, lambda living: self.fail_over(living, front, standby)]
         with Writers(front, count=16) as writers:
             while time.monotonic() - begin < SECONDS or outages:
                 time.sleep(2)
@@ -168,13 +168,15 @@ class Shared(unittest.TestCase):
         self.cluster.start()
         self.cluster.wait_for_standby()
 
-    def fail_over(self, living, standby):
+    def fail_over(self, living, front, standby):
         self.cluster.stop("immediate")
         self.wait_until_ready(living, 503)  # each tells the load balancer, and why
         for daemon in living:
             self.assertIn("PostgreSQL", daemon.get("/readyz").text)
+        self.assertEqual(front.get("/readyz").status, 503, "nginx hands on what the daemons say")
         standby.promote()
         self.wait_until_ready(living, 200)
+        self.assertEqual(front.get("/readyz").status, 200, "and is there as soon as they are")
 
     def wait_until_told(self, daemon, line, patience=30):
         deadline = time.monotonic() + patience

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import socket
 import subprocess
@@ -71,19 +72,19 @@ events {{ worker_connections 512; }}
 http {{
   access_log off; client_body_temp_path {folder}/body; proxy_temp_path {folder}/proxy;
   fastcgi_temp_path {folder}/f; uwsgi_temp_path {folder}/u; scgi_temp_path {folder}/s;
-  client_max_body_size 100m;
-  upstream daemons {{ {servers} keepalive 32; }}
-  server {{
-    listen 127.0.0.1:{port};
-    location / {{
-      proxy_pass http://daemons; proxy_http_version 1.1; proxy_set_header Connection "";
-      proxy_buffering off; proxy_read_timeout 120s;
-      # A request with an Idempotency-Key may go to the next daemon: it is stored once.
-      proxy_next_upstream error timeout http_503 non_idempotent;
-    }}
-  }}
+  {shown}
 }}
 """
+
+
+def shown_to_users(servers, port):
+    """What docs/guide/growing.md puts before the daemons, for these servers and this port."""
+    guide = (ROOT / "docs" / "guide" / "growing.md").read_text()
+    shown = re.search(r"```nginx\n(.*?)```", guide, re.DOTALL)[1]
+    shown, named = re.subn(r"server app\d:8286", lambda _: f"server {next(servers)}", shown)
+    shown, listens = re.subn(r"listen 80;", f"listen 127.0.0.1:{port};", shown)
+    assert (named, listens) == (3, 1), shown
+    return shown
 
 
 class FrontDoor(Daemon):
@@ -96,9 +97,9 @@ class FrontDoor(Daemon):
     def start(self, timeout=30):
         with socket.create_server(("127.0.0.1", 0)) as free:
             self.port = free.getsockname()[1]
-        servers = " ".join(f"server 127.0.0.1:{daemon.port} max_fails=1 fail_timeout=1s;" for daemon in self.daemons)
+        shown = shown_to_users((f"127.0.0.1:{daemon.port}" for daemon in self.daemons), self.port)
         configuration = self.folder / "nginx.conf"
-        configuration.write_text(NGINX.format(folder=self.folder, servers=servers, port=self.port))
+        configuration.write_text(NGINX.format(folder=self.folder, shown=shown))
         # Its worker reads and writes in the folder: as root it would be another user's.
         user = ["-g", "user root;"] if os.getuid() == 0 else []
         # One process: a worker would outlive its killed master and hold what reads our output.
