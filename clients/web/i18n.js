@@ -59,6 +59,7 @@ const formats = {};
 const dateFormat = (name, options) => (formats[`${name} ${language}`] ??= new Intl.DateTimeFormat(locale(), options));
 
 export const time = (date) => dateFormat('time', { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' }).format(date);
+export const timeOfDay = (date) => dateFormat('timeOfDay', { hour: '2-digit', minute: '2-digit', hourCycle: 'h23' }).format(date);
 export const date = (day) => dateFormat('date', { day: 'numeric', month: 'short', year: 'numeric' }).format(day);
 export const dateTime = (moment) => `${date(moment)}, ${time(moment)}`;
 

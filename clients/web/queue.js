@@ -16,7 +16,7 @@ const KEPT_IDS = 'stored-ids';
 const MOST_IDS = 200;
 
 /** Unlikely anywhere else; crypto.randomUUID would need HTTPS. */
-const randomText = () =>
+export const randomText = () =>
   Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
 
 /**
@@ -54,6 +54,12 @@ class Queue extends EventTarget {
   /** Whether all of it would be there after a reload. */
   get isKept() {
     return this.#entries.every((entry) => entry.kept);
+  }
+
+  /** What waits in any window of this browser. */
+  get everywhere() {
+    const others = storedKeys(PREFIX).filter((name) => this.#entries.every((entry) => entry.name !== name));
+    return [...others.map((name) => readJson(name, {})).filter(({ shown }) => shown), ...this.#entries];
   }
 
   /** Those that are no notes. */

@@ -19,9 +19,9 @@ export class Panel {
     this.element = h('section.verdict', { role: 'status', 'aria-live': 'polite', 'aria-atomic': 'true', 'aria-label': t('panel.label') });
   }
 
-  /** Nothing was judged yet of what is gauged now: {limits, part}, of a plan its characteristic, or that it is finished. */
-  next({ limits, part, characteristic, finished }) {
-    const what = [part, characteristic].filter(Boolean).join(' · ');
+  /** Nothing was judged yet of what is gauged now: {limits, part}, of a plan what is next, or that it is finished. */
+  next({ limits, part, step, finished }) {
+    const what = [part, step].filter(Boolean).join(' · ');
     const text = !limits ? t('panel.no_job') : finished ? t('panel.next_part') : what ? t('panel.measure_part', { part: what }) : t('panel.measure');
     this.#show('idle', [word(text), limits && limitStrip(limits)]);
   }

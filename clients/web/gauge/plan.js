@@ -1,16 +1,19 @@
 /** What is measured at a part, in order: the plan of a part number, which of its characteristics is next, and how each was. */
 
 import { getJson, url } from '../api.js';
+import { connection } from '../connection.js';
 import { h, refill } from '../dom.js';
 import { designationText } from '../designation.js';
 import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
-import { number, signed, t } from '../i18n.js';
+import { number, signed, t, timeOfDay } from '../i18n.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, verdictShape } from '../verdict.js';
 import { held } from './held.js';
+import { Samples } from './samples.js';
 
 const KEPT_LIST = 'plans';
 const KEPT_STATE = 'plan-at';
+const LONGEST_SLEEP_MS = 60000;
 
 const given = (um) => (um === undefined ? undefined : nmFromUm(um));
 
@@ -42,9 +45,14 @@ export function ownLimits(one) {
 const planOf = (part) => held(['plans', part]).catch(() => undefined);
 
 export class Plan {
-  /** @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none */
-  constructor({ onStep, onChoose }) {
+  /**
+   * @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none
+   * @param machine whose samples these are; @param leaving ends it
+   */
+  constructor({ onStep, onChoose, machine, leaving }) {
     this.onStep = onStep;
+    this.samples = new Samples({ machine, leaving, onChange: () => this.#renew() });
+    leaving.addEventListener('abort', () => clearTimeout(this.timer));
     this.known = readJson(KEPT_LIST, []);
     this.subject = '';
     this.#clear();
@@ -105,9 +113,12 @@ export class Plan {
     this.asked = asked;
     const plan = part ? await planOf(part) : undefined;
     if (this.asked !== asked) return false;
-    this.asked = undefined;
     const { missing } = this;
-    this.plan = plan;
+    // The same plan at another part: the stream has told of its values.
+    if (JSON.stringify(plan) !== JSON.stringify(this.samples.plan)) await this.samples.load(plan);
+    if (this.asked !== asked) return false;
+    this.asked = undefined;
+    this.plan = this.samples.plan;
     if (again && plan && this.#resume(subject)) return true;
     this.begin(subject, missing);
     if (part && !plan) this.note.textContent = t('plan.gone', { part });
@@ -119,7 +130,79 @@ export class Plan {
     this.note.textContent = missing.length ? t('plan.missing', { part: this.subject || t('part.none'), names: missing.join(', ') }) : '';
     this.subject = subject;
     this.#clear();
-    this.go(0);
+    this.#goTo(this.#open ?? this.#next(0));
+  }
+
+  /** Whether a characteristic is due at this part, and how far its sample is: {due, at, size, parts, until}. */
+  #standing(at) {
+    const counted = this.plan.characteristics.indexOf(this.samples.counted);
+    return this.samples.standing(this.plan.characteristics[at], this.subject, !this.#isBetween && this.taken[counted]);
+  }
+
+  /** The first that is due and not measured, from one on. */
+  #next(from) {
+    const { length } = this.plan?.characteristics ?? [];
+    return Array.from({ length }, (_, i) => (from + i) % length).find((at) => !this.taken[at] && this.#standing(at).due);
+  }
+
+  /** Where parts have no names a sample that was begun goes on first. */
+  get #open() {
+    const at = this.subject || !this.plan ? -1 : this.plan.characteristics.findIndex((_, i) => this.#standing(i).at > 0);
+    return at < 0 ? undefined : at;
+  }
+
+  #isMeasured(at) {
+    return this.taken[at] && !this.#isBetween;
+  }
+
+  /** Whether the next value is of the next part, which has no name. */
+  get #isBetween() {
+    return this.finished && !this.subject && this.taken.some(Boolean);
+  }
+
+  /** Where the next part begins, which has no name. */
+  get #nextRound() {
+    return this.plan.characteristics.findIndex((_, at) => this.#standing(at).due);
+  }
+
+  #goTo(at) {
+    this.go(at ?? 0, this.plan !== undefined && at === undefined);
+  }
+
+  /** Time has passed, or another station has measured: what nobody stands at is looked at anew. */
+  #renew() {
+    if (!this.plan) return;
+    const between = this.#isBetween;
+    const next = !this.finished ? -1 : between ? this.#nextRound : this.#next(0) ?? -1;
+    if (next < 0 || (between && next === this.at)) this.#draw();
+    else this.go(next, between);
+  }
+
+  /** What is measured next, for people: the characteristic, and how far its sample is. */
+  get what() {
+    return this.finished || !this.plan ? '' : [this.current.name, this.#sampleText(this.#standing(this.at))].filter(Boolean).join(' · ');
+  }
+
+  #sampleText({ at, size }) {
+    return size > 1 ? t('plan.sample', { at: Math.min(at + 1, size), size }) : '';
+  }
+
+  /** The sample that the next value belongs to. */
+  get sample() {
+    return this.plan && this.samples.sampleOf(this.current);
+  }
+
+  /** Why no value is taken before somebody says what is measured; '' where that is known. */
+  get reason() {
+    if (!this.finished) return '';
+    const measured = this.taken.some(Boolean);
+    if (measured) return this.subject ? t('plan.finished_first', { part: this.subject }) : this.#idle;
+    return t('plan.nothing_first');
+  }
+
+  /** Without a name the next value is of the next part, if something is due there. */
+  get #idle() {
+    return this.#standing(this.at).due ? '' : t('plan.nothing_first');
   }
 
   #clear() {
@@ -130,7 +213,7 @@ export class Plan {
 
   /** The names of what was not measured at a part that was begun. */
   get missing() {
-    return this.taken.some(Boolean) ? this.plan.characteristics.filter((_, i) => !this.taken[i]).map(({ name }) => name) : [];
+    return this.taken.some(Boolean) ? this.plan.characteristics.filter((_, i) => !this.taken[i] && this.#standing(i).due).map(({ name }) => name) : [];
   }
 
   /** Goes on where this window was with this part. @returns whether it was there */
@@ -139,16 +222,25 @@ export class Plan {
     if (kept.part !== this.part || kept.subject !== subject || !this.plan.characteristics[kept.at]) return false;
     Object.assign(this, { subject, verdicts: kept.verdicts, taken: kept.taken });
     this.go(kept.at, kept.finished);
+    this.#renew();
     return true;
   }
 
-  /** A value of the current characteristic is on its way: the next one that has none. */
+  /** A value of the current characteristic is on its way: the next one that is due and has none. */
   step() {
     if (!this.plan) return;
-    this.taken[this.at] = true;
-    const { length } = this.plan.characteristics;
-    const next = Array.from({ length }, (_, i) => (this.at + 1 + i) % length).find((at) => !this.taken[at]);
-    this.go(next ?? 0, next === undefined);
+    const { at, subject } = this;
+    if (this.#isBetween) {
+      this.#clear();
+      this.finished = false;
+    }
+    // Without names of parts a sample is measured in a row.
+    if (!subject && this.#standing(at).at > 0) return this.go(at);
+    this.taken[at] = true;
+    const next = this.#next(at + 1);
+    if (next !== undefined) return this.go(next);
+    this.finished = true;
+    return this.go(subject ? 0 : Math.max(this.#nextRound, 0), true);
   }
 
   /** A value of a characteristic was not stored: it is still to be measured. */
@@ -157,6 +249,7 @@ export class Plan {
     if (at < 0) return;
     this.taken[at] = false;
     if (this.finished) this.go(at);
+    else this.#draw();
   }
 
   /** Notes how a characteristic was, by its name. */
@@ -188,12 +281,36 @@ export class Plan {
       known.map(({ part, name }) => h('option', { value: part, selected: part === this.part }, [part, name].filter(Boolean).join(' · '))));
     this.select.value = this.part;
     const list = this.plan?.characteristics ?? [];
-    const text = !list.length ? '' : this.finished ? t('plan.finished', { count: list.length }) : t('plan.progress', { at: this.at + 1, count: list.length });
+    const all = list.map((_, i) => this.#standing(i));
+    const text = list.length ? this.#progressText(all) : '';
     if (this.progress.textContent !== text) this.progress.textContent = text;
     refill(this.tiles, list.map((one, i) => h('li', h('button', {
-      type: 'button', 'aria-current': i === this.at && !this.finished && 'step', onclick: () => this.go(i),
+      type: 'button', class: all[i].due || this.#isMeasured(i) ? '' : 'not-due', 'aria-current': i === this.at && !this.finished && 'step', onclick: () => this.go(i),
     }, this.verdicts[i] ? [verdictShape(this.verdicts[i]), h('span.unseen', t(`verdict.${this.verdicts[i]}`))] : null,
-    h('span', one.name), h('span.aside', sizeText(one))))));
+    h('span', one.name), h('span.aside', sizeText(one)), this.#whenText(one, all[i], i)))));
     this.tiles.querySelector('[aria-current]')?.scrollIntoView?.({ block: 'nearest', inline: 'nearest' });
+    this.#wake(all);
+  }
+
+  #progressText(all) {
+    const due = all.map((_, i) => i).filter((i) => this.taken[i] || all[i].due || (i === this.at && !this.finished));
+    const count = this.taken.filter(Boolean).length;
+    if (!this.finished) return [t('plan.progress', { at: due.indexOf(this.at) + 1, count: due.length }), this.#sampleText(all[this.at])].filter(Boolean).join(' · ');
+    return count === all.length ? t('plan.finished', { count }) : count ? t('plan.finished_due', { count }) : t('plan.nothing_due');
+  }
+
+  /** How often a characteristic is measured, and whether it is due. */
+  #whenText(one, { due, parts, until, at, size }, i) {
+    if (!one.frequency && size === 1) return null;
+    const next = parts > 1 ? t('plan.in_parts', { count: parts }) : until ? t('plan.from', { time: timeOfDay(new Date(until)) }) : t('plan.next_part');
+    return h('span.aside.when', [one.frequency, size > 1 && (at ? t('plan.sample', { at: Math.min(at + 1, size), size }) : t('plan.sample_of', { size })),
+      this.#isMeasured(i) ? '' : due ? t('plan.due') : next].filter(Boolean).join(' · '));
+  }
+
+  /** What becomes due by the clock says so then. */
+  #wake(all) {
+    clearTimeout(this.timer);
+    const until = Math.min(...all.map((each) => each.until ?? Infinity));
+    if (Number.isFinite(until)) this.timer = setTimeout(() => this.#renew(), Math.min(Math.max(until - connection.now() + 50, 50), LONGEST_SLEEP_MS));
   }
 }

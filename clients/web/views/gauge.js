@@ -7,7 +7,7 @@ import { h } from '../dom.js';
 import { Decimal, judge, nmFromMm, toJson } from '../exact.js';
 import { Arrivals } from '../gauge/arrivals.js';
 import { Badge } from '../gauge/badge.js';
-import { followTables } from '../events.js';
+import { follow } from '../events.js';
 import { Entry } from '../gauge/entry.js';
 import { FIELDS } from '../gauge/fields.js';
 import { forgetAtHand, limitsOf } from '../gauge/held.js';
@@ -32,8 +32,7 @@ export function mount(main, route) {
   let partBefore = route.options.part_id ?? '';
   const panel = new Panel();
   /** Why no value is taken now; '' where one is. */
-  const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '')
-    || (plan.finished && job.part ? t('plan.finished_first', { part: job.part }) : '');
+  const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '') || plan.reason;
   const badge = new Badge();
   const reactions = new Reactions({ onDone: () => entry.focus(), onNote: (said) => note(said) });
   const entry = new Entry({
@@ -61,12 +60,14 @@ export function mount(main, route) {
   const arrivals = new Arrivals(leaving.signal);
   const unkept = h('p.unkept', { role: 'status' });
 
-  const plan = new Plan({ onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part) });
+  const plan = new Plan({
+    onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part), machine: () => job.options.machine, leaving: leaving.signal,
+  });
   let stepped = false;
 
   const next = () => {
     stepped = false;
-    panel.next({ limits: job.limits, part: job.part, characteristic: plan.finished ? '' : plan.current?.name, finished: plan.finished });
+    panel.next({ limits: job.limits, part: job.part, step: plan.what, finished: plan.finished });
   };
 
   async function choosePlan(part, again) {
@@ -103,6 +104,7 @@ export function mount(main, route) {
   function jobChanged(another) {
     const path = job.designation ? [job.designation] : [];
     go({ view: 'gauge', path, options: { ...job.options, plan: plan.part, ...(plan.part && { gauge: job.ownGauge }) } }, { refine: true });
+    if (plan.samples.ofAnother) plan.samples.renew();
     if (job.part !== partBefore) {
       partBefore = job.part;
       begin();
@@ -113,27 +115,28 @@ export function mount(main, route) {
   }
 
   function shownOf(measured) {
-    const { part_id, characteristic } = job.options;
+    const { part_id, characteristic, machine } = job.options;
     const { limits } = job;
     return {
-      measured, part_id, characteristic, designation: limits?.designation ?? job.designation, at: connection.now(), limits,
+      measured, part_id, characteristic, machine, designation: limits?.designation ?? job.designation, at: connection.now(), limits,
       verdict: limits && judge(nmFromMm(measured), limits, job.rule.guard),
     };
   }
 
-  function bodyOf(text) {
+  function bodyOf(text, subgroup) {
     const { text: designation, own, feature } = job.current();
     const given = FIELDS.map((name) => [name, job.fields.of(name)]).filter(([, value]) => value);
     const exact = (value) => (value === undefined ? undefined : new Decimal(String(value)));
     const limits = own ? {
       nominal_mm: exact(own.nominal_mm), feature: own.feature, upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
     } : { designation, feature };
-    return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...job.rule.body };
+    return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...(subgroup && { subgroup }), ...job.rule.body };
   }
 
   function post({ text, correcting }) {
     if (correcting) return correct(correcting, text);
-    send(url(['measurements']), bodyOf(text), { ...shownOf(text), reaction: plan.current?.reaction, catalogue: plan.current?.catalogue }, true);
+    const subgroup = plan.sample;
+    send(url(['measurements']), bodyOf(text, subgroup), { ...shownOf(text), subgroup, reaction: plan.current?.reaction, catalogue: plan.current?.catalogue }, true);
     stepped = Boolean(plan.current);
     plan.step();
     return undefined;
@@ -169,6 +172,7 @@ export function mount(main, route) {
   addEventListener('strayline', ({ detail: { text, burst } }) => entry.take(text, burst), { signal });
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
     recent.set({ key, state: 'stored', shown, record });
+    plan.samples.take(record);
     if ((record.part_id ?? '') === job.part) plan.judged(record.characteristic, record.verdict);
     reactions.judged(key, shown, record.verdict);
     if (shown.late) arrivals.stored(record);
@@ -212,7 +216,10 @@ export function mount(main, route) {
     h('div.station', plan.element, job.element, pad.element, entry.element, badge.element, unkept, reactions.element, arrivals.element, panel.element), recent.element));
   remember('gauge');
   job.start(leaving.signal);
-  followTables(leaving.signal, () => {
+  follow(leaving.signal, ({ type, data }) => {
+    if (type === 'measurement.recorded') plan.samples.told(JSON.parse(data));
+    if (type === 'resync') plan.samples.renew();
+    if (type !== 'table.changed' && type !== 'resync') return;
     forgetAtHand();
     prepare();
     job.renew();

@@ -1,6 +1,6 @@
 /**
  * tests/e2e/web/run tests/e2e/web/film.mjs: takes the pictures of docs/guide/gauging-station.md anew, from a
- * service of its own: scan, measure, reject with its cause, outage, certificate.
+ * service of its own: scan, measure, reject with its cause, outage, sample, certificate.
  */
 
 import path from 'node:path';
@@ -15,6 +15,10 @@ const PLAN = { name: 'Bearing housing', characteristics: [
   { name: 'bore-A', designation: '25 H7', gauge: 'G-07', reaction: 'Stop, tell the setter', catalogue: 'turning' },
   { name: 'slot', nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0 },
 ] };
+const SAMPLED = { name: 'Flange', characteristics: [
+  { name: '4712-bore', designation: '25 H7' }, { name: '4712-seat', designation: '30 k6', subgroup_size: 5, frequency: 'each hour' },
+  { name: '4712-slot', designation: '8 P9', frequency: 'every 5th part' },
+] };
 
 const CATALOGUE = {
   causes: ['Insert worn', 'Part clamped askew', 'Wrong offset', 'Part too warm'], measures: ['Insert changed', 'Offset corrected', 'Part scrapped'],
@@ -24,6 +28,7 @@ const browser = await launch();
 const daemon = await new Daemon().start();
 try {
   await daemon.send('PUT', '/v1/plans/4711-A', PLAN);
+  await daemon.send('PUT', '/v1/plans/4712-A', SAMPLED);
   await daemon.send('PUT', '/v1/catalogues/turning', CATALOGUE);
   const page = await open(browser, daemon, '#/gauge?order=WO-4711', SCREEN);
   const take = (name) => page.screenshot({ path: path.join(FOLDER, `station-${name}.png`) });
@@ -55,6 +60,18 @@ try {
   await daemon.start();
   await page.waitForSelector('.link[data-state="up"]');
   await page.getByRole('button', { name: 'Seen' }).click();
+  await scan(page, '4712-A');
+  await page.waitForSelector('.tiles-of-plan li:nth-child(3)');
+  for (const [part, bore, seat, slot] of [['SN-00041', '25.011', '30.009', '7.976'], ['SN-00042', '25.013', '30.008']]) {
+    await scan(page, part);
+    await measure('4712-bore', bore);
+    await measure('4712-seat', seat);
+    if (slot) await measure('4712-slot', slot);
+  }
+  await scan(page, 'SN-00043');
+  await measure('4712-bore', '25.012');
+  await verdict('good');
+  await take('sample');
   await page.goto(`${daemon.url}/#/parts?order=WO-4711`);
   await page.waitForSelector('.records tbody tr');
   await page.click('.certificate summary');

@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
 import { close, findings, launch, open, picture } from './support/browser.mjs';
-import { Daemon } from './support/daemon.mjs';
-import { scan } from './support/scanner.mjs';
+import { Daemon, sleep } from './support/daemon.mjs';
+import { PAIR_MS, scan } from './support/scanner.mjs';
 
 describe('a plan', () => {
   let browser;
@@ -50,6 +50,7 @@ describe('a plan', () => {
     assert.equal((await daemon.stored()).length, 1);
     await page.click('.reactions button');
     assert.ok(await page.isHidden('.reactions'));
+    await sleep(PAIR_MS);
     await page.keyboard.press('Enter'); // what was typed is still there
     await verdict('good');
     await progress('3 of 3');

@@ -1,13 +1,11 @@
 /** A barcode scanner with a keyboard interface. */
 
-import { sleep } from './daemon.mjs';
-
-/** A second Enter within this time is the second of a pair. */
+/** A second Enter within this time is the second of a pair, where nothing was typed between them. */
 export const PAIR_MS = 310;
 
 /** All keys of a line at once: the page gets them without a gap, however busy the machine is. */
-export async function scan(page, text, end = 'Enter') {
-  await page.evaluate(({ line, last }) => {
+export function scan(page, text, end = 'Enter') {
+  return page.evaluate(({ line, last }) => {
     const type = (key) => {
       const down = new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true });
       const target = document.activeElement ?? document.body;
@@ -21,5 +19,4 @@ export async function scan(page, text, end = 'Enter') {
     };
     for (const key of [...line, last]) type(key);
   }, { line: text, last: end });
-  await sleep(PAIR_MS);
 }
