@@ -3,15 +3,11 @@
 namespace fitgauge::http {
 
 void PlainConnection::read_some(std::span<char> room) {
-  // Asio tries to read at once, and so soon after an answer nothing is there: the connections that
-  // are ready go first. By then the next request has often come, and one system call is saved.
-  asio::post(socket_.get_executor(), [this, room, self = shared_from_this()]() mutable {
-    socket_.async_read_some(
-        asio::buffer(room.data(), room.size()),
-        [this, self = std::move(self)](const error_code& error, std::size_t count) {
-          on_read(error, count);
-        });
-  });
+  socket_.async_read_some(
+      asio::buffer(room.data(), room.size()),
+      [this, self = shared_from_this()](const error_code& error, std::size_t count) {
+        on_read(error, count);
+      });
 }
 
 std::size_t PlainConnection::write_now(std::string_view bytes, bool& broken) {
