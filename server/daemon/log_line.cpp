@@ -1,12 +1,15 @@
 #include "daemon/log_line.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <concepts>
+#include <cstdint>
 #include <cstring>
 #include <ctime>
 #include <iterator>
+#include <optional>
 
 #include "api/service/caller.hpp"
 #include "base/json_escape.hpp"
@@ -19,6 +22,16 @@ constexpr std::string_view kLevels[] = {"debug", "info", "warning", "error", "of
 /// A field of a request is the client's text: longer than an address or a few, it is none.
 constexpr std::size_t kMostForwarded = 200;
 constexpr std::size_t kMostMethod = 32;
+
+/// `00`, `01` and so on: two digits cost no more than one.
+template <unsigned base>
+constexpr auto kDigitPairs = [] {
+  std::array<std::array<char, 2>, base * base> pairs{};
+  for (unsigned i = 0; i < pairs.size(); ++i) {
+    pairs[i] = {"0123456789abcdef"[i / base], "0123456789abcdef"[i % base]};
+  }
+  return pairs;
+}();
 
 /// The text of one line in room of its own. A text that finds no room is left out: what is put here
 /// has a known greatest length.
@@ -38,17 +51,27 @@ class Line {
   }
   template <std::integral Number>
   void put(Number number) {
-    const auto written = std::to_chars(end_, room_.end(), number);
-    if (written.ec == std::errc()) end_ = written.ptr;
+    const fmt::format_int digits(number);
+    put(std::string_view(digits.data(), digits.size()));
   }
-  void put_hexadecimal(std::uint64_t number) {
-    char digits[16];
-    for (char* to = std::end(digits); to != std::begin(digits); number >>= 4) {
-      *--to = "0123456789abcdef"[number & 0xf];
+  /// The last `count` digits in base `base`, with leading zeros.
+  template <unsigned base, std::size_t count, std::unsigned_integral Number>
+  void put_digits(Number number) {
+    static_assert(count % 2 == 0);
+    if (count > left()) return;
+    for (char* to = end_ + count; to != end_; number /= base * base) {
+      to -= 2;
+      std::memcpy(to, kDigitPairs<base>[number % (base * base)].data(), 2);
     }
-    put({digits, sizeof digits});
+    end_ += count;
   }
-  std::string_view text() const { return {room_.begin(), end_}; }
+
+  /// Appends the text to `out` and begins anew.
+  std::string& flush_to(std::string& out) {
+    out.append(room_.begin(), end_);
+    end_ = room_.begin();
+    return out;
+  }
 
  private:
   std::size_t left() const { return static_cast<std::size_t>(room_.end() - end_); }
@@ -75,28 +98,22 @@ void begin(Line& line, LogLevel level) {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
   line.put(beginning_of(now.tv_sec));
-  char micros[6];
-  auto number = static_cast<std::uint32_t>(now.tv_nsec / 1000);
-  for (char* to = std::end(micros); to != std::begin(micros); number /= 10) {
-    *--to = static_cast<char>('0' + number % 10);
-  }
-  line.put({micros, sizeof micros});
+  line.put_digits<10, 6>(static_cast<std::uint32_t>(now.tv_nsec / 1000));
   line.put(R"(Z","level":")");
   line.put(kLevels[static_cast<std::size_t>(level)]);
   line.put(R"(","event":)");
 }
 
 /// For whom a proxy asks: a field as it came, but printable ASCII and no longer than the log bears.
-void append_forwarded(std::string& out, const http::Request& request) {
-  if (!request.is_forwarded()) return;
+std::optional<std::string> forwarded_for(const http::Request& request) {
+  if (!request.is_forwarded()) return std::nullopt;
   const auto field = request.header("X-Forwarded-For");
   const auto forwarded = field ? field : request.header("Forwarded");
-  if (!forwarded) return;
+  if (!forwarded) return std::nullopt;
   std::string text(forwarded->substr(0, kMostForwarded));
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < 0x20 || c > 0x7e; }, '?');
-  out += ",\"forwarded_for\":";
-  append_json_string(out, text);
+  return text;
 }
 
 }  // namespace
@@ -110,8 +127,7 @@ void append_event_line(std::string& out, LogLevel level, std::string_view event,
                        std::string_view detail) {
   Line line;
   begin(line, level);
-  out += line.text();
-  append_json_string(out, event);
+  append_json_string(line.flush_to(out), event);
   out += ",\"detail\":";
   append_json_string(out, detail);
   out += "}\n";
@@ -121,7 +137,7 @@ void append_request_line(std::string& out, LogLevel level, const http::FinishedR
   Line line;
   begin(line, level);
   line.put(R"("request","id":")");
-  line.put_hexadecimal(finished.request.id());
+  line.put_digits<16, 16>(finished.request.id());
   line.put(R"(","method":")");
   line.put(finished.method.substr(0, kMostMethod));  // a token: nothing in it needs an escape
   line.put(R"(","route":")");
@@ -137,13 +153,16 @@ void append_request_line(std::string& out, LogLevel level, const http::FinishedR
   line.put(R"(,"peer":")");
   line.put(finished.request.peer_address());
   line.put("\"");
-  out += line.text();
   if (const auto* caller = finished.request.caller<api::Caller>()) {
-    out += ",\"caller\":";
-    append_json_string(out, caller->name);
+    line.put(",\"caller\":");
+    append_json_string(line.flush_to(out), caller->name);
   }
-  append_forwarded(out, finished.request);
-  out += "}\n";
+  if (const auto forwarded = forwarded_for(finished.request)) {
+    line.put(",\"forwarded_for\":");
+    append_json_string(line.flush_to(out), *forwarded);
+  }
+  line.put("}\n");
+  line.flush_to(out);
 }
 
 }  // namespace fitgauge::daemon
