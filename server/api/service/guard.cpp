@@ -78,6 +78,7 @@ void Guard::warn_of_proxy(const http::Request& request) const {
   if (!request.is_http_1_0() || !proxy_seen_) return;
   const auto connection = request.header("Connection");
   if (!connection || !ascii_iequals(trim(*connection), "close")) return;
+  if (may_be_rebound(request)) return;  // writes by that name need a key
   if (warned_->exchange(true)) return;
   proxy_seen_(
       "a request came as a proxy sends it (HTTP/1.0, Connection: close) and says nothing of "
@@ -109,11 +110,12 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
     if (!caller && token->starts_with(kTokenPrefix)) return invalid_key();
     if (caller) request.set_caller(Caller{caller->name});
   }
-  if (mode_ == AuthMode::Open && request.is_local() && !may_be_rebound(request)) {
+  const bool is_open = mode_ != AuthMode::Keys && access == Access::Open;
+  if (mode_ == AuthMode::Open && request.is_local() && (is_open || !may_be_rebound(request))) {
     warn_of_proxy(request);
     return std::optional<http::Response>();
   }
-  if (mode_ != AuthMode::Keys && access == Access::Open) return std::optional<http::Response>();
+  if (is_open) return std::optional<http::Response>();
   if (!caller) {
     if (token) return invalid_key();
     return Error{ErrorCode::Unauthenticated,
