@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "base/text.hpp"
 #include "http/engine/request_head.hpp"
@@ -58,18 +59,17 @@ void Request::append_identity(std::string& out) const {
   const auto append_bytes = [&out](const auto& value) {
     out.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  append_bytes(route_);
+  append_bytes(std::pair(route_, response_type_.data()));  // the type as the route names it
   for (const std::optional<ArgumentValue>& argument : arguments_) {
-    out += static_cast<char>(argument ? argument->index() : ArgumentValue().index() - 1);
-    if (!argument) continue;
-    if (const auto* text = std::get_if<std::string_view>(&*argument)) {
-      append_bytes(text->size());
+    const std::size_t kind = argument ? argument->index() : std::variant_npos;
+    const auto* const text = argument ? std::get_if<std::string_view>(&*argument) : nullptr;
+    append_bytes(std::pair(kind, text == nullptr ? 0 : text->size()));
+    if (text != nullptr) {
       out += *text;
-    } else {
+    } else if (argument) {
       std::visit([&](const auto& value) { append_bytes(value); }, *argument);
     }
   }
-  out += response_type_;
 }
 
 std::string Request::own_origin() const {
