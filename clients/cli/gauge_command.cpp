@@ -74,6 +74,10 @@ void for_each_decision(const GaugeOptions& options, Add add) {
   add("scale_expansion_um_per_m_k", options.scale_expansion);
   add("part_material", options.part_material);
   add("scale_material", options.scale_material);
+  add("temperature_uncertainty_c", options.temperature_uncertainty_c);
+  add("scale_temperature_uncertainty_c", options.scale_temperature_uncertainty_c);
+  add("part_expansion_uncertainty_um_per_m_k", options.part_uncertainty);
+  add("scale_expansion_uncertainty_um_per_m_k", options.scale_uncertainty);
 }
 
 std::string verdict_query(const GaugeOptions& options, const std::string& measured) {

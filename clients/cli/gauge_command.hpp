@@ -26,6 +26,10 @@ struct GaugeOptions {
   std::string scale_expansion{};
   std::string part_material{};
   std::string scale_material{};
+  std::string temperature_uncertainty_c{};
+  std::string scale_temperature_uncertainty_c{};
+  std::string part_uncertainty{};
+  std::string scale_uncertainty{};
   // Limits of a drawing: the feature, and one or both.
   std::string feature{};
   std::string upper_um{};

@@ -72,6 +72,14 @@ void add_gauge(CLI::App& app, Action& chosen) {
                     "Temperature of what it was read on, else 20");
   gauge->add_option("--scale-material", options->scale_material, "Of what it was read on");
   gauge->add_option("--scale-expansion", options->scale_expansion, "The same in µm/(m·K)");
+  gauge->add_option("--temperature-uncertainty-c", options->temperature_uncertainty_c,
+                    "Standard uncertainty of the part's temperature: adds to --uncertainty-um");
+  gauge->add_option("--part-expansion-uncertainty", options->part_uncertainty,
+                    "Of the part's expansion, else that of its material's source");
+  gauge->add_option("--scale-temperature-uncertainty-c", options->scale_temperature_uncertainty_c,
+                    "Of the scale's temperature");
+  gauge->add_option("--scale-expansion-uncertainty", options->scale_uncertainty,
+                    "Of the scale's expansion");
   const auto record = gauge->add_flag("--record", options->record, "Store the measurement");
   const auto field = [&](const std::string& name, std::string& value, const std::string& help) {
     gauge->add_option(name, value, help)->needs(record);

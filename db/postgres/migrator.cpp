@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/digest.hpp"
 #include "postgres/database.hpp"
 #include "sql/statement.hpp"
 #include "store/storage_failure.hpp"
@@ -10,30 +9,18 @@
 namespace fitgauge::store::postgres {
 namespace {
 
-constexpr std::string_view kName = "0001_service";
-
-Error foreign(std::string message) { return {ErrorCode::DatabaseForeign, std::move(message)}; }
-
-Result<void> check(Connection& connection) {
-  sql::Statement applied(connection,
-                         "SELECT number, checksum FROM schema_migrations ORDER BY number");
-  sql::Rows rows = applied.query();
-  if (!rows.next()) return foreign("the schema fitgauge of the database lists no migration");
-  if (rows.get<Digest>(1) != sha256(schema())) {
-    return foreign(
-        "the schema fitgauge of the database is not the one of this build; use the build "
-        "that made it");
-  }
-  if (!rows.next()) return {};
-  return Error{ErrorCode::DatabaseNewer,
-               fmt::format("the database has schema {}, this version of fitgauge knows 1; use the "
-                           "newer version",
-                           rows.get<std::int64_t>(0))};
-}
-
 bool has_schema(Connection& connection) {
   sql::Statement find(connection, "SELECT count(*) FROM pg_namespace WHERE nspname = ?");
   return find.returning<std::int64_t>(std::string_view("fitgauge")) > 0;
+}
+
+/// @pre there is the schema
+Result<std::size_t> taken_steps(Connection& connection) {
+  const auto steps = sql::check_steps(connection, migrations());
+  if (!steps) return steps.error();
+  if (*steps > 0) return static_cast<std::size_t>(*steps);
+  return Error{ErrorCode::DatabaseForeign,
+               "the schema fitgauge of the database lists no migration"};
 }
 
 }  // namespace
@@ -41,7 +28,10 @@ bool has_schema(Connection& connection) {
 Result<void> check_server(const std::string& address) {
   try {
     Connection connection(address);
-    if (has_schema(connection)) return check(connection);
+    if (has_schema(connection)) {
+      const auto steps = taken_steps(connection);
+      return steps ? Result<void>() : steps.error();
+    }
     sql::Statement may(connection,
                        "SELECT has_database_privilege(current_database(), 'CREATE')::int::int8");
     if (may.returning<std::int64_t>() == 1) return {};
@@ -53,23 +43,27 @@ Result<void> check_server(const std::string& address) {
   }
 }
 
-Result<void> prepare_schema(const std::string& address, bool may_create, std::int64_t now_ns) {
+Result<void> prepare_schema(const std::string& address, bool may_change, std::int64_t now_ns) {
   Connection connection(address);
   // The number is nobody else's: the first eight letters of "fitgauge".
   connection.send("BEGIN");
   connection.send("SELECT pg_advisory_xact_lock(7379538914411767653)");
   connection.wait();
-  const bool is_there = has_schema(connection);
-  if (!is_there && !may_create) {
-    return Error{ErrorCode::StorageUnavailable,
-                 "the database has no schema fitgauge: start the daemon on it first"};
+  std::size_t taken = 0;
+  if (has_schema(connection)) {
+    const auto steps = taken_steps(connection);
+    if (!steps) return steps.error();
+    taken = *steps;
   }
-  if (!is_there) {
-    connection.run_script(std::string(schema()));
-    sql::Statement record(connection, "INSERT INTO schema_migrations VALUES (?, ?, ?, ?)");
-    record.run(1, kName, sha256(schema()), now_ns);
-  } else if (const auto checked = check(connection); !checked) {
-    return checked;
+  const auto missing = migrations().subspan(taken);
+  if (!missing.empty() && !may_change) {
+    return Error{ErrorCode::StorageUnavailable,
+                 taken == 0 ? "the database has no schema fitgauge: start the daemon on it first"
+                            : "the database has an older schema: start the daemon on it once"};
+  }
+  for (const sql::Migration& migration : missing) {
+    connection.run_script(std::string(migration.sql));
+    sql::record_step(connection, migration, now_ns);
   }
   connection.send("COMMIT");
   connection.wait();

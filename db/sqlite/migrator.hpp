@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 #include "base/result.hpp"
+#include "sql/migration.hpp"
 #include "sqlite/connection.hpp"
 
 namespace fitgauge::store::sqlite {
@@ -12,14 +12,9 @@ namespace fitgauge::store::sqlite {
 /// `FtGg` in the header of the file: whose database it is.
 inline constexpr std::int32_t kApplicationId = 0x46744767;
 
-/// One step of the schema. Steps are numbered from 1 without a gap and only go forward.
-struct Migration {
-  int number = 0;
-  std::string_view name;
-  std::string_view sql;
-};
+using sql::Migration;
 
-/// The steps this build knows, from db/migrations.
+/// The steps this build knows, from db/migrations/sqlite.
 std::span<const Migration> migrations();
 
 /// The number of the last step applied, which is SQLite's user_version.

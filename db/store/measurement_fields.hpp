@@ -60,6 +60,11 @@ void for_each_field(Row&& row, Field&& field) {
   field("corrected_number", row.corrected_number);
   field("uncertainty_budget", row.uncertainty_budget);
   field("calibration_due", row.calibration_due);
+  field("temperature_uncertainty", row.temperature_uncertainty);
+  field("scale_temperature_uncertainty", row.scale_temperature_uncertainty);
+  field("part_expansion_uncertainty", row.part_expansion_uncertainty);
+  field("scale_expansion_uncertainty", row.scale_expansion_uncertainty);
+  field("added_uncertainty", row.added_uncertainty);
 }
 
 /// `id, source, …, hash`

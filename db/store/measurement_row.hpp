@@ -79,6 +79,12 @@ struct MeasurementRow {
   std::optional<std::int64_t> scale_expansion{};
   std::optional<std::string_view> part_material{};
   std::optional<std::string_view> scale_material{};
+  // Standard uncertainties of these, in the same units:
+  std::optional<std::int64_t> temperature_uncertainty{};
+  std::optional<std::int64_t> scale_temperature_uncertainty{};
+  std::optional<std::int64_t> part_expansion_uncertainty{};
+  std::optional<std::int64_t> scale_expansion_uncertainty{};
+  std::optional<std::int64_t> added_uncertainty{};  ///< what they add to uncertainty_nm, in pm
 
   // Of its gauge, where they are in use:
   std::optional<std::string_view> uncertainty_budget{};  ///< the name of what uncertainty_nm is of

@@ -6,7 +6,7 @@
 namespace fitgauge::sheet {
 
 /// The fields a row of /v1/measurements may have, in the order of its description.
-inline constexpr std::array<std::string_view, 28> kMeasurementFields = {
+inline constexpr std::array<std::string_view, 32> kMeasurementFields = {
     "measured_mm",
     "nominal_mm",
     "tolerance_class",
@@ -35,6 +35,10 @@ inline constexpr std::array<std::string_view, 28> kMeasurementFields = {
     "scale_expansion_um_per_m_k",
     "part_material",
     "scale_material",
+    "temperature_uncertainty_c",
+    "scale_temperature_uncertainty_c",
+    "part_expansion_uncertainty_um_per_m_k",
+    "scale_expansion_uncertainty_um_per_m_k",
 };
 
 }  // namespace fitgauge::sheet

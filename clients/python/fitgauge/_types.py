@@ -93,6 +93,10 @@ class NewMeasurement(_Measured, _Circumstances, total=False):
     scale_temperature_c: Size
     part_expansion_um_per_m_k: Size
     scale_expansion_um_per_m_k: Size
+    temperature_uncertainty_c: Size
+    scale_temperature_uncertainty_c: Size
+    part_expansion_uncertainty_um_per_m_k: Size
+    scale_expansion_uncertainty_um_per_m_k: Size
     reason: str
 
 
@@ -118,6 +122,11 @@ class Measurement(Verdict, _Origin, _Circumstances, total=False):
     scale_temperature_c: Decimal
     part_expansion_um_per_m_k: Decimal
     scale_expansion_um_per_m_k: Decimal
+    temperature_uncertainty_c: Decimal
+    scale_temperature_uncertainty_c: Decimal
+    part_expansion_uncertainty_um_per_m_k: Decimal
+    scale_expansion_uncertainty_um_per_m_k: Decimal
+    added_uncertainty_um: Decimal
     corrected_mm: Decimal
     caller: str
     run_id: str

@@ -60,6 +60,10 @@ std::string measured_text(const app::Measurement& m) {
   if (of.scale || of.scale_material) {
     text += "; scale" + body_text(of.scale_temperature, of.scale, of.scale_material);
   }
+  if (m.added_uncertainty) {
+    text += fmt::format(", adds u {} \u00b5m",
+                        format_decimal(*m.added_uncertainty, app::kPicometreDecimals));
+  }
   return text;
 }
 

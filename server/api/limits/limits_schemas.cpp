@@ -191,6 +191,9 @@ void add_limits_schemas(Schemas& schemas) {
   const schema::Fields rule = schema::optional({
       {"corrected_mm", schema::number(),
        "The size at 20 °C, which decides, where an expansion is given"},
+      {"added_uncertainty_um", schema::number(),
+       "Standard uncertainty that the correction adds to uncertainty_um, where one of a "
+       "temperature or expansion is given; the rule decides with both"},
       {"rule", rule_words(), "Where it is not simple"},
       {"uncertainty_um", schema::number(), "Standard uncertainty u of the rule"},
       {"coverage_factor", schema::number(), "k of guard_band"},

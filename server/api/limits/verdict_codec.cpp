@@ -76,17 +76,21 @@ void write_verdict_members(JsonWriter& json, Length nominal_size, const Measured
                            const gauging::GaugingResult& result) {
   json.member_mm("measured_mm", measured.reading);
   if (measured.corrected) json.member_mm("corrected_mm", *measured.corrected);
+  if (measured.added_uncertainty) {
+    json.key("added_uncertainty_um").decimal(*measured.added_uncertainty, 6);
+  }
   json.member_um("deviation_um", measured.decisive() - nominal_size)
       .member("verdict", word(result.verdict))
       .member_um("excess_um", result.excess);
 }
 
 void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule,
-                        const gauging::ConformanceLimits& limits, Length measured) {
+                        std::optional<Length> given, const gauging::ConformanceLimits& limits,
+                        Length measured) {
   using Kind = gauging::DecisionRule::Kind;
   if (rule.kind() == Kind::Simple) return;
   const Length u = rule.standard_uncertainty();
-  json.member("rule", word(rule.kind())).member_um("uncertainty_um", u);
+  json.member("rule", word(rule.kind())).member_um("uncertainty_um", given.value_or(u));
   if (rule.kind() == Kind::GuardBand) {
     json.key("coverage_factor").raw(format(rule.coverage_factor()));
     return;

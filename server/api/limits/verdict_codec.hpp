@@ -35,17 +35,20 @@ Result<void> check_acceptance(const gauging::DecisionRule& rule,
 struct MeasuredSize {
   Length reading;
   std::optional<Length> corrected{};
+  std::optional<std::int64_t> added_uncertainty{};  ///< by the correction, in pm
 
   Length decisive() const { return corrected.value_or(reading); }
 };
 
-/// Writes measured_mm, corrected_mm, deviation_um, verdict and excess_um.
+/// Writes measured_mm, corrected_mm, added_uncertainty_um, deviation_um, verdict and excess_um.
 void write_verdict_members(JsonWriter& json, Length nominal_size, const MeasuredSize& measured,
                            const gauging::GaugingResult& result);
 
 /// Writes the rule with its numbers: uncertainty_um, coverage_factor of a guard band, probability,
 /// conformance_probability and guard_band_um of conformance; nothing for the simple rule.
+/// @param given of uncertainty_um; the rule has it with what a correction adds
 void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule,
-                        const gauging::ConformanceLimits& limits, Length measured);
+                        std::optional<Length> given, const gauging::ConformanceLimits& limits,
+                        Length measured);
 
 }  // namespace fitgauge::api

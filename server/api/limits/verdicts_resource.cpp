@@ -15,12 +15,17 @@ namespace {
 
 /// @errors QueryInvalid
 Result<std::optional<ThermalCorrection>> correction_of(const http::Request& request) {
-  auto made = make_correction({.temperature = request.integer("temperature_c"),
-                               .scale_temperature = request.integer("scale_temperature_c"),
-                               .part_expansion = request.integer("part_expansion_um_per_m_k"),
-                               .scale_expansion = request.integer("scale_expansion_um_per_m_k"),
-                               .part_material = request.text("part_material"),
-                               .scale_material = request.text("scale_material")});
+  auto made = make_correction(
+      {.temperature = request.integer("temperature_c"),
+       .scale_temperature = request.integer("scale_temperature_c"),
+       .part_expansion = request.integer("part_expansion_um_per_m_k"),
+       .scale_expansion = request.integer("scale_expansion_um_per_m_k"),
+       .part_material = request.text("part_material"),
+       .scale_material = request.text("scale_material"),
+       .temperature_uncertainty = request.integer("temperature_uncertainty_c"),
+       .scale_temperature_uncertainty = request.integer("scale_temperature_uncertainty_c"),
+       .part_uncertainty = request.integer("part_expansion_uncertainty_um_per_m_k"),
+       .scale_uncertainty = request.integer("scale_expansion_uncertainty_um_per_m_k")});
   if (!made) {
     return Error{ErrorCode::QueryInvalid, made.error().message, made.error().where};
   }
@@ -79,10 +84,17 @@ Result<http::Response> verdict(const http::Request& request,
   if (const auto checked = check_measured(measured.reading); !checked) return checked.error();
   const auto correction = correction_of(request);
   if (!correction) return correction.error();
-  if (*correction) measured.corrected = (**correction)(measured.reading);
+  if (*correction) {
+    measured.corrected = (**correction)(measured.reading);
+    measured.added_uncertainty = (*correction)->added_uncertainty(*measured.corrected);
+  }
+  const std::optional<Length> given = request.length("uncertainty_um");
+  const auto uncertainty = given ? std::optional(gauging::combined_uncertainty(
+                                       *given, measured.added_uncertainty.value_or(0)))
+                                 : std::nullopt;
   const auto kind = gauging::rule_from_word(request.text("rule").value_or("simple"));
   const auto rule = make_rule({.kind = *kind,
-                               .standard_uncertainty = request.length("uncertainty_um"),
+                               .standard_uncertainty = uncertainty,
                                .coverage_millionths = request.integer("coverage_factor"),
                                .probability_millionths = request.integer("probability")});
   if (!rule) return rule.error();
@@ -95,7 +107,7 @@ Result<http::Response> verdict(const http::Request& request,
   json.begin_object();
   limits->write_members(json);
   write_verdict_members(json, limits->nominal, measured, result);
-  write_rule_members(json, *rule, limits->of, measured.decisive());
+  write_rule_members(json, *rule, given, limits->of, measured.decisive());
   json.end_object();
   http::Response response(200, "application/json", std::move(body));
   response.etag = limits->etag;
@@ -111,6 +123,12 @@ http::Parameter temperature(std::string name, std::string description) {
 http::Parameter expansion(std::string name, std::string description) {
   return {.name = std::move(name),
           .type = http::Decimal{.min = 0, .max = gauging::kLargestExpansion},
+          .description = std::move(description)};
+}
+
+http::Parameter uncertainty(std::string name, std::string description) {
+  return {.name = std::move(name),
+          .type = http::Decimal{.min = 0, .max = gauging::kLargestUncertainty},
           .description = std::move(description)};
 }
 
@@ -151,8 +169,7 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                       .description = "Decision rule (ISO 14253-1); simple when absent"},
                      {.name = "uncertainty_um",
                       .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
-                      .description =
-                          "u, with that of a correction; required by guard_band and conformance"},
+                      .description = "u; required by guard_band and conformance"},
                      {.name = "coverage_factor",
                       .type = http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
                       .description = "k of guard_band; 2 when absent"},
@@ -164,7 +181,16 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                      expansion("part_expansion_um_per_m_k", "Of the part: 11.5 of steel"),
                      expansion("scale_expansion_um_per_m_k", "Of the scale"),
                      material("part_material", "Instead of part_expansion_um_per_m_k"),
-                     material("scale_material", "Instead of scale_expansion_um_per_m_k")},
+                     material("scale_material", "Instead of scale_expansion_um_per_m_k"),
+                     uncertainty("temperature_uncertainty_c",
+                                 "Standard uncertainty of temperature_c: its part is added to "
+                                 "uncertainty_um"),
+                     uncertainty("scale_temperature_uncertainty_c", "Of scale_temperature_c"),
+                     uncertainty("part_expansion_uncertainty_um_per_m_k",
+                                 "Of the part's expansion; that of its material's source when "
+                                 "absent"),
+                     uncertainty("scale_expansion_uncertainty_um_per_m_k",
+                                 "Of the scale's expansion")},
       .access = "open",
       .operation = "getVerdict",
       .tag = "limits",

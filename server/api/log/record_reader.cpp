@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/decimal.hpp"
+#include "gauging/reference_temperature.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -141,13 +142,15 @@ void read_limits(Record& record, const JsonValue& json, Measurement& m) {
 
 void read_rule(Record& record, Measurement& m) {
   m.standard_uncertainty = record.um("uncertainty_um");
+  m.added_uncertainty = record.decimal("added_uncertainty_um", app::kPicometreDecimals);
   m.uncertainty_budget = record.text("uncertainty");
   if (const auto k = record.decimal("coverage_factor", 6)) {
     m.coverage_factor =
         record.taken("coverage_factor", gauging::CoverageFactor::from_millionths(*k));
   }
   using Kind = gauging::DecisionRule::Kind;
-  const Length u = m.standard_uncertainty.value_or(Length());
+  const Length u = gauging::combined_uncertainty(m.standard_uncertainty.value_or(Length()),
+                                                 m.added_uncertainty.value_or(0));
   const auto kind = gauging::rule_from_word(record.text("rule").value_or(""));
   if (record.required("rule", kind) == Kind::GuardBand) {
     const auto rule =
@@ -176,7 +179,11 @@ void read_expansions(Record& record, Measurement& m) {
                   .part = millionths("part_expansion_um_per_m_k"),
                   .scale = millionths("scale_expansion_um_per_m_k"),
                   .part_material = record.text("part_material"),
-                  .scale_material = record.text("scale_material")};
+                  .scale_material = record.text("scale_material"),
+                  .temperature_uncertainty = millionths("temperature_uncertainty_c"),
+                  .scale_temperature_uncertainty = millionths("scale_temperature_uncertainty_c"),
+                  .part_uncertainty = millionths("part_expansion_uncertainty_um_per_m_k"),
+                  .scale_uncertainty = millionths("scale_expansion_uncertainty_um_per_m_k")};
 }
 
 }  // namespace

@@ -56,11 +56,28 @@ std::vector<std::string> measurement_columns() {
                                     "coverage_factor",
                                     "temperature_c"};
   for (const auto& [name, field] : app::kMeasurementTexts) names.emplace_back(name);
-  for (const std::string_view name :
-       {"caller", "run_id", "cycle", "correction_of", "reason", "probability",
-        "conformance_probability", "guard_band_um", "corrected_mm", "scale_temperature_c",
-        "part_expansion_um_per_m_k", "scale_expansion_um_per_m_k", "part_material",
-        "scale_material", "uncertainty", "calibration_due", "calibration_overdue"}) {
+  for (const std::string_view name : {"caller",
+                                      "run_id",
+                                      "cycle",
+                                      "correction_of",
+                                      "reason",
+                                      "probability",
+                                      "conformance_probability",
+                                      "guard_band_um",
+                                      "corrected_mm",
+                                      "scale_temperature_c",
+                                      "part_expansion_um_per_m_k",
+                                      "scale_expansion_um_per_m_k",
+                                      "part_material",
+                                      "scale_material",
+                                      "uncertainty",
+                                      "calibration_due",
+                                      "calibration_overdue",
+                                      "temperature_uncertainty_c",
+                                      "scale_temperature_uncertainty_c",
+                                      "part_expansion_uncertainty_um_per_m_k",
+                                      "scale_expansion_uncertainty_um_per_m_k",
+                                      "added_uncertainty_um"}) {
     names.emplace_back(name);
   }
   return names;

@@ -76,6 +76,11 @@ void write_columns(const app::Measurement& m, Table& table) {
   chosen(m.uncertainty_budget);
   word(m.calibration_due.value_or(""));
   word(m.calibration_due ? "true" : "");
+  decimal(m.expansions.temperature_uncertainty, app::kTemperatureDecimals);
+  decimal(m.expansions.scale_temperature_uncertainty, app::kTemperatureDecimals);
+  decimal(m.expansions.part_uncertainty, app::kTemperatureDecimals);
+  decimal(m.expansions.scale_uncertainty, app::kTemperatureDecimals);
+  decimal(m.added_uncertainty, app::kPicometreDecimals);
 }
 
 }  // namespace fitgauge::api

@@ -21,6 +21,10 @@ constexpr std::array<std::string_view, 6> kLimitsFields = {
     "designation", "nominal_mm", "tolerance_class", "feature", "upper_um", "lower_um"};
 
 constexpr std::array<std::string_view, 2> kGaugeFields = {"gauge", "measured_at"};
+constexpr std::array<std::string_view, 2> kPartFields = {"part_material",
+                                                         "part_expansion_um_per_m_k"};
+constexpr std::array<std::string_view, 2> kScaleFields = {"scale_material",
+                                                          "scale_expansion_um_per_m_k"};
 
 /// What the texts of the correction are views of.
 struct Sources {
@@ -88,6 +92,15 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
   const app::Expansions& expansions = original.expansions;
   offer_millionths("temperature_c", original.temperature);
   offer_millionths("scale_temperature_c", expansions.scale_temperature);
+  offer_millionths("temperature_uncertainty_c", expansions.temperature_uncertainty);
+  offer_millionths("scale_temperature_uncertainty_c", expansions.scale_temperature_uncertainty);
+  // Another coefficient has another uncertainty.
+  if (!names_any(body, kPartFields)) {
+    offer_millionths("part_expansion_uncertainty_um_per_m_k", expansions.part_uncertainty);
+  }
+  if (!names_any(body, kScaleFields)) {
+    offer_millionths("scale_expansion_uncertainty_um_per_m_k", expansions.scale_uncertainty);
+  }
   if (body.find("part_material") == nullptr) {
     offer_millionths("part_expansion_um_per_m_k", expansions.part);
   }

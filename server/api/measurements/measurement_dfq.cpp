@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "gauging/reference_temperature.hpp"
+
 namespace fitgauge::api {
 namespace {
 
@@ -13,7 +15,11 @@ std::string rule_of(const app::Measurement& m) {
     rule += fmt::format("{}={}", name, text);
   };
   if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
-  if (m.standard_uncertainty) say("uncertainty_um", format_um(*m.standard_uncertainty));
+  if (m.standard_uncertainty) {
+    // Of the size at 20 degrees, which is what is written.
+    say("uncertainty_um", format_um(gauging::combined_uncertainty(
+                              *m.standard_uncertainty, m.added_uncertainty.value_or(0))));
+  }
   if (m.coverage_factor) say("coverage_factor", format(*m.coverage_factor));
   if (m.conformance) say("probability", format(m.rule.probability()));
   return rule;

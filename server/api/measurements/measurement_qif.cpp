@@ -34,6 +34,10 @@ std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Me
   decimal("scale_temperature_c", m.expansions.scale_temperature);
   decimal("part_expansion_um_per_m_k", m.expansions.part);
   decimal("scale_expansion_um_per_m_k", m.expansions.scale);
+  decimal("temperature_uncertainty_c", m.expansions.temperature_uncertainty);
+  decimal("scale_temperature_uncertainty_c", m.expansions.scale_temperature_uncertainty);
+  decimal("part_expansion_uncertainty_um_per_m_k", m.expansions.part_uncertainty);
+  decimal("scale_expansion_uncertainty_um_per_m_k", m.expansions.scale_uncertainty);
   if (const auto& text = m.expansions.part_material) fields.emplace_back("part_material", *text);
   if (const auto& text = m.expansions.scale_material) fields.emplace_back("scale_material", *text);
   return fields;

@@ -41,6 +41,10 @@ struct RowField {
     ScaleExpansion,
     PartMaterial,
     ScaleMaterial,
+    TemperatureUncertainty,
+    ScaleTemperatureUncertainty,
+    PartUncertainty,
+    ScaleUncertainty,
     Count,
   };
 
@@ -102,6 +106,13 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = {{
     {"scale_expansion_um_per_m_k", RowField::Kind::Decimal, 0, "Of what it was read on"},
     {"part_material", RowField::Kind::Text, 64, "Instead of part_expansion_um_per_m_k: steel"},
     {"scale_material", RowField::Kind::Text, 64, "Instead of scale_expansion_um_per_m_k"},
+    {"temperature_uncertainty_c", RowField::Kind::Decimal, 0,
+     "Standard uncertainty of temperature_c, from 0: its part is added to uncertainty_um"},
+    {"scale_temperature_uncertainty_c", RowField::Kind::Decimal, 0, "Of scale_temperature_c"},
+    {"part_expansion_uncertainty_um_per_m_k", RowField::Kind::Decimal, 0,
+     "Of the part's expansion; that of its material's source when absent"},
+    {"scale_expansion_uncertainty_um_per_m_k", RowField::Kind::Decimal, 0,
+     "Of the scale's expansion"},
 }};
 
 }  // namespace fitgauge::api

@@ -87,6 +87,9 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
   const auto expansion = [this](std::size_t of, const RawValue& given_value) {
     return decimal_in(of, given_value, 0, gauging::kLargestExpansion, "lies from 0 to 1000");
   };
+  const auto uncertainty = [this](std::size_t of, const RawValue& given_value) {
+    return decimal_in(of, given_value, 0, gauging::kLargestUncertainty, "lies from 0 to 1000");
+  };
   switch (field) {
     case RowField::Measured:
       if (const auto measured = length(field, value, false, true)) {
@@ -152,6 +155,18 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
     case RowField::ScaleExpansion: m.expansions.scale = expansion(field, value); break;
     case RowField::PartMaterial: m.expansions.part_material = text(field, value); break;
     case RowField::ScaleMaterial: m.expansions.scale_material = text(field, value); break;
+    case RowField::TemperatureUncertainty:
+      m.expansions.temperature_uncertainty = uncertainty(field, value);
+      break;
+    case RowField::ScaleTemperatureUncertainty:
+      m.expansions.scale_temperature_uncertainty = uncertainty(field, value);
+      break;
+    case RowField::PartUncertainty:
+      m.expansions.part_uncertainty = uncertainty(field, value);
+      break;
+    case RowField::ScaleUncertainty:
+      m.expansions.scale_uncertainty = uncertainty(field, value);
+      break;
     default: m.texts.*kRowFields[field].text = text(field, value); break;
   }
 }
@@ -261,6 +276,10 @@ void MeasurementRowReader::apply_gauge() {
 void MeasurementRowReader::apply_rule() {
   app::Measurement& m = draft_.measurement;
   draft_.rule.standard_uncertainty = m.standard_uncertainty;
+  if (m.standard_uncertainty && m.added_uncertainty) {
+    draft_.rule.standard_uncertainty =
+        gauging::combined_uncertainty(*m.standard_uncertainty, *m.added_uncertainty);
+  }
   const auto rule = make_rule(draft_.rule);
   if (!rule) {
     const std::string_view field = kRowFields[RowField::Uncertainty].name;
@@ -281,19 +300,27 @@ void MeasurementRowReader::apply_rule() {
   }
 }
 
-/// @pre as of apply_rule
+/// @pre every field is valid by itself
 void MeasurementRowReader::apply_correction() {
   app::Measurement& m = draft_.measurement;
-  const auto correction = make_correction({.temperature = m.temperature,
-                                           .scale_temperature = m.expansions.scale_temperature,
-                                           .part_expansion = m.expansions.part,
-                                           .scale_expansion = m.expansions.scale,
-                                           .part_material = m.expansions.part_material,
-                                           .scale_material = m.expansions.scale_material});
+  const app::Expansions& of = m.expansions;
+  const auto correction =
+      make_correction({.temperature = m.temperature,
+                       .scale_temperature = of.scale_temperature,
+                       .part_expansion = of.part,
+                       .scale_expansion = of.scale,
+                       .part_material = of.part_material,
+                       .scale_material = of.scale_material,
+                       .temperature_uncertainty = of.temperature_uncertainty,
+                       .scale_temperature_uncertainty = of.scale_temperature_uncertainty,
+                       .part_uncertainty = of.part_uncertainty,
+                       .scale_uncertainty = of.scale_uncertainty});
   if (!correction) {
     return report(correction.error().code, correction.error().where, correction.error().message);
   }
-  if (*correction) m.corrected = (**correction)(m.measured);
+  if (!*correction) return;
+  m.corrected = (**correction)(m.measured);
+  m.added_uncertainty = (*correction)->added_uncertainty(*m.corrected);
 }
 
 const app::Measurement* MeasurementRowReader::end() {
@@ -311,8 +338,8 @@ const app::Measurement* MeasurementRowReader::end() {
                        "that has an uncertainty budget",
                        word(draft_.rule.kind)));
   }
-  if (!draft_.failed) apply_rule();
   if (!draft_.failed) apply_correction();
+  if (!draft_.failed) apply_rule();
   if (draft_.failed) return nullptr;
   m.received_at = context_.received_at;
   m.caller = context_.caller;

@@ -65,6 +65,9 @@ schema::Fields record_fields() {
   };
   const schema::Fields links = schema::optional({
       {"corrected_mm", schema::number(), "At 20 degrees, where an expansion is given: it decides"},
+      {"added_uncertainty_um", schema::number(),
+       "Standard uncertainty that the correction adds to uncertainty_um, where one of a "
+       "temperature or expansion is given; the rule decides with both"},
       {"conformance_probability", schema::number(0, 1), "Of rule conformance: to 1e-9"},
       {"guard_band_um", schema::number(), "Of rule conformance: to 1e-9"},
       {"uncertainty", schema::text(),

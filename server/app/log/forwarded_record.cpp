@@ -10,7 +10,13 @@ namespace {
 /// What the store refuses in a row that no version of the service has written.
 std::string_view refusal_of(const Measurement& m) {
   const Length u = m.standard_uncertainty.value_or(Length());
-  if (u < Length()) return "has an uncertainty below 0";
+  const app::Expansions& of = m.expansions;
+  for (const auto& uncertainty :
+       {of.temperature_uncertainty, of.scale_temperature_uncertainty, of.part_uncertainty,
+        of.scale_uncertainty, m.added_uncertainty, std::optional(u.count())}) {
+    if (uncertainty.value_or(0) < 0) return "has an uncertainty below 0";
+  }
+  if (m.added_uncertainty && !m.corrected) return "has an uncertainty of no correction";
   if (m.conformance && (m.conformance->probability < 0 || m.conformance->guard_band < 0 ||
                         m.conformance->probability > 1'000'000'000)) {
     return "has a probability that is none";

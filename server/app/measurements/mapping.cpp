@@ -6,6 +6,7 @@
 
 #include "app/log/origins.hpp"
 #include "app/tables/table_catalog.hpp"
+#include "gauging/reference_temperature.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -52,7 +53,8 @@ store::Rule code_of(gauging::DecisionRule::Kind rule) {
 
 /// The rule of a row. @throws boost::system::system_error for numbers that no rule has.
 gauging::DecisionRule rule_of(const store::MeasurementRow& row) {
-  const Length u = Length::nanometres(row.uncertainty_nm.value_or(0));
+  const Length u = gauging::combined_uncertainty(Length::nanometres(row.uncertainty_nm.value_or(0)),
+                                                 row.added_uncertainty.value_or(0));
   switch (row.rule) {
     case store::Rule::Simple: return {};
     case store::Rule::GuardBand:
@@ -216,6 +218,11 @@ store::MeasurementRow to_store(const Measurement& m) {
   row.scale_expansion = m.expansions.scale;
   row.part_material = m.expansions.part_material;
   row.scale_material = m.expansions.scale_material;
+  row.temperature_uncertainty = m.expansions.temperature_uncertainty;
+  row.scale_temperature_uncertainty = m.expansions.scale_temperature_uncertainty;
+  row.part_expansion_uncertainty = m.expansions.part_uncertainty;
+  row.scale_expansion_uncertainty = m.expansions.scale_uncertainty;
+  row.added_uncertainty = m.added_uncertainty;
   row.caller = m.caller;
   row.run_id = m.run_id;
   row.cycle = m.cycle;
@@ -274,7 +281,12 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
                   .part = row.part_expansion,
                   .scale = row.scale_expansion,
                   .part_material = row.part_material,
-                  .scale_material = row.scale_material};
+                  .scale_material = row.scale_material,
+                  .temperature_uncertainty = row.temperature_uncertainty,
+                  .scale_temperature_uncertainty = row.scale_temperature_uncertainty,
+                  .part_uncertainty = row.part_expansion_uncertainty,
+                  .scale_uncertainty = row.scale_expansion_uncertainty};
+  m.added_uncertainty = row.added_uncertainty;
   m.caller = row.caller;
   m.run_id = row.run_id;
   m.cycle = row.cycle;

@@ -62,6 +62,7 @@ inline constexpr std::array<
     }};
 
 inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them
+inline constexpr int kPicometreDecimals = 6;    ///< of a micrometre
 
 /// The deviation of a limit that a drawing does not have: beyond every length.
 inline constexpr Length kNoLimit = Length::nanometres(2 * kLongest.count());
@@ -73,6 +74,11 @@ struct Expansions {
   std::optional<std::int64_t> scale;
   std::optional<std::string_view> part_material;  ///< instead of the number
   std::optional<std::string_view> scale_material;
+  // Standard uncertainties, in the units of what they are of:
+  std::optional<std::int64_t> temperature_uncertainty{};
+  std::optional<std::int64_t> scale_temperature_uncertainty{};
+  std::optional<std::int64_t> part_uncertainty{};
+  std::optional<std::int64_t> scale_uncertainty{};
 };
 
 /// A record that another folder has stored, and where it stands in this one.
@@ -117,6 +123,8 @@ struct Measurement {
   std::optional<std::int64_t> temperature;  ///< in millionths of a degree Celsius
   Expansions expansions;
   std::optional<Length> corrected;  ///< the size at 20 °C, where it decides
+  /// The standard uncertainty that the correction adds, in pm; `rule` decides with both.
+  std::optional<std::int64_t> added_uncertainty;
 
   std::optional<std::string_view> caller;
   std::optional<std::int64_t> run_id;

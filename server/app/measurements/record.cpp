@@ -9,7 +9,7 @@ namespace {
 
 /// More than the names of all members, the numbers, the words and the ids of a record take
 /// together.
-constexpr std::size_t kFixedRoom = 2304;
+constexpr std::size_t kFixedRoom = 2688;
 
 std::size_t room_for(const Measurement& m) {
   std::size_t texts =
@@ -60,7 +60,13 @@ void RecordWriter::append(const Measurement& m) {
   };
   const MeasurementTexts& texts = m.texts;
   // Sorted by the names of the members; a test compares it with an RFC 8785 form made elsewhere.
-  text.raw(R"({"basis":")").raw(word(m.basis)).raw("\"");
+  text.raw("{");
+  if (m.added_uncertainty) {
+    text.raw(R"("added_uncertainty_um":)")
+        .decimal(*m.added_uncertainty, kPicometreDecimals)
+        .raw(",");
+  }
+  text.raw(R"("basis":")").raw(word(m.basis)).raw("\"");
   if (m.calibration_due) {
     given("calibration_due", m.calibration_due);
     text.raw(R"(,"calibration_overdue":true)");
@@ -111,6 +117,7 @@ void RecordWriter::append(const Measurement& m) {
   given("operator", texts.operator_id);
   given("order", texts.order);
   millionths("part_expansion_um_per_m_k", m.expansions.part);
+  millionths("part_expansion_uncertainty_um_per_m_k", m.expansions.part_uncertainty);
   given("part_id", texts.part_id);
   given("part_material", m.expansions.part_material);
   if (m.conformance) text.raw(R"(,"probability":)").raw(format(m.rule.probability()));
@@ -120,8 +127,10 @@ void RecordWriter::append(const Measurement& m) {
   text.raw(R"(","rule":")").raw(word(m.rule.kind())).raw("\"");
   if (m.run_id) given("run_id", run_id_text(*m.run_id, m.origin));
   millionths("scale_expansion_um_per_m_k", m.expansions.scale);
+  millionths("scale_expansion_uncertainty_um_per_m_k", m.expansions.scale_uncertainty);
   given("scale_material", m.expansions.scale_material);
   millionths("scale_temperature_c", m.expansions.scale_temperature);
+  millionths("scale_temperature_uncertainty_c", m.expansions.scale_temperature_uncertainty);
   write_or_copy(text, SizeRange, limits, [&] {
     if (!m.size_range) return;
     text.raw(R"(,"size_range_mm":{"over":)").mm(m.size_range->over);
@@ -131,6 +140,7 @@ void RecordWriter::append(const Measurement& m) {
   given("subgroup", texts.subgroup);
   if (!m.table_revision.empty()) given("table_revision", m.table_revision);
   millionths("temperature_c", m.temperature);
+  millionths("temperature_uncertainty_c", m.expansions.temperature_uncertainty);
   given("tolerance_class", m.class_name);
   if (m.has_upper_limit() && m.has_lower_limit()) {
     text.raw(R"(,"tolerance_um":)").um(m.deviations.upper - m.deviations.lower);

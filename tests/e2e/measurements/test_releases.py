@@ -37,7 +37,12 @@ class Releases(unittest.TestCase):
                     self.assertIsNone(check_proof.check(record, daemon.get(f"/v1/measurements/{each}/proof").json, keys))
                 for path, answer in json.loads((then / "answers.json").read_text()).items():
                     self.assertEqual(daemon.get(path).text, answer, path)
-                self.assertEqual(daemon.measure({"designation": "25 H7", "measured_mm": "25.013"}).status, 201)
+                # What no release before had is kept beside it.
+                for more in ({}, {"temperature_c": 21, "part_material": "steel", "temperature_uncertainty_c": 1}):
+                    answer = daemon.measure({"designation": "25 H7", "measured_mm": "25.013", **more})
+                    self.assertEqual((answer.status, "added_uncertainty_um" in answer.json), (201, bool(more)))
+                    self.assertIsNone(check_proof.check(
+                        answer.text, daemon.get(f"/v1/measurements/{answer.json['id']}/proof").json, keys))
                 self.assertEqual(daemon.stop(), 0)
                 verified = daemon.command("verify")
                 self.assertEqual(verified.returncode, 0, verified.stdout)

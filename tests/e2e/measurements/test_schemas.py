@@ -5,6 +5,7 @@ differs on purpose stands in the constants."""
 
 import contextlib
 import hashlib
+import json
 import sqlite3
 import unittest
 
@@ -81,6 +82,46 @@ class Schemas(unittest.TestCase):
 
     def test_each_named_index_stands_in_both(self):
         self.assertEqual(self.file_indexes - self.server_indexes, ONLY_SQLITE_INDEXES)
+
+    def test_a_schema_of_the_first_release_is_upgraded_on_a_server(self):
+        """What is not of the first migration is taken out of a database that has records, and comes again."""
+        cluster = Cluster().start()
+        self.addCleanup(cluster.cleanup)
+        first = (ROOT / "db" / "migrations" / "postgres" / "0001_service.sql").read_text()
+        cluster.query("CREATE DATABASE old")
+        cluster.query(f"BEGIN; {first} COMMIT", "old")
+
+        def columns(database=None):
+            rows = cluster.query("SELECT table_name, column_name FROM information_schema.columns "
+                                 "WHERE table_schema = 'fitgauge' AND table_name !~ '^measurements_'",  # partitions
+                                 *([database] if database else []))
+            return {tuple(row) for row in rows}
+
+        daemon = Daemon("--database", cluster.address()).start()
+        self.addCleanup(daemon.cleanup)
+        records = [daemon.measure({"designation": "25 H7", "measured_mm": value}).text for value in ("25.01", "25.1")]
+        daemon.stop()
+        now, then = columns(), columns("old")
+        old_tables = {table for table, _ in then}
+        for table, column in sorted(now - then):
+            if table in old_tables:
+                cluster.query(f"ALTER TABLE fitgauge.{table} DROP COLUMN {column}")
+        for table in {table for table, _ in now} - old_tables:
+            cluster.query(f"DROP TABLE fitgauge.{table}")
+        cluster.query("DELETE FROM fitgauge.schema_migrations WHERE number > 1")
+        self.assertNotEqual(columns(), now, "nothing was taken out: the test proves nothing")
+        refused = daemon.command("verify", "--database", cluster.address())
+        self.assertEqual((refused.returncode, "older schema" in refused.stderr), (2, True), refused)
+        daemon.start()
+        self.assertEqual(columns(), now)
+        for record in records:
+            self.assertEqual(daemon.get(f"/v1/measurements/{json.loads(record)['id']}").text, record)
+        more = daemon.measure({"designation": "25 H7", "measured_mm": "25.013", "temperature_c": 21,
+                               "part_material": "steel", "temperature_uncertainty_c": 1})
+        self.assertEqual((more.status, "added_uncertainty_um" in more.json), (201, True), more)
+        daemon.stop()
+        verified = daemon.command("verify", "--database", cluster.address())
+        self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
 
 
 if __name__ == "__main__":

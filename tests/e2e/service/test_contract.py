@@ -134,7 +134,7 @@ class Answers(ContractTest):
         self.expect("getFitAsOne", 200, fit="25H7/g6")
         self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="guard_band", uncertainty_um=1)
         self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=1,
-                    temperature_c=23, part_material="steel")
+                    temperature_c=23, part_material="steel", temperature_uncertainty_c=0.1)
         self.expect("getVerdict", 422, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=9)
         self.expect("listTables", 200)
         column = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": "-3"}]}
@@ -171,6 +171,8 @@ class Answers(ContractTest):
         self.expect("postMeasurements", 201, full, {"Prefer": "return=minimal"})
         decided = {"designation": "25 H7", "measured_mm": 25.013, "rule": "conformance", "uncertainty_um": 1,
                    "probability": 0.9, "temperature_c": 21, "scale_temperature_c": 19}
+        decided |= {"temperature_uncertainty_c": 0.1, "scale_temperature_uncertainty_c": 0.1,
+                    "part_expansion_uncertainty_um_per_m_k": 1, "scale_expansion_uncertainty_um_per_m_k": 1}
         self.expect("postMeasurements", 201, {**decided, "part_expansion_um_per_m_k": 11.5, "scale_material": "steel"})
         self.expect("postMeasurements", 201, {**decided, "part_material": "steel", "scale_expansion_um_per_m_k": 8})
         self.expect("postMeasurements", 201, {"nominal_mm": 8, "feature": "shaft", "upper_um": 0, "measured_mm": 8})

@@ -140,6 +140,19 @@ TEST_CASE("the longest numbers and texts of nothing but escapes have room") {
   m.standard_uncertainty = m.measured;
   m.coverage_factor = gauging::CoverageFactor();
   m.temperature = m.id = kLowest;
+  m.expansions = {.scale_temperature = kLowest,
+                  .part = kLowest,
+                  .scale = kLowest,
+                  .part_material = text,
+                  .scale_material = text,
+                  .temperature_uncertainty = kLowest,
+                  .scale_temperature_uncertainty = kLowest,
+                  .part_uncertainty = kLowest,
+                  .scale_uncertainty = kLowest};
+  m.added_uncertainty = kLowest;
+  m.corrected = m.measured;
+  m.conformance = {.probability = kLowest, .guard_band = kLowest};
+  m.uncertainty_budget = m.calibration_due = text;
   m.run_id = m.cycle = m.correction_of = m.corrected_by = kLowest;
   m.measured_at = m.received_at = {1'795'000'000'123'456'789};
   CHECK(record(m).size() > text.size() * 14 * 6);

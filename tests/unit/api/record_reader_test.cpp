@@ -36,7 +36,7 @@ std::string text_of(const app::Measurement& m) {
 
 /// One record of each kind.
 std::vector<app::Measurement> samples() {
-  std::vector<app::Measurement> rows(10, hole());
+  std::vector<app::Measurement> rows(11, hole());
   rows[1].texts.comment = "\"\\\b\f\n\r\t\x01\x7f \xC3\x98 25 \xF0\x9F\x98\x80";
   rows[1].caller = "press-3";
   rows[1].temperature = -1;
@@ -77,6 +77,13 @@ std::vector<app::Measurement> samples() {
   rows[9].texts.gauge = "G-07";
   rows[9].uncertainty_budget = "bore gauge";
   rows[9].calibration_due = "2026-03-31";
+  rows[10] = rows[3];
+  rows[10].expansions.temperature_uncertainty = 100'000;
+  rows[10].expansions.scale_temperature_uncertainty = 1;
+  rows[10].expansions.part_uncertainty = 577'350;
+  rows[10].expansions.scale_uncertainty = 0;
+  rows[10].added_uncertainty = 1'500'000;  // 1.5 µm, with 2 µm: 2.5 µm
+  rows[10].rule = gauging::DecisionRule::conformance(Length::nanometres(2500)).value();
   for (app::Measurement& m : rows) app::judge(m);
   return rows;
 }
@@ -94,6 +101,7 @@ TEST_CASE("a record that was read gives its own text again") {
     CHECK(read->id == m.id);
     CHECK(read->run_id == m.run_id);
     CHECK(read->result.verdict == m.result.verdict);
+    CHECK(read->rule == m.rule);
   }
 }
 
