@@ -87,12 +87,16 @@ void set_indices(Capability& capability, const Distances& distances, const Inter
 
 void set_cpm(Capability& capability, const SpecificationLimits& limits, const Exact& mean,
              const Intervals& intervals) {
-  if (!limits.lower || !limits.upper) return;
-  const Exact target = limits.target.value_or((*limits.lower + *limits.upper) / 2);
+  const bool both = limits.lower && limits.upper;
+  if (!both && !limits.target) return;
+  const Exact target = limits.target ? *limits.target : (*limits.lower + *limits.upper) / 2;
   const long double off = nearest(mean - target);
   const long double root = std::hypot(capability.overall, off);
-  const long double width = nearest(*limits.upper - *limits.lower);
-  capability.cpm = intervals.about_target(width / (6 * root), off / capability.overall);
+  // With one limit what lies between it and the target counts twice.
+  const Exact width = both           ? *limits.upper - *limits.lower
+                      : limits.upper ? 2 * (*limits.upper - target)
+                                     : 2 * (target - *limits.lower);
+  capability.cpm = intervals.about_target(nearest(width) / (6 * root), off / capability.overall);
 }
 
 PercentileCapability by_percentiles(const Ranking& ranking, int scale,
@@ -141,6 +145,14 @@ Result<void> check(const SpecificationLimits& limits) {
   }
   if (limits.lower && limits.upper && *limits.lower >= *limits.upper) {
     return Error{ErrorCode::LimitsInvalid, "lower must be below upper"};
+  }
+  if (limits.target && !(limits.lower && limits.upper)) {
+    const bool beyond =
+        limits.upper ? *limits.target >= *limits.upper : *limits.target <= *limits.lower;
+    if (beyond) {
+      return Error{ErrorCode::LimitsInvalid, "the target of one limit lies on its good side",
+                   "target"};
+    }
   }
   return {};
 }

@@ -10,7 +10,9 @@ namespace fitgauge::metrology {
 struct SpecificationLimits {
   std::optional<Exact> lower{};
   std::optional<Exact> upper{};
-  std::optional<Exact> target{};  ///< none: the middle of both limits
+  /// None: the middle of both limits. With one limit it has to be given for a cpm, which is then
+  /// |limit - target| / 3 tau (Chan, Cheng and Spiring 1988).
+  std::optional<Exact> target{};
 };
 
 /// An index with its confidence interval; the ends are undefined for a single value.
@@ -47,7 +49,8 @@ struct Capability {
 };
 
 /// @param confidence of the intervals, 0 < confidence < 1
-/// @errors LimitsInvalid: no limit, or the lower not below the upper one; StatisticsTooFew with
+/// @errors LimitsInvalid: no limit, the lower not below the upper one, or (`where` is `target`) the
+///   target beyond the one limit; StatisticsTooFew with
 ///   fewer than two points; StatisticsZeroSpread.
 Result<Capability> assess_capability(const Subgroups& data, const SpecificationLimits& limits,
                                      long double confidence);

@@ -14,7 +14,8 @@ _fitgauge() {
     --part-id | --characteristic | --order | --operation | --machine | --operator | --gauge) return ;;
     --unit | --measured-at | --temperature-c | --comment | --pattern | --uncertainty-um | --coverage-factor) return ;;
     --probability | --part-material | --part-expansion | --scale-temperature-c) return ;;
-    --scale-material | --scale-expansion) return ;;
+    --scale-material | --scale-expansion | --temperature-uncertainty-c) return ;;
+    --part-expansion-uncertainty | --scale-temperature-uncertainty-c | --scale-expansion-uncertainty) return ;;
     --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --group-by) return ;;
     --min-um | --max-um | --size-mm | --lower | --upper | --reference | --tolerance) return ;;
     --designation | --subgroup | --target-mm | --confidence | --rules) return ;;
@@ -58,8 +59,9 @@ _fitgauge() {
     '') _fitgauge_words "$commands $common --version"; return ;;
     gauge)
       options='--rule --uncertainty-um --coverage-factor --probability --part-material --part-expansion
-               --scale-temperature-c --scale-material --scale-expansion --record --part-id --characteristic --order
-               --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um
+               --scale-temperature-c --scale-material --scale-expansion --temperature-uncertainty-c
+               --part-expansion-uncertainty --scale-temperature-uncertainty-c --scale-expansion-uncertainty --record
+               --part-id --characteristic --order --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um
                --serial --baud --pattern' ;;
     measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;

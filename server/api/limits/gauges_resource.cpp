@@ -101,6 +101,7 @@ Result<std::string> press_fit(const JsonValue& body) {
   std::string out;
   JsonWriter json(out);
   json.begin_object().member("method", "Lame, DIN 7190-1:2017, elastic, plane stress");
+  write_formula(json, "press_fit");
   for (const auto& [name, interference] :
        {std::pair{"at_min_interference", least}, std::pair{"at_max_interference", most}}) {
     const auto made = metrology::press(fit, interference);

@@ -136,9 +136,11 @@ void add_press_fit(Schemas& schemas) {
       {"axial_force_n", schema::number(), "At which it slips"},
       {"torque_nm", schema::number(), "At which it slips"},
   });
-  schemas.push_back({"PressFit", schema::object({{"method", schema::text(), ""},
-                                                 {"at_min_interference", pressed, ""},
-                                                 {"at_max_interference", pressed, ""}})});
+  schemas.push_back(
+      {"PressFit",
+       schema::object(formula_fields() + schema::Fields{{"method", schema::text(), ""},
+                                                        {"at_min_interference", pressed, ""},
+                                                        {"at_max_interference", pressed, ""}})});
 }
 
 }  // namespace

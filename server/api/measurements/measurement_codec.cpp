@@ -1,6 +1,7 @@
 #include "api/measurements/measurement_codec.hpp"
 
 #include "api/measurements/measurement_columns.hpp"
+#include "api/wire/formulas.hpp"
 #include "base/decimal.hpp"
 #include "sheet/csv_cell.hpp"
 
@@ -112,7 +113,9 @@ void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rewo
 std::string summary_json(std::string_view group_by, std::span<const app::MeasurementGroup> groups) {
   std::string out;
   JsonWriter json(out);
-  json.begin_object().key("groups").begin_array();
+  json.begin_object();
+  write_formula(json, "stored_summary");
+  json.key("groups").begin_array();
   for (const app::MeasurementGroup& group : groups) {
     json.begin_object().key(group_by);
     if (group.value) {

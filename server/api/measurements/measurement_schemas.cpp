@@ -216,13 +216,15 @@ void add_measurement_schemas(Schemas& schemas) {
             {"next", schema::null_or(schema::text()), "For `after`; null on the last page"}})});
   schemas.push_back({"SummaryGroup", schema::object(group_fields())});
   schemas.push_back(
-      {"Summary", schema::object({{"groups", schema::array(schema::ref("SummaryGroup")),
-                                   "By the value of the field that group_by names"}},
-                                 Others::Allowed,
-                                 R"({"groups":[{"characteristic":"bore-A","count":3,)"
-                                 R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0},)"
-                                 R"("mean_mm":25.0151,"standard_deviation_mm":0.005551576,)"
-                                 R"("min_mm":25.0108,"max_mm":25.0215}]})")});
+      {"Summary",
+       schema::object(
+           formula_fields() + schema::Fields{{"groups", schema::array(schema::ref("SummaryGroup")),
+                                              "By the value of the field that group_by names"}},
+           Others::Allowed,
+           R"({"formula":"…","clause":"NIST/SEMATECH e-Handbook, 1.3.5","groups":[{"characteristic":"bore-A","count":3,)"
+           R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0},)"
+           R"("mean_mm":25.0151,"standard_deviation_mm":0.005551576,)"
+           R"("min_mm":25.0108,"max_mm":25.0215}]})")});
 }
 
 }  // namespace fitgauge::api

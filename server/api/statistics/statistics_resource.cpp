@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "api/statistics/computation.hpp"
@@ -75,8 +76,10 @@ Result<std::string> capability(const JsonValue& body) {
   if (auto error = errors.take()) return *std::move(error);
   const auto made = metrology::assess_capability(data, limits, confidence);
   if (!made) {
-    const bool of_limits = made.error().code == ErrorCode::LimitsInvalid;
-    return at_member(of_limits ? "upper" : data_member(body), made.error());
+    const Error error = made.error();
+    const bool of_limits = error.code == ErrorCode::LimitsInvalid;
+    const std::string_view member = of_limits ? "upper" : data_member(body);
+    return at_member(error.where.empty() ? member : error.where, error);
   }
   std::string out;
   JsonWriter json(out);
@@ -130,6 +133,9 @@ double number_between(FieldReader& fields, std::string_view name, double fallbac
   return fallback;
 }
 
+/// Limits are known by `centre` and `standard_deviation`, else something of them is estimated.
+constexpr std::array<Applicable, 1> kLimitMembers = {{{"phase1", "estimated"}}};
+
 metrology::ChartPlan read_plan(FieldReader& fields, FieldErrors& errors) {
   metrology::ChartPlan plan;
   if (const auto text = fields.text("kind")) {
@@ -154,12 +160,13 @@ metrology::ChartPlan read_plan(FieldReader& fields, FieldErrors& errors) {
   plan.decision_interval =
       number_between(fields, "decision_interval", plan.decision_interval, kLeast, 20);
   fields.optional("phase1");
-  refuse_not_applicable(
-      chart_members(), "kind", word(plan.kind),
-      [&](const Applicable& row) { return fields.has(row.member); },
-      [&](std::string_view member, std::string message) {
-        fields.report(ErrorCode::FieldConflict, member, std::move(message));
-      });
+  const auto given = [&](const Applicable& row) { return fields.has(row.member); };
+  const auto refuse = [&](std::string_view member, std::string message) {
+    fields.report(ErrorCode::FieldConflict, member, std::move(message));
+  };
+  refuse_not_applicable(chart_members(), "kind", word(plan.kind), given, refuse);
+  const bool is_known = plan.centre && plan.standard_deviation;
+  refuse_not_applicable(kLimitMembers, "limits", is_known ? "known" : "estimated", given, refuse);
   return plan;
 }
 

@@ -11,12 +11,16 @@ namespace {
 constexpr std::array kFormulas = {
     Formula{"summary", "x̄ = Σx/n, s = √(Σ(x − x̄)²/(n − 1)), r(1) = Σ(xᵢ − x̄)(xᵢ₋₁ − x̄)/Σ(xᵢ − x̄)²",
             "NIST/SEMATECH e-Handbook, 1.3.5; quantiles: Hyndman and Fan 1996, type 7"},
+    Formula{"stored_summary",
+            "x̄ = Σx/n, s = √(Σ(x − x̄)²/(n − 1)), of the size at 20 °C where there is one",
+            "NIST/SEMATECH e-Handbook, 1.3.5"},
     Formula{"anova_one_way", "F = (SSB/(k − 1))/(SSW/(n − k))",
             "NIST/SEMATECH e-Handbook, 1.3.5.4"},
-    Formula{"capability",
-            "Cp = (U − L)/6σ, Cpk = min(x̄ − L, U − x̄)/3σ; Pp, Ppk the same with s; "
-            "Cpm = (U − L)/6√(s² + (x̄ − T)²)",
-            "ISO 22514-2:2017; each interval names its own source"},
+    Formula{
+        "capability",
+        "Cp = (U − L)/6σ, Cpk = min(x̄ − L, U − x̄)/3σ; Pp, Ppk the same with s; "
+        "Cpm = (U − L)/6√(s² + (x̄ − T)²), of one limit and a target |limit − T|/3√(s² + (x̄ − T)²)",
+        "ISO 22514-2:2017; each interval names its own source"},
     Formula{"i_mr", "x̄ ± 3σ, σ = mean moving range/1.128", "ISO 7870-2:2013"},
     Formula{"xbar_r", "x̿ ± 3σ/√n, σ = R̄/d₂", "ISO 7870-2:2013"},
     Formula{"xbar_s", "x̿ ± 3σ/√n, σ = s̄/c₄", "ISO 7870-2:2013"},
@@ -45,6 +49,10 @@ constexpr std::array kFormulas = {
             "clearance = hole − shaft; P(interference) = Φ(−mean/√(σ_hole² + σ_shaft²)), "
             "normal with σ = T/6; uniform by convolution",
             "ISO 286-1:2010, 3.3; the probabilities are no part of it"},
+    Formula{"press_fit",
+            "p = U_w/(d[((D² + d²)/(D² − d²) + ν)/E + ((d² + d_i²)/(d² − d_i²) − ν_i)/E_i]), "
+            "U_w = U − 0.4(Rz + Rz_i)",
+            "DIN 7190-1:2017; Lamé's cylinders, elastic, plane stress"},
     Formula{"plug", "GO (Dmin + z) ± H/2, worn Dmin − y + α, NO-GO (Dmax − α) ± H/2",
             "ISO/R 1938:1971"},
     Formula{"ring or snap", "GO (dmax − z₁) ± H₁/2, worn dmax + y₁ − α₁, NO-GO (dmin + α₁) ± H₁/2",

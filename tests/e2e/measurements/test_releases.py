@@ -18,6 +18,13 @@ class Releases(unittest.TestCase):
         self.addCleanup(daemon.cleanup)
         return daemon, releases.unpack(name, daemon)
 
+    def assert_still(self, now, then):
+        """An answer may have got members at its top beside those it had, which are what they were."""
+        if then.startswith("{"):
+            now, then = json.loads(now), json.loads(then)
+            now = {name: value for name, value in now.items() if name in then}
+        self.assertEqual(now, then)
+
     def test_what_a_release_answered_is_answered_again(self):
         self.assertTrue(releases.names())
         for name in releases.names():
@@ -36,7 +43,7 @@ class Releases(unittest.TestCase):
                     self.assertIsNone(check_proof.check(record, proofs[each], keys))
                     self.assertIsNone(check_proof.check(record, daemon.get(f"/v1/measurements/{each}/proof").json, keys))
                 for path, answer in json.loads((then / "answers.json").read_text()).items():
-                    self.assertEqual(daemon.get(path).text, answer, path)
+                    self.assert_still(daemon.get(path).text, answer)
                 # What no release before had is kept beside it.
                 for more in ({}, {"temperature_c": 21, "part_material": "steel", "temperature_uncertainty_c": 1}):
                     answer = daemon.measure({"designation": "25 H7", "measured_mm": "25.013", **more})

@@ -111,6 +111,34 @@ class Statistics(DaemonTest):
             self.assertEqual({each["rule"] for each in found}, {1})
             self.assertEqual(found, self.compute("chart", {**chart, "rules": [1]})["violations"])
 
+    def test_a_target_counts_with_one_limit_too(self):
+        """Chan, Cheng and Spiring 1988: |limit - T| / 3 tau. Minitab's formula for one limit is the same."""
+        values = ["9.98", "10.01", "10.03", "9.99", "10.02", "10"]
+        data = [float(value) for value in values]
+        mean = sum(data) / 6
+        tau = (sum((x - mean) ** 2 for x in data) / 5 + (mean - 9.99) ** 2) ** 0.5
+        for limits, distance in (({"upper": "10.1"}, 0.11), ({"lower": "9.9"}, 0.09)):
+            found = self.compute("capability", {"values": values, "target": "9.99", **limits})["cpm"]
+            self.assertAlmostEqual(found["value"], distance / (3 * tau), places=12)
+            self.assertTrue(found["lower"] < found["value"] < found["upper"])
+            self.assertIsNone(self.compute("capability", {"values": values, **limits})["cpm"])
+        # The two agree where the target is the middle of both.
+        both = self.compute("capability", {"values": values, "lower": "9.9", "upper": "10.1"})["cpm"]
+        self.assertEqual(self.compute("capability", {"values": values, "upper": "10.1", "target": 10})["cpm"], both)
+        for wrong in ({"upper": "10.1", "target": "10.1"}, {"lower": "9.9", "target": 9}):
+            answer = self.send("capability", {"values": values, **wrong})
+            problem = self.assert_problem(answer, 422, "request.invalid")
+            self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]], [("/target", "limits.invalid")])
+
+    def test_a_phase_is_refused_where_nothing_is_estimated(self):
+        chart = {"kind": "i_mr", "values": [1, 2, 3, 9], "phase1": {"from": 0, "to": 3}}
+        for known in ({}, {"centre": 2}, {"standard_deviation": 1}):
+            self.compute("chart", {**chart, **known})
+        answer = self.send("chart", {**chart, "centre": 2, "standard_deviation": 1})
+        problem = self.assert_problem(answer, 422, "request.invalid")
+        self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]], [("/phase1", "field.conflict")])
+        self.assertIn("limits known", problem["errors"][0]["detail"])
+
     def test_a_member_that_would_change_nothing_is_refused_by_name(self):
         answer = self.send("chart", {"kind": "i_mr", "values": [1, 2, 3], "lambda": 0.3})
         self.assertEqual([(e["pointer"], e["detail"]) for e in answer.json["errors"]],
@@ -142,7 +170,10 @@ class Statistics(DaemonTest):
             self.compute("grr", {"method": "stability", "measurements": stable}),
             self.compute("pairing", {"holes": [1], "shafts": [1], "target_clearance_um": 0}),
             self.daemon.post("/v1/uncertainty", {"contributions": [{"name": "a", "standard_uncertainty": 1}]}).json,
-            *(self.daemon.get(path).json for path in ("/v1/fits/25H7/g6", "/v1/gauges/25H7", "/v1/gauges/25g6"))]
+            *(self.daemon.get(path).json for path in ("/v1/fits/25H7/g6", "/v1/gauges/25H7", "/v1/gauges/25g6",
+                                                      "/v1/measurements/summary?group_by=characteristic")),
+            self.daemon.post("/v1/press-fits", {"joint_diameter_mm": 50, "length_mm": 40, "max_interference_um": 40,
+                                                "hub": {"outer_diameter_mm": 100}, "shaft": {}}).json]
         self.assertEqual(len({answer["formula"] for answer in answers}), len(answers))
         for answer in answers:
             source = answer["clause"].split(";")[0].split(",")[0]
