@@ -14,7 +14,7 @@ struct ConformanceLimits {
 };
 
 /// The probability that the true value lies within the limits: normal about the measured one, with
-/// nothing known of it before (JCGM 106:2012, 7.2.2). @pre standard_uncertainty > 0
+/// nothing known of it before (JCGM 106:2012, clause 7). @pre standard_uncertainty > 0
 double conformance_probability(const ConformanceLimits& limits, Length measured,
                                Length standard_uncertainty);
 /// The probability that it lies outside: 1 - the above, without losing its digits.

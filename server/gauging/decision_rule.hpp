@@ -37,7 +37,7 @@ std::string format(CoverageFactor factor);
 /// The probability of conformance a good part has at least, in millionths: 0.5 <= p < 1.
 class ConformanceProbability {
  public:
-  /// 95 % (ISO 14253-1:2017, 5.2).
+  /// 95 % (ISO 14253-1:2017).
   constexpr ConformanceProbability() = default;
 
   /// @errors RuleInvalid.
@@ -69,7 +69,7 @@ class DecisionRule {
   /// @errors RuleInvalid when the uncertainty is negative.
   static Result<DecisionRule> guard_band(Length standard_uncertainty, CoverageFactor factor = {});
 
-  /// By the probability that the true value lies within the limits (JCGM 106, 7.2).
+  /// By the probability that the true value lies within the limits (JCGM 106:2012, clause 7).
   /// @errors RuleInvalid unless the uncertainty is above 0.
   static Result<DecisionRule> conformance(Length standard_uncertainty,
                                           ConformanceProbability probability = {});

@@ -22,7 +22,7 @@ struct CapabilityIndex {
   long double upper = kUndefined;
 };
 
-/// The percentile method of ISO 22514-2:2017, 6.1.3: quantiles of the values themselves in place of
+/// The percentile method of ISO 22514-2:2017: quantiles of the values themselves in place of
 /// three standard deviations. Undefined below kFewestForPercentiles values.
 struct PercentileCapability {
   long double x_0135 = kUndefined;

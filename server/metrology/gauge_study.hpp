@@ -11,7 +11,7 @@
 
 namespace fitgauge::metrology {
 
-/// Repeatability of one gauge on one master (ISO 22514-7:2021, 7.2; MSA 4 supplement).
+/// Repeatability of one gauge on one master (Bosch Booklet 10, 4.1; ISO 22514-7:2021).
 struct Type1Study {
   std::size_t count = 0;
   long double mean = 0;

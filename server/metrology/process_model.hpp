@@ -8,7 +8,7 @@
 
 namespace fitgauge::metrology {
 
-/// The time-dependent distribution models of ISO 22514-2:2017, table 1.
+/// The time-dependent distribution models of ISO 22514-2:2017.
 enum class ProcessModel : std::uint8_t { A1, A2, B, C1, C2, C3, C4, D };
 
 /// `A1` … `D`.
