@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gauging/decimal_digits.hpp"
+
 namespace fitgauge::gauging {
 namespace {
 
@@ -14,15 +16,6 @@ double in_uncertainties(Length length, Length u) {
 
 /// @param above, below distances of the limits from a value inside, in standard uncertainties
 double outside(double above, double below) { return normal_below(-above) + normal_below(-below); }
-
-/// The nearest whole number that a double keeps in its decimal digits.
-std::int64_t to_15_digits(double value) {
-  constexpr std::int64_t kLimit = 1'000'000'000'000'000;
-  const std::int64_t whole = std::llround(value);
-  std::int64_t step = 1;
-  while (whole / step >= kLimit) step *= 10;
-  return (whole + step / 2) / step * step;
-}
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "gauging/decimal_digits.hpp"
+
 namespace fitgauge::gauging {
 namespace {
 
@@ -50,7 +52,7 @@ std::int64_t added_uncertainty(Length corrected, const ThermalBody& part,
     return std::hypot(by_temperature, by_expansion) / (1 + expansion * above);
   };
   const double size = static_cast<double>(corrected.count()) * kPicometres;
-  return std::llround(std::abs(size) * std::hypot(relative(part), relative(scale)));
+  return to_15_digits(std::abs(size) * std::hypot(relative(part), relative(scale)));
 }
 
 Length combined_uncertainty(Length u, std::int64_t added_pm) {

@@ -59,6 +59,15 @@ TEST_CASE("what a correction adds is what the Guide has for an end gauge") {
   CHECK(added_uncertainty(gauge, part, {}) == 16'599);
 }
 
+TEST_CASE("what is added has no more digits than a number of JSON keeps") {
+  const ThermalBody part{.temperature = kColdest,
+                         .expansion = kLargestExpansion,
+                         .temperature_uncertainty = 999'999'983};
+  const std::int64_t added = added_uncertainty(Length::nanometres(99'999'999'123'457), part, {});
+  CHECK(added > 100'000'000'000'000'000);
+  CHECK(added % 1000 == 0);
+}
+
 TEST_CASE("the sensitivities are those of the correction") {
   const Length reading = Length::millimetres(1'000'000);
   const ThermalBody part{.temperature = 80'000'000, .expansion = 23'000'000};
