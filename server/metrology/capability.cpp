@@ -150,8 +150,7 @@ Result<void> check(const SpecificationLimits& limits) {
     const bool beyond =
         limits.upper ? *limits.target >= *limits.upper : *limits.target <= *limits.lower;
     if (beyond) {
-      return Error{ErrorCode::LimitsInvalid, "the target of one limit lies on its good side",
-                   "target"};
+      return Error{ErrorCode::LimitsInvalid, "the target lies beyond the limit", "target"};
     }
   }
   return {};

@@ -11,7 +11,8 @@ from typing import Any, Dict, Mapping, Union
 Size = Union[Decimal, int, str]  # in the unit that the field's name ends with
 Text = Union[str, bytes]
 
-_EXACT = re.compile(r"_(mm|um|c|deg|s|mm_min)$|^(seconds|coverage_factor|parameters)$")
+_EXACT = re.compile(r"_(mm|um|c|deg|s|mm_min|um_per_m_k)$|"
+                    r"^(seconds|coverage_factor|probability|conformance_probability|parameters)$")
 
 
 class _Exact(Dict[str, bool]):

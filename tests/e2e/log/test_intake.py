@@ -76,7 +76,8 @@ class Intake(unittest.TestCase):
         station.measure({"nominal_mm": 30, "feature": "shaft", "upper_um": 0.001, "lower_um": -12345.891,
                          "measured_mm": 29.99, "comment": '"\\\n\x01\x7f Ø 25 \U0001f600'})
         station.measure({**PART, "temperature_c": 23.5, "scale_temperature_c": 21, "part_material": "steel",
-                         "scale_expansion_um_per_m_k": 8})
+                         "scale_expansion_um_per_m_k": 8, "temperature_uncertainty_c": "0.5", "rule": "guard_band",
+                         "scale_expansion_uncertainty_um_per_m_k": "0.3", "uncertainty_um": 0.8})
         columns = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]}
         self.assertLess(station.request("PUT", "/v1/tables/hole/classes/Q7", columns,
                                         {"Content-Type": "application/json"}).status, 300)

@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import typing
 from datetime import datetime, timedelta, timezone
 from decimal import Decimal
 
@@ -297,6 +298,16 @@ class Numbers(ControlTest):
                                      "lower_um": Decimal("-0.001"), "measured_mm": Decimal(text)})
             self.assertEqual(record["measured_mm"], Decimal(text))
         client.close()
+
+    def test_every_number_of_a_record_is_the_decimal_its_type_says(self):
+        with self.daemon.client() as client:
+            record = client.measure({"designation": "25H7", "measured_mm": "25.01", "rule": "conformance",
+                                     "uncertainty_um": 1, "probability": "0.9", "temperature_c": 21,
+                                     "part_expansion_um_per_m_k": "11.5",
+                                     "part_expansion_uncertainty_um_per_m_k": "0.1"})
+        types = typing.get_type_hints(fitgauge.Measurement)
+        wrong = {name for name, value in record.items() if types.get(name) is Decimal and type(value) is not Decimal}
+        self.assertEqual(wrong, set())
 
     def test_what_is_no_exact_number_is_not_sent(self):
         client = self.daemon.client()
