@@ -1,5 +1,7 @@
 #include "http/server.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -19,6 +21,37 @@ namespace fitgauge::http {
 namespace {
 
 using TlsContext = std::shared_ptr<asio::ssl::context>;
+
+/// A connected socket on its way to another I/O thread: what Asio keeps of a socket belongs to one
+/// thread alone, so that only the descriptor goes. Owns it.
+class SocketInTransit {
+ public:
+  explicit SocketInTransit(Socket socket)
+      : protocol_(socket.local_endpoint().protocol()), descriptor_(socket.release()) {}
+  SocketInTransit(SocketInTransit&& other) noexcept
+      : protocol_(other.protocol_), descriptor_(std::exchange(other.descriptor_, kNone)) {}
+  SocketInTransit& operator=(SocketInTransit&&) = delete;
+  ~SocketInTransit() {
+    if (descriptor_ != kNone) ::close(descriptor_);
+  }
+
+  /// On the thread of `context`.
+  Socket arrive(asio::io_context& context) {
+    Socket socket(context);
+    socket.assign(protocol_, descriptor_);
+    descriptor_ = kNone;
+    error_code gone;  // a client that has left already shows at the first read
+    socket.set_option(asio::ip::tcp::no_delay(true), gone);
+    socket.non_blocking(true, gone);
+    return socket;
+  }
+
+ private:
+  static constexpr int kNone = -1;
+
+  asio::ip::tcp protocol_;
+  int descriptor_;
+};
 
 }  // namespace
 
@@ -89,15 +122,16 @@ void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
     const std::lock_guard lock(tls_mutex_);
     tls = tls_;
   }
-  thread.post([&thread, socket = std::move(socket), peer = std::move(peer),
+  thread.post([&thread, transit = SocketInTransit(std::move(socket)), peer = std::move(peer),
                tls = std::move(tls)]() mutable {
     if (thread.shared().stopping) return;
+    Socket arrived = transit.arrive(thread.context());
     std::shared_ptr<Connection> connection;
     if (tls) {
-      connection = std::make_shared<TlsConnection>(thread, std::move(peer), std::move(socket),
+      connection = std::make_shared<TlsConnection>(thread, std::move(peer), std::move(arrived),
                                                    std::move(tls));
     } else {
-      connection = std::make_shared<PlainConnection>(thread, std::move(peer), std::move(socket));
+      connection = std::make_shared<PlainConnection>(thread, std::move(peer), std::move(arrived));
     }
     thread.add(connection);
     connection->start();
@@ -119,6 +153,7 @@ void Server::Impl::turn_away(Socket socket, const Peer& peer) {
   OutputQueue out(text);
   append_answer(out, response, {.keep_alive = false}, thread.date());
   error_code ignored;
+  socket.non_blocking(true, ignored);
   socket.write_some(asio::buffer(text), ignored);
   socket.shutdown(Socket::shutdown_send, ignored);
   // What has come by now would make the closing a reset, which can overtake the answer.

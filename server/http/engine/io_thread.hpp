@@ -91,7 +91,9 @@ class IoThread {
   void admit_waiting();
 
   ServerShared& shared_;
-  asio::io_context context_{1};
+  /// Only its own thread touches its sockets, so that these need no locks. post() and the timer
+  /// have theirs.
+  asio::io_context context_{BOOST_ASIO_CONCURRENCY_HINT_UNSAFE_IO};
   Timer timer_{context_.get_executor()};
   const std::chrono::milliseconds interval_;
   Tick now_ = std::chrono::steady_clock::now();

@@ -68,12 +68,11 @@ void Listener::close() {
 }
 
 void Listener::accept() {
-  socket_.emplace(threads_[next_]->context());
-  acceptor_.async_accept(*socket_, [this](const error_code& error) {
+  acceptor_.async_accept([this](const error_code& error, Socket socket) {
     if (!acceptor_.is_open()) return;
     if (!error) {
       try {
-        deal();
+        deal(std::move(socket));
       } catch (const std::exception&) {  // out of memory: this client goes, the next one may stay
       }
       return accept();
@@ -85,14 +84,12 @@ void Listener::accept() {
   });
 }
 
-void Listener::deal() {
+void Listener::deal(Socket socket) {
   IoThread& thread = *threads_[next_];
   next_ = (next_ + 1) % threads_.size();
   error_code gone;  // a client that has left already shows at the first read
-  socket_->set_option(asio::ip::tcp::no_delay(true), gone);
-  socket_->non_blocking(true, gone);
-  const asio::ip::address address = socket_->remote_endpoint(gone).address();
-  deliver_(thread, std::move(*socket_),
+  const asio::ip::address address = socket.remote_endpoint(gone).address();
+  deliver_(thread, std::move(socket),
            {.address = address.to_string(),
             .loopback = address.is_loopback(),
             .health_only = health_only_});

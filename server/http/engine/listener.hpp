@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/result.hpp"
@@ -17,7 +16,7 @@ namespace fitgauge::http {
 /// in turn. Belongs to that thread after start().
 class Listener {
  public:
-  /// Called on the first I/O thread with a connected, non-blocking socket of the given thread.
+  /// Called on the first I/O thread with a connected socket of its own, for the given thread.
   using Deliver = std::function<void(IoThread&, Socket, Peer)>;
 
   /// Binds and listens.
@@ -32,12 +31,11 @@ class Listener {
  private:
   Listener(std::vector<IoThread*> threads, Deliver deliver);
   void accept();
-  void deal();
+  void deal(Socket socket);
 
   std::vector<IoThread*> threads_;
   Deliver deliver_;
   Acceptor acceptor_;
-  std::optional<Socket> socket_;  ///< of the connection to come
   Timer retry_;
   std::uint16_t port_ = 0;
   std::size_t next_ = 0;
