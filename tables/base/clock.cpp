@@ -52,6 +52,11 @@ class Reader {
     return value;
   }
 
+  int fail() {
+    ok_ = false;
+    return 0;
+  }
+
   bool at(char c) const { return !text_.empty() && text_.front() == c; }
   bool done() const { return ok_ && text_.empty(); }
 
@@ -62,11 +67,6 @@ class Reader {
     text_.remove_prefix(1);
     return c;
   }
-  int fail() {
-    ok_ = false;
-    return 0;
-  }
-
   std::string_view text_;
   bool ok_ = true;
 };
@@ -111,7 +111,7 @@ Result<Timestamp> parse_rfc3339(std::string_view text) {
     const int offset_hour = reader.digits(2);
     reader.literal(':');
     const int offset_minute = reader.digits(2);
-    if (offset_hour > 23 || offset_minute > 59) reader.literal('\0');
+    if (offset_hour > 23 || offset_minute > 59) reader.fail();
     offset_minutes = std::int64_t{zone == '-' ? -1 : 1} * (offset_hour * 60 + offset_minute);
   }
 

@@ -28,6 +28,8 @@ TEST_CASE("what is not an RFC 3339 time is refused") {
         "1500-01-01T00:00:00Z", "2026-11-20T08:00:00Z ", "20261120T080000Z"}) {
     CHECK_MESSAGE(parse_rfc3339(text).has_error(), text);
   }
+  using namespace std::string_view_literals;
+  CHECK(parse_rfc3339("2026-11-20T08:00:00+99:00\0"sv).has_error());
 }
 
 TEST_CASE("civil time knows the weekday") {
