@@ -326,7 +326,8 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
   }
   const auto surplus = count_postings_.returning<std::int64_t>() - postings +
                        count_values_.returning<std::int64_t>() - values;
-  if (surplus != 0) note(fmt::format("the index has {} values that no measurement has", surplus));
+  if (surplus > 0) note(fmt::format("the index has {} values that no measurement has", surplus));
+  if (surplus < 0) note(fmt::format("the index lacks {} values of measurements", -surplus));
 }
 
 bool MeasurementIndexer::is_stored(const IndexNode& node, const NodeIndex& index, bool stale) {
