@@ -16,6 +16,8 @@ constexpr std::string_view kEntry =
     "r.path, r.revision, coalesce(length(r.content), 0), r.modified_at, r.caller, "
     "r.content IS NULL";
 constexpr int kContent = 6;  ///< the column after an entry's
+/// Of each file, its deletions among them. Older ones go with the next change.
+constexpr int kKeptRevisions = 20;
 
 FileEntry read_entry(const Rows& rows) {
   return {.path = rows.get<std::string>(0),
@@ -63,7 +65,11 @@ struct FilesStore::Statements {
             c,
             "INSERT INTO files (path_key, revision) VALUES (?, ?) ON CONFLICT (path_key) DO UPDATE "
             "SET revision = excluded.revision"),
-        unpoint(c, "DELETE FROM files WHERE path_key = ?") {}
+        unpoint(c, "DELETE FROM files WHERE path_key = ?"),
+        forget(c, fmt::format("DELETE FROM file_revisions WHERE path_key = ? AND revision <= "
+                              "(SELECT revision FROM file_revisions WHERE path_key = ? "
+                              "ORDER BY revision DESC LIMIT 1 OFFSET {})",
+                              kKeptRevisions)) {}
 
   sql::Statement stat;
   sql::Statement find;
@@ -73,6 +79,7 @@ struct FilesStore::Statements {
   sql::Statement insert;
   sql::Statement point;
   sql::Statement unpoint;
+  sql::Statement forget;
 };
 
 FilesStore::FilesStore(sql::Connection& connection)
@@ -88,6 +95,7 @@ FilesStore::PutOutcome FilesStore::put(const FileWrite& file) {
   const auto revision = statements_->insert.returning<std::int64_t>(
       file.path, key, Blob{file.content}, file.modified_at_ns, file.caller);
   statements_->point.run(key, revision);
+  statements_->forget.run(key, key);
   return {.created = created, .revision = revision};
 }
 
@@ -99,6 +107,7 @@ bool FilesStore::remove(std::string_view path, std::int64_t now_ns,
   statements_->insert.returning<std::int64_t>(file->path, key, std::optional<Blob>(), now_ns,
                                               caller);
   statements_->unpoint.run(key);
+  statements_->forget.run(key, key);
   return true;
 }
 

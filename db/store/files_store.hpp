@@ -36,8 +36,8 @@ struct FileWrite {
   std::optional<std::string_view> caller{};
 };
 
-/// The files of the control's disk with every revision. Paths are opaque texts that compare without
-/// regard to ASCII case, as on the control.
+/// The files of the control's disk, each with its 20 newest revisions. Paths are opaque texts that
+/// compare without regard to ASCII case, as on the control.
 class FilesStore {
  public:
   explicit FilesStore(sql::Connection& connection);

@@ -60,7 +60,7 @@ TEST_CASE("API keys are created, found by token, listed and revoked") {
   });
 }
 
-TEST_CASE("control files keep their case, compare without it, and keep every revision") {
+TEST_CASE("control files keep their case, compare without it, and keep what they replace") {
   Fixture fixture;
   with_stores(fixture, [](Stores& stores) {
     FilesStore& files = stores.files;
@@ -97,6 +97,21 @@ TEST_CASE("control files keep their case, compare without it, and keep every rev
     CHECK(history[0].deleted);
     CHECK(history[0].modified_at_ns == 7);
     CHECK(history[2].revision == first.revision);
+  });
+}
+
+TEST_CASE("of a file that is written over and over the newest revisions are kept") {
+  Fixture fixture;
+  with_stores(fixture, [](Stores& stores) {
+    FilesStore& files = stores.files;
+    files.put({.path = "other.h", .content = "x"});
+    std::int64_t newest = 0;
+    for (int i = 0; i < 30; ++i) newest = files.put({.path = "a.h", .content = "x"}).revision;
+    REQUIRE(files.history("a.h").size() == 20);
+    CHECK(files.history("a.h")[0].revision == newest);
+    CHECK(files.remove("a.h", 1, std::nullopt));
+    CHECK(files.history("a.h").size() == 20);
+    CHECK(files.history("other.h").size() == 1);
   });
 }
 
