@@ -102,7 +102,8 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   void accept() {
     acceptor_.async_accept([this](error_code error, http::Socket socket) {
       if (!error) {
-        take_in(std::move(socket));
+        // What is out of memory here must not be the last agent that is taken in.
+        guarded("an agent that connects", [&] { take_in(std::move(socket)); });
         return accept();
       }
       accept_pause_.expires_after(kAcceptPause);

@@ -218,14 +218,14 @@ void LogService::run(const std::stop_token& stop) {
       dirty_ = false;
       next_signing_ = now + kBetweenSignings;
       lock.unlock();
-      Result<void> grown;
-      guarded("the log", [&] { grown = grow(stop); });
+      bool has_grown = false;
+      guarded("the log", [&] { has_grown = grow(stop).has_value(); });
       lock.lock();
-      if (!grown) dirty_ = true;  // the storage tells of its failures itself
+      if (!has_grown) dirty_ = true;  // the storage tells of its failures itself
     }
     if (now >= next_telling_) {
       next_telling_ = now + kBetweenTellings;
-      tell("log_head", head_text());
+      guarded("the log", [&] { tell("log_head", head_text()); });
     }
     end_waiters(lock);
     const auto planned = next_wake();
@@ -234,7 +234,9 @@ void LogService::run(const std::stop_token& stop) {
   stopped_ = true;
   const std::vector<Waiter> left = std::exchange(waiters_, {});
   lock.unlock();
-  for (const Waiter& waiter : left) waiter.done(shutting_down());
+  for (const Waiter& waiter : left) {
+    guarded("a proof that was waited for", [&] { waiter.done(shutting_down()); });
+  }
 }
 
 /// What one commit adds to the tree.

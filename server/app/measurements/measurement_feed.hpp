@@ -17,9 +17,8 @@ namespace fitgauge::app {
 /// which stores the first ones while the last are still being read. Owns the pieces under way.
 /// Whatever needs no database is done on the reading side: it numbers the rows and makes
 /// their leaves itself.
-/// Thread-safe; each side is one thread. Neither waits for an end that has come: once the outcome
-/// is there the reading side waits for nothing more, and after finish() or fail() nor does the
-/// writer.
+/// Thread-safe; each side is one thread. The reading side stops waiting when the outcome is there,
+/// the writer after finish() or fail().
 class MeasurementFeed {
  public:
   /// Numbered on from what was put before; their texts live until outcome() has returned.
@@ -27,9 +26,8 @@ class MeasurementFeed {
 
   // The reading side.
 
-  /// Waits for the writer's turn. @returns the id before that of the first
-  /// row; none when the writer
-  /// is done without having begun.
+  /// Waits for the writer's turn. @returns the id before that of the first row; none when the
+  /// writer is done without having begun.
   std::optional<std::int64_t> last_id();
   /// Hands a piece over; waits while a few are under way already.
   void put(Piece piece);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/guarded.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -67,9 +68,11 @@ void SharedRuns::run(const std::stop_token& stop) {
       ended_.wait_for(lock, stop, kBetweenLooks, [] { return false; });
     }
     if (stop.stop_requested()) return;
-    const bool runs_any = own_.has_any();
-    const Followed now = followed();
-    if (runs_any || !now.empty()) look(now, runs_any);
+    guarded("the runs of other daemons", [&] {
+      const bool runs_any = own_.has_any();
+      const Followed now = followed();
+      if (runs_any || !now.empty()) look(now, runs_any);
+    });
   }
 }
 

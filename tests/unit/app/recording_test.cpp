@@ -1,10 +1,13 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <chrono>
+#include <ctime>
 #include <latch>
 #include <stdexcept>
 #include <thread>
 
+#include "app/log/log_service.hpp"
 #include "service_fixture.hpp"
 
 using namespace fitgauge;
@@ -158,6 +161,23 @@ TEST_CASE("the answer of a long request is kept under its key with its rows") {
   CHECK((*kept)->body == "stored");
 }
 
+TEST_CASE("who asks for a kept answer does not compute the digest of the body") {
+  const auto used = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+  };
+  Service service;
+  const std::string body(std::size_t{64} << 20, 'x');
+  std::promise<bool> told;
+  const auto before = used();
+  service->measurements().find_answer(scope(body), [&told](const auto& kept) {
+    told.set_value(kept.has_value() && !kept->has_value());
+  });
+  CHECK(used() - before < std::chrono::milliseconds(5));  // a digest of so much takes 30 at least
+  CHECK(told.get_future().get());
+}
+
 TEST_CASE("small requests at once are all stored, each with the ids of its own rows") {
   constexpr int kThreads = 8;
   constexpr int kEach = 50;
@@ -192,6 +212,30 @@ TEST_CASE("small requests at once are all stored, each with the ids of its own r
   clients.clear();
   CHECK(answered == kThreads * kEach);
   CHECK(stored(service) == 2 * kThreads * kEach);
+}
+
+TEST_CASE("who waits for a proof until the end hears so, whatever others do with their answer") {
+  Service service;
+  const auto record = [&service] {
+    const auto answer = wait_for<Answer>([&](auto done) {
+      service->measurements().record(
+          bores(0, 1), std::nullopt, [] { return std::make_unique<Ids>(); }, std::move(done));
+    });
+    REQUIRE(answer.has_value());
+  };
+  record();
+  while (service->log().head()->checkpoint.size < 1) std::this_thread::yield();
+  record();  // a checkpoint covers it a second after the last one
+  service->log().prove({.number = 2}, [](const Result<LogService::Proof>&) {
+    throw std::logic_error("a bug of who waits");
+  });
+  std::promise<ErrorCode> told;
+  service->log().prove({.number = 2}, [&told](const Result<LogService::Proof>& proof) {
+    told.set_value(proof ? ErrorCode::Internal : proof.error().code);
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // until they are waiting
+  service->log().stop();
+  CHECK(told.get_future().get() == ErrorCode::ShuttingDown);
 }
 
 TEST_CASE("a request that hits a bug is refused, those stored with it are not") {
