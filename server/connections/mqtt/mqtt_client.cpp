@@ -14,6 +14,8 @@
 #include <new>
 #include <utility>
 
+#include "base/guarded.hpp"
+
 namespace fitgauge::connections {
 namespace {
 
@@ -21,11 +23,16 @@ constexpr int kKeepAliveSeconds = 30;
 constexpr std::chrono::seconds kConnectTime{10};
 constexpr std::chrono::seconds kLeaveTime{2};
 constexpr int kLoopMilliseconds = 1000;  ///< so that keep-alives and timeouts are seen to
-constexpr std::size_t kMostArrived = 1000;
+/// Bytes of what has arrived and nobody has taken. A command has some hundred.
+constexpr std::size_t kMostArrived = std::size_t{1} << 20;
 
 void initialise_library() {
   static const int once = mosquitto_lib_init();
   static_cast<void>(once);
+}
+
+std::size_t bytes_of(const MqttMessage& message) {
+  return sizeof message + message.topic.size() + message.payload.size();
 }
 
 std::string_view text_of_connack(int reason, bool version_5) {
@@ -123,15 +130,21 @@ void MqttClient::Loop::on_disconnect(mosquitto*, void* user, int reason, Propert
 
 void MqttClient::Loop::on_message(mosquitto*, void* user, const mosquitto_message* message) {
   auto& loop = *static_cast<Loop*>(user);
+  const auto size = static_cast<std::size_t>(message->payloadlen);
+  if (size > kMostArrived) return;  // anybody may publish there, and up to 256 MiB
   loop.change([&] {
-    // Too many are those that nobody takes: the newest count.
-    if (loop.client_.arrived_.size() == kMostArrived) loop.client_.arrived_.pop_front();
-    loop.client_.arrived_.push_back(
+    MqttClient& client = loop.client_;
+    client.arrived_.push_back(
         {.topic = message->topic,
-         .payload = std::string(static_cast<const char*>(message->payload),
-                                static_cast<std::size_t>(message->payloadlen)),
+         .payload = std::string(static_cast<const char*>(message->payload), size),
          .qos = message->qos,
          .retain = message->retain});
+    client.arrived_bytes_ += bytes_of(client.arrived_.back());
+    // Too much is what nobody takes: the newest counts.
+    while (client.arrived_bytes_ > kMostArrived) {
+      client.arrived_bytes_ -= bytes_of(client.arrived_.front());
+      client.arrived_.pop_front();
+    }
   });
   loop.client_.wake_();
 }
@@ -277,7 +290,19 @@ MqttClient::MqttClient(Broker broker, std::optional<MqttMessage> will, std::func
       wake_(std::move(wake)),
       event_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   thread_ = std::jthread(
-      [this, will = std::move(will)](const std::stop_token& stop) { Loop(*this, will).run(stop); });
+      [this, will = std::move(will)](const std::stop_token& stop) { run(will, stop); });
+}
+
+/// The whole life of the thread.
+void MqttClient::run(const std::optional<MqttMessage>& will, const std::stop_token& stop) {
+  if (guarded("an MQTT connection", [&] { Loop(*this, will).run(stop); })) return;
+  {
+    const std::lock_guard lock(mutex_);
+    state_ = State::Ended;
+    failure_ = "a defect of fitgauge ended the connection";
+    changed_.notify_all();
+  }
+  if (!stop.stop_requested()) wake_();
 }
 
 MqttClient::~MqttClient() {
@@ -340,6 +365,7 @@ std::optional<int> MqttClient::wait_settled(Ticket ticket, std::chrono::millisec
 std::optional<MqttMessage> MqttClient::take_arrived() {
   const std::lock_guard lock(mutex_);
   if (arrived_.empty()) return std::nullopt;
+  arrived_bytes_ -= bytes_of(arrived_.front());
   MqttMessage message = std::move(arrived_.front());
   arrived_.pop_front();
   return message;

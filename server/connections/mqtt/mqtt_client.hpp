@@ -99,6 +99,7 @@ class MqttClient {
   class Descriptors;
   class Loop;
 
+  void run(const std::optional<MqttMessage>& will, const std::stop_token& stop);
   template <class What>
   Ticket order(What what);
   template <class Until>
@@ -119,6 +120,7 @@ class MqttClient {
   std::deque<Order> orders_;
   std::map<Ticket, int> settled_;
   std::deque<MqttMessage> arrived_;
+  std::size_t arrived_bytes_ = 0;
 
   std::jthread thread_;  // last: it uses all above
 };

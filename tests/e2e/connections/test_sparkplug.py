@@ -295,6 +295,24 @@ class Host(Sparkplug):
         self.assertEqual(self.ids(), ids)
 
 
+    def test_what_is_published_where_the_host_speaks_takes_little_memory(self):
+        self.daemon.stop()
+        self.daemon.environment |= {"ASAN_OPTIONS": "quarantine_size_mb=1"}  # else it keeps what is freed
+        self.daemon.start()
+        self.connect(primary_host="scada-1")
+        wait_for(lambda: self.state()["state"] == "failing")  # it looks at what has come once a second
+        before = self.daemon.memory("VmHWM")
+        payload = self.daemon.folder / "payload"
+        for size in (19, 23):  # 128 MiB each
+            payload.write_bytes(bytes(1 << size))
+            subprocess.run(["mosquitto_pub", "-p", str(self.broker.port), "-t", "spBv1.0/STATE/scada-1", "-q", "1", "-f", payload,
+                            "--repeat", str((1 << 27) >> size)], check=True, timeout=60)
+        self.say(True, 1)
+        self.measure(1)
+        self.wait_told("DDATA")
+        self.assertLess(self.daemon.memory("VmHWM") - before, 48 << 20)
+
+
 class Lost(Sparkplug):
     def test_a_broker_that_is_killed_and_stopped_under_load_misses_nothing(self):
         self.connect()

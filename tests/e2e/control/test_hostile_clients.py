@@ -1,7 +1,6 @@
 """Hostile clients of the virtual control: whatever they send, it answers or closes, and stays small."""
 
 import os
-import pathlib
 import random
 import struct
 import unittest
@@ -19,10 +18,6 @@ MEGABYTE = 1 << 20
 class Hostile(DaemonTest):
     flags = ("--control-listen", "127.0.0.1:0", "--control-write")
 
-    def peak_bytes(self):
-        status = pathlib.Path(f"/proc/{self.daemon.process.pid}/status").read_text()
-        return int(status.split("VmHWM:")[1].split()[0]) * 1024
-
     def outside(self):
         """What lies beside the control's disk, in the folder of the service and around it."""
         return sorted(str(path) for path in self.daemon.folder.rglob("*") if not path.name.startswith("fitgauge.db"))
@@ -38,7 +33,7 @@ class Hostile(DaemonTest):
     def setUp(self):
         self.port = control_port(self.daemon)
         self.files = self.outside()
-        self.before = self.peak_bytes()
+        self.before = self.daemon.memory("VmHWM")
         self.clients = []
 
     def tearDown(self):
@@ -48,7 +43,7 @@ class Hostile(DaemonTest):
         self.assertEqual(self.daemon.get("/livez").status, 200)
         self.assertEqual(self.outside(), self.files)
         if not SANITIZED:
-            grown = self.peak_bytes() - self.before
+            grown = self.daemon.memory("VmHWM") - self.before
             self.assertLess(grown, 64 * MEGABYTE)
 
     def connect(self, count, *logins):
@@ -78,7 +73,7 @@ class Hostile(DaemonTest):
         content = random.Random(8).randbytes(6 * MEGABYTE)
         self.daemon.request("PUT", "/v1/files/big.bin", content)
         self.assertEqual(self.daemon.get("/v1/files/big.bin").body, content)
-        self.before = self.peak_bytes()  # what the storage keeps of a file it has read is not theirs
+        self.before = self.daemon.memory("VmHWM")  # what the storage keeps of a file it has read is not theirs
         refused = 0
         for client in self.connect(100, "FILE"):
             try:

@@ -1,6 +1,7 @@
 """Many connections: senders that stop half-way, idle ones, and more than the system's limit of files."""
 
 import pathlib
+import random
 import selectors
 import socket
 import time
@@ -32,11 +33,6 @@ class ConnectionTest(unittest.TestCase):
             sockets.append(socket.create_connection(("127.0.0.1", daemon.port), timeout=30))
             self.addCleanup(sockets[-1].close)
         return sockets
-
-    def memory(self, daemon, name):
-        """A figure of /proc/PID/status in bytes."""
-        status = pathlib.Path(f"/proc/{daemon.process.pid}/status").read_text()
-        return int(status.split(f"{name}:")[1].split()[0]) * 1024
 
 
 def read_head(connection):
@@ -92,12 +88,28 @@ class HalfSentBodies(ConnectionTest):
             statuses.append(answer.status)
         self.assertEqual(set(statuses), {201})
         if not SANITIZED:
-            self.assertLess(self.memory(daemon, "VmHWM"), 128 * MEGABYTE)
+            self.assertLess(daemon.memory("VmHWM"), 128 * MEGABYTE)
         client.close()
         for connection in sockets:
             connection.close()
         self.assertEqual(daemon.get("/livez").status, 200)
         self.assertEqual(daemon.stop(), 0)
+
+
+class KeptAnswers(ConnectionTest):
+    def test_what_is_kept_of_answers_is_bounded_however_they_are_asked_for(self):
+        daemon = self.start(environment={"ASAN_OPTIONS": "quarantine_size_mb=1"})  # else it keeps what is freed
+        client = daemon.connect()
+        self.addCleanup(client.close)
+        classes = daemon.get("/v1/tables").json["tables"][1]["classes"]
+        daemon.request("GET", "/v1/tables/shaft", connection=client)
+        before = daemon.memory("VmRSS")
+        for number in range(150):  # each of 0.6 MB
+            self.assertEqual(daemon.request("GET", "/v1/tables/shaft?" + "&" * number, connection=client).status, 200)
+        for number in range(800):  # each of 30 kB
+            some = ",".join(random.Random(number).sample(classes, 20))
+            self.assertEqual(daemon.request("GET", f"/v1/tables/shaft?classes={some}", connection=client).status, 200)
+        self.assertLess(daemon.memory("VmRSS") - before, 16 * MEGABYTE)
 
 
 class IdleConnections(ConnectionTest):
@@ -108,12 +120,12 @@ class IdleConnections(ConnectionTest):
         for connection in self.connect(daemon, 100):  # what is allocated once is not theirs
             connection.sendall(request)
             read_head(connection)
-        before = self.memory(daemon, "VmRSS")
+        before = daemon.memory("VmRSS")
         sockets = self.connect(daemon, 1000)
         for connection in sockets:
             connection.sendall(request)
             self.assertTrue(read_head(connection).startswith(b"HTTP/1.1 200"))
-        self.assertLess((self.memory(daemon, "VmRSS") - before) / len(sockets), 8192)
+        self.assertLess((daemon.memory("VmRSS") - before) / len(sockets), 8192)
 
 
 class FileLimit(ConnectionTest):

@@ -143,6 +143,11 @@ class Daemon:
         scheme, host = ("https", "localhost") if self.tls else ("http", "127.0.0.1")
         return fitgauge.Client(f"{scheme}://{host}:{self.port}", tls=self.tls, **options)
 
+    def memory(self, name):
+        """VmRSS or VmHWM of its process in bytes."""
+        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(status.split(f"{name}:")[1].split()[0]) * 1024
+
     def request(self, method, path, body=None, headers=None, connection=None):
         """One request; a body that is no text or bytes is sent as JSON. A new connection each time
         unless one is given."""
