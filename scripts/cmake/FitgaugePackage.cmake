@@ -4,13 +4,19 @@ include(GNUInstallDirs)
 install(TARGETS fitgauged fitgauge RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(FILES clients/cli/completion/fitgauge.bash
   DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME fitgauge)
-foreach(completion zsh/_fitgauge:zsh/vendor-completions fish/fitgauge.fish:fish/vendor_completions.d)
-  string(REGEX MATCH "^[^/]+/([^:]+):(.+)$" matched "${completion}")
-  install(FILES "clients/cli/completion/${CMAKE_MATCH_1}" DESTINATION "${CMAKE_INSTALL_DATADIR}/${CMAKE_MATCH_2}" OPTIONAL)
-endforeach()
+
+# The program writes those of other shells itself, of the options it has.
+set(package_files "${CMAKE_BINARY_DIR}/package")
+file(MAKE_DIRECTORY "${package_files}")
+function(install_completion shell file folder)
+  install(CODE "execute_process(COMMAND \"$<TARGET_FILE:fitgauge>\" completion ${shell}
+    OUTPUT_FILE \"${package_files}/${file}\" COMMAND_ERROR_IS_FATAL ANY)")
+  install(FILES "${package_files}/${file}" DESTINATION "${CMAKE_INSTALL_DATADIR}/${folder}")
+endfunction()
+install_completion(zsh _fitgauge zsh/vendor-completions)
+install_completion(fish fitgauge.fish fish/vendor_completions.d)
 
 # The unit names the binary where it is installed.
-set(package_files "${CMAKE_BINARY_DIR}/package")
 set(FITGAUGE_UNIT_DIR "lib/systemd/system" CACHE STRING "Where the systemd unit is installed")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
   docs/deploy/fitgauged.service docs/man/fitgauge.1 docs/man/fitgauged.8 CHANGELOG.md docs/deploy/debian/changelog)
@@ -22,7 +28,6 @@ install(FILES "${package_files}/fitgauged.service" DESTINATION "${FITGAUGE_UNIT_
 
 # install_compressed(<file> <folder> <name>): gzip without a time, so that the same input gives the same bytes.
 function(install_compressed file folder name)
-  file(MAKE_DIRECTORY "${package_files}")
   execute_process(COMMAND gzip -9 -n -c "${file}" OUTPUT_FILE "${package_files}/${name}.gz"
     WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}" COMMAND_ERROR_IS_FATAL ANY)
   install(FILES "${package_files}/${name}.gz" DESTINATION "${folder}")

@@ -1,9 +1,11 @@
 """The client's man pages and its completion say what the programs do."""
 
 import os
+import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
 import unittest
 
 from support.cli import FITGAUGE
@@ -108,6 +110,15 @@ class Completion(unittest.TestCase):
                         self.assertRegex(script, rf"{dashes}{option[2:]}\b")
             if shutil.which(shell):
                 subprocess.run([shell, "-n", "/dev/stdin"], input=script, text=True, check=True, timeout=60)
+
+    def test_those_of_all_shells_are_installed(self):
+        build = pathlib.Path(FITGAUGE).resolve().parents[1]
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(["cmake", "--install", build, "--prefix", folder], capture_output=True, check=True, timeout=300)
+            for shell, file in (("bash", "bash-completion/completions/fitgauge"), ("zsh", "zsh/vendor-completions/_fitgauge"),
+                                ("fish", "fish/vendor_completions.d/fitgauge.fish")):
+                script = subprocess.run([FITGAUGE, "completion", shell], capture_output=True, text=True, check=True).stdout
+                self.assertEqual((pathlib.Path(folder) / "share" / file).read_text(encoding="utf-8"), script, shell)
 
     @unittest.skipUnless(shutil.which("fish"), "needs fish")
     def test_what_fish_offers(self):
