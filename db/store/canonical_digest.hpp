@@ -16,8 +16,8 @@ namespace fitgauge::store {
 
 /// SHA-256 over a list of values in an encoding that no two different lists share:
 ///   absent   00
-///   integer  10 to 18: so many bytes less 10 follow, big-endian two's complement without leading
-///            bytes that say nothing (enumerations by their code)
+///   integer  10 to 18: so many bytes less 10 follow, the shortest big-endian two's complement
+///            (enumerations by their code)
 ///   text     01, the number of bytes as an integer, the bytes
 ///   digest   its 32 bytes; where one stands is fixed
 /// Not thread-safe.

@@ -49,8 +49,8 @@ struct OpenOptions {
   /// application to be ready, and lives as long as the database.
   MeasurementCheck check_measurement{};
 
-  /// Called on the writer thread after each commit to call what it is given, which tells the jobs
-  /// their outcomes. None: that is called by itself.
+  /// Called on the writer thread after each commit; calls its argument, which tells the jobs their
+  /// outcomes. Where it is not set, the writer does.
   std::function<void(const std::function<void()>&)> around_outcomes{};
 
   /// Called once for each change of health, on the thread that found out. Neither blocks nor throws

@@ -29,9 +29,9 @@ struct Peer {
 /// value times 10^scale.
 using ArgumentValue = std::variant<std::string_view, std::int64_t, Length, Timestamp>;
 
-/// One request whose route is found and whose parameters are checked. The views stay valid until it
-/// is answered: for an asynchronous handler, as long as its Responder. Filled in by the engine;
-/// read by one thread at a time.
+/// One request whose route is found and whose parameters are checked. Its views are of a head
+/// that does not move while its body is read, and valid until it is answered: for an asynchronous
+/// handler, as long as its Responder. Filled in by the engine; read by one thread at a time.
 class Request {
  public:
   Method method() const { return method_; }

@@ -49,6 +49,12 @@ class Commands(unittest.TestCase):
                     self.assertNotRegex(command, r"--json|%header\{|--fail-with-body|--url-query|--variable|--remove-on-error",
                                         f"{path.name}:{block.line}")
 
+    def test_scripts_run_builds_what_the_documents_install(self):
+        built = re.search(r"--target ([\w ]+)", (ROOT / "scripts/run").read_text(encoding="utf-8")).group(1).split()
+        installed = {name for path in DOCUMENTS for block in blocks(path)
+                     for name in re.findall(r"build/release/bin/(\w+)", block.text)}
+        self.assertEqual(installed, set(built))
+
     def test_few_blocks_are_not_run(self):
         not_run = [block for path in DOCUMENTS for block in blocks(path) if "not-run" in block.flags]
         self.assertLessEqual(len(not_run), 5)

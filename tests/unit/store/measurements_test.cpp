@@ -229,7 +229,7 @@ TEST_CASE("a correction replaces the current row and keeps the old one") {
   }) == 4);
 }
 
-TEST_CASE("rows that fill ever other fields are stored as they are") {
+TEST_CASE("rows that each fill other fields are stored as they are") {
   Fixture fixture;
   // Each of the 7 fields given or not: more kinds of rows than statements are kept.
   std::vector<MeasurementRow> rows;
