@@ -97,9 +97,13 @@ void CertificateDraft::add(const app::Measurement& m) {
   if (first_id_.empty()) first_id_ = last_id_;
   if (m.texts.gauge) gauges_[std::string(*m.texts.gauge)];
   if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
+  std::string record;
+  app::append_record(record, m);
+  bytes_ += record.size();
   if (order_.as_json) {
     if (!records_.empty()) records_ += ',';
-    return app::append_record(records_, m);
+    records_ += record;
+    return;
   }
   lines_.push_back({.part = std::string(m.texts.part_id.value_or("")),
                     .characteristic = std::string(m.texts.characteristic.value_or("")),

@@ -30,6 +30,7 @@ class CertificateDraft {
 
   const CertificateOrder& order() const { return order_; }
   std::size_t count() const { return count_; }
+  std::size_t bytes() const { return bytes_; }             ///< of the records
   const std::string& last_id() const { return last_id_; }  ///< of the measurements
 
   void add(const app::Measurement& measurement);
@@ -46,6 +47,7 @@ class CertificateDraft {
 
   CertificateOrder order_;
   std::size_t count_ = 0;
+  std::size_t bytes_ = 0;
   std::array<std::int64_t, 4> verdicts_{};  ///< by gauging::Verdict
   std::string records_;                     ///< JSON, with commas between them
   std::vector<certificate::Line> lines_;

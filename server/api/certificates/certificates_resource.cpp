@@ -16,6 +16,8 @@ namespace {
 
 /// On paper some hundred pages.
 constexpr std::size_t kMostMeasurements = 10'000;
+/// Of their records: what is made of them is held in memory.
+constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 constexpr std::string_view kPdf = "application/pdf";
 constexpr std::string_view kJson = "application/json";
 
@@ -73,19 +75,21 @@ void make_certificate(const Services& services, const http::Request& request,
   const SharedResponder shared = share(std::move(responder));
   services.measurements.list(
       *query, 0, kMostMeasurements,
-      [draft](const app::Measurement& measurement) { draft->add(measurement); },
+      [draft](const app::Measurement& measurement) {
+        if (draft->bytes() <= kMostBytes) draft->add(measurement);
+      },
       [&services, draft, shared](const Result<app::ListPage>& page) {
         if (!page) return shared->fail(page.error());
         if (draft->count() == 0) {
           return shared->fail(
               {ErrorCode::MeasurementUnknown, "no measurement is of this order or part"});
         }
-        if (page->next) {
+        if (page->next || draft->bytes() > kMostBytes) {
           return shared->fail(
               {ErrorCode::StatisticsTooMany,
-               fmt::format("a certificate has at most {} measurements: narrow it, by from "
-                           "and to for instance",
-                           kMostMeasurements)});
+               fmt::format("a certificate has at most {} measurements with {} MiB of records: "
+                           "narrow it, by from and to for instance",
+                           kMostMeasurements, kMostBytes >> 20)});
         }
         finish(services, draft, shared);
       });
@@ -115,7 +119,8 @@ void add_certificates_routes(std::vector<http::Route>& routes, const Services& s
       .description =
           "Every value of the order, the part or both, in storage order, with limits, verdict, "
           "rule, gauge and the "
-          "signed head of the log that has them. A PDF, or JSON by Accept; at most 10,000 values.",
+          "signed head of the log that has them. A PDF, or JSON by Accept; at most 10,000 values, "
+          "whose records have at most 16 MiB.",
       .parameters = parameters(),
       .response_types = {std::string(kPdf), std::string(kJson)},
       .access = "viewer",

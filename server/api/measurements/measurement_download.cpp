@@ -6,6 +6,7 @@
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_file.hpp"
+#include "app/measurements/record.hpp"
 #include "sheet/time_zone.hpp"
 
 namespace fitgauge::api {
@@ -22,6 +23,7 @@ struct Download {
   app::MeasurementQuery query;
   std::int64_t after;
   std::optional<std::size_t> limit;
+  std::size_t bytes = 0;  ///< of the records that are in the file
 };
 
 Result<aqdef::DfqOptions> options_of(const http::Request& request, std::string_view media_type) {
@@ -56,19 +58,35 @@ Result<std::unique_ptr<MeasurementFile>> make_file(Download& download) {
   return make_xlsx_file(std::move(download.options.zone));
 }
 
+Error too_many(const std::string& matching, const std::string& most) {
+  return {ErrorCode::QueryInvalid,
+          fmt::format("{} match, and a file of this format holds {}: choose fewer by from and to, "
+                      "or take csv",
+                      matching, most),
+          "format"};
+}
+
 /// Adds a page, whose rows a reader visits while this thread waits.
 Result<app::ListPage> add_page(Download& download, MeasurementFile& file, std::size_t limit) {
   std::promise<Result<app::ListPage>> promise;
   auto page = promise.get_future();
   Result<void> added;
+  std::string record;
   download.services.measurements.list(
       download.query, download.after, limit,
       [&](const app::Measurement& measurement) {
-        if (added) added = file.add(measurement);
+        record.clear();
+        app::append_record(record, measurement);
+        download.bytes += record.size();
+        if (added && download.bytes <= MeasurementFile::kMostBytes) added = file.add(measurement);
       },
       [&promise](Result<app::ListPage> read) { promise.set_value(std::move(read)); });
   auto read = page.get();
   if (read && !added) return added.error();
+  if (read && download.bytes > MeasurementFile::kMostBytes) {
+    return too_many(fmt::format("more than {} MiB of records", MeasurementFile::kMostBytes >> 20),
+                    "no more");
+  }
   return read;
 }
 
@@ -94,11 +112,8 @@ Result<void> check_count(const Download& download) {
   const auto rows = count(download);
   if (!rows) return rows.error();
   if (*rows <= MeasurementFile::kMostRows) return {};
-  return Error{ErrorCode::QueryInvalid,
-               fmt::format("{} measurements match, and a file of this format holds {}: choose "
-                           "fewer by from and to, or take csv",
-                           *rows, MeasurementFile::kMostRows),
-               "format"};
+  return too_many(fmt::format("{} measurements", *rows),
+                  std::to_string(MeasurementFile::kMostRows));
 }
 
 Result<std::string> make_bytes(Download& download) {

@@ -16,6 +16,8 @@ class MeasurementFile {
  public:
   /// So many rows a file has at most: it is made in memory.
   static constexpr std::size_t kMostRows = 100'000;
+  /// And so many bytes their records have, which bounds what is made of them.
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
   MeasurementFile() = default;
   MeasurementFile(const MeasurementFile&) = delete;

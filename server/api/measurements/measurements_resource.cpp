@@ -131,7 +131,8 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .handler = with(services, list_measurements),
       .summary = "List measurements in storage order",
       .description = "All pages show the state at the first one. CSV and NDJSON without `limit` "
-                     "stream all that match. DFQ, QIF and XLSX are files of up to 100,000.",
+                     "stream all that match. DFQ, QIF and XLSX are files of up to 100,000, "
+                     "whose records have at most 64 MiB.",
       .parameters = list_parameters(),
       .response_types = {"application/json", "application/x-ndjson", "text/csv",
                          std::string(kDfqType), std::string(kQifType), std::string(kXlsxType)},

@@ -2,6 +2,7 @@
 
 import datetime
 import io
+import json
 import re
 import xml.etree.ElementTree as etree
 import zipfile
@@ -136,6 +137,23 @@ class Files(DaemonTest):
         for form in ("xlsx", "dfq"):
             answer = self.download("format=" + form, 400)
             self.assertIn("100001 measurements match, and a file of this format holds 100000", answer.text)
+
+    def test_of_long_records_fewer_are_held(self):
+        """What is made of them is held in memory: 10,000 as long as these take 60 MB, and a QIF of them 130."""
+        daemon = Daemon().start()
+        self.addCleanup(daemon.cleanup)
+        row = {"designation": "25 H7", "measured_mm": 25.01, "comment": '"' * 2000}
+        for order in ("WO-1", "WO-2", "WO-3", "WO-4"):
+            rows = json.dumps([{**row, "order": order}] * 4000)
+            self.assertEqual(daemon.post("/v1/measurements", rows, {"Content-Type": "application/json"}).status, 201)
+        for form in ("application/pdf", "application/json"):
+            answer = daemon.get("/v1/certificates?order=WO-1", Accept=form)
+            self.assert_problem(answer, 422, "statistics.too_many")
+            self.assertIn("16 MiB", answer.text)
+        for form in ("xlsx", "qif"):
+            answer = daemon.get(f"/v1/measurements?format={form}")
+            self.assert_problem(answer, 400, "query.invalid")
+            self.assertIn("more than 64 MiB of records match", answer.text)
 
     def test_a_folder_for_temporary_files_that_is_not_there_is_said(self):
         daemon = Daemon(environment={"TMPDIR": "/nowhere"}).start()
