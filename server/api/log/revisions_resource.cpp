@@ -85,12 +85,10 @@ void add_revisions_routes(std::vector<http::Route>& routes, const Services& serv
       .summary = "What a centre hands on to its stations",
       .description =
           "Tables with own columns, keys of viewers and operators (by their hashes), setups, "
-          "plans, "
-          "and corrections of the station's records that were made here: of each the last "
-          "revision, "
-          "in the order of their numbers. A station asks every few seconds with the position it "
-          "was "
-          "last answered; one that this service has not given out is answered with all there is.",
+          "plans, catalogues, and corrections of the station's records that were made here: of "
+          "each the last revision, in the order of their numbers. A station asks every few seconds "
+          "with the position it was last answered; one that this service has not given out is "
+          "answered with all there is.",
       .parameters = {{.name = "station",
                       .description =
                           "What the station's ids end with: whose corrections are meant"},

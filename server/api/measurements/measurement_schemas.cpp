@@ -138,7 +138,10 @@ void add_request_schemas(Schemas& schemas) {
 
 void add_measurement_schemas(Schemas& schemas) {
   add_request_schemas(schemas);
-  schemas.push_back({"Measurement", schema::object(record_fields(), Others::Allowed, kRecord)});
+  const schema::Fields notes = {
+      {"notes", schema::array(schema::ref("Note")), "Of lists with notes=shown", false}};
+  schemas.push_back(
+      {"Measurement", schema::object(record_fields() + notes, Others::Allowed, kRecord)});
   schemas.push_back(
       {"Proof",
        schema::object({{"index", schema::count(), "Of the leaf, from 0"},
@@ -150,6 +153,15 @@ void add_measurement_schemas(Schemas& schemas) {
   schemas.push_back(
       {"LogHead", schema::object({{"size", schema::count(), "Records of the origin that are here"},
                                   {"root", schema::text(), "Of their tree, in base64"}})});
+  const std::string column_row =
+      schema::object({{"over_mm", schema::number(), ""},
+                      {"up_to_mm", schema::number(), ""},
+                      {"upper_um", schema::number(), "The upper deviation"},
+                      {"lower_um", schema::number(), "The lower deviation"}});
+  const std::string column =
+      schema::object({{"feature", schema::words({"hole", "shaft"}), "Which table it is in"},
+                      {"tolerance_class", schema::text(), "Its name"},
+                      {"rows", schema::array(column_row), "By size"}});
   schemas.push_back(
       {"Revisions",
        schema::object(
@@ -168,7 +180,7 @@ void add_measurement_schemas(Schemas& schemas) {
                   {"text", schema::text(), "Of the setup, plan or catalogue, as it was stored",
                    false},
                   {"table_revision", schema::text(), "Of tables: as records name it", false},
-                  {"columns", schema::array(schema::object({})), "The shop's own", false},
+                  {"columns", schema::array(column), "The shop's own", false},
                   {"role", schema::words({"viewer", "operator"}), "Of a key", false},
                   {"token_sha256", schema::text(), "Of a key, in hexadecimal", false},
                   {"place", schema::count(), "Of a correction in the centre's log", false},

@@ -267,7 +267,7 @@ void add_openapi_route(std::vector<http::Route>& routes) {
                     .access = "open",
                     .operation = "getOpenapi",
                     .tag = "service",
-                    .outcomes = {{.meaning = "OpenAPI 3.1", .media_types = {"application/json"}}}});
+                    .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
   const auto document = http::prepare({200, "application/json", openapi_json(routes)});
   routes.back().handler = [document](const http::Request&) -> Result<http::Response> {
     return http::Response(document);

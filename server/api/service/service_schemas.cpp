@@ -81,11 +81,21 @@ void add_service_schemas(Schemas& schemas) {
                {"errors", schema::array(entry), "Every field that cannot be accepted", false},
                {"diagnostics", schema::array(schema::ref("Diagnostic")),
                 "Of program.invalid: every finding", false},
+               {"head", schema::ref("LogHead"), "Of log.position and log.forked: what is here",
+                false},
            },
            Others::Allowed,
            R"({"type":"urn:fitgauge:problem:class.unknown","title":"Unknown tolerance class",)"
            R"("status":404,"detail":"H19 is not a tolerance class of the tables",)"
            R"("instance":"urn:fitgauge:request:1","code":"class.unknown"})")});
+  const std::string any = R"({"type":"object"})";
+  schemas.push_back(
+      {"Description", schema::object({{"openapi", schema::text(), "The version of OpenAPI"},
+                                      {"info", any, ""},
+                                      {"servers", schema::array(any), ""},
+                                      {"tags", schema::array(any), "Groups of operations"},
+                                      {"paths", any, "The operations"},
+                                      {"components", any, "Schemas, responses, security"}})});
 }
 
 }  // namespace fitgauge::api

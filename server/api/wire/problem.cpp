@@ -30,7 +30,6 @@ int status_of(ErrorCode code) {
     case ErrorCode::LogKeyUnknown:
     case ErrorCode::OriginRefused: return 403;
     case ErrorCode::ClassUnknown:
-    case ErrorCode::RevisionUnknown:
     case ErrorCode::NotFound:
     case ErrorCode::FileUnknown:
     case ErrorCode::SetupUnknown:

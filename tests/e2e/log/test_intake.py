@@ -11,6 +11,7 @@ import unittest
 
 from measurements.test_log import flip, wait_for_size
 from measurements.test_storage import PART
+from support.contract import Contract
 from support.daemon import ROOT, Daemon, DaemonTest, command
 
 sys.path.insert(0, str(ROOT / "clients" / "python"))
@@ -50,7 +51,10 @@ class Intake(unittest.TestCase):
         return daemon.start()
 
     def put(self, body, origin, place=1, headers=NDJSON):
-        return self.daemon.request("PUT", f"/v1/log/{origin}/{place}", body, headers)
+        answer = self.daemon.request("PUT", f"/v1/log/{origin}/{place}", body, headers)
+        contract = Contract(self.daemon.get("/openapi.json").json)
+        self.assertIsNone(contract.check(contract.operation("putLogBatch")[2], answer), answer)
+        return answer
 
     def take(self, station=None, skip=0):
         """Forwards what the station has behind its first rows."""

@@ -50,7 +50,7 @@ class Forms(DaemonTest):
     def test_what_is_refused(self):
         self.assert_problem(self.daemon.get("/v1/tables/hole?classes=H19"), 404, "class.unknown")
         self.assert_problem(self.daemon.get("/v1/tables/hole?classes=h7"), 404, "class.unknown")
-        self.assert_problem(self.daemon.get("/v1/tables/hole?revision=0-x"), 404, "revision.unknown")
+        self.assert_problem(self.daemon.get("/v1/tables/hole?revision=0-x"), 400, "revision.unknown")
         self.assert_problem(self.daemon.get("/v1/tables/bore"), 404, "resource.not_found")
 
 
