@@ -1,18 +1,20 @@
 /** What a station has on its table: a scanner of badges, a number pad, a gauge on a wire, a loudspeaker. */
 
 import assert from 'node:assert/strict';
-import { describe, it } from 'node:test';
+import { beforeEach, describe, it } from 'node:test';
 
-import { close, findings, launch, open, openIn, picture } from './support/browser.mjs';
+import { close, findings, open, openIn, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
-import { PAIR_MS, scan } from './support/scanner.mjs';
+import { scan } from './support/scanner.mjs';
+import { begin, browser, daemon, storedSince } from './support/stage.mjs';
+
+beforeEach(begin);
 
 describe('a badge', () => {
   it('logs in by a scan, another one logs in another, and no key is seen or kept', async () => {
-    const browser = await launch();
-    const daemon = await new Daemon('--auth', 'read-open').start();
-    const [ada, bob] = [await daemon.key('ada', 'operator'), await daemon.key('bob', 'operator')];
-    const page = await open(browser, daemon, '#/gauge/25H7');
+    const locked = await new Daemon('--auth', 'read-open').start();
+    const [ada, bob] = [await locked.key('ada', 'operator'), await locked.key('bob', 'operator')];
+    const page = await open(browser, locked, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
     const says = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.badge').textContent), text);
     for (const [i, [key, value]] of [[ada, '25.01'], [bob, '25.011']].entries()) {
@@ -22,7 +24,7 @@ describe('a badge', () => {
       await page.waitForFunction((count) => document.querySelectorAll('.recent li.stored').length === count, i + 1);
     }
     for (const [name, value] of [['ada', 25.01], ['bob', 25.011]]) {
-      const { measurements } = await (await fetch(`${daemon.url}/v1/measurements?caller=${name}`, { headers: { Authorization: `Bearer ${ada}` } })).json();
+      const { measurements } = await (await fetch(`${locked.url}/v1/measurements?caller=${name}`, { headers: { Authorization: `Bearer ${ada}` } })).json();
       assert.deepEqual(measurements.map((record) => record.measured_mm), [value]);
     }
     await picture(page, 'gauge-badge');
@@ -34,15 +36,12 @@ describe('a badge', () => {
     const text = await page.evaluate(() => [document.body.textContent, ...Object.values(localStorage), ...Object.values(sessionStorage)].join());
     assert.ok(![ada, bob].some((key) => text.includes(key)));
     await close(page);
-    await browser.close();
-    await daemon.cleanup();
+    await locked.cleanup();
   });
 });
 
 describe('a number pad', () => {
   it('types for those who have no keyboard, and leaves the verdict in sight', async () => {
-    const browser = await launch();
-    const daemon = await new Daemon().start();
     const page = await open(browser, daemon, '#/gauge/25H7', { viewport: { width: 1024, height: 768 }, locale: 'de-DE', hasTouch: true });
     await page.waitForSelector('.echo .figures');
     if (await page.isHidden('.pad')) {
@@ -55,7 +54,7 @@ describe('a number pad', () => {
     assert.deepEqual(await page.evaluate(() => [document.activeElement.id, document.activeElement.inputMode]), ['value', 'none']);
     await page.tap('.entry .primary');
     await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
-    assert.deepEqual((await daemon.stored()).map((record) => record.measured_mm), [25.013]);
+    assert.deepEqual((await storedSince()).map((record) => record.measured_mm), [25.013]);
     const seen = () => page.$eval('.verdict', (panel) => panel.getBoundingClientRect().bottom <= innerHeight);
     assert.ok(await seen());
     await page.reload();
@@ -67,15 +66,11 @@ describe('a number pad', () => {
       await picture(page, `gauge-pad-${width}`);
     }
     await close(page);
-    await browser.close();
-    await daemon.cleanup();
   });
 });
 
 describe('a gauge on a serial port', () => {
   it('types its values, whole ones only, and says what it cannot read', async () => {
-    const browser = await launch();
-    const daemon = await new Daemon().start();
     const context = await browser.newContext({ locale: 'en-GB', viewport: { width: 1280, height: 800 } });
     // A port as Web Serial has it; `feed` is the gauge. It is opened in the middle of 25.013.
     await context.addInitScript(() => {
@@ -103,38 +98,31 @@ describe('a gauge on a serial port', () => {
     await sleep(250);
     await feed('01A+0025.013\r');
     await rows(1);
-    await sleep(PAIR_MS);
     await feed('25,0');
     await feed('11 mm\r\n');
     await rows(2);
     for (const line of ['25.013in', '01A-0025.013', '25.013 25.014', 'ERR 91']) {
-      await sleep(PAIR_MS);
-      await feed(`${line}\r\n`);
+        await feed(`${line}\r\n`);
       await note(line.startsWith('01A-') ? 'neither a value' : 'does not fit the pattern');
     }
     const unfold = () => page.$eval('.more', (more) => { more.open = true; });
     await unfold();
     await page.fill('[name="serial_pattern"]', 'D=(\\d+\\.\\d+);OK');
     await page.press('[name="serial_pattern"]', 'Tab');
-    await sleep(PAIR_MS);
     await feed('D=25.0123;OK\r\n');
     await rows(3);
-    assert.deepEqual((await daemon.stored()).map((record) => record.measured_mm), [25.013, 25.011, 25.0123]);
+    assert.deepEqual((await storedSince()).map((record) => record.measured_mm), [25.013, 25.011, 25.0123]);
     await unfold();
     assert.deepEqual(await findings(page), []);
     await picture(page, 'gauge-serial', { fullPage: true });
     await page.getByRole('button', { name: 'Disconnect' }).click();
     await page.getByRole('button', { name: 'Connect', exact: true }).waitFor();
     await close(page);
-    await browser.close();
-    await daemon.cleanup();
   });
 });
 
 describe('a station with sound', () => {
   it('is silent until it is switched on, then has a sound of its own for each verdict, also after a reload', async () => {
-    const browser = await launch();
-    const daemon = await new Daemon().start();
     const page = await open(browser, daemon, '#/gauge/25H7');
     // What is to be heard: each oscillator that is started, by its frequency.
     await page.addInitScript(() => {
@@ -168,7 +156,5 @@ describe('a station with sound', () => {
     assert.deepEqual(await measure('25.02', 'good'), [880]);
     assert.ok((await measure('24.99', 'rework')).join() !== rejected.join());
     await close(page);
-    await browser.close();
-    await daemon.cleanup();
   });
 });

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';
 
-import { close, hashOf, open, picture } from './support/browser.mjs';
+import { close, hashOf, open, pasted, picture } from './support/browser.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 let page;
@@ -28,7 +28,7 @@ describe('the fit', () => {
   });
 
   it('is found by the clearance it must have, and copied for a drawing', async () => {
-    page = await open(browser, daemon, '#/fit/25H7/k6', { permissions: ['clipboard-read', 'clipboard-write'] });
+    page = await open(browser, daemon, '#/fit/25H7/k6');
     await page.waitForSelector('.limits');
     await page.fill('#find-least', '5');
     await page.fill('#find-greatest', '45');
@@ -43,7 +43,7 @@ describe('the fit', () => {
     for (const [feature, text] of [['H7', '⌀25 H7 (+0.021/0)'], ['g6', '⌀25 g6 (-0.007/-0.020)']]) {
       await page.click(`.limits button[aria-label="Copy 25 ${feature} for a drawing"]`);
       await page.waitForFunction((wanted) => document.querySelector('.side .note').textContent === `${wanted} is copied.`, text);
-      assert.equal(await page.evaluate(() => navigator.clipboard.readText()), text);
+      assert.equal(await pasted(page), text);
     }
     await page.fill('#find-greatest', 'wide');
     await page.click('.finder button[type="submit"]');
@@ -94,12 +94,12 @@ describe('the fit', () => {
 
 describe('the tables', () => {
   it('are searched by size and class, and copied as CSV', async () => {
-    page = await open(browser, daemon, '#/tables/hole?find=25+H7', { permissions: ['clipboard-read', 'clipboard-write'] });
+    page = await open(browser, daemon, '#/tables/hole?find=25+H7');
     await page.waitForSelector('.grid td');
     assert.deepEqual(await page.$$eval('.grid tbody tr', (rows) => rows.map((row) => row.textContent)), ['2430+210']);
     await page.click('text=Copy as CSV');
     await page.waitForFunction(() => document.querySelector('.tables .note').textContent !== '');
-    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), 'over_mm,up_to_mm,H7_upper_um,H7_lower_um\n24,30,21,0\n');
+    assert.equal(await pasted(page), 'over_mm,up_to_mm,H7_upper_um,H7_lower_um\n24,30,21,0\n');
     await page.fill('#find', 'JS');
     await page.waitForFunction(() => document.querySelectorAll('.grid thead th').length === 22);
     assert.equal((await page.$$('.grid tbody tr')).length, 41);

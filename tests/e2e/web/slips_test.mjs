@@ -6,7 +6,7 @@ import { afterEach, describe, it } from 'node:test';
 import { close, findings, open, openIn } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
 import { Gate } from './support/gate.mjs';
-import { PAIR_MS, scan as scanInto } from './support/scanner.mjs';
+import { PAIR_MS, scan as scanInto, typeSlowly } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 let page;
@@ -17,10 +17,13 @@ afterEach(async () => {
 });
 
 const scan = (text) => scanInto(page, text);
-const slow = async (text) => { await page.keyboard.type(`${text}\n`, { delay: 45 }); await sleep(PAIR_MS); };
+const slow = (text) => typeSlowly(page, text);
 const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
 const notes = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.getElementById('entry-note').textContent), pattern.source);
-const stored = async (order) => (await daemon.stored(`order=${order}&history=all`)).map(({ part_id: part, measured_mm: mm }) => [part, mm]);
+const stored = async (order) => {
+  await page.waitForSelector('.link[data-state="up"]');
+  return (await daemon.stored(`order=${order}&history=all`)).map(({ part_id: part, measured_mm: mm }) => [part, mm]);
+};
 const echo = (text) => page.waitForFunction((wanted) => document.querySelector('.echo strong')?.textContent === wanted, text);
 const openStation = async (query, options) => {
   page = await open(browser, daemon, `#/gauge/25H7?${query}`, options);
@@ -184,7 +187,10 @@ describe('a key in the wrong place', () => {
 describe('a plan left in the middle', () => {
   const PLAN = { characteristics: ['bore-1', 'bore-2', 'bore-3'].map((name) => ({ name, designation: '25 H7' })) };
   const progress = (text) => page.waitForFunction((wanted) => document.querySelector('.plan .progress')?.textContent === wanted, text);
-  const measured = async (order) => (await daemon.stored(`order=${order}`)).map(({ part_id: part, characteristic, measured_mm: mm }) => [part, characteristic, mm]);
+  const measured = async (order) => {
+    await page.waitForSelector('.link[data-state="up"]');
+    return (await daemon.stored(`order=${order}`)).map(({ part_id: part, characteristic, measured_mm: mm }) => [part, characteristic, mm]);
+  };
   const begin = async (part, query) => {
     await daemon.send('PUT', `/v1/plans/${part}`, PLAN);
     page = await open(browser, daemon, `#/gauge?plan=${part}&${query}`);
@@ -232,6 +238,7 @@ describe('a plan left in the middle', () => {
     await tile(2);
     await progress('2 of 3');
     await page.focus('#value');
+    await sleep(PAIR_MS);
     await page.keyboard.press('Enter');
     await progress('All 3 measured');
     await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 4);

@@ -6,8 +6,7 @@ import { afterEach, describe, it } from 'node:test';
 import { judge, mmText, nmFromMm } from '../../../clients/web/exact.js';
 import { close, findings, open, picture } from './support/browser.mjs';
 import { untilPoints } from './support/chart.mjs';
-import { sleep } from './support/daemon.mjs';
-import { PAIR_MS, scan as scanInto } from './support/scanner.mjs';
+import { scan as scanInto, typeSlowly } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 let page;
@@ -15,7 +14,7 @@ let page;
 afterEach(() => close(page));
 
 const scan = (text) => scanInto(page, text);
-const measure = async (text) => { await page.keyboard.type(`${text}\n`, { delay: 45 }); await sleep(PAIR_MS); };
+const measure = (text) => typeSlowly(page, text);
 const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
 const echo = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.echo').textContent), pattern);
 const stored = async (part) => (await daemon.stored(`part_id=${part}`)).map(({ designation, feature, measured_mm, verdict: word }) => [designation, feature, measured_mm, word]);
@@ -41,7 +40,7 @@ describe('other standards at the station', () => {
     await picture(page, 'gauge-thread');
     await scan('M12-3A'); // no class of this standard: the number of a part
     assert.equal(await page.inputValue('[name="part_id"]'), 'M12-3A');
-    await page.keyboard.type('M10-9H\n', { delay: 45 }); // typed, it is nothing
+    await typeSlowly(page, 'M10-9H'); // typed, it is nothing
     await page.waitForFunction(() => /Nothing is stored/.test(document.querySelector('#entry-note').textContent));
   });
 

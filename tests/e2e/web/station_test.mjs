@@ -1,30 +1,25 @@
 /** Nothing false and nothing unseen gets into the record: scanners, parts, outages, corrections. */
 
 import assert from 'node:assert/strict';
-import { afterEach, before, beforeEach, describe, it } from 'node:test';
+import { afterEach, beforeEach, describe, it } from 'node:test';
 
-import { close, launch, open, openIn, picture } from './support/browser.mjs';
+import { close, open, openIn, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
-import { PAIR_MS, scan as scanInto } from './support/scanner.mjs';
+import { scan as scanInto, typeSlowly } from './support/scanner.mjs';
+import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
 describe('a station with a scanner', () => {
-  let browser;
-  let daemon;
   let page;
 
-  before(async () => { browser = await launch(); });
   beforeEach(async () => {
-    daemon = await new Daemon().start();
+    await begin();
     page = await open(browser, daemon, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
   });
-  afterEach(async () => {
-    await close(page);
-    await daemon.cleanup();
-  });
+  afterEach(() => close(page));
 
-  const slow = async (text) => { await page.keyboard.type(`${text}\n`, { delay: 45 }); await sleep(PAIR_MS); };
-  const stored = async () => (await daemon.stored()).map(({ part_id, measured_mm }) => [part_id, measured_mm]);
+  const slow = (text) => typeSlowly(page, text);
+  const stored = async () => (await storedSince()).map(({ part_id, measured_mm }) => [part_id, measured_mm]);
   const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
   const part = () => page.inputValue('[name="part_id"]');
   const settled = () => page.waitForSelector('.link[data-state="up"]');
@@ -32,15 +27,19 @@ describe('a station with a scanner', () => {
   const scan = (text) => scanInto(page, text);
   const awayFromFields = () => page.click('.verdict');
 
-  for (const text of ['A25', 'SN-00017', '-25.013', 'E25', '25.013in', '2.5013e1']) {
-    it(`stores nothing when ${text} is typed with the focus elsewhere`, async () => {
+  it('stores nothing when A25, SN-00017, a reading gone wrong is typed with the focus elsewhere', async () => {
+    for (const text of ['A25', 'SN-00017', '-25.013', 'E25', '25.013in', '2.5013e1']) {
+      await page.keyboard.press('Escape');
       await awayFromFields();
       await slow(text);
+      await page.waitForFunction((typed) => {
+        const note = document.getElementById('entry-note').textContent;
+        return note.includes(typed) && note.includes('Nothing is stored');
+      }, text);
       assert.equal(await page.inputValue('#value'), text);
-      assert.match(await page.textContent('#entry-note'), /Nothing is stored/);
       assert.deepEqual(await stored(), []);
-    });
-  }
+    }
+  });
 
   it('takes a scan of letters and figures for the part, and never a reading gone wrong', async () => {
     for (const [text, expected] of [['SN-00017', 'SN-00017'], ['-25.013', 'SN-00017'], ['25.01in', 'SN-00017'], ['P:4711', '4711'], ['4711-A', '4711-A']]) {
@@ -81,7 +80,7 @@ describe('a station with a scanner', () => {
     await scan('g:G-07');
     await slow('30.01');
     await verdict('good');
-    const [, record] = await daemon.stored();
+    const [, record] = await storedSince();
     assert.deepEqual([record.designation, record.order, record.gauge], ['30 k6', 'WO-17', 'G-07']);
   });
 
@@ -91,7 +90,7 @@ describe('a station with a scanner', () => {
     await page.fill('#designation', '30 k6');
     await verdict('idle');
     await page.fill('#designation', '25 H7');
-    await page.waitForSelector('.echo .figures');
+    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
     await page.focus('#value');
     await slow('25.05');
     await verdict('reject');
@@ -149,7 +148,7 @@ describe('a station with a scanner', () => {
     }
     await daemon.start();
     await settled();
-    assert.deepEqual((await daemon.stored()).map((record) => record.verdict), ['good', 'reject', 'good', 'rework']);
+    assert.deepEqual((await storedSince()).map((record) => record.verdict), ['good', 'reject', 'good', 'rework']);
   });
 
   it('corrects the part of a record', async () => {
@@ -159,14 +158,13 @@ describe('a station with a scanner', () => {
     await page.getByRole('button', { name: 'Correct the part SN-1' }).click();
     await slow('SN-2');
     await page.waitForSelector('.recent .corrected');
-    const [old, corrected] = await daemon.stored();
+    const [old, corrected] = await storedSince();
     assert.deepEqual([corrected.part_id, corrected.measured_mm, corrected.correction_of], ['SN-2', 25.011, old.id]);
   });
 });
 
 describe('a station in an unfriendly browser', () => {
-  let browser;
-  before(async () => { browser = await launch(); });
+  beforeEach(begin);
 
   for (const [what, script] of [
     ['storage is denied', () => {
@@ -182,29 +180,24 @@ describe('a station in an unfriendly browser', () => {
     }],
   ]) {
     it(`works where ${what}`, async () => {
-      const daemon = await new Daemon().start();
       const context = await browser.newContext();
       await context.addInitScript(script);
       const page = await openIn(context, daemon, '#/gauge/25H7');
       await page.waitForSelector('.echo .figures');
       await page.keyboard.type('25.0131\n');
       await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
-      assert.equal((await daemon.stored()).length, 1);
+      assert.equal((await storedSince()).length, 1);
       await close(page);
-      await daemon.cleanup();
     });
   }
 
   it('shows a view also for an address that cannot be decoded', async () => {
-    const daemon = await new Daemon().start();
     const page = await open(browser, daemon, '#/gauge/%E0%A4%A');
     await page.waitForSelector('.entry');
     await close(page);
-    await daemon.cleanup();
   });
 
   it('measures with the time of the service, also before it has answered once', async () => {
-    const daemon = await new Daemon().start();
     const context = await browser.newContext();
     await context.addInitScript(() => {
       const now = Date.now.bind(Date);
@@ -215,25 +208,23 @@ describe('a station in an unfriendly browser', () => {
     await page.waitForSelector('.echo .figures');
     await page.keyboard.type('25.0131\n');
     await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
-    const [record] = await daemon.stored();
+    const [record] = await storedSince();
     assert.ok(Math.abs(Date.parse(record.measured_at) - Date.parse(record.received_at)) < 3000, record.measured_at);
     await close(page);
-    await daemon.cleanup();
   });
 
   it('gives a value to the station that a gauge typed into the dialog for keys', async () => {
-    const daemon = await new Daemon('--auth', 'read-open').start();
-    const key = await daemon.key('station', 'operator');
-    const page = await open(browser, daemon, '#/gauge/25H7');
+    const locked = await new Daemon('--auth', 'read-open').start();
+    const key = await locked.key('station', 'operator');
+    const page = await open(browser, locked, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
     await page.keyboard.type('25.011\n');
     await page.waitForSelector('dialog[open]');
     await page.keyboard.type('25.012\n');
-    await sleep(350);
     await page.keyboard.type(`${key}\n`);
     await page.waitForSelector('dialog', { state: 'detached' });
     await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 2);
     await close(page);
-    await daemon.cleanup();
+    await locked.cleanup();
   });
 });

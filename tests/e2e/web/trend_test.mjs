@@ -21,27 +21,27 @@ describe('answers that come late', () => {
     page = await open(browser, daemon, '#/fit/25H7/g6');
     await page.waitForSelector('.fit .headline');
     await page.route('**/v1/fits/25H7/s6', async (route) => {
-      await new Promise((resolve) => setTimeout(resolve, 1200));
+      await new Promise((resolve) => setTimeout(resolve, 300));
       await route.continue().catch(() => {});
     });
     await page.click('.preferred button:has-text("H7/s6")');
     await page.click('.preferred button:has-text("H7/h6")');
     await page.waitForFunction(() => decodeURIComponent(location.hash).startsWith('#/fit/25H7/h6'));
-    await page.waitForTimeout(1500);
+    await page.waitForTimeout(600);
     assert.equal(await page.textContent('.fit .headline'), 'Clearance fit');
     await page.fill('#fit', 'nonsense');
     await page.press('#fit', 'Enter');
     assert.equal(await page.$('.fit .headline'), null);
 
     await page.route('**/v1/measurements?**', async (route) => {
-      await new Promise((resolve) => setTimeout(resolve, 800));
+      await new Promise((resolve) => setTimeout(resolve, 300));
       await route.continue().catch(() => {});
     });
     await page.evaluate(() => { location.hash = '#/trend'; });
     await page.waitForSelector('.trend');
     await page.evaluate(() => { location.hash = '#/gauge/25H7'; });
     await page.waitForSelector('.entry');
-    await page.waitForTimeout(1200);
+    await page.waitForTimeout(600);
     assert.ok(hash().startsWith('#/gauge/25H7'), hash());
   });
 });
@@ -55,7 +55,7 @@ describe('a chart', () => {
     await page.waitForSelector('#trend-characteristic option[value="late-C"]', { state: 'attached' });
     let answered = false;
     await page.route('**/v1/measurements?*characteristic=late-B*', async (route) => {
-      await sleep(800);
+      await sleep(300);
       await route.continue().catch(() => {});
       answered = true;
     });
@@ -63,7 +63,7 @@ describe('a chart', () => {
     await page.selectOption('#trend-characteristic', 'late-C');
     await untilPoints(page, 1);
     while (!answered) await sleep(20);
-    await sleep(500);
+    await sleep(200);
     assert.deepEqual([await page.inputValue('#trend-characteristic'), await page.inputValue('#trend-designation')], ['late-C', '30 H7']);
     assert.match(hash(), /characteristic=late-C&designation=30/);
     assert.match(await page.textContent('.trend > .scroll tbody tr'), /30\.010 mm/);
@@ -153,7 +153,7 @@ describe('the trend', () => {
     await page.route('**/v1/measurements?*sort=newest*', async (route) => {
       const answer = await route.fetch();
       await post(`25.00${++asked + 1}`);
-      await sleep(500);
+      await sleep(200);
       await route.fulfill({ response: answer });
     });
     const points = (count) => untilPoints(page, count);
@@ -174,7 +174,7 @@ describe('the trend', () => {
     await points(3); // from here on it follows the events
     for (const [designation, measured] of [['40 H7', '40.01'], ['25 H7', '25.012'], ['25 H7', '25.013'], ['40 H7', '40.011']]) await measure(designation, measured);
     await points(5);
-    await sleep(500); // what came last is drawn by then
+    await sleep(200); // what came last is drawn by then
     await points(5);
     assert.equal(await page.inputValue('#trend-designation'), '25 H7');
     assert.deepEqual(await page.$$eval('#trend-designation option', (all) => all.map(({ value }) => value)), ['25 H7', '40 H7']);

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
+import os from 'node:os';
 import path from 'node:path';
 
 import { atEnd } from './ending.mjs';
@@ -20,10 +21,56 @@ const BROWSERS = {
     args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
       '--disable-component-update', '--disable-sync'],
   }),
-  // Debian's own Firefox, by WebDriver BiDi.
-  firefox: () => playwright._bidiFirefox.launch({ executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', channel: 'moz-firefox' }),
+  // Debian's own Firefox, by WebDriver BiDi, which tells of no downloads: they go into a folder.
+  firefox: () => playwright._bidiFirefox.launch({
+    executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', channel: 'moz-firefox',
+    firefoxUserPrefs: { 'browser.download.folderList': 2, 'browser.download.dir': downloads(), 'browser.download.useDownloadDir': true },
+  }),
 };
 export const browserName = process.env.WEB_TEST_BROWSER ?? 'chromium';
+
+let folder;
+/** Where Firefox saves files. */
+function downloads() {
+  if (!folder) {
+    folder = fs.mkdtempSync(path.join(os.tmpdir(), 'fitgauge-saved-'));
+    atEnd(() => fs.rmSync(folder, { recursive: true, force: true }));
+  }
+  return folder;
+}
+
+/** What `act` saves as a file: [name, bytes]. */
+export async function saved(page, act) {
+  if (browserName === 'chromium') {
+    const [download] = await Promise.all([page.waitForEvent('download'), act()]);
+    return [download.suggestedFilename(), fs.readFileSync(await download.path())];
+  }
+  await act();
+  for (const until = Date.now() + 15000; Date.now() < until; await page.waitForTimeout(50)) {
+    const names = fs.readdirSync(downloads());
+    const [name] = names;
+    // A file that is not whole yet has another beside it.
+    if (names.length === 1 && fs.statSync(path.join(folder, name)).size > 0 && !name.endsWith('.part')) {
+      const bytes = fs.readFileSync(path.join(folder, name));
+      fs.rmSync(path.join(folder, name));
+      return [name, bytes];
+    }
+  }
+  throw new Error(`nothing was saved: ${fs.readdirSync(folder)}`);
+}
+
+/** What is on the clipboard, as a paste shows it: to read it otherwise would need a permission. */
+export async function pasted(page) {
+  await page.evaluate(() => {
+    const area = document.body.appendChild(document.createElement('textarea'));
+    area.id = 'pasted';
+    area.focus();
+  });
+  await page.keyboard.press('ControlOrMeta+v');
+  const text = await page.inputValue('#pasted');
+  await page.$eval('#pasted', (area) => area.remove());
+  return text;
+}
 
 /** A browser, which is closed at the end of the file, whatever becomes of its tests. */
 export async function launch() {

@@ -48,9 +48,13 @@ export class Daemon {
     return this.stop('SIGKILL');
   }
 
+  get isRunning() {
+    return this.process?.exitCode === null && this.process.signalCode === null;
+  }
+
   /** Ends it if it runs, and removes its data. */
   async cleanup() {
-    if (this.process?.exitCode === null && this.process.signalCode === null) await this.kill();
+    if (this.isRunning) await this.kill();
     fs.rmSync(this.folder, { recursive: true, force: true });
   }
 

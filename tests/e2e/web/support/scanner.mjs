@@ -3,11 +3,21 @@
 /** A second Enter within this time is the second of a pair, where nothing was typed between them. */
 export const PAIR_MS = 310;
 
+/** Between two keys of a hand, in ms: slower than any scanner. */
+const HAND_MS = 45;
+
 /** All keys of a line at once: the page gets them without a gap, however busy the machine is. */
-export function scan(page, text, end = 'Enter') {
-  return page.evaluate(({ line, last }) => {
+export const scan = (page, text) => keys(page, text, 0);
+
+/** The same, with keys that say they came as slowly as from a hand: nobody waits for them. */
+export const typeSlowly = (page, text) => keys(page, text, HAND_MS);
+
+function keys(page, text, gap) {
+  return page.evaluate(({ line, pace }) => {
+    let at = performance.now();
     const type = (key) => {
       const down = new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true });
+      Object.defineProperty(down, 'timeStamp', { value: at += pace });
       const target = document.activeElement ?? document.body;
       if (!target.dispatchEvent(down)) return;
       const now = document.activeElement;
@@ -17,6 +27,6 @@ export function scan(page, text, end = 'Enter') {
       }
       if (key === 'Enter' && now.form) now.form.requestSubmit();
     };
-    for (const key of [...line, last]) type(key);
-  }, { line: text, last: end });
+    for (const key of [...line, 'Enter']) type(key);
+  }, { line: text, pace: gap });
 }
