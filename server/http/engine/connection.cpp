@@ -1,11 +1,8 @@
 #include "http/engine/connection.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 #include <variant>
-
-#include "base/guarded.hpp"
 
 namespace fitgauge::http {
 

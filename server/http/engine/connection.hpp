@@ -2,13 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "base/guarded.hpp"
 #include "http/body_stream.hpp"
 #include "http/engine/body_reader.hpp"
 #include "http/engine/exchange.hpp"
@@ -92,11 +93,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// What is out of memory, or a hook that throws, ends this connection alone.
   template <class Function>
   void guarded(Function&& function) noexcept {
-    try {
-      function();
-    } catch (const std::exception&) {
-      close();
-    }
+    if (!fitgauge::guarded("a connection", std::forward<Function>(function))) close();
   }
   template <class Function>
   void post(Function function);

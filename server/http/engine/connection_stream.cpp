@@ -12,12 +12,10 @@ template <class Function>
 void Connection::post(Function function) {
   auto run = [self = shared_from_this(), function = std::move(function)]() mutable {
     if (self->phase_ == Phase::Closed) return;
-    try {
+    self->guarded([&] {
       function(*self);
       self->advance();
-    } catch (const std::exception&) {
-      self->close();
-    }
+    });
   };
   if (Posts* const posts = Posts::kept()) {
     posts->add(thread_, std::move(run));

@@ -1,9 +1,9 @@
 #include "http/engine/io_thread.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <memory>
 
+#include "base/guarded.hpp"
 #include "http/engine/connection.hpp"
 
 namespace fitgauge::http {
@@ -33,10 +33,8 @@ void IoThread::start() {
   schedule_sweep();
   thread_ = std::thread([this] {
     while (!context_.stopped()) {
-      try {
-        context_.run();
-      } catch (const std::exception&) {  // out of memory where no connection is to blame: go on
-      }
+      // A bug, or no memory, where no connection is to blame: the others go on.
+      guarded("an I/O thread", [this] { context_.run(); });
     }
   });
 }

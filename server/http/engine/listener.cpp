@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <utility>
+
+#include "base/guarded.hpp"
 
 namespace fitgauge::http {
 
@@ -71,10 +72,8 @@ void Listener::accept() {
   acceptor_.async_accept([this](const error_code& error, Socket socket) {
     if (!acceptor_.is_open()) return;
     if (!error) {
-      try {
-        deal(std::move(socket));
-      } catch (const std::exception&) {  // out of memory: this client goes, the next one may stay
-      }
+      // Out of memory: this client goes, the next one may stay.
+      guarded("a new connection", [&] { deal(std::move(socket)); });
       return accept();
     }
     retry_.expires_after(kRetry);

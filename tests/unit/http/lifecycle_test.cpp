@@ -5,9 +5,11 @@
 #include <chrono>
 #include <future>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
+#include "base/guarded.hpp"
 #include "test_server.hpp"
 #include "worker.hpp"
 
@@ -118,6 +120,37 @@ TEST_CASE("every answered request is reported once") {
   CHECK(finished.lines[2].starts_with("POST /p 200 500"));
   CHECK(finished.lines[3].starts_with("  400 "));
   CHECK(server.server().counters().requests == 4);
+}
+
+TEST_CASE("what a hook throws ends its connection alone, and is reported") {
+  static std::mutex mutex;
+  static std::string reported;
+  report_bugs_to([](std::string_view place, std::string_view what) {
+    const std::lock_guard lock(mutex);
+    reported += fmt::format("{}: {}\n", place, what);
+  });
+  ServerHooks hooks;
+  hooks.finished = [](const FinishedRequest& done) {
+    if (done.route != "/fine") throw std::runtime_error("a bug of the " + std::string(done.route));
+  };
+  Worker worker;
+  TestServer server({echo(Method::Get, "/fine"),
+                     echo(Method::Get, "/now"),
+                     {.pattern = "/late",
+                      .handler =
+                          [&](const Request&, Responder responder) {
+                            worker.run([responder = std::move(responder)]() mutable {
+                              responder.answer(Response(200, "text/plain", "late"));
+                            });
+                          }}},
+                    {}, hooks);
+  Client other = server.connect();
+  CHECK(other.ask(get("/fine"))->status == 200);
+  CHECK_FALSE(server.connect().ask(get("/now")));
+  CHECK_FALSE(server.connect().ask(get("/late")));
+  CHECK(other.ask(get("/fine"))->status == 200);
+  const std::lock_guard lock(mutex);
+  CHECK(reported == "a connection: a bug of the /now\na connection: a bug of the /late\n");
 }
 
 TEST_CASE("stop finishes the request in flight, closes idle connections and accepts no more") {
