@@ -9,6 +9,8 @@ import { atEnd } from './ending.mjs';
 
 const FITGAUGED = path.resolve(process.env.FITGAUGED ?? 'build/release/bin/fitgauged');
 const LONGEST_START_MS = 20000;
+/** The service refuses what it does not know: FITGAUGE_DEEP is for the tests. */
+const ENVIRONMENT = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('FITGAUGE_')));
 
 export const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
@@ -29,7 +31,7 @@ export class Daemon {
     const portFile = path.join(this.folder, 'port');
     fs.rmSync(portFile, { force: true });
     this.process = spawn(FITGAUGED, ['--listen', `127.0.0.1:${this.port}`, '--data', path.join(this.folder, 'data'),
-      '--port-file', portFile, '--log-level', 'error', ...this.flags], { stdio: ['ignore', 'ignore', 'inherit'] });
+      '--port-file', portFile, '--log-level', 'error', ...this.flags], { stdio: ['ignore', 'ignore', 'inherit'], env: ENVIRONMENT });
     const ended = new Promise((resolve) => this.process.once('exit', resolve));
     this.ended = ended;
     for (const until = Date.now() + LONGEST_START_MS; !fs.existsSync(portFile); await sleep(10)) {
@@ -60,7 +62,7 @@ export class Daemon {
 
   /** The output of a command beside the service. */
   command(...args) {
-    return execFileSync(FITGAUGED, [...args, '--data', path.join(this.folder, 'data')], { encoding: 'utf8' }).trim();
+    return execFileSync(FITGAUGED, [...args, '--data', path.join(this.folder, 'data')], { encoding: 'utf8', env: ENVIRONMENT }).trim();
   }
 
   /** A new API key, which the service has taken up. */
