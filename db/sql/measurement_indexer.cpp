@@ -7,6 +7,7 @@
 
 #include "sql/connection.hpp"
 #include "sql/measurement_query.hpp"
+#include "store/block_columns.hpp"
 #include "store/value_block.hpp"
 
 namespace fitgauge::store {
@@ -63,6 +64,14 @@ struct FieldPlace {
   int kind = 0;
 };
 
+/// The same of designations.
+struct DesignationPlace {
+  static constexpr std::size_t kColumn = column_of_field(number_of(IndexField::Designation));
+
+  std::int64_t nominal_nm = 0;
+  RowSet* rows = nullptr;  ///< those of it, if there is one
+};
+
 /// Takes the aggregates of a field with too many values away.
 void drop_field(NodeIndex& index, int field) {
   std::erase_if(index.aggregates,
@@ -73,9 +82,10 @@ void drop_field(NodeIndex& index, int field) {
 
 MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
     : connection_(c),
+      pairs_(c),
       last_block_(last_block_statement(c)),
       block_(c, block_sql()),
-      insert_node_(c, "INSERT INTO measurement_nodes VALUES (?, ?, ?, ?, ?, ?, 0)"),
+      insert_node_(c, "INSERT INTO measurement_nodes VALUES (?, ?, ?, ?, ?, ?, 0, ?)"),
       insert_posting_(c, "INSERT INTO measurement_postings VALUES (?, ?, ?, ?)"),
       insert_values_(c, "INSERT INTO measurement_values VALUES (?, ?)"),
       insert_aggregate_(c,
@@ -83,13 +93,14 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
                                     AggregatedValue(c).parameter)),
       child_times_(c,
                    "SELECT min(min_measured_at), max(max_measured_at), min(min_received_at), "
-                   "max(max_received_at) FROM measurement_nodes WHERE level = ? AND node BETWEEN ? "
-                   "AND ?"),
+                   "max(max_received_at), min(paired) FROM measurement_nodes WHERE level = ? AND "
+                   "node BETWEEN ? AND ?"),
       child_aggregates_(c, fmt::format("SELECT node, field, value, kind, statistics, {} FROM "
                                        "measurement_aggregates WHERE level = ? AND node BETWEEN ? "
                                        "AND ? ORDER BY node",
                                        AggregatedValue(c).is_none)),
-      make_stale_(c, "UPDATE measurement_nodes SET stale = 1 WHERE level = ? AND node = ?"),
+      make_stale_(
+          c, "UPDATE measurement_nodes SET stale = 1, paired = 0 WHERE level = ? AND node = ?"),
       rivals_(
           c,
           "WITH RECURSIVE back(id) AS (SELECT id FROM measurements WHERE correction_of = ?1 AND "
@@ -99,11 +110,15 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
       stale_(c,
              "SELECT level, node FROM measurement_nodes WHERE stale = 1 ORDER BY level, node "
              "LIMIT 1"),
+      unpaired_(c,
+                "SELECT level, node FROM measurement_nodes WHERE paired = 0 ORDER BY level, node "
+                "LIMIT 1"),
       delete_aggregates_(c, "DELETE FROM measurement_aggregates WHERE level = ? AND node = ?"),
-      make_fresh_(c, "UPDATE measurement_nodes SET stale = 0 WHERE level = ? AND node = ?"),
+      make_fresh_(
+          c, "UPDATE measurement_nodes SET stale = 0, paired = ? WHERE level = ? AND node = ?"),
       nodes_(c,
              "SELECT level, node, min_measured_at, max_measured_at, min_received_at, "
-             "max_received_at, stale FROM measurement_nodes ORDER BY level, node"),
+             "max_received_at, stale, paired FROM measurement_nodes ORDER BY level, node"),
       posting_(c,
                "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND block = ?"),
       values_(c, "SELECT bytes FROM measurement_values WHERE block = ?"),
@@ -114,18 +129,16 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
       count_values_(c, "SELECT count(*) FROM measurement_values") {}
 
 bool MeasurementIndexer::step() {
-  std::optional<IndexNode> stale;
-  if (Rows rows = stale_.query(); rows.next()) {
-    stale = IndexNode{rows.get<int>(0), rows.get<std::int64_t>(1)};
-  }
-  if (stale) {
-    delete_aggregates_.run(stale->level, stale->node);
-    insert_aggregates(*stale, derive(*stale));
-    make_fresh_.run(stale->level, stale->node);
+  if (const auto stale = first_of(stale_)) {
+    renew(*stale);
     return true;
   }
   const std::int64_t indexed = indexed_to(last_block_);
-  if (connection_.measurements().last_id() < indexed + kBlock) return false;
+  if (connection_.measurements().last_id() < indexed + kBlock) {
+    const auto unpaired = first_of(unpaired_);
+    if (unpaired) renew(*unpaired);
+    return unpaired.has_value();
+  }
   IndexNode node = IndexNode::of(indexed + 1, 0);
   insert(node, derive(node));
   while (node.level + 1 < kLevels && node.ids().last == node.parent().ids().last) {
@@ -133,6 +146,20 @@ bool MeasurementIndexer::step() {
     insert(node, derive(node));
   }
   return true;
+}
+
+std::optional<IndexNode> MeasurementIndexer::first_of(sql::Statement& nodes) {
+  Rows rows = nodes.query();
+  if (!rows.next()) return std::nullopt;
+  return IndexNode{rows.get<int>(0), rows.get<std::int64_t>(1)};
+}
+
+void MeasurementIndexer::renew(const IndexNode& node) {
+  delete_aggregates_.run(node.level, node.node);
+  pairs_.erase(node);
+  const NodeIndex index = derive(node);
+  insert_sums(node, index);
+  make_fresh_.run(index.pairs.is_complete, node.level, node.node);
 }
 
 void MeasurementIndexer::corrected(std::int64_t id) {
@@ -158,6 +185,8 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   std::array<Values, kTextColumns.size()> values;
   std::array<FieldPlace, kTextColumns.size()> places;
   ValueBlockWriter block;
+  BlockColumnsWriter columns;
+  DesignationPlace designation;
   bool is_plain = true;
   const auto post = [&](int field, std::string value) {
     RowSet& with = index.postings[{field, std::move(value)}];
@@ -184,6 +213,9 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
                    BlockColumn::Texts + static_cast<int>(index_of(TextField::Subgroup)))});
     const auto source = rows.get<int>(BlockColumn::Source);
     const auto verdict = rows.get<int>(BlockColumn::Verdict);
+    const auto measured_nm = rows.get<std::int64_t>(BlockColumn::Measured);
+    const bool is_current = rows.get<bool>(BlockColumn::Current);
+    columns.add(kind_of(source, verdict), is_current, measured_nm);
     post(number_of(IndexField::Source), std::to_string(source));
     post(number_of(IndexField::Verdict), std::to_string(verdict));
     if (const auto run = rows.get<std::optional<std::int64_t>>(BlockColumn::Run)) {
@@ -196,20 +228,34 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
           rows.get<std::optional<std::string_view>>(BlockColumn::Texts + static_cast<int>(field));
       const bool is_new = row == 0 || place.value != value;
       if (is_new) place = {.value = value ? std::optional<std::string>(*value) : std::nullopt};
-      if (rows.get<bool>(BlockColumn::Current) && values[field].size() <= kMostValues[0]) {
+      if (is_new) {
+        columns.add_text(field, value);
+      } else {
+        columns.repeat_text(field);
+      }
+      if (column.field == TextField::ToleranceClass) {
+        const auto nominal_nm = rows.get<std::int64_t>(BlockColumn::Nominal);
+        if (is_new || nominal_nm != designation.nominal_nm) {
+          const auto key =
+              value ? std::optional(designation_key(nominal_nm, *value)) : std::nullopt;
+          columns.add_text(DesignationPlace::kColumn, key);
+          designation = {.nominal_nm = nominal_nm,
+                         .rows = key ? post(number_of(IndexField::Designation), *key) : nullptr};
+        } else {
+          columns.repeat_text(DesignationPlace::kColumn);
+          if (designation.rows != nullptr) designation.rows->add(row);
+        }
+      }
+      if (is_current && values[field].size() <= kMostValues[0]) {
         const int kind = kind_of(source, verdict);
         if (place.statistics == nullptr || place.kind != kind) {
           values[field].insert(place.value);
           place.kind = kind;
           place.statistics = &index.aggregates[{number_of(column.field), place.value, kind}];
         }
-        place.statistics->add(rows.get<std::int64_t>(BlockColumn::Measured));
+        place.statistics->add(measured_nm);
       }
       if (!value) continue;
-      if (column.field == TextField::ToleranceClass) {
-        post(number_of(IndexField::Designation),
-             designation_key(rows.get<std::int64_t>(BlockColumn::Nominal), *value));
-      }
       if (is_new) {
         place.rows = post(number_of(column.field), *place.value);
       } else {
@@ -223,6 +269,7 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
     }
   }
   if (is_plain) index.values = block.encode();
+  index.pairs.columns = columns.encode();
   return index;
 }
 
@@ -231,6 +278,7 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
 /// again, more are not.
 NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
   NodeIndex index;
+  index.pairs = pairs_.derive(node);
   const IndexNode first = node.child(0);
   const IndexNode last = node.child(kFanOut - 1);
   if (Rows rows = child_times_.query(first.level, first.node, last.node); rows.next()) {
@@ -238,6 +286,7 @@ NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
     index.max_measured_at = rows.get<std::int64_t>(1);
     index.min_received_at = rows.get<std::int64_t>(2);
     index.max_received_at = rows.get<std::int64_t>(3);
+    index.pairs.is_complete = rows.get<std::int64_t>(4) == 1;
   }
   std::map<int, std::set<std::int64_t>> children;
   std::map<int, Values> values;
@@ -280,27 +329,29 @@ void MeasurementIndexer::aggregate_rows(const IndexNode& node, TextField field, 
 
 void MeasurementIndexer::insert(const IndexNode& node, const NodeIndex& index) {
   insert_node_.run(node.level, node.node, index.min_measured_at, index.max_measured_at,
-                   index.min_received_at, index.max_received_at);
+                   index.min_received_at, index.max_received_at, index.pairs.is_complete);
   for (const auto& [key, rows] : index.postings) {
     insert_posting_.run(key.first, key.second, node.node, Blob{rows.encode()});
   }
   if (index.values) insert_values_.run(node.node, Blob{*index.values});
-  insert_aggregates(node, index);
+  insert_sums(node, index);
 }
 
-void MeasurementIndexer::insert_aggregates(const IndexNode& node, const NodeIndex& index) {
+void MeasurementIndexer::insert_sums(const IndexNode& node, const NodeIndex& index) {
   for (const auto& [key, statistics] : index.aggregates) {
     const auto& [field, value, kind] = key;
     const auto bytes = statistics.encode();
     const Blob blob{{bytes.data(), bytes.size()}};
     insert_aggregate_.run(node.level, node.node, field, value, kind, blob);
   }
+  pairs_.insert(node, index.pairs);
 }
 
 void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
   struct Stored {
     IndexNode node;
     bool stale = false;
+    bool paired = false;
     std::array<std::int64_t, 4> times{};
   };
   std::vector<Stored> stored;
@@ -310,6 +361,7 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
     for (int i = 0; i < 4; ++i)
       node.times.at(static_cast<std::size_t>(i)) = rows.get<std::int64_t>(2 + i);
     node.stale = rows.get<bool>(6);
+    node.paired = rows.get<std::int64_t>(7) == 1;
   }
   std::int64_t postings = 0;
   std::int64_t values = 0;
@@ -319,7 +371,10 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
     values += index.values ? 1 : 0;
     const std::array<std::int64_t, 4> times{index.min_measured_at, index.max_measured_at,
                                             index.min_received_at, index.max_received_at};
-    if (times == node.times && is_stored(node.node, index, node.stale)) continue;
+    if (times == node.times && is_stored(node.node, index, node.stale) &&
+        (!node.paired || pairs_.is_stored(node.node, index.pairs))) {
+      continue;
+    }
     const IdSpan ids = node.node.ids();
     note(fmt::format("the index of measurements {} to {} (level {}) is not what they make it",
                      ids.first, ids.last, node.node.level));
@@ -328,6 +383,9 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
                        count_values_.returning<std::int64_t>() - values;
   if (surplus > 0) note(fmt::format("the index has {} values that no measurement has", surplus));
   if (surplus < 0) note(fmt::format("the index lacks {} values of measurements", -surplus));
+  if (const auto others = pairs_.count_surplus(); others > 0) {
+    note(fmt::format("the index has {} columns or pairs of rows that it does not know", others));
+  }
 }
 
 bool MeasurementIndexer::is_stored(const IndexNode& node, const NodeIndex& index, bool stale) {

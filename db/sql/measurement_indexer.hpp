@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "sql/pair_index.hpp"
 #include "sql/statement.hpp"
 #include "store/measurement_index.hpp"
 #include "store/measurement_statistics.hpp"
@@ -31,16 +32,18 @@ struct NodeIndex {
   /// The values of a block as store::ValueBlock reads them; none where a row is a correction or of
   /// another folder, and for other nodes.
   std::optional<std::string> values;
+  PairIndex::Node pairs;
 };
 
-/// Makes the index of the measurements: nodes, postings, aggregates and values. Used by the
+/// Makes the index of the measurements: nodes, postings, aggregates, values and pairs. Used by the
 /// writer's maintenance, and by the verifier to derive all of it again.
 class MeasurementIndexer {
  public:
   explicit MeasurementIndexer(sql::Connection& connection);
 
-  /// Indexes the next whole block with the nodes that it completes, or makes the aggregates of a
-  /// stale node anew. @returns whether there was something to do.
+  /// Makes what a stale node adds up anew, or indexes the next whole block with the nodes that it
+  /// completes, or makes what a node of an earlier release lacks.
+  /// @returns whether there was something to do.
   bool step();
 
   /// A row was corrected: its nodes' aggregates are stale until a step has made them anew.
@@ -50,16 +53,19 @@ class MeasurementIndexer {
   void verify(const std::function<void(std::string)>& note);
 
  private:
+  static std::optional<IndexNode> first_of(sql::Statement& nodes);
   void make_stale(std::int64_t id);
+  void renew(const IndexNode& node);
   NodeIndex derive(const IndexNode& node);
   NodeIndex derive_block(const IndexNode& node);
   NodeIndex derive_parent(const IndexNode& node);
   void aggregate_rows(const IndexNode& node, TextField field, NodeIndex& index);
   void insert(const IndexNode& node, const NodeIndex& index);
-  void insert_aggregates(const IndexNode& node, const NodeIndex& index);
+  void insert_sums(const IndexNode& node, const NodeIndex& index);
   bool is_stored(const IndexNode& node, const NodeIndex& index, bool stale);
 
   sql::Connection& connection_;
+  PairIndex pairs_;
   sql::Statement last_block_;
   sql::Statement block_;
   sql::Statement insert_node_;
@@ -71,6 +77,7 @@ class MeasurementIndexer {
   sql::Statement make_stale_;
   sql::Statement rivals_;
   sql::Statement stale_;
+  sql::Statement unpaired_;
   sql::Statement delete_aggregates_;
   sql::Statement make_fresh_;
   sql::Statement nodes_;

@@ -64,10 +64,18 @@ void for_each_time_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.received_to_ns) add("b.min_received_at < ?", *filter.received_to_ns);
 }
 
-/// Whether postings tell the rows that match, but for those that were corrected.
+/// That all rows of the block meet it.
+template <class Add>
+void for_each_inside_condition(const MeasurementFilter& filter, Add&& add) {
+  if (filter.from_ns) add("b.min_measured_at >= ?", *filter.from_ns);
+  if (filter.to_ns) add("b.max_measured_at < ?", *filter.to_ns);
+  if (filter.received_from_ns) add("b.min_received_at >= ?", *filter.received_from_ns);
+  if (filter.received_to_ns) add("b.max_received_at < ?", *filter.received_to_ns);
+}
+
+/// Whether postings tell the rows that match where all times do, but for what was corrected.
 bool is_said_by_index(const MeasurementFilter& filter) {
-  return !filter.has_times() && !filter.cause && !filter.has_notes &&
-         (!filter.run_id || filter.run_origin == 0);
+  return !filter.cause && !filter.has_notes && (!filter.run_id || filter.run_origin == 0);
 }
 
 std::string_view direction(ListOrder order) {
@@ -115,10 +123,7 @@ MeasurementQuery::MeasurementQuery(sql::Connection& connection, std::string colu
                   "block = ?"),
       corrected_(connection,
                  "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of IS NOT NULL "
-                 "AND id <= ? LIMIT 1) AS found"),
-      corrected_among_(connection,
-                       "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of "
-                       "BETWEEN ? AND ? LIMIT 1) AS found") {}
+                 "AND id <= ? LIMIT 1) AS found") {}
 
 bool MeasurementQuery::run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
                            const Visitor& visit, const BlockReader& read_block) {
@@ -232,30 +237,47 @@ bool MeasurementQuery::run_indexed(const Reading& reading, Statement& matching, 
   if (postings.size() > 1 && read_block == nullptr && is_source(postings.back())) {
     postings.pop_back();
   }
-  Statement& blocks = matching_blocks(filter, postings, order);
+  const bool tells_inside = read_block && filter.has_times();
+  Statement& blocks = matching_blocks(reading, postings, tells_inside);
   int index = 0;
+  const auto bind_time = [&](std::string_view, std::int64_t value) { blocks.bind(++index, value); };
+  if (tells_inside) for_each_inside_condition(filter, bind_time);
   for (const Posting& posting : postings) {
     blocks.bind(++index, posting.field);
     blocks.bind(++index, std::string_view(posting.value));
   }
   blocks.bind(++index, IndexNode::of(ids.first, 0).node);
   blocks.bind(++index, IndexNode::of(ids.last, 0).node);
-  for_each_time_condition(
-      filter, [&](std::string_view, std::int64_t value) { blocks.bind(++index, value); });
+  for_each_time_condition(filter, bind_time);
+  static const BlockReader none;
+  const Reading by_rows{filter, order, visit, none};
+  const auto first = static_cast<int>(tells_inside) + 1;
   for (Rows rows(blocks); rows.next();) {
     RowSet wanted = RowSet::all();
-    for (int i = 1; i < rows.columns(); ++i) wanted &= RowSet::decode(rows.get<Blob>(i).bytes);
+    for (int i = first; i < rows.columns(); ++i) wanted &= RowSet::decode(rows.get<Blob>(i).bytes);
     if (wanted.empty()) continue;
-    if (!run_block(reading, matching, ids, wanted, rows.get<std::int64_t>(0))) return false;
+    const bool is_inside = !tells_inside || rows.get<bool>(1);
+    if (!run_block(is_inside ? reading : by_rows, matching, ids, wanted,
+                   rows.get<std::int64_t>(0))) {
+      return false;
+    }
   }
   return true;
 }
 
-/// The blocks that have all values, each with the rows of each.
-Statement& MeasurementQuery::matching_blocks(const MeasurementFilter& filter,
-                                             std::span<const Posting> postings, ListOrder order) {
+/// The blocks that have all values, each with whether all its times match, if that is asked, and
+/// with the rows of each value.
+Statement& MeasurementQuery::matching_blocks(const Reading& reading,
+                                             std::span<const Posting> postings, bool tells_inside) {
+  const MeasurementFilter& filter = reading.filter;
   const bool has_nodes = postings.empty() || filter.has_times();
   std::string block = "b.node", columns, tables, conditions;
+  if (tells_inside) {
+    for_each_inside_condition(filter, [&](std::string_view condition, std::int64_t) {
+      columns += columns.empty() ? ", " : " AND ";
+      columns += condition;
+    });
+  }
   for (std::size_t i = 0; i < postings.size(); ++i) {
     columns += fmt::format(", p{}.rows", i);
     tables += fmt::format("{}measurement_postings p{}", i == 0 ? "" : " CROSS JOIN ", i);
@@ -274,7 +296,7 @@ Statement& MeasurementQuery::matching_blocks(const MeasurementFilter& filter,
     conditions += condition;
   });
   return statement(fmt::format("SELECT {0}{1} FROM {2} WHERE {3} ORDER BY {0}{4}", block, columns,
-                               tables, conditions, direction(order)));
+                               tables, conditions, direction(reading.order)));
 }
 
 /// Notes are few, as people write them: from one block with some to the next.
@@ -327,7 +349,7 @@ bool MeasurementQuery::run_block(const Reading& reading, Statement& matching, co
                                  const RowSet& rows, std::int64_t block) {
   const IdSpan whole = IndexNode{0, block}.ids();
   const IdSpan looked_at = intersection(ids, whole);
-  if (reading.read_block && (reading.filter.history || !has_corrected(whole))) {
+  if (reading.read_block) {
     const BlockRead read = reading.read_block(block, rows, looked_at);
     if (read != BlockRead::Passed) return read == BlockRead::Taken;
   }
@@ -344,10 +366,6 @@ bool MeasurementQuery::run_block(const Reading& reading, Statement& matching, co
   return std::all_of(runs.begin(), runs.end(), [&](const IdSpan& run) {
     return scan(matching, run, reading.order, reading.visit);
   });
-}
-
-bool MeasurementQuery::has_corrected(const IdSpan& block) {
-  return corrected_among_.returning<std::int64_t>(block.first, block.last) != 0;
 }
 
 Statement& MeasurementQuery::statement(const std::string& sql) {

@@ -49,8 +49,9 @@ class MeasurementQuery {
   using Visitor = std::function<bool(const sql::Rows&)>;
 
   enum class BlockRead : std::uint8_t { Passed, Taken, Ended };
-  /// Offered an indexed block whose index says all: of its rows among `ids` those in `rows` match.
-  /// Passed: they are to be read and visited one by one; Ended ends the query.
+  /// Offered an indexed block whose index says all but what was corrected: of its rows among `ids`
+  /// those in `rows` match. Passed: they are to be read and visited one by one; Ended ends the
+  /// query.
   using BlockReader =
       std::function<BlockRead(std::int64_t block, const RowSet& rows, const IdSpan& ids)>;
 
@@ -83,9 +84,8 @@ class MeasurementQuery {
   bool run_noted(const Reading& reading, sql::Statement& matching, const IdSpan& ids);
   bool run_block(const Reading& reading, sql::Statement& matching, const IdSpan& ids,
                  const RowSet& rows, std::int64_t block);
-  bool has_corrected(const IdSpan& block);
-  sql::Statement& matching_blocks(const MeasurementFilter& filter,
-                                  std::span<const Posting> postings, ListOrder order);
+  sql::Statement& matching_blocks(const Reading& reading, std::span<const Posting> postings,
+                                  bool tells_inside);
   RowSet rows_in_block(const Posting& posting, std::int64_t block);
   sql::Statement& statement(const std::string& sql);
 
@@ -95,7 +95,6 @@ class MeasurementQuery {
   sql::Statement last_block_;
   sql::Statement block_rows_;
   sql::Statement corrected_;
-  sql::Statement corrected_among_;
   std::map<std::string, sql::Statement> statements_;  ///< by their text
 };
 

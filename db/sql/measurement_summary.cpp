@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "store/pair_statistics.hpp"
+
 namespace fitgauge::store {
 namespace {
 
@@ -30,14 +32,23 @@ MeasurementSummary::MeasurementSummary(sql::Connection& c, TextField group_by)
       rows_(c, fmt::format("m.{}, m.verdict, m.measured_nm", column_of(group_by))),
       last_block_(last_block_statement(c)),
       node_(c,
-            "SELECT min_measured_at, max_measured_at, min_received_at, max_received_at, stale "
-            "FROM measurement_nodes WHERE level = ? AND node = ?"),
+            "SELECT min_measured_at, max_measured_at, min_received_at, max_received_at, stale, "
+            "paired FROM measurement_nodes WHERE level = ? AND node = ?"),
       aggregates_(c, fmt::format("SELECT value, kind, statistics, {} FROM measurement_aggregates "
                                  "WHERE level = ? AND node = ? AND field = ?",
                                  AggregatedValue(c).is_none)),
       aggregates_of_value_(c,
                            "SELECT value, kind, statistics, 0 FROM measurement_aggregates "
                            "WHERE level = ? AND node = ? AND field = ? AND value = ?"),
+      pairs_(c,
+             "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
+             "AND node = ?"),
+      columns_(c,
+               "SELECT c.bytes FROM measurement_nodes n JOIN measurement_columns c ON c.block = "
+               "n.node WHERE n.level = 0 AND n.node = ? AND n.paired = 1"),
+      blocks_of_value_(c,
+                       "SELECT count(*) FROM (SELECT 1 FROM measurement_postings WHERE field = ? "
+                       "AND value = ? LIMIT ?) AS found"),
       corrected_(
           c, fmt::format("SELECT correction_of FROM measurements WHERE correction_of IS NOT NULL "
                          "UNION SELECT m.id FROM measurements m WHERE m.correction_of IS NOT "
@@ -51,11 +62,12 @@ Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilte
   fits_ = true;
   groups_.clear();
   aggregated_.clear();
-  if (is_additive(filter)) {
+  look_at_filter();
+  if (is_additive_) {
     add_nodes();
     if (filter.history) add_corrected_rows();
   } else {
-    add_rows(filter, {.first = 1, .last = kLastId});
+    add_rows({.first = 1, .last = kLastId});
   }
   if (!fits_) {
     return Error{ErrorCode::QueryInvalid,
@@ -76,14 +88,28 @@ Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilte
   return summary;
 }
 
-/// Whether the aggregates by the field, the source and the verdict answer the filter.
-bool MeasurementSummary::is_additive(const MeasurementFilter& filter) const {
-  if (filter.designation || filter.run_id || filter.as_of_id || filter.cause || filter.has_notes) {
-    return false;
+/// Finds out whether nodes answer the filter, and what it filters by but the field that is grouped
+/// by.
+void MeasurementSummary::look_at_filter() {
+  const MeasurementFilter& filter = *filter_;
+  std::vector<Other> others;
+  if (filter.designation) {
+    others.push_back(
+        {number_of(IndexField::Designation),
+         designation_key(filter.designation->nominal_nm, filter.designation->tolerance_class)});
   }
-  return std::all_of(kTextColumns.begin(), kTextColumns.end(), [&](const TextColumn& column) {
-    return column.field == group_by_ || !filter.text(column.field);
-  });
+  for (const TextColumn& column : kTextColumns) {
+    const auto& text = filter.text(column.field);
+    if (text && column.field != group_by_) others.push_back({number_of(column.field), *text});
+  }
+  other_ = others.empty() ? std::nullopt : std::optional(others.front());
+  is_additive_ = !filter.run_id && !filter.as_of_id && !filter.cause && !filter.has_notes &&
+                 others.size() < 2 && !(other_ && is_rare(*other_));
+}
+
+/// Whether the blocks with a value are so few that they are found sooner than nodes.
+bool MeasurementSummary::is_rare(const Other& other) {
+  return blocks_of_value_.returning<std::int64_t>(other.field, other.value, kFanOut + 1) <= kFanOut;
 }
 
 /// Goes over what is indexed by the largest nodes there are, then reads the newer rows.
@@ -98,23 +124,29 @@ void MeasurementSummary::add_nodes() {
     add_node(node);
     id = node.ids().last + 1;
   }
-  add_rows(*filter_, {.first = indexed + 1, .last = kLastId});
+  add_later({.first = indexed + 1, .last = kLastId});
+  add_rows(left_);
+  left_ = {};
 }
 
 void MeasurementSummary::add_node(const IndexNode& node) {
   bool usable = false;
   const Relation where = relation(node, usable);
   if (where == Relation::Outside) return;
-  if (where == Relation::Inside && usable && add_aggregates(node)) return;
-  if (node.level == 0) return add_rows(*filter_, node.ids());
+  if (where == Relation::Inside && usable && (other_ ? add_pairs(node) : add_aggregates(node))) {
+    aggregated_.push_back(node.ids());
+    return;
+  }
+  // Blocks have no pairs; a query finds those of a value without looking at the others.
+  if (node.level <= (other_ ? 1 : 0)) return add_later(node.ids());
   for (std::int64_t i = 0; i < kFanOut && fits_; ++i) add_node(node.child(i));
 }
 
-/// @param usable set to whether the node has aggregates of its current rows.
+/// @param usable set to whether what the node adds up is of its current rows.
 MeasurementSummary::Relation MeasurementSummary::relation(const IndexNode& node, bool& usable) {
   Rows rows = node_.query(node.level, node.node);
   if (!rows.next()) return Relation::Partly;
-  usable = !rows.get<bool>(4);
+  usable = other_ ? rows.get<bool>(5) : !rows.get<bool>(4);
   const auto measured = relation_of<Relation>(rows.get<std::int64_t>(0), rows.get<std::int64_t>(1),
                                               filter_->from_ns, filter_->to_ns);
   const auto received = relation_of<Relation>(rows.get<std::int64_t>(2), rows.get<std::int64_t>(3),
@@ -133,8 +165,7 @@ bool MeasurementSummary::add_aggregates(const IndexNode& node) {
     while (rows.next() && fits_) {
       found = true;
       const auto kind = rows.get<int>(1);
-      if (filter_->source && source_of(kind) != *filter_->source) continue;
-      if (filter_->verdict && verdict_of(kind) != *filter_->verdict) continue;
+      if (!is_asked(kind)) continue;
       const auto group =
           rows.get<bool>(3) ? std::nullopt : rows.get<std::optional<std::string_view>>(0);
       add(group, verdict_of(kind), ExactStatistics::decode(rows.get<Blob>(2).bytes));
@@ -147,17 +178,82 @@ bool MeasurementSummary::add_aggregates(const IndexNode& node) {
   } else {
     add_all(aggregates_.query(node.level, node.node, field));
   }
-  if (found) aggregated_.push_back(node.ids());
   return found;
 }
 
-void MeasurementSummary::add_rows(const MeasurementFilter& filter, const IdSpan& ids) {
-  rows_.run(filter, ids, ListOrder::OldestFirst, [&](const Rows& rows) {
+/// @returns whether the node has the two fields' statistics.
+bool MeasurementSummary::add_pairs(const IndexNode& node) {
+  if (node.level == 0) return false;
+  Rows rows = pairs_.query(node.level, other_->field, number_of(group_by_), node.node);
+  if (!rows.next()) return false;
+  const auto& wanted = filter_->text(group_by_);
+  visit_values(rows.get<Blob>(0).bytes, [&](std::string_view value, std::string_view pairs) {
+    if (value < other_->value) return true;
+    if (value != other_->value) return false;
+    visit_pairs_of(pairs, [&](std::optional<std::string_view> group, int kind,
+                              const ExactStatistics& statistics) {
+      if (!is_asked(kind) || (wanted && group != *wanted) || !fits_) return;
+      add(group, verdict_of(kind), statistics);
+    });
+    return false;
+  });
+  return true;
+}
+
+/// Reads what was left before, where these ids do not follow it.
+void MeasurementSummary::add_later(const IdSpan& ids) {
+  if (left_.empty() || left_.last + 1 != ids.first) add_rows(std::exchange(left_, ids));
+  left_.last = ids.last;
+}
+
+void MeasurementSummary::add_rows(const IdSpan& ids) {
+  if (ids.empty()) return;
+  const auto add_row = [&](const Rows& rows) {
     ExactStatistics one;
     one.add(rows.get<std::int64_t>(2));
     add(rows.get<std::optional<std::string_view>>(0), rows.get<Verdict>(1), one);
     return fits_;
-  });
+  };
+  MeasurementQuery::BlockReader by_columns;
+  // The index knows runs by their numbers, which other folders have too, and rows that are current
+  // now.
+  if (!filter_->run_id && !filter_->as_of_id) {
+    by_columns = [&](std::int64_t block, const RowSet& rows, const IdSpan& among) {
+      return add_block(block, rows, among);
+    };
+  }
+  rows_.run(*filter_, ids, ListOrder::OldestFirst, add_row, by_columns);
+}
+
+MeasurementQuery::BlockRead MeasurementSummary::add_block(std::int64_t block, const RowSet& rows,
+                                                          const IdSpan& ids) {
+  using BlockRead = MeasurementQuery::BlockRead;
+  Rows found = columns_.query(block);
+  if (!found.next() || !block_.read(found.get<Blob>(0).bytes) ||
+      !block_.read(index_of(group_by_), groups_of_block_)) {
+    return BlockRead::Passed;
+  }
+  const std::size_t kinds = block_.kinds();
+  block_statistics_.assign(groups_of_block_.values.size() * kinds, {});
+  const std::int64_t first = IndexNode{0, block}.ids().first;
+  for (std::int64_t id = ids.first; id <= ids.last; ++id) {
+    if (!rows.contains(id - first)) continue;
+    const auto row = static_cast<std::size_t>(id - first);
+    const std::size_t kind = block_.kind_of_row(row);
+    if (!filter_->history && !block_.is_current(kind)) continue;
+    block_statistics_[groups_of_block_.rows[row] * kinds + kind].add(block_.measured_nm(row));
+  }
+  for (std::size_t i = 0; i < block_statistics_.size() && fits_; ++i) {
+    if (block_statistics_[i].count() == 0) continue;
+    add(groups_of_block_.values[i / kinds], verdict_of(block_.kind(i % kinds)),
+        block_statistics_[i]);
+  }
+  return fits_ ? BlockRead::Taken : BlockRead::Ended;
+}
+
+bool MeasurementSummary::is_asked(int kind) const {
+  return (!filter_->source || source_of(kind) == *filter_->source) &&
+         (!filter_->verdict || verdict_of(kind) == *filter_->verdict);
 }
 
 /// Aggregates are of current rows: a summary of all rows has the corrected ones as well.
@@ -167,7 +263,7 @@ void MeasurementSummary::add_corrected_rows() {
     const auto id = rows.get<std::int64_t>(0);
     while (span != aggregated_.end() && span->last < id) ++span;
     if (span == aggregated_.end()) return;
-    if (span->first <= id) add_rows(*filter_, {.first = id, .last = id});
+    if (span->first <= id) add_rows({.first = id, .last = id});
   }
 }
 

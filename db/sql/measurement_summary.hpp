@@ -12,6 +12,7 @@
 #include "base/result.hpp"
 #include "sql/measurement_query.hpp"
 #include "sql/statement.hpp"
+#include "store/block_columns.hpp"
 #include "store/measurement_filter.hpp"
 #include "store/measurement_index.hpp"
 #include "store/measurement_statistics.hpp"
@@ -20,8 +21,9 @@
 namespace fitgauge::store {
 
 /// Sums measurements up by the values of one field. Where the filter allows, whole nodes of the
-/// index are added by their aggregates and only the rest is read row by row: filters by verdict,
-/// source and times, and by the field itself.
+/// index are added by what they add up: filters by verdict, source and times, by the field itself,
+/// and by one other field or the designation. Else, and in what is left at the ends, blocks are
+/// added by their columns, and only the newest rows and those of few blocks are read one by one.
 class MeasurementSummary {
  public:
   MeasurementSummary(sql::Connection& connection, TextField group_by);
@@ -36,12 +38,23 @@ class MeasurementSummary {
   };
   enum class Relation { Outside, Inside, Partly };
 
-  bool is_additive(const MeasurementFilter& filter) const;
+  /// A filter by another field than the one that is grouped by.
+  struct Other {
+    int field = 0;
+    std::string value;
+  };
+
+  void look_at_filter();
+  bool is_rare(const Other& other);
   void add_nodes();
   void add_node(const IndexNode& node);
   Relation relation(const IndexNode& node, bool& usable);
   bool add_aggregates(const IndexNode& node);
-  void add_rows(const MeasurementFilter& filter, const IdSpan& ids);
+  bool add_pairs(const IndexNode& node);
+  void add_later(const IdSpan& ids);
+  void add_rows(const IdSpan& ids);
+  MeasurementQuery::BlockRead add_block(std::int64_t block, const RowSet& rows, const IdSpan& ids);
+  bool is_asked(int kind) const;
   void add_corrected_rows();
   void add(std::optional<std::string_view> value, Verdict verdict,
            const ExactStatistics& statistics);
@@ -52,15 +65,23 @@ class MeasurementSummary {
   sql::Statement node_;
   sql::Statement aggregates_;
   sql::Statement aggregates_of_value_;
+  sql::Statement pairs_;
+  sql::Statement columns_;
+  sql::Statement blocks_of_value_;
   sql::Statement corrected_;
 
   // Of the summary that is being made.
   const MeasurementFilter* filter_ = nullptr;
   std::size_t max_groups_ = 0;
   bool fits_ = true;
+  bool is_additive_ = true;  ///< nodes answer the filter
+  std::optional<Other> other_;
+  IdSpan left_;  ///< rows to be read, as long as they go on
   std::map<std::optional<std::string>, Group, std::less<>> groups_;
-  std::vector<IdSpan>
-      aggregated_;  ///< what was added by aggregates, which leave corrected rows out
+  std::vector<IdSpan> aggregated_;  ///< what was added by nodes, which leave corrected rows out
+  BlockColumns block_;
+  BlockColumns::Column groups_of_block_;
+  std::vector<ExactStatistics> block_statistics_;
 };
 
 }  // namespace fitgauge::store

@@ -100,6 +100,9 @@ struct MeasurementsStore::Statements {
         values(c, fmt::format("{}{}", kValueColumns, kPlaceColumns)),
         own_values(c, fmt::format("{}{}", kValueColumns, kOwnPlaceColumns)),
         block_values(c, "SELECT bytes FROM measurement_values WHERE block = ?"),
+        corrected_among(c,
+                        "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of "
+                        "BETWEEN ? AND ? LIMIT 1) AS found"),
         forwarded_rows(c,
                        "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE origin IS NOT NULL "
                        "LIMIT 1) AS found"),
@@ -216,6 +219,7 @@ struct MeasurementsStore::Statements {
   MeasurementQuery values;
   MeasurementQuery own_values;
   Statement block_values;
+  Statement corrected_among;
   Statement forwarded_rows;
   MeasurementQuery ids;
   std::map<TextField, MeasurementSummary> summaries;
@@ -345,10 +349,14 @@ std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilt
   ValueBlock block;
   const auto take_block = [&](std::int64_t node, const RowSet& rows, const IdSpan& among) {
     using BlockRead = MeasurementQuery::BlockRead;
+    const IdSpan whole = IndexNode{0, node}.ids();
+    const bool is_whole = filter.history || statements_->corrected_among.returning<std::int64_t>(
+                                                whole.first, whole.last) == 0;
     Rows found = statements_->block_values.query(node);
-    if (!found.next() || !block.read(found.get<Blob>(0).bytes)) return BlockRead::Passed;
-    const std::int64_t first = IndexNode{0, node}.ids().first;
-    return block.visit_runs(rows, first, among, take) ? BlockRead::Taken : BlockRead::Ended;
+    if (!is_whole || !found.next() || !block.read(found.get<Blob>(0).bytes)) {
+      return BlockRead::Passed;
+    }
+    return block.visit_runs(rows, whole.first, among, take) ? BlockRead::Taken : BlockRead::Ended;
   };
   values.run(filter, ids, ListOrder::OldestFirst, take_row, take_block);
   return page.next();

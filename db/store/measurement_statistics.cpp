@@ -103,4 +103,24 @@ ExactStatistics ExactStatistics::decode(std::string_view bytes) {
   return statistics;
 }
 
+void ExactStatistics::pack(std::string& out) const {
+  append_number(out, static_cast<std::uint64_t>(count_));
+  append_difference(out, first_, 0);
+  append_difference(out, min_, first_);
+  append_difference(out, max_, first_);
+  append_signed(out, static_cast<Bits>(sum_));
+  append_number(out, static_cast<Bits>(squares_));
+}
+
+ExactStatistics ExactStatistics::unpack(PackedNumbers& in) {
+  ExactStatistics statistics;
+  statistics.count_ = static_cast<std::int64_t>(in.number());
+  statistics.first_ = in.above(0);
+  statistics.min_ = in.above(statistics.first_);
+  statistics.max_ = in.above(statistics.first_);
+  statistics.sum_ = static_cast<Sum>(in.signed_number<Bits>());
+  statistics.squares_ = static_cast<Sum>(in.number<Bits>());
+  return statistics;
+}
+
 }  // namespace fitgauge::store

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "store/packed_numbers.hpp"
+
 namespace fitgauge::store {
 
 /// Mean, standard deviation and range of lengths in exact integers: 128-bit sums of the differences
@@ -30,9 +32,13 @@ class ExactStatistics {
   std::array<char, kEncodedSize> encode() const;
   static ExactStatistics decode(std::string_view bytes);
 
+  /// The same in some twenty bytes.
+  void pack(std::string& out) const;
+  static ExactStatistics unpack(PackedNumbers& in);
+
  private:
   __extension__ using Sum = __int128;
-  __extension__ using Bits = unsigned __int128;
+  using Bits = Unsigned128;
 
   std::int64_t count_ = 0;
   std::int64_t first_ = 0;

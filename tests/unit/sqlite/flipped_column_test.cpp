@@ -129,6 +129,12 @@ const std::map<std::string, std::string> kFree = {
     {"revisions.name", "as above"},
     {"revisions.station", "as above"},
     {"measurement_nodes.stale", "makes the aggregates anew"},
+    {"measurement_nodes.paired", "makes columns and pairs anew, or has rows read instead"},
+    {"measurement_pairs.level", "of more rows than these: verify_test changes them"},
+    {"measurement_pairs.field", "as above"},
+    {"measurement_pairs.by_field", "as above"},
+    {"measurement_pairs.node", "as above"},
+    {"measurement_pairs.bytes", "as above"},
 };
 
 using Column = std::pair<std::string, std::string>;

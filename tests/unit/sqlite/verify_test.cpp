@@ -192,6 +192,26 @@ TEST_CASE("what is derived from the measurements is derived again") {
   }
 }
 
+TEST_CASE("columns and pairs of fields are derived again") {
+  VerifyFixture fixture;
+  MeasurementRow row = sample_row();
+  row.machine = "M7";
+  REQUIRE(fixture.append(std::vector<MeasurementRow>(33'000, row)).has_value());
+  while (*fixture.write(
+      [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); })) {
+  }
+  CHECK(fixture.findings().empty());
+  const auto count = [&] { return fixture.findings().size(); };
+  fixture.tamper("UPDATE measurement_pairs SET bytes = x'00' WHERE field = 4 AND by_field = 3");
+  CHECK(count() == 1);
+  fixture.tamper("UPDATE measurement_pairs SET node = 7 WHERE field = 4 AND by_field = 2");
+  CHECK(count() == 2);  // and the node that is not there
+  fixture.tamper("INSERT INTO measurement_columns VALUES (40, x'00')");
+  CHECK(count() == 2);
+  fixture.tamper("DELETE FROM measurement_columns WHERE block = 3");
+  CHECK(count() == 3);
+}
+
 TEST_CASE("tables that change while rows are being read are known") {
   VerifyFixture fixture;
   sqlite::Session session(fixture.options, fixture.clock, sqlite::Mode::Read);

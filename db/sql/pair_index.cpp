@@ -1,0 +1,137 @@
+#include "sql/pair_index.hpp"
+
+#include <array>
+#include <cstddef>
+
+#include "store/block_columns.hpp"
+#include "store/pair_counter.hpp"
+#include "store/pair_statistics.hpp"
+
+namespace fitgauge::store {
+namespace {
+
+using sql::Blob;
+using sql::Rows;
+
+/// More statistics of two fields than these are not kept: by level, for about eight to several
+/// hundred rows each.
+constexpr std::array<std::size_t, kLevels> kMostStatistics = {0, 4'096, 16'384, 65'536};
+
+std::size_t most_statistics(const IndexNode& node) {
+  return kMostStatistics.at(static_cast<std::size_t>(node.level));
+}
+
+/// Calls `visit` with the fields of each pair that can be kept: whatever is grouped by is a text.
+template <class Visit>
+void for_each_pair(const Visit& visit) {
+  for (int by = 1; by <= static_cast<int>(kTextColumns.size()); ++by) {
+    for (std::size_t column = 0; column < kBlockColumns; ++column) {
+      if (const int field = field_of_column(column); field != by) visit(field, by);
+    }
+  }
+}
+
+}  // namespace
+
+PairIndex::PairIndex(sql::Connection& c)
+    : columns_(c, "SELECT bytes FROM measurement_columns WHERE block = ?"),
+      insert_columns_(c, "INSERT INTO measurement_columns VALUES (?, ?)"),
+      delete_columns_(c, "DELETE FROM measurement_columns WHERE block = ?"),
+      child_pairs_(c,
+                   "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND "
+                   "by_field = ? AND node BETWEEN ? AND ? ORDER BY node"),
+      pair_(c,
+            "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
+            "AND node = ?"),
+      insert_pair_(c, "INSERT INTO measurement_pairs VALUES (?, ?, ?, ?, ?)"),
+      delete_pair_(c,
+                   "DELETE FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
+                   "AND node = ?"),
+      count_surplus_columns_(c,
+                             "SELECT count(*) FROM measurement_columns c WHERE NOT EXISTS (SELECT "
+                             "1 FROM measurement_nodes n WHERE n.level = 0 AND n.node = c.block)"),
+      count_surplus_pairs_(
+          c,
+          "SELECT count(*) FROM measurement_pairs p WHERE p.level = 0 OR NOT EXISTS (SELECT 1 "
+          "FROM measurement_nodes n WHERE n.level = p.level AND n.node = p.node)") {}
+
+PairIndex::Node PairIndex::derive(const IndexNode& node) {
+  Node index;
+  node.level == 1 ? derive_from_columns(node, index) : derive_from_pairs(node, index);
+  return index;
+}
+
+void PairIndex::derive_from_columns(const IndexNode& node, Node& index) {
+  PairCounter counter;
+  for (std::int64_t i = 0; i < kFanOut; ++i) {
+    BlockColumns block;
+    Rows rows = columns_.query(node.child(i).node);
+    if (!rows.next() || !block.read(rows.get<Blob>(0).bytes)) return;
+    counter.add(block);
+  }
+  counter.visit_pairs(most_statistics(node), [&](std::size_t column, std::size_t by_column,
+                                                 const PairStatistics& pairs) {
+    if (by_column >= kTextColumns.size()) return;
+    index.pairs[{field_of_column(column), field_of_column(by_column)}] = encode(pairs);
+  });
+}
+
+/// Joins the nodes below in their order: sums count from the first value.
+void PairIndex::derive_from_pairs(const IndexNode& node, Node& index) {
+  const IndexNode first = node.child(0);
+  const IndexNode last = node.child(kFanOut - 1);
+  for_each_pair([&](int field, int by) {
+    PairStatistics joined;
+    std::int64_t children = 0;
+    for (Rows rows = child_pairs_.query(first.level, field, by, first.node, last.node); rows.next();
+         ++children) {
+      visit_values(rows.get<Blob>(0).bytes, [&](std::string_view value, std::string_view pairs) {
+        auto& by_values = joined[std::string(value)];
+        visit_pairs_of(pairs, [&](std::optional<std::string_view> by_value, int kind,
+                                  const ExactStatistics& statistics) {
+          by_values[by_value ? std::optional(std::string(*by_value)) : std::nullopt][kind].add(
+              statistics);
+        });
+        return true;
+      });
+    }
+    if (children < kFanOut || count_of(joined) > most_statistics(node)) return;
+    index.pairs[{field, by}] = encode(joined);
+  });
+}
+
+void PairIndex::insert(const IndexNode& node, const Node& index) {
+  if (index.columns) insert_columns_.run(node.node, Blob{*index.columns});
+  for (const auto& [fields, bytes] : index.pairs) {
+    insert_pair_.run(node.level, fields.first, fields.second, node.node, Blob{bytes});
+  }
+}
+
+void PairIndex::erase(const IndexNode& node) {
+  if (node.level == 0) return delete_columns_.run(node.node);
+  for_each_pair([&](int field, int by) { delete_pair_.run(node.level, field, by, node.node); });
+}
+
+bool PairIndex::is_stored(const IndexNode& node, const Node& index) {
+  const auto is_same = [](Rows rows, const std::string* expected) {
+    const bool found = rows.next();
+    return found == (expected != nullptr) && (!found || rows.get<Blob>(0).bytes == *expected);
+  };
+  if (node.level == 0) {
+    return is_same(columns_.query(node.node), index.columns ? &*index.columns : nullptr);
+  }
+  bool all = true;
+  for_each_pair([&](int field, int by) {
+    const auto expected = index.pairs.find({field, by});
+    all = all && is_same(pair_.query(node.level, field, by, node.node),
+                         expected == index.pairs.end() ? nullptr : &expected->second);
+  });
+  return all;
+}
+
+std::int64_t PairIndex::count_surplus() {
+  return count_surplus_columns_.returning<std::int64_t>() +
+         count_surplus_pairs_.returning<std::int64_t>();
+}
+
+}  // namespace fitgauge::store

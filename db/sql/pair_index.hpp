@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "sql/statement.hpp"
+#include "store/measurement_index.hpp"
+
+namespace fitgauge::store {
+
+/// The part of the index that tells how values of two fields meet: the columns of a block
+/// (store::BlockColumns), and above blocks the statistics of the values of one field by those of
+/// another (store::PairStatistics), where they are few enough.
+class PairIndex {
+ public:
+  /// What there is of a node.
+  struct Node {
+    bool is_complete = true;               ///< false: the nodes below have not got theirs yet
+    std::optional<std::string> columns{};  ///< of a block
+    std::map<std::pair<int, int>, std::string> pairs{};  ///< of others, by the two fields
+  };
+
+  explicit PairIndex(sql::Connection& connection);
+
+  /// From what is stored of the nodes below. @pre node.level > 0
+  Node derive(const IndexNode& node);
+  void insert(const IndexNode& node, const Node& index);
+  void erase(const IndexNode& node);
+
+  bool is_stored(const IndexNode& node, const Node& index);
+  /// How much is stored of nodes that are not there.
+  std::int64_t count_surplus();
+
+ private:
+  void derive_from_columns(const IndexNode& node, Node& index);
+  void derive_from_pairs(const IndexNode& node, Node& index);
+
+  sql::Statement columns_;
+  sql::Statement insert_columns_;
+  sql::Statement delete_columns_;
+  sql::Statement child_pairs_;
+  sql::Statement pair_;
+  sql::Statement insert_pair_;
+  sql::Statement delete_pair_;
+  sql::Statement count_surplus_columns_;
+  sql::Statement count_surplus_pairs_;
+};
+
+}  // namespace fitgauge::store

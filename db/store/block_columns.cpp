@@ -1,0 +1,112 @@
+#include "store/block_columns.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace fitgauge::store {
+namespace {
+
+// Of each column first its size in bytes, then how many values it has, the values, and of each row
+// the number of its value. Then the kinds alike, a byte each; the smallest length, the bits of a
+// distance, and the distances of all rows from it; and the padding.
+
+unsigned bits_for(std::size_t count) { return static_cast<unsigned>(std::bit_width(count - 1)); }
+
+/// @returns false where no `count` numbers stand there, each below it.
+bool read_rows(PackedNumbers& in, std::size_t count, NumberRow& rows) {
+  const unsigned bits = bits_for(count);
+  const std::string_view bytes = in.bytes(NumberRow::size(kBlockRows, bits));
+  if (!in.is_sound()) return false;
+  rows = NumberRow(bytes.data(), bits);
+  if (std::has_single_bit(count)) return true;
+  for (std::size_t row = 0; row < kBlockRows; ++row) {
+    if (rows[row] >= count) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+template <class Value>
+void BlockColumnsWriter::Column<Value>::add(const Value& value) {
+  if (numbers.size() > kMostColumnValues) return;
+  const auto [found, is_new] =
+      numbers.try_emplace(value, static_cast<std::uint16_t>(numbers.size()));
+  if (is_new) values.push_back(&found->first);
+  rows.push_back(found->second);
+}
+
+void BlockColumnsWriter::add_text(std::size_t column, std::optional<std::string_view> value) {
+  texts_.at(column).add(value ? std::optional(std::string(*value)) : std::nullopt);
+}
+
+void BlockColumnsWriter::repeat_text(std::size_t column) {
+  auto& rows = texts_.at(column).rows;
+  rows.push_back(rows.back());
+}
+
+void BlockColumnsWriter::add(int kind, bool is_current, std::int64_t measured_nm) {
+  kinds_.add(static_cast<std::uint8_t>(kind | (is_current ? 0 : 0x80)));
+  measured_nm_.push_back(measured_nm);
+}
+
+std::optional<std::string> BlockColumnsWriter::encode() const {
+  if (measured_nm_.size() != kBlockRows) return std::nullopt;
+  const auto [least, greatest] = std::minmax_element(measured_nm_.begin(), measured_nm_.end());
+  const auto distance_of = [from = *least](std::int64_t nm) {
+    return static_cast<std::uint64_t>(nm) - static_cast<std::uint64_t>(from);
+  };
+  const auto bits = static_cast<unsigned>(std::bit_width(distance_of(*greatest)));
+  if (bits > NumberRow::kMostBits) return std::nullopt;
+
+  std::string bytes;
+  for (const auto& column : texts_) {
+    std::string section;
+    const bool fits = column.numbers.size() <= kMostColumnValues;
+    append_number<std::uint64_t>(section, fits ? column.values.size() : 0);
+    if (fits) {
+      for (const auto* value : column.values) append_text(section, *value);
+      NumberRow::append<std::uint16_t>(section, column.rows, bits_for(column.values.size()));
+    }
+    append_number<std::uint64_t>(bytes, section.size());
+    bytes += section;
+  }
+  append_number<std::uint64_t>(bytes, kinds_.values.size());
+  for (const std::uint8_t* kind : kinds_.values) bytes += static_cast<char>(*kind);
+  NumberRow::append<std::uint16_t>(bytes, kinds_.rows, bits_for(kinds_.values.size()));
+  append_difference(bytes, *least, 0);
+  append_number(bytes, bits);
+  std::vector<std::uint64_t> distances(measured_nm_.size());
+  std::transform(measured_nm_.begin(), measured_nm_.end(), distances.begin(), distance_of);
+  NumberRow::append<std::uint64_t>(bytes, distances, bits);
+  return bytes.append(NumberRow::kPadding, '\0');
+}
+
+bool BlockColumns::read(std::string_view bytes) {
+  if (bytes.size() < NumberRow::kPadding) return false;
+  PackedNumbers in(bytes.substr(0, bytes.size() - NumberRow::kPadding));
+  for (std::string_view& column : columns_) {
+    column = in.bytes(in.number());
+    if (!in.is_sound()) return false;
+  }
+  const std::uint64_t count = in.number();
+  kinds_ = in.bytes(count);
+  if (kinds_.empty() || !read_rows(in, kinds_.size(), kind_rows_)) return false;
+  least_nm_ = in.above(0);
+  const std::uint64_t bits = in.number();
+  if (!in.is_sound() || bits > NumberRow::kMostBits) return false;
+  const std::string_view distances =
+      in.bytes(NumberRow::size(kBlockRows, static_cast<unsigned>(bits)));
+  distances_ = NumberRow(distances.data(), static_cast<unsigned>(bits));
+  return in.is_at_end();
+}
+
+bool BlockColumns::read(std::size_t column, Column& into) const {
+  PackedNumbers in(columns_.at(column));
+  const std::uint64_t count = in.number();
+  into.values.clear();
+  for (std::uint64_t i = 0; i < count && in.is_sound(); ++i) into.values.push_back(in.text());
+  return count > 0 && in.is_sound() && read_rows(in, count, into.rows) && in.is_at_end();
+}
+
+}  // namespace fitgauge::store

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "store/measurement_statistics.hpp"
+#include "store/packed_numbers.hpp"
+
+namespace fitgauge::store {
+
+/// Statistics of rows by the value of a field, by that of another, which may be none, and by kind
+/// (8 * source + verdict).
+using PairStatistics =
+    std::map<std::string, std::map<std::optional<std::string>, std::map<int, ExactStatistics>>>;
+
+/// How many statistics these are.
+std::size_t count_of(const PairStatistics& pairs);
+
+/// As bytes to be stored: of each value of the first field its size, and by that of the other the
+/// statistics of each kind.
+std::string encode(const PairStatistics& pairs);
+
+/// Calls `visit(by_value, kind, statistics)` for what the bytes of encode() say of a value.
+template <class Visit>
+void visit_pairs_of(std::string_view bytes, const Visit& visit) {
+  PackedNumbers in(bytes);
+  while (!in.is_at_end() && in.is_sound()) {
+    const std::optional<std::string_view> by_value = in.text();
+    for (std::uint64_t kinds = in.number(); kinds > 0 && in.is_sound(); --kinds) {
+      const auto kind = static_cast<int>(in.number());
+      visit(by_value, kind, ExactStatistics::unpack(in));
+    }
+  }
+}
+
+/// Calls `visit(value, bytes)` for each value of the first field, with what visit_pairs_of() reads,
+/// until it returns false.
+template <class Visit>
+void visit_values(std::string_view bytes, const Visit& visit) {
+  PackedNumbers in(bytes);
+  while (!in.is_at_end() && in.is_sound()) {
+    const std::optional<std::string_view> value = in.text();
+    const std::string_view pairs = in.bytes(in.number());
+    if (!in.is_sound() || !value || !visit(*value, pairs)) return;
+  }
+}
+
+}  // namespace fitgauge::store
