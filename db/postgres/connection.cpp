@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "postgres/failure.hpp"
 #include "postgres/measurement_table.hpp"
@@ -16,32 +16,12 @@ namespace {
 
 constexpr sql::Dialect kDialect{.is_shared = true, .keys_may_be_null = true};
 
-// Their numbers in pg_type, which never change.
-constexpr Oid kInt8 = 20;
-constexpr Oid kText = 25;
-constexpr Oid kBytes = 17;
-
-Oid oid_of(sql::Kind kind) {
-  switch (kind) {
-    case sql::Kind::Integer: return kInt8;
-    case sql::Kind::Text: return kText;
-    case sql::Kind::Bytes: return kBytes;
-  }
-  return kText;
-}
-
 /// What holds for each session: bounds, so that nobody waits for ever for a server, a row or a
 /// client that is gone.
 constexpr const char* kSettings =
     "SET search_path TO fitgauge; SET statement_timeout = '60s'; SET lock_timeout = '30s';"
     "SET idle_in_transaction_session_timeout = '60s'; SET client_min_messages = warning;"
     "SET jit = off; SET bytea_output = hex; SET plan_cache_mode = auto";
-
-/// A COPY ends long before statement_timeout, however many rows there are.
-constexpr std::chrono::seconds kLongestCopy{5};
-using namespace std::string_view_literals;
-constexpr std::string_view kCopyHead = "PGCOPY\n\377\r\n\0\0\0\0\0\0\0\0\0"sv;
-constexpr std::string_view kCopyTail = "\377\377"sv;  // no more rows
 
 PGconn* open(const std::string& address) {
   // What stands before the address can be set in it.
@@ -85,21 +65,19 @@ void Connection::require_sent(int sent) {
 }
 
 void Connection::send(const std::string& sql) {
-  end_copy();
   require_sent(PQsendQueryParams(handle(), sql.c_str(), 0, nullptr, nullptr, nullptr, nullptr, 1));
   sent_.emplace_back();
 }
 
 void Connection::send(const std::string& name, const std::string& sql,
                       std::span<const Parameter> values) {
-  end_copy();
   while (!unused_.empty()) {
     send("DEALLOCATE " + unused_.back());
     unused_.pop_back();
   }
   if (!prepared_.contains(name)) {
     std::vector<Oid> types;
-    for (const Parameter& value : values) types.push_back(oid_of(value.kind));
+    for (const Parameter& value : values) types.push_back(value.type);
     require_sent(PQsendPrepare(handle(), name.c_str(), sql.c_str(), static_cast<int>(types.size()),
                                types.data()));
     sent_.push_back(name);
@@ -114,7 +92,7 @@ void Connection::send(const std::string& name, const std::string& sql,
     if (value.is_null) {
       data.push_back(nullptr);
       sizes.push_back(0);
-    } else if (value.kind == sql::Kind::Integer) {
+    } else if (value.type == kInt8) {
       append_number(numbers[i], value.integer);
       data.push_back(numbers[i].data());
       sizes.push_back(sizeof(std::int64_t));
@@ -137,10 +115,10 @@ void Connection::check(const PGresult* result) {
 }
 
 ResultPtr Connection::wait() {
-  end_copy();
   if (sent_.empty()) return nullptr;
   if (PQpipelineSync(handle()) != 1) lost();
   std::vector<std::string> sent = std::exchange(sent_, {});
+  has_committed_ = false;
   ResultPtr failed;
   ResultPtr last;
   for (const std::string& prepares : sent) {
@@ -152,6 +130,7 @@ ResultPtr Connection::wait() {
     }
     const ExecStatusType status = PQresultStatus(result.get());
     const bool ok = status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK;
+    has_committed_ |= std::string_view(PQcmdStatus(result.get())) == "COMMIT";
     if (!ok && !prepares.empty()) prepared_.erase(prepares);
     if (!ok && !failed) {
       failed = std::move(result);
@@ -167,6 +146,20 @@ ResultPtr Connection::wait() {
   return last;
 }
 
+void Connection::commit(const std::string& then) {
+  send("COMMIT");
+  send(then);
+  try {
+    wait();
+  } catch (const std::logic_error& failed) {
+    if (!has_committed_) throw;
+    throw StorageFailure({ErrorCode::StorageUnavailable, failed.what()});
+  }
+  // Of a transaction that failed before, COMMIT makes a ROLLBACK and calls it so.
+  if (has_committed_) return;
+  throw StorageFailure({ErrorCode::StorageUnavailable, "PostgreSQL has undone the transaction"});
+}
+
 ResultPtr Connection::execute(const std::string& sql) {
   ResultPtr result(PQexec(handle(), sql.c_str()));
   if (!result) lost();
@@ -179,58 +172,6 @@ void Connection::run_script(const std::string& sql) {
   if (PQexitPipelineMode(handle()) != 1) lost();
   execute(sql);
   if (PQenterPipelineMode(handle()) != 1) lost();
-}
-
-void Connection::put(std::string_view bytes) {
-  constexpr std::size_t kPiece = std::size_t{256} << 10;
-  for (; !bytes.empty(); bytes.remove_prefix(std::min(kPiece, bytes.size()))) {
-    const std::string_view piece = bytes.substr(0, kPiece);
-    if (PQputCopyData(handle(), piece.data(), static_cast<int>(piece.size())) != 1) lost();
-  }
-}
-
-void Connection::copy(const std::string& sql, std::string_view rows) {
-  const auto now = std::chrono::steady_clock::now();
-  if (copying_ != sql || now > copying_since_ + kLongestCopy) {
-    if (is_waiting()) wait();
-    begin_copy(sql);
-    copying_since_ = now;
-  }
-  put(rows);
-}
-
-void Connection::begin_copy(const std::string& sql) {
-  if (PQexitPipelineMode(handle()) != 1) lost();
-  const ResultPtr begun(PQexec(handle(), sql.c_str()));
-  if (PQresultStatus(begun.get()) != PGRES_COPY_IN) {
-    if (PQstatus(handle()) != CONNECTION_OK || PQenterPipelineMode(handle()) != 1) lost();
-    check(begun.get());
-  }
-  copying_ = sql;
-  put(kCopyHead);
-}
-
-/// @param why_not the rows are not to be stored; null: they are.
-ResultPtr Connection::leave_copy(const char* why_not) {
-  copying_.clear();
-  if (PQputCopyEnd(handle(), why_not) != 1) lost();
-  ResultPtr outcome;
-  while (ResultPtr result = next_result()) {
-    if (!outcome) outcome = std::move(result);
-  }
-  if (PQstatus(handle()) != CONNECTION_OK) lost();
-  if (PQenterPipelineMode(handle()) != 1) lost();
-  return outcome;
-}
-
-void Connection::end_copy() {
-  if (copying_.empty()) return;
-  put(kCopyTail);
-  check(leave_copy(nullptr).get());
-}
-
-void Connection::abandon_copy() {
-  if (!copying_.empty()) leave_copy("the job was undone");
 }
 
 void Connection::forget(const std::string& name) noexcept {

@@ -2,7 +2,6 @@
 
 #include <postgresql/libpq-fe.h>
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <set>
@@ -21,9 +20,16 @@ struct ClearResult {
 };
 using ResultPtr = std::unique_ptr<PGresult, ClearResult>;
 
+// Types by their numbers in pg_type, which never change.
+inline constexpr Oid kInt2 = 21;
+inline constexpr Oid kInt8 = 20;
+inline constexpr Oid kText = 25;
+inline constexpr Oid kBytes = 17;
+inline constexpr Oid kAsTheStatementSays = 0;
+
 /// A parameter in the binary format.
 struct Parameter {
-  sql::Kind kind = sql::Kind::Integer;
+  Oid type = kInt8;
   bool is_null = true;
   std::int64_t integer = 0;
   std::string_view bytes{};
@@ -54,22 +60,19 @@ class Connection final : public sql::Connection {
   /// Sends a prepared statement; the first time under this name it is prepared with these types.
   void send(const std::string& name, const std::string& sql, std::span<const Parameter> values);
   /// Waits for all that was sent. @returns the result of the last statement, null where there was
-  /// none but COPY.
+  /// none.
   /// @throws StorageFailure, std::logic_error of the first that failed.
   ResultPtr wait();
+  /// Commits and then runs a statement, in one exchange with the server.
+  /// @throws as wait(); StorageFailure for all that fails when it has committed.
+  void commit(const std::string& then);
   /// Whether something was sent and not waited for.
-  bool is_waiting() const { return !sent_.empty() || !copying_.empty(); }
+  bool is_waiting() const { return !sent_.empty(); }
   /// Runs statements without parameters, outside of all transactions.
   ResultPtr execute(const std::string& sql);
 
   /// Runs statements without parameters in the open transaction.
   void run_script(const std::string& sql);
-
-  /// Sends rows in COPY's binary format and does not wait. Those of one statement are one COPY
-  /// until something else is sent, so that the server stores them while the next are made.
-  void copy(const std::string& sql, std::string_view rows);
-  /// Ends a COPY whose rows are not wanted; the transaction goes on where it is rolled back to.
-  void abandon_copy();
 
   /// The name of a new statement.
   std::string new_name() { return "s" + std::to_string(++names_); }
@@ -91,10 +94,6 @@ class Connection final : public sql::Connection {
 
   static void on_notice(void* connection, const PGresult* notice);
 
-  void begin_copy(const std::string& sql);
-  void end_copy();
-  ResultPtr leave_copy(const char* why_not);
-  void put(std::string_view bytes);
   void require_sent(int sent);
   void check(const PGresult* result);
   ResultPtr next_result();
@@ -104,8 +103,7 @@ class Connection final : public sql::Connection {
   std::vector<std::string> sent_;    ///< of each the name it prepares, or nothing
   std::set<std::string> prepared_;   ///< names the server knows
   std::vector<std::string> unused_;  ///< names it need not know any more
-  std::string copying_;              ///< the statement of the COPY that is under way
-  std::chrono::steady_clock::time_point copying_since_{};
+  bool has_committed_ = false;       ///< COMMIT was among what wait() has waited for
   std::uint64_t names_ = 0;
   std::string warning_;
   std::unique_ptr<sql::MeasurementTable> measurements_;

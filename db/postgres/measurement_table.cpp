@@ -21,40 +21,68 @@ std::int64_t month_of(std::int64_t at_ns) {
          static_cast<std::int64_t>(static_cast<unsigned>(date.month()));
 }
 
-void append_field(std::string& bytes, std::string_view value) {
-  append_number(bytes, static_cast<std::int32_t>(value.size()));
-  bytes += value;
-}
+constexpr const char* kRowType = "SELECT 'measurements'::regtype::oid::bigint";
 
-/// The codes are smallint, the numbers bigint.
-template <class Value>
-void append_field(std::string& bytes,
-                  const Value& value) requires(std::is_enum_v<Value> || std::is_integral_v<Value>) {
-  using Stored = std::conditional_t<std::is_enum_v<Value>, std::int16_t, std::int64_t>;
-  append_number(bytes, static_cast<std::int32_t>(sizeof(Stored)));
-  append_number(bytes, static_cast<Stored>(value));
-}
-
-template <class Value>
-void append_field(std::string& bytes, const std::optional<Value>& value) {
-  if (value) return append_field(bytes, *value);
-  append_number(bytes, std::int32_t{-1});
-}
-
-const std::string& copy_sql() {
+/// Rows come as one value: an array of rows of the table. Several statements on their way are
+/// carried out while the next rows are made, as with COPY, and one takes no more exchanges with the
+/// server than any other.
+const std::string& append_sql() {
   static const std::string sql =
-      fmt::format("COPY measurements ({}) FROM STDIN (FORMAT binary)", measurement_columns());
+      fmt::format("INSERT INTO measurements ({0}) SELECT {0} FROM unnest($1::measurements[])",
+                  measurement_columns());
   return sql;
 }
 
+template <class Value>
+constexpr Oid type_of(const Value& /*value*/) {
+  if constexpr (std::is_enum_v<Value>) return kInt2;
+  if constexpr (std::is_integral_v<Value>) return kInt8;
+  return kText;
+}
+template <class Value>
+constexpr Oid type_of(const std::optional<Value>& /*value*/) {
+  return type_of(Value());
+}
+
+void append_value(std::string& bytes, std::string_view value) { bytes += value; }
+/// The codes are smallint, the numbers bigint.
+template <class Value>
+void append_value(std::string& bytes,
+                  const Value& value) requires(std::is_enum_v<Value> || std::is_integral_v<Value>) {
+  using Stored = std::conditional_t<std::is_enum_v<Value>, std::int16_t, std::int64_t>;
+  append_number(bytes, static_cast<Stored>(value));
+}
+
+/// What stands in a field of a row or in an element of an array; -1 for the length of a NULL.
+template <class Value>
+void append_counted_value(std::string& bytes, const Value& value) {
+  append_counted(bytes, [&] { append_value(bytes, value); });
+}
+template <class Value>
+void append_counted_value(std::string& bytes, const std::optional<Value>& value) {
+  if (value) return append_counted_value(bytes, *value);
+  append_number(bytes, std::int32_t{-1});
+}
+
+/// In the table the hash is the last column of the first migration; what others add stands behind
+/// it.
+constexpr std::string_view kBeforeHash = "calibration_due";
+
+/// The columns as they stand in the table.
 void append_row(std::string& bytes, const MeasurementRow& row) {
-  std::int16_t fields = 2;
+  const std::string_view hash(reinterpret_cast<const char*>(row.hash.data()), row.hash.size());
+  std::int32_t fields = 2;
   for_each_field(row, [&](const char*, const auto&) { ++fields; });
   append_number(bytes, fields);
-  append_field(bytes, row.id);
-  for_each_field(row, [&](const char*, const auto& value) { append_field(bytes, value); });
-  append_field(bytes,
-               std::string_view(reinterpret_cast<const char*>(row.hash.data()), row.hash.size()));
+  const auto append_field = [&](Oid type, const auto& value) {
+    append_number(bytes, type);
+    append_counted_value(bytes, value);
+  };
+  append_field(kInt8, row.id);
+  for_each_field(row, [&](std::string_view column, const auto& value) {
+    append_field(type_of(value), value);
+    if (column == kBeforeHash) append_field(kBytes, hash);
+  });
 }
 
 }  // namespace
@@ -71,10 +99,24 @@ void MeasurementTable::make_parts(std::span<const MeasurementRow> rows) {
   }
 }
 
+/// An array of one dimension, whose first element is numbered 1.
+std::string MeasurementTable::begin_array(std::size_t rows) {
+  if (row_type_ == 0) {
+    row_type_ = static_cast<Oid>(sql::Statement(connection_, kRowType).returning<std::int64_t>());
+  }
+  std::string bytes;
+  append_number(bytes, std::int32_t{1});
+  append_number(bytes, std::int32_t{0});  // no NULLs
+  append_number(bytes, row_type_);
+  append_number(bytes, static_cast<std::int32_t>(rows));
+  append_number(bytes, std::int32_t{1});
+  return bytes;
+}
+
 void MeasurementTable::append(std::span<const MeasurementRow> rows) {
   if (rows.empty()) return;
   make_parts(rows);
-  std::string bytes;
+  std::string bytes = begin_array(rows.size());
   Head& head = connection_.head;
   MeasurementRow placed;
   for (const MeasurementRow& row : rows) {
@@ -83,9 +125,10 @@ void MeasurementTable::append(std::span<const MeasurementRow> rows) {
       placed.origin = 0;
       placed.seq = ++head.own_rows;
     }
-    append_row(bytes, placed);
+    append_counted(bytes, [&] { append_row(bytes, placed); });
   }
-  connection_.copy(copy_sql(), bytes);
+  const Parameter array{.type = kAsTheStatementSays, .is_null = false, .bytes = bytes};
+  connection_.send("append", append_sql(), std::span(&array, 1));
   head.last_id = rows.back().id;
 }
 

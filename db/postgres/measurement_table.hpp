@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "postgres/connection.hpp"
@@ -11,7 +12,7 @@
 
 namespace fitgauge::store::postgres {
 
-/// Appends rows by COPY, and makes the part of the table that a row goes to where it is the first.
+/// Appends rows, and makes the part of the table that a row goes to where it is the first.
 /// Every row says whose it is and where it stands in that log.
 class MeasurementTable final : public sql::MeasurementTable {
  public:
@@ -24,9 +25,11 @@ class MeasurementTable final : public sql::MeasurementTable {
 
  private:
   void make_parts(std::span<const MeasurementRow> rows);
+  std::string begin_array(std::size_t rows);
 
   Connection& connection_;
   sql::Statement make_part_;
+  Oid row_type_ = 0;  ///< of the table; 0 until it was asked for
   std::set<std::pair<std::int64_t, std::int64_t>> parts_;  ///< origin and month that are there
 };
 

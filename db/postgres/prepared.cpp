@@ -29,6 +29,15 @@ std::string with_numbers(std::string_view sql) {
   return made;
 }
 
+Oid type_of(sql::Kind kind) {
+  switch (kind) {
+    case sql::Kind::Integer: return kInt8;
+    case sql::Kind::Text: return kText;
+    case sql::Kind::Bytes: return kBytes;
+  }
+  return kText;
+}
+
 }  // namespace
 
 Prepared::Prepared(Connection& connection, std::string_view sql)
@@ -42,25 +51,25 @@ void Prepared::bind(int index, const Parameter& value) {
     values_.resize(place + 1);
     types_have_changed_ = true;
   }
-  types_have_changed_ |= values_[place].kind != value.kind;
+  types_have_changed_ |= values_[place].type != value.type;
   values_[place] = value;
 }
 
-void Prepared::bind_null(int index, sql::Kind kind) { bind(index, {.kind = kind}); }
+void Prepared::bind_null(int index, sql::Kind kind) { bind(index, {.type = type_of(kind)}); }
 
 void Prepared::bind_integer(int index, std::int64_t value) {
-  bind(index, {.kind = sql::Kind::Integer, .is_null = false, .integer = value});
+  bind(index, {.type = kInt8, .is_null = false, .integer = value});
 }
 
 void Prepared::bind_text(int index, std::string_view value) {
   if (value.find('\0') != std::string_view::npos) {
     throw std::logic_error("PostgreSQL stores no text with a character of code 0");
   }
-  bind(index, {.kind = sql::Kind::Text, .is_null = false, .bytes = value});
+  bind(index, {.type = kText, .is_null = false, .bytes = value});
 }
 
 void Prepared::bind_blob(int index, std::string_view bytes) {
-  bind(index, {.kind = sql::Kind::Bytes, .is_null = false, .bytes = bytes});
+  bind(index, {.type = kBytes, .is_null = false, .bytes = bytes});
 }
 
 void Prepared::send() {

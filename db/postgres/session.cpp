@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <string_view>
 
 #include "store/storage_failure.hpp"
@@ -14,12 +15,22 @@ constexpr const char* kHead =
     "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint FROM head";
 constexpr const char* kFlushed = "SELECT (pg_current_wal_flush_lsn() - '0/0')::bigint";
 
-/// The commit frees the row before the WAL is on the disk, and flush() waits for that. Not where a
-/// standby has to have it, as reading would then wait for the standby; nor with new names, which
-/// daemons keep in memory beyond a crash of the server.
-constexpr const char* kReleaseEarly =
-    "SELECT set_config('synchronous_commit', 'off', true) FROM head"
-    " WHERE names = ? AND current_setting('synchronous_standby_names') = ''";
+/// With one notification for all that the transaction holds. The commit frees the row before the
+/// WAL is on the disk, which the session waits for behind it. Not where a standby has to have it,
+/// as reading would then wait for the standby; nor with new names, which daemons keep in memory
+/// beyond a crash of the server.
+constexpr const char* kSetHead =
+    "UPDATE head SET last_id = ?, own_rows = ? RETURNING pg_notify('fitgauge', ''),"
+    " CASE WHEN names = ? AND current_setting('synchronous_standby_names') = ''"
+    " THEN set_config('synchronous_commit', 'off', true) END";
+
+/// The WAL is one: with a commit of its own on the disk are all before it. PostgreSQL waits only
+/// for the disk when the transaction has written something, be it an empty message to nobody.
+constexpr const char* kFlush = "SELECT pg_logical_emit_message(true, 'fitgauge', '')";
+/// Where a commit did not free the row early, the disk and the standby have it.
+constexpr const char* kUnlessFlushed =
+    " WHERE pg_current_wal_flush_lsn() < pg_current_wal_insert_lsn()";
+constexpr const char* kOnThisServer = ", set_config('synchronous_commit', 'local', true)";
 
 }  // namespace
 
@@ -30,8 +41,7 @@ Session::Session(const OpenOptions& options, const Clock& clock, std::int64_t da
       is_durable_(options.synchronous == Synchronous::Full),
       head_(connection_, kHead),
       locked_head_(connection_, std::string(kHead) + " FOR UPDATE"),
-      set_head_(connection_, "UPDATE head SET last_id = ?, own_rows = ?"),
-      release_early_(connection_, kReleaseEarly),
+      set_head_(connection_, kSetHead),
       flushed_(connection_, kFlushed) {
   connection_.send(fmt::format("SET fitgauge.daemon = '{}'", daemon));
   if (!is_durable_) connection_.send("SET synchronous_commit = off");
@@ -67,20 +77,12 @@ void Session::begin_writing() {
 
 void Session::commit() { writes_ ? commit_written() : commit_read(); }
 
-/// One notification for all that the transaction holds.
+/// One exchange with the server, whatever the jobs have left to be done.
 void Session::commit_written() {
   const Head& head = connection_.head;
-  if (head.last_id != begun_.last_id) set_head_.run(head.last_id, head.own_rows);
-  connection_.send("SELECT pg_notify('fitgauge', '')");
-  if (is_durable_) release_early_.run(begun_.names);
+  set_head_.run(head.last_id, head.own_rows, begun_.names);
   connection_.take_warning();
-  connection_.send("COMMIT");
-  const ResultPtr committed = connection_.wait();
-  // Of a transaction that failed before, COMMIT makes a ROLLBACK and calls it so.
-  if (std::string_view(PQcmdStatus(committed.get())) != "COMMIT") {
-    throw StorageFailure({ErrorCode::StorageUnavailable, "PostgreSQL has undone the transaction"});
-  }
-  if (is_durable_) flush("SELECT 1");
+  connection_.commit(std::string(kFlush) + kUnlessFlushed);
   // The one it has: the wait for a standby was ended, by an operator or by statement_timeout. What
   // is on this server alone is not acknowledged.
   if (const std::string warning = connection_.take_warning(); !warning.empty()) {
@@ -93,21 +95,25 @@ void Session::commit_written() {
 void Session::commit_read() {
   connection_.send("COMMIT");
   if (!is_durable_ || flushed_.returning<std::int64_t>() >= seen_wal_) return settle();
-  flush("SELECT set_config('synchronous_commit', 'local', true)");
-}
-
-/// The WAL is one: with a commit of its own on the disk are all before it. PostgreSQL waits only for
-/// the disk when the transaction has written something, be it an empty message to nobody.
-void Session::flush(const char* setting) {
-  connection_.send(fmt::format("{}, pg_logical_emit_message(true, 'fitgauge', '')", setting));
+  connection_.send(std::string(kFlush) + kOnThisServer);
   connection_.wait();
 }
 
 void Session::rollback() noexcept {
+  connection_.parts_may_be_undone = true;
   try {
+    settle_undone();
     connection_.send("ROLLBACK");
     connection_.wait();
   } catch (const std::exception&) {  // the session ends, and with it the transaction
+  }
+}
+
+/// What is sent behind a statement that fails is not carried out.
+void Session::settle_undone() {
+  try {
+    settle();
+  } catch (const std::logic_error&) {  // concerns what is taken back
   }
 }
 
@@ -117,7 +123,7 @@ void Session::savepoint() {
 }
 
 void Session::undo() {
-  connection_.abandon_copy();
+  settle_undone();
   connection_.head = before_job_;
   connection_.parts_may_be_undone = true;
   connection_.send("ROLLBACK TO job");

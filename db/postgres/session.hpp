@@ -34,7 +34,7 @@ class Session final : public sql::Session {
   void read_head(sql::Statement& head);
   void commit_written();
   void commit_read();
-  void flush(const char* setting);
+  void settle_undone();
 
   Connection connection_;
   Stores stores_;
@@ -43,7 +43,6 @@ class Session final : public sql::Session {
   sql::Statement head_;
   sql::Statement locked_head_;
   sql::Statement set_head_;
-  sql::Statement release_early_;
   sql::Statement flushed_;
   bool writes_ = false;
   Head begun_;  ///< as the transaction found it

@@ -18,6 +18,17 @@ void append_number(std::string& bytes, Integer value) {
   bytes.append(written.data(), written.size());
 }
 
+/// Adds the number of bytes that `make` adds, and then those.
+template <class Make>
+void append_counted(std::string& bytes, const Make& make) {
+  const std::size_t place = bytes.size();
+  bytes.append(sizeof(std::int32_t), '\0');
+  make();
+  std::string count;
+  append_number(count, static_cast<std::int32_t>(bytes.size() - place - sizeof(std::int32_t)));
+  bytes.replace(place, count.size(), count);
+}
+
 /// A signed number of one to eight bytes.
 inline std::int64_t read_number(std::string_view bytes) {
   if (bytes.empty()) return 0;

@@ -25,9 +25,10 @@ class Session {
   /// in the order of the commits.
   virtual void begin_writing() = 0;
   virtual void commit() = 0;
+  /// Also after a commit() that failed.
   virtual void rollback() noexcept = 0;
 
-  /// Around each job of a transaction: undo() takes back what it has changed.
+  /// Around each of several jobs of a transaction: undo() takes back what it has changed.
   virtual void savepoint() = 0;
   virtual void undo() = 0;
   /// Fails where something failed that the job has left to be done behind it.

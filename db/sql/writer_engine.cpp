@@ -99,13 +99,12 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
       Jobs more = queue_.take_all(milliseconds(0));
       std::move(more.begin(), more.end(), std::back_inserter(jobs));
     }
-    const auto end = MaintenancePace::Clock::now() + kLongestBatch;
-    do {
-      errors.push_back(run_in_savepoint(*jobs[errors.size()]));
-    } while (errors.size() < jobs.size() && MaintenancePace::Clock::now() < end);
-    const std::int64_t own_rows = session().stores().measurements.log_size();
-    session().commit();
-    counters_.own_rows = own_rows;  // before the outcomes are told
+    if (jobs.size() == 1) {
+      errors.push_back(run_alone(*jobs.front()));
+    } else {
+      run_in_savepoints(jobs, errors);
+      commit_transaction();
+    }
     succeed();
     const auto now = MaintenancePace::Clock::now();
     pace_.committed(now);
@@ -118,6 +117,38 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
   }
   if (error) fail(*error);
   return error;
+}
+
+void Writer::Engine::commit_transaction() {
+  const std::int64_t own_rows = session().stores().measurements.log_size();
+  session().commit();
+  counters_.own_rows = own_rows;  // before the outcomes are told
+}
+
+/// The transaction is the job's own: it needs no savepoint, and what it has left to be done behind
+/// it may fail as late as in the commit.
+/// @returns as run_in_savepoint().
+std::optional<Error> Writer::Engine::run_alone(WriteJob& job) {
+  std::optional<Error> bug;
+  try {
+    if (job.run(session().stores())) {
+      commit_transaction();
+      return bug;
+    }
+  } catch (const StorageFailure&) {
+    throw;
+  } catch (const std::exception& thrown) {
+    bug = bug_of(thrown);
+  }
+  session().rollback();
+  return bug;
+}
+
+void Writer::Engine::run_in_savepoints(Jobs& jobs, std::vector<std::optional<Error>>& errors) {
+  const auto end = MaintenancePace::Clock::now() + kLongestBatch;
+  do {
+    errors.push_back(run_in_savepoint(*jobs[errors.size()]));
+  } while (errors.size() < jobs.size() && MaintenancePace::Clock::now() < end);
 }
 
 /// @returns the job's bug, if it threw. Broken storage concerns the whole batch and is thrown.
@@ -133,11 +164,16 @@ std::optional<Error> Writer::Engine::run_in_savepoint(WriteJob& job) {
   } catch (const StorageFailure&) {
     throw;
   } catch (const std::exception& thrown) {
-    bug = internal_error(thrown);
-    if (options_.job_threw) options_.job_threw(*bug);
+    bug = bug_of(thrown);
   }
   if (!keep) session.undo();
   session.release();
+  return bug;
+}
+
+Error Writer::Engine::bug_of(const std::exception& thrown) {
+  const Error bug = internal_error(thrown);
+  if (options_.job_threw) options_.job_threw(bug);
   return bug;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -51,7 +52,11 @@ class Writer::Engine {
   void run();
   void commit(Jobs& jobs);
   std::optional<Error> try_commit(Jobs& jobs, std::vector<std::optional<Error>>& errors);
+  std::optional<Error> run_alone(WriteJob& job);
+  void run_in_savepoints(Jobs& jobs, std::vector<std::optional<Error>>& errors);
   std::optional<Error> run_in_savepoint(WriteJob& job);
+  void commit_transaction();
+  Error bug_of(const std::exception& thrown);
   std::chrono::milliseconds patience() const;
   void maintain();
   void probe();

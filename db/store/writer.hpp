@@ -8,9 +8,9 @@
 
 namespace fitgauge::store {
 
-/// The one thread that writes. It takes all jobs that arrived during the last commit, runs each in
-/// a savepoint of one transaction, commits once (durable when the commit returns) and then delivers
-/// the outcomes. There is no timer: a lone job is committed at once.
+/// The one thread that writes. It takes all jobs that arrived during the last commit, runs them in
+/// one transaction, each of several in a savepoint, commits once (durable when the commit returns)
+/// and then delivers the outcomes. There is no timer: a lone job is committed at once.
 ///
 /// Thread-safe. After a failed commit every job of its batch is refused with StorageUnavailable;
 /// the connection is opened again, and nothing is delivered before a commit succeeded.

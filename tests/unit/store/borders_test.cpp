@@ -3,8 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <future>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "base/guarded.hpp"
 #include "fixture.hpp"
@@ -52,6 +55,52 @@ TEST_CASE("a listener of commits that throws does not end the writer") {
   CHECK(fixture.append(sample_row()).has_value());
   fixture.database->drain();
   CHECK(bugs_reported == 2);
+}
+
+TEST_CASE("of several jobs in one transaction each fails by itself, and so does a lone one") {
+  Fixture fixture;
+  MeasurementRow wrong = sample_row();
+  wrong.lower_deviation_nm = wrong.upper_deviation_nm + 1;
+  std::promise<void> all_wait;
+  std::vector<std::future<bool>> stored;
+  const auto submit = [&](auto work) {
+    const auto outcome = std::make_shared<std::promise<bool>>();
+    stored.push_back(outcome->get_future());
+    fixture.database->writer().submit(
+        work, [outcome](const Result<bool>& result) { outcome->set_value(result.has_value()); });
+  };
+  const auto append = [](const MeasurementRow& row) {
+    return [row](Stores& stores) -> Result<bool> {
+      const auto appended = append_numbered(stores, std::span(&row, 1));
+      if (!appended) return appended.error();
+      return true;
+    };
+  };
+  const auto append_and_refuse = [](const MeasurementRow& row) {
+    return [row](Stores& stores) -> Result<bool> {
+      append_numbered(stores, std::span(&row, 1)).has_value();
+      return Error{ErrorCode::FieldInvalid, "no"};
+    };
+  };
+  submit([&](Stores&) -> Result<bool> {
+    all_wait.get_future().wait();
+    return true;
+  });
+  submit(append(sample_row()));
+  submit(append_and_refuse(wrong));
+  submit(append(sample_row()));
+  submit(append(wrong));
+  submit(append(sample_row()));
+  all_wait.set_value();
+  std::vector<bool> outcomes;
+  for (auto& outcome : stored) outcomes.push_back(outcome.get());
+  CHECK(outcomes == std::vector<bool>{true, true, false, true, false, true});
+  CHECK(fixture.last_id() == 3);
+
+  CHECK_FALSE(fixture.append(wrong).has_value());
+  CHECK(fixture.database->health().state == HealthState::Ok);
+  CHECK(fixture.append(sample_row()).has_value());
+  CHECK(fixture.last_id() == 4);
 }
 
 TEST_CASE("draining runs what is queued and refuses what comes later") {
