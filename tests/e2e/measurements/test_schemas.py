@@ -15,7 +15,9 @@ from support.postgres import Cluster
 # What was released is never changed: a change of the schema is a further migration. `sha256sum db/migrations/*/*.sql`
 RELEASED = {
     "sqlite/0001_service.sql": "5a277f5f1ab5fb987e020f84205779e7363857f090c1509bba45e3d6bfb4e614",
+    "sqlite/0002_additions.sql": "77cd7fd6373ae848de768586c59eddf1c86c4da949c49b9bb45ae7bed200b860",
     "postgres/0001_service.sql": "de5c6334c873daf3a74b0b66b9e0609eb3d27306e148cc6b8eff9054b876000f",
+    "postgres/0002_additions.sql": "77dc1cf3340f58269966eca28b48130f81dc4efdd28ac271e95085f9fe48e0c2",
 }
 ONLY_SQLITE = {"storage_probe"}  # whether the file takes a write again
 ONLY_POSTGRES = {"head"}  # of several daemons: who writes next
@@ -97,6 +99,10 @@ class Schemas(unittest.TestCase):
                                  *([database] if database else []))
             return {tuple(row) for row in rows}
 
+        def functions(database=None):
+            return {name for name, in cluster.query("SELECT proname FROM pg_proc WHERE pronamespace = 'fitgauge'::regnamespace",
+                                                    *([database] if database else []))}
+
         daemon = Daemon("--database", cluster.address()).start()
         self.addCleanup(daemon.cleanup)
         records = [daemon.measure({"designation": "25 H7", "measured_mm": value}).text for value in ("25.01", "25.1")]
@@ -108,6 +114,8 @@ class Schemas(unittest.TestCase):
                 cluster.query(f"ALTER TABLE fitgauge.{table} DROP COLUMN {column}")
         for table in {table for table, _ in now} - old_tables:
             cluster.query(f"DROP TABLE fitgauge.{table}")
+        for function in functions() - functions("old"):
+            cluster.query(f"DROP FUNCTION fitgauge.{function} CASCADE")
         cluster.query("DELETE FROM fitgauge.schema_migrations WHERE number > 1")
         self.assertNotEqual(columns(), now, "nothing was taken out: the test proves nothing")
         refused = daemon.command("verify", "--database", cluster.address())
