@@ -111,6 +111,7 @@ export class Plan {
   async load(part, subject, again = false) {
     const asked = Symbol(part);
     this.asked = asked;
+    this.element.setAttribute('aria-busy', true);
     const plan = part ? await planOf(part) : undefined;
     if (this.asked !== asked) return false;
     const { missing } = this;
@@ -118,6 +119,7 @@ export class Plan {
     if (JSON.stringify(plan) !== JSON.stringify(this.samples.plan)) await this.samples.load(plan);
     if (this.asked !== asked) return false;
     this.asked = undefined;
+    this.element.removeAttribute('aria-busy');
     this.plan = this.samples.plan;
     if (again && plan && this.#resume(subject)) return true;
     this.begin(subject, missing);

@@ -195,7 +195,8 @@ describe('the page', () => {
         for (const [mode, media] of Object.entries(MODES)) {
           if (mode !== 'light' && !looksAt(view, width, mode)) continue;
           await page.emulateMedia(media);
-          assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width, mode);
+          await page.waitForFunction((wanted) => document.documentElement.scrollWidth === wanted, width, { timeout: 5000 })
+            .catch(async () => assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width, mode));
           if (!looksAt(view, width, mode)) continue;
           assert.deepEqual(await findings(page), [], `${width} ${mode}`);
           await picture(page, `${view}-${width}-${mode}`, { fullPage: true });

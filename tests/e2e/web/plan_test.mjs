@@ -24,7 +24,7 @@ describe('a plan', () => {
   });
 
   const line = (text) => scan(page, text);
-  const progress = (text) => page.waitForFunction((wanted) => document.querySelector('.plan .progress')?.textContent === wanted, text);
+  const progress = (text) => page.waitForFunction((wanted) => document.querySelector('.plan:not([aria-busy]) .progress')?.textContent === wanted, text);
   const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
 
   it('is taken up by a scan of its part number, and each value steps on', async () => {

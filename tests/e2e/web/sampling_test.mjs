@@ -21,7 +21,7 @@ afterEach(async () => {
   assert.deepEqual(opened.flatMap((page) => [...page.errors, ...page.foreign]), []);
 });
 
-const progress = (page, text) => page.waitForFunction((wanted) => document.querySelector('.plan .progress')?.textContent === wanted, text);
+const progress = (page, text) => page.waitForFunction((wanted) => document.querySelector('.plan:not([aria-busy]) .progress')?.textContent === wanted, text);
 const ready = (page) => page.waitForSelector('.echo .figures');
 const tiles = (page) => page.$$eval('.tiles-of-plan button', (all) => all.map((one) => one.querySelector('.when')?.textContent ?? ''));
 const tile = (page, name, text) => page.waitForFunction(([wanted, when]) => [...document.querySelectorAll('.tiles-of-plan button')]
@@ -40,9 +40,10 @@ async function station(part, query = '', at = daemon) {
   return page;
 }
 
-/** Types values, each once the one before is stored. */
+/** Types values, each once the one before is stored and it is known what is measured at the part. */
 async function measure(page, at, ...values) {
   for (const value of values) {
+    await page.waitForSelector('.plan:not([aria-busy])');
     const before = (await at.stored()).length;
     await scan(page, value);
     for (const until = Date.now() + 10000; (await at.stored()).length === before;) assert.ok(Date.now() < until, `${value} is not stored`);

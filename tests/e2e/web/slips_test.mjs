@@ -186,7 +186,7 @@ describe('a key in the wrong place', () => {
 
 describe('a plan left in the middle', () => {
   const PLAN = { characteristics: ['bore-1', 'bore-2', 'bore-3'].map((name) => ({ name, designation: '25 H7' })) };
-  const progress = (text) => page.waitForFunction((wanted) => document.querySelector('.plan .progress')?.textContent === wanted, text);
+  const progress = (text) => page.waitForFunction((wanted) => document.querySelector('.plan:not([aria-busy]) .progress')?.textContent === wanted, text);
   const measured = async (order) => {
     await page.waitForSelector('.link[data-state="up"]');
     return (await daemon.stored(`order=${order}`)).map(({ part_id: part, characteristic, measured_mm: mm }) => [part, characteristic, mm]);
@@ -206,6 +206,7 @@ describe('a plan left in the middle', () => {
     await progress('1 of 3');
     await slow('25.001');
     await progress('2 of 3');
+    await page.waitForSelector('.tiles-of-plan .shape');
     await page.reload();
     await progress('2 of 3');
     assert.equal(await page.$$eval('.tiles-of-plan .shape', (shapes) => shapes.length), 1);
