@@ -6,14 +6,18 @@ export const PAIR_MS = 310;
 /** Between two keys of a hand, in ms: slower than any scanner. */
 const HAND_MS = 45;
 
+/** How long a test waits for a plan that is being asked for; one that holds the answer back types meanwhile. */
+const PLAN_MS = 1000;
+
 /** All keys of a line at once: the page gets them without a gap, however busy the machine is. */
 export const scan = (page, text) => keys(page, text, 0);
 
 /** The same, with keys that say they came as slowly as from a hand: nobody waits for them. */
 export const typeSlowly = (page, text) => keys(page, text, HAND_MS);
 
-function keys(page, text, gap) {
-  return page.evaluate(({ line, pace }) => {
+async function keys(page, text, gap) {
+  await page.waitForSelector('.plan[aria-busy]', { state: 'detached', timeout: PLAN_MS }).catch(() => {});
+  await page.evaluate(({ line, pace }) => {
     let at = performance.now();
     const type = (key) => {
       const down = new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true });
