@@ -1,0 +1,3 @@
+// Beast is compiled here once and only declared everywhere else (BOOST_BEAST_SEPARATE_COMPILATION).
+
+#include <boost/beast/src.hpp>
