@@ -138,8 +138,10 @@ export class Entry {
     // What is typed until it is known is another line.
     this.#finish(() => {});
     this.adopting = true;
+    this.element.setAttribute('aria-busy', true);
     const known = await this.onJob(text);
     this.adopting = false;
+    this.element.removeAttribute('aria-busy');
     if (known) return;
     if (known === false && name) {
       this.onField(name, text);

@@ -6,8 +6,8 @@ export const PAIR_MS = 310;
 /** Between two keys of a hand, in ms: slower than any scanner. */
 const HAND_MS = 45;
 
-/** How long a test waits for a plan that is being asked for; one that holds the answer back types meanwhile. */
-const PLAN_MS = 1000;
+/** How long a test waits for what is being asked of the service; one that holds the answer back goes on meanwhile. */
+const ANSWER_MS = 1000;
 
 /** All keys of a line at once: the page gets them without a gap, however busy the machine is. */
 export const scan = (page, text) => keys(page, text, 0);
@@ -15,8 +15,12 @@ export const scan = (page, text) => keys(page, text, 0);
 /** The same, with keys that say they came as slowly as from a hand: nobody waits for them. */
 export const typeSlowly = (page, text) => keys(page, text, HAND_MS);
 
+/** Until it is known what is measured: its plan, and whether a line is a size or the number of a part. */
+const known = (page) =>
+  page.waitForSelector(':is(.plan, .entry)[aria-busy]', { state: 'detached', timeout: ANSWER_MS }).catch(() => {});
+
 async function keys(page, text, gap) {
-  await page.waitForSelector('.plan[aria-busy]', { state: 'detached', timeout: PLAN_MS }).catch(() => {});
+  await known(page);
   await page.evaluate(({ line, pace }) => {
     let at = performance.now();
     const type = (key) => {
@@ -33,4 +37,5 @@ async function keys(page, text, gap) {
     };
     for (const key of [...line, 'Enter']) type(key);
   }, { line: text, pace: gap });
+  await known(page);
 }
