@@ -40,6 +40,31 @@ export function forget(key, place = 'local') {
   }
 }
 
+/** Stores what changes often a little later, so that no verdict waits for it, and at once where the page is left. */
+export class LaterStore {
+  static #DELAY_MS = 150;
+  #timer = 0;
+
+  /** @param write stores it; @param leaving ends the view */
+  constructor(write, leaving) {
+    this.write = write;
+    addEventListener('pagehide', () => this.flush(), { signal: leaving });
+    leaving.addEventListener('abort', () => this.flush());
+  }
+
+  changed() {
+    this.#timer ||= setTimeout(() => this.flush(), LaterStore.#DELAY_MS);
+  }
+
+  /** Stores what has changed. */
+  flush() {
+    if (!this.#timer) return;
+    clearTimeout(this.#timer);
+    this.#timer = 0;
+    this.write();
+  }
+}
+
 /** The keys that begin with a prefix, in order. */
 export function storedKeys(prefix, place = 'local') {
   try {

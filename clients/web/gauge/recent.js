@@ -2,13 +2,11 @@
 
 import { h } from '../dom.js';
 import { number, t, time } from '../i18n.js';
-import { readJson, store } from '../stored.js';
+import { LaterStore, readJson, store } from '../stored.js';
 import { distanceText, measuredText, noteText, verdictMark, verdictShape } from '../verdict.js';
 
 const MOST = 100;
 const KEPT = 'recent';
-/** The list is kept for a reload: not before each verdict, which somebody waits for. */
-const KEEP_MS = 150;
 
 /** What was judged by the limits held is no record yet: it says both. */
 const waitingMark = (state, { verdict }) => (verdict && state === 'waiting'
@@ -19,8 +17,7 @@ export class Recent {
   /** @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id`; @param leaving ends it */
   constructor({ onCorrect, leaving }) {
     this.onCorrect = onCorrect;
-    addEventListener('pagehide', () => this.#keepNow(), { signal: leaving });
-    leaving.addEventListener('abort', () => this.#keepNow());
+    this.kept = new LaterStore(() => store(KEPT, JSON.stringify(this.rows), 'session'), leaving);
     this.rows = readJson(KEPT, [], 'session');
     this.list = h('ol');
     this.element = h('section.recent', { 'aria-labelledby': 'recent-title' },
@@ -52,7 +49,7 @@ export class Recent {
     }
     for (; this.rows.length > MOST; this.rows.pop()) this.list.lastElementChild.remove();
     this.element.hidden = false;
-    this.#keep();
+    this.kept.changed();
   }
 
   /** Shows what was noted about a value. */
@@ -61,18 +58,7 @@ export class Recent {
     if (at < 0) return;
     this.rows[at].note = note;
     this.#redraw(at);
-    this.#keep();
-  }
-
-  #keep() {
-    this.timer ||= setTimeout(() => this.#keepNow(), KEEP_MS);
-  }
-
-  #keepNow() {
-    if (!this.timer) return;
-    clearTimeout(this.timer);
-    this.timer = 0;
-    store(KEPT, JSON.stringify(this.rows), 'session');
+    this.kept.changed();
   }
 
   #redraw(at) {

@@ -4,12 +4,11 @@ import { getJson, PATIENCE_MS, url } from '../api.js';
 import { connection } from '../connection.js';
 import { parseDesignation } from '../designation.js';
 import { queue, randomText } from '../queue.js';
-import { readJson, readStored, store } from '../stored.js';
+import { LaterStore, readJson, readStored, store } from '../stored.js';
 import { frequencyOf, samplesOf, standing } from './frequency.js';
 
 const MOST = 1000;
 const FEWEST = 50;
-const KEEP_MS = 150;
 /** Of the part number in a sample's name, which has 200 bytes. */
 const LONGEST_PART = 40;
 
@@ -34,6 +33,7 @@ function ownSign() {
 
 export class Samples {
   #known = new Map();
+  #key;
   /** Told while a value of this station's own was on its way. */
   #later = [];
   /** Stored while the list was read: they may not be in it. */
@@ -44,13 +44,12 @@ export class Samples {
     Object.assign(this, { machine, onChange, plan: undefined });
     queue.addEventListener('change', () => this.#takeLater(), { signal: leaving });
     connection.addEventListener('change', () => connection.up && this.renew(), { signal: leaving });
-    addEventListener('pagehide', () => this.#keepNow(), { signal: leaving });
-    leaving.addEventListener('abort', () => this.#keepNow());
+    this.kept = new LaterStore(() => store(this.#key, JSON.stringify(Object.fromEntries(this.#known))), leaving);
   }
 
   /** Takes up a plan: reads what there is of it, or what was kept where the service is away. */
   async load(plan) {
-    this.#keepNow();
+    this.kept.flush();
     this.plan = plan;
     this.counted = undefined;
     this.watched = (plan?.characteristics ?? []).filter(isSampled);
@@ -58,14 +57,14 @@ export class Samples {
     // Parts are counted by what is measured at each of them.
     if (this.watched.some(({ frequency }) => frequencyOf(frequency)?.parts)) this.counted = plan.characteristics.find((one) => !isSampled(one));
     this.of = this.machine();
-    this.kept = `samples.${plan.part}.${this.of}`;
-    this.#known = new Map(Object.entries(readJson(this.kept, {})));
+    this.#key = `samples.${plan.part}.${this.of}`;
+    this.#known = new Map(Object.entries(readJson(this.#key, {})));
     this.#meanwhile = [];
     const found = connection.up ? await Promise.all([...this.watched, this.counted].filter(Boolean).map((one) => this.#read(one))).catch(() => []) : [];
     if (this.plan !== plan || !found.length) return;
     for (const [name, values] of found) this.#known.set(name, values);
     for (const record of this.#meanwhile) this.#add(record);
-    this.#keep();
+    this.kept.changed();
   }
 
   /** The samples of another machine are others. */
@@ -92,7 +91,7 @@ export class Samples {
     if (!this.#of(record)) return;
     this.#meanwhile.push(record);
     this.#add(record);
-    this.#keep();
+    this.kept.changed();
     this.onChange();
   }
 
@@ -152,17 +151,6 @@ export class Samples {
   sampleOf(one) {
     const { size, sample } = this.standing(one, '', false);
     return size === 1 ? undefined : sample ?? `${this.#beginning}${connection.now().toISOString()} ${ownSign()}`;
-  }
-
-  #keep() {
-    this.timer ||= setTimeout(() => this.#keepNow(), KEEP_MS);
-  }
-
-  #keepNow() {
-    if (!this.timer) return;
-    clearTimeout(this.timer);
-    this.timer = 0;
-    store(this.kept, JSON.stringify(Object.fromEntries(this.#known)));
   }
 }
 
