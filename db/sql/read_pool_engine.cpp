@@ -43,6 +43,7 @@ void ReadPool::Engine::run() {
 /// In a transaction, so that all statements of the job see the same state.
 void ReadPool::Engine::read(std::unique_ptr<sql::Session>& session, ReadJob& job) {
   if (!session) session = open_();
+  job.prepare();
   session->begin_reading();
   job.run(session->stores());
   session->commit();

@@ -12,8 +12,8 @@
 
 namespace fitgauge::store {
 
-/// Work on the stores of one connection together with what is to happen with its result. `run` is
-/// called at most once, then exactly one of `deliver` and `refuse`.
+/// Work on the stores of one connection together with what is to happen with its result. `prepare`
+/// and `run` are called at most once, then exactly one of `deliver` and `refuse`.
 template <class Stores>
 class Job {
  public:
@@ -22,6 +22,8 @@ class Job {
   Job& operator=(const Job&) = delete;
   virtual ~Job() = default;
 
+  /// Called by a reader before its transaction begins: what is committed from now on may be unseen.
+  virtual void prepare() {}
   /// @returns whether the work succeeded; its changes are kept only then.
   virtual bool run(Stores& stores) = 0;
   virtual void deliver() = 0;
@@ -37,7 +39,8 @@ void tell(Job<Stores>& job, std::optional<Error> error) noexcept {
   });
 }
 
-/// A job made of two callables: Result<T> work(Stores&) and void done(Result<T>).
+/// A job made of two callables: Result<T> work(Stores&), which may have a member prepare(), and
+/// void done(Result<T>).
 template <class Stores, class Work, class Done>
 class CallableJob final : public Job<Stores> {
  public:
@@ -45,6 +48,9 @@ class CallableJob final : public Job<Stores> {
 
   CallableJob(Work work, Done done) : work_(std::move(work)), done_(std::move(done)) {}
 
+  void prepare() override {
+    if constexpr (requires { work_.prepare(); }) work_.prepare();
+  }
   bool run(Stores& stores) override {
     outcome_.emplace(work_(stores));
     return outcome_->has_value();

@@ -8,27 +8,28 @@
 namespace fitgauge::api {
 namespace {
 
-constexpr std::size_t kRowsAPiece = 200;
 constexpr std::string_view kGap =
     R"({"detail":"the events after the id you named are gone: read the lists again"})";
 
-std::string data_of(const app::Event& event) {
-  if (event.measurement == nullptr) return std::string(event.payload);
+void write_event(std::string& text, const app::Event& event) {
+  if (event.measurement == nullptr) {
+    return append_event(text, event.type, app::event_id_text(event.id), event.payload);
+  }
   std::string data;
   app::append_record(data, *event.measurement);
-  return data;
+  append_event(text, event.type, app::event_id_text(event.id), data);
 }
 
 }  // namespace
 
 void EventStream::next(http::ChunkSink sink) {
+  if (!std::exchange(begun_, true)) events_.add(shared_from_this());
   {
     const std::lock_guard lock(mutex_);
     sink_ = std::move(sink);
-    reading_ = true;
-    missed_ = false;
+    reading_ = std::exchange(missed_, false);
+    if (!reading_) return;
   }
-  if (!std::exchange(begun_, true)) events_.add(shared_from_this());
   read();
 }
 
@@ -51,37 +52,35 @@ void EventStream::cancelled() {
 }
 
 void EventStream::read() {
-  auto piece = std::make_shared<std::string>();
-  events_.read(
-      gap_ ? std::nullopt : position_, source_, kRowsAPiece,
-      [piece](const app::Event& event) {
-        append_event(*piece, event.type, app::event_id_text(event.id), data_of(event));
-      },
-      [self = shared_from_this(), piece](Result<app::EventService::Page> page) {
-        if (!page) return self->fail();
-        self->take(*page, std::move(*piece));
-      });
+  app::EventService::Place place = place_;
+  if (gap_) place.after.reset();
+  events_.read(place, write_event,
+               [self = shared_from_this()](const Result<app::EventService::Page>& page) {
+                 if (!page) return self->fail();
+                 self->take(*page);
+               });
 }
 
 /// The reader learns its position with its first piece, and of a gap when there is one.
-void EventStream::take(const app::EventService::Page& page, std::string piece) {
+void EventStream::take(const app::EventService::Page& page) {
+  std::string piece = page.text;
   const std::string id = app::event_id_text(page.position);
   if (page.gap || gap_) {
     append_event(piece, "resync", id, kGap);
-  } else if (!position_) {
+  } else if (!place_.after) {
     append_event_id(piece, id);
   }
   gap_ = false;
-  position_ = page.position;
+  place_.after = page.position;
 
   std::optional<http::ChunkSink> sink;
   {
     const std::lock_guard lock(mutex_);
-    const bool again = piece.empty() && missed_ && sink_;
-    missed_ = false;
-    reading_ = again;
+    missed_ = missed_ || page.more;
+    reading_ = piece.empty() && missed_ && sink_;
+    if (reading_) missed_ = false;
     if (!piece.empty()) sink = std::exchange(sink_, std::nullopt);
-    if (!again && !sink) return;
+    if (!reading_ && !sink) return;
   }
   if (sink) {
     sink->put(std::move(piece));

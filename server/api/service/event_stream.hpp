@@ -23,7 +23,7 @@ class EventStream final : public http::BodyStream,
   };
 
   EventStream(app::EventService& events, Start start, std::optional<app::Source> source)
-      : events_(events), source_(source), position_(start.after), gap_(start.gap) {}
+      : events_(events), place_{start.after, source}, gap_(start.gap) {}
 
   void next(http::ChunkSink sink) override;
   void cancelled() override;
@@ -31,21 +31,20 @@ class EventStream final : public http::BodyStream,
 
  private:
   void read();
-  void take(const app::EventService::Page& page, std::string piece);
+  void take(const app::EventService::Page& page);
   void fail();
 
   app::EventService& events_;
-  const std::optional<app::Source> source_;
 
   // Of the one thread that reads at a time.
-  std::optional<app::EventPosition> position_;
+  app::EventService::Place place_;
   bool begun_ = false;
   bool gap_ = false;
 
   std::mutex mutex_;
   std::optional<http::ChunkSink> sink_;  ///< where the next piece goes; none while one is sent
   bool reading_ = false;
-  bool missed_ = false;  ///< a commit came during the read
+  bool missed_ = true;  ///< there may be more than was read: a commit came during the read
 };
 
 }  // namespace fitgauge::api

@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <utility>
 
 #include "app/measurements/mapping.hpp"
 #include "app/tables/table_catalog.hpp"
+#include "base/guarded.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
 namespace {
+
+constexpr std::size_t kRowsAPage = 200;
 
 /// Takes a whole number from the front of `text`.
 std::optional<std::int64_t> take_number(std::string_view& text) {
@@ -29,8 +33,8 @@ bool take(std::string_view& text, std::string_view prefix) {
 /// Walks one page of events in one state of the database.
 class EventReader {
  public:
-  EventReader(const store::Stores& stores, const EventService::Visitor& visit)
-      : stores_(stores), visit_(visit) {}
+  EventReader(const store::Stores& stores, EventService::Write write)
+      : stores_(stores), write_(write) {}
 
   EventPosition newest() const {
     return {.measurement = stores_.measurements.last_id(), .stored = stores_.events.kept().newest};
@@ -45,47 +49,54 @@ class EventReader {
            end.measurement - after.measurement <= retention && after.stored + 1 >= kept.oldest;
   }
 
-  EventPosition read(EventPosition after, std::optional<Source> source, std::size_t limit,
-                     const RowNames& names) {
-    position_ = after;
-    read_measurements(source, limit, names);
-    for (const store::Event& event : stores_.events.after(position_.stored, limit)) {
-      position_.stored = event.id;
-      visit_({.type = event.type, .id = position_, .payload = event.payload});
+  EventService::Page read(const EventPosition& after, std::optional<Source> source,
+                          const RowNames& names) {
+    page_.position = after;
+    read_measurements(source, names);
+    const auto stored = stores_.events.after(page_.position.stored, kRowsAPage);
+    for (const store::Event& event : stored) {
+      page_.position.stored = event.id;
+      put({.type = event.type, .id = page_.position, .payload = event.payload});
     }
-    return position_;
+    page_.more = page_.more || stored.size() == kRowsAPage;
+    return std::move(page_);
   }
 
  private:
-  void read_measurements(std::optional<Source> source, std::size_t limit, const RowNames& names) {
+  void read_measurements(std::optional<Source> source, const RowNames& names) {
     store::MeasurementFilter filter;
     filter.source = source ? std::optional(to_store(*source)) : std::nullopt;
     filter.history = true;
+    EventPosition& position = page_.position;
     const auto end = stores_.measurements.last_id();
-    const auto after = position_.measurement - (position_.reject_is_due ? 1 : 0);
+    const auto after = position.measurement - (position.reject_is_due ? 1 : 0);
     const auto next = stores_.measurements.list(
-        filter, after, limit,
+        filter, after, kRowsAPage,
         [&](const store::MeasurementRow& row) { tell(from_store(row, names)); });
+    page_.more = next.has_value();
     // Rows of another source that were passed over need not be looked at again.
-    position_.measurement = next.value_or(end);
-    position_.reject_is_due = false;
+    position.measurement = next.value_or(end);
+    position.reject_is_due = false;
   }
 
   void tell(const Measurement& measurement) {
-    const bool told = position_.reject_is_due && position_.measurement == measurement.row;
+    EventPosition& position = page_.position;
+    const bool told = position.reject_is_due && position.measurement == measurement.row;
     const bool rejected = measurement.result.verdict == gauging::Verdict::Reject;
-    position_.measurement = measurement.row;
-    position_.reject_is_due = rejected;
+    position.measurement = measurement.row;
+    position.reject_is_due = rejected;
     if (!told) {
-      visit_({.type = "measurement.recorded", .id = position_, .measurement = &measurement});
+      put({.type = "measurement.recorded", .id = position, .measurement = &measurement});
     }
-    position_.reject_is_due = false;
-    if (rejected) visit_({.type = "verdict.reject", .id = position_, .measurement = &measurement});
+    position.reject_is_due = false;
+    if (rejected) put({.type = "verdict.reject", .id = position, .measurement = &measurement});
   }
 
+  void put(const Event& event) { write_(page_.text, event); }
+
   const store::Stores& stores_;
-  const EventService::Visitor& visit_;
-  EventPosition position_;
+  const EventService::Write write_;
+  EventService::Page page_;
 };
 
 }  // namespace
@@ -108,20 +119,44 @@ std::optional<EventPosition> parse_event_id(std::string_view text) {
   return position;
 }
 
-void EventService::read(std::optional<EventPosition> after, std::optional<Source> source,
-                        std::size_t limit, Visitor visit, Done done) {
-  database_.readers().submit(
-      [this, after, source, limit,
-       visit = std::move(visit)](const store::Stores& stores) -> Result<Page> {
-        EventReader reader(stores, visit);
-        if (!after) return Page{.position = reader.newest()};
-        if (!reader.can_go_on(*after, retention_)) {
-          return Page{.position = reader.newest(), .gap = true};
-        }
-        const RowNames names = row_names(tables_, origins_);
-        return Page{.position = reader.read(*after, source, limit, names)};
-      },
-      std::move(done));
+/// A page for all who ask for it until the transaction begins: who asks later may ask for what is
+/// committed later.
+struct EventService::PageWork {
+  EventService& service;
+  Place place;
+  Write write;
+  std::shared_ptr<Readers> readers;
+
+  void prepare() const {
+    const std::lock_guard lock(service.mutex_);
+    *readers = std::move(service.waiting_.extract(place).mapped());
+  }
+
+  Result<Page> operator()(const store::Stores& stores) const {
+    EventReader reader(stores, write);
+    if (!place.after) return Page{.position = reader.newest()};
+    if (!reader.can_go_on(*place.after, service.retention_)) {
+      return Page{.position = reader.newest(), .gap = true};
+    }
+    return reader.read(*place.after, place.source, row_names(service.tables_, service.origins_));
+  }
+};
+
+void EventService::read(const Place& place, Write write, PageDone done) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [waiting, is_first] = waiting_.try_emplace(place);
+    waiting->second.push_back(std::move(done));
+    if (!is_first) return;
+  }
+  PageWork work{*this, place, write, std::make_shared<Readers>()};
+  auto tell = [work](const Result<Page>& page) {
+    if (work.readers->empty()) work.prepare();  // refused before it began
+    for (const PageDone& reader : *work.readers) {
+      guarded("a reader of events", [&] { reader(page); });
+    }
+  };
+  database_.readers().submit(std::move(work), std::move(tell));
 }
 
 void EventService::read_stored(std::int64_t after, std::size_t limit,

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,14 +30,14 @@ struct EventPosition {
   bool reject_is_due = false;  ///< this measurement was told as recorded, not yet as rejected
   std::int64_t stored = 0;
 
-  friend bool operator==(const EventPosition&, const EventPosition&) = default;
+  friend auto operator<=>(const EventPosition&, const EventPosition&) = default;
 };
 
 /// The id of an event, opaque to the outside: a reader that stopped there goes on with the next.
 std::string event_id_text(const EventPosition& position);
 std::optional<EventPosition> parse_event_id(std::string_view text);
 
-/// One event, with a measurement or a payload; views, valid during the visitor's call.
+/// One event, with a measurement or a payload; views, valid during the call it is given to.
 struct Event {
   /// `measurement.recorded`, `verdict.reject`, `run.finished`, `table.changed`,
   /// `note.added`
@@ -57,19 +60,27 @@ class EventService {
         signal_(signal),
         retention_(retention) {}
 
-  /// Where the reader is now.
-  struct Page {
-    EventPosition position;
-    bool gap = false;  ///< what came next is gone; the position is the newest
-  };
-  using Visitor = std::function<void(const Event&)>;
-  using Done = std::function<void(Result<Page>)>;
+  /// What a reader reads from: those at the same place get the same page.
+  struct Place {
+    std::optional<EventPosition> after{};  ///< none: from now on, so that there is no event
+    std::optional<Source> source{};        ///< of the measurements; none: all
 
-  /// Visits the events of up to `limit` measurements and stored events each, on a reader thread.
-  /// @param after none: from now on, so that none is visited.
-  /// @param source of the measurements; none: all. @errors StorageUnavailable, StorageBusy.
-  void read(std::optional<EventPosition> after, std::optional<Source> source, std::size_t limit,
-            Visitor visit, Done done);
+    friend auto operator<=>(const Place&, const Place&) = default;
+  };
+  struct Page {
+    EventPosition position;  ///< where the reader is now
+    bool gap = false;        ///< what came next is gone; the position is the newest
+    bool more = false;       ///< than fits into a page
+    std::string text{};
+  };
+  /// Writes an event at the end of a page's text.
+  using Write = void (*)(std::string& text, const Event& event);
+  using PageDone = std::function<void(const Result<Page>&)>;
+
+  /// The events of up to 200 measurements and as many stored ones, written by a reader thread.
+  /// Whoever asks for a page that no thread has begun to read shares it.
+  /// @param write the same for all. @errors StorageUnavailable, StorageBusy.
+  void read(const Place& place, Write write, PageDone done);
 
   /// An event that is in no other table, on its own.
   struct Stored {
@@ -94,11 +105,16 @@ class EventService {
   std::size_t readers() const { return signal_.listeners(); }
 
  private:
+  using Readers = std::vector<PageDone>;
+  struct PageWork;
+
   store::Database& database_;
   const TableCatalog& tables_;
   const Origins& origins_;
   CommitSignal& signal_;
   std::int64_t retention_;
+  std::mutex mutex_;
+  std::map<Place, Readers> waiting_;  ///< for pages that no thread has begun to read
 };
 
 }  // namespace fitgauge::app
