@@ -23,7 +23,12 @@ ROUNDS = 20 if os.environ.get("FITGAUGE_DEEP") else 3
 
 
 def run(*command):
-    subprocess.run([str(word) for word in command], check=True, capture_output=True)
+    """@errors CalledProcessError with what the command wrote in its note."""
+    try:
+        subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True)
+    except subprocess.CalledProcessError as error:
+        error.add_note(error.stderr)
+        raise
 
 
 def attempt(*command):
@@ -39,7 +44,7 @@ class Disk:
         self.test = test
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-cut-"))
         test.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-        self.make_image("outer.img", "512M")
+        self.make_image("outer.img", "4G")
         try:
             run("mkfs.xfs", "-q", "-m", "reflink=1", self.folder / "outer.img")
             self.outer = self.mount(self.folder / "outer.img", "outer")
@@ -52,7 +57,7 @@ class Disk:
     def mount(self, image, name):
         point = self.folder / f"mount-{name}"
         point.mkdir()
-        run("mount", "-o", "loop", image, point)
+        run("mount", "-o", "loop,discard", image, point)
         self.test.addCleanup(attempt, "umount", "-l", point)
         return point
 
@@ -66,7 +71,7 @@ class PowerCut(unittest.TestCase):
         """Cuts the power ROUNDS times; gives the values that were lost and those that should be
         there."""
         image = disk.outer / f"{name}.img"
-        run("truncate", "-s", "64M", image)
+        run("truncate", "-s", "512M", image)
         run("mkfs.ext4", "-q", image)
         data = disk.mount(image, name)
         daemon = Daemon(data=data / "data", environment=environment)
@@ -75,7 +80,7 @@ class PowerCut(unittest.TestCase):
         snapshots = []
         with Writers(daemon) as writers:
             for number in range(ROUNDS):
-                time.sleep(1 + 0.3 * number)
+                time.sleep(1 + 0.05 * number)
                 acknowledged = dict(writers.acknowledged)
                 head = daemon.get("/v1/log/checkpoint").text
                 copy = disk.outer / f"{name}-{number}.img"
@@ -89,6 +94,8 @@ class PowerCut(unittest.TestCase):
         for copy, acknowledged, head in snapshots:
             self.assertTrue(acknowledged)
             lost += self.lost_after(disk, copy, acknowledged, head if environment is None else None)
+            copy.unlink()
+        image.unlink()
         return lost, sum(len(acknowledged) for _, acknowledged, _ in snapshots)
 
     def lost_after(self, disk, copy, acknowledged, head):
