@@ -14,8 +14,8 @@ using sql::Rows;
 
 struct LogStore::Statements {
   explicit Statements(sql::Connection& c)
-      : state(c, fmt::format("SELECT origin, name, size, {} FROM log WHERE id = 1",
-                             kLog.is_sound(c))),
+      : state(c,
+              fmt::format("SELECT origin, name, size, {} FROM log WHERE id = 1", kLog.is_sound(c))),
         set_name(c, "UPDATE log SET name = ?"),
         set_size(c, "UPDATE log SET size = ?1 WHERE size < ?1"),
         seal(c, kLog),

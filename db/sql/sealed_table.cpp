@@ -79,8 +79,7 @@ std::string SealedTable::is_sound(const sql::Connection& connection, std::string
 }
 
 std::string SealedTable::altered() const {
-  return fmt::format("SELECT {} FROM {} WHERE seal IS NOT row_digest({})", key, name,
-                     columns);
+  return fmt::format("SELECT {} FROM {} WHERE seal IS NOT row_digest({})", key, name, columns);
 }
 
 std::span<const SealedTable> sealed_tables() { return kTables; }

@@ -41,7 +41,8 @@ constexpr Kind kind_of_value() {
 /// Refuses what no enumerator has. @throws StorageFailure (StorageCorrupt)
 [[noreturn]] void refuse_code(std::int64_t stored);
 
-/// An enumeration is stored by its codes, from 1 to that of `last_of(Code)`, which stands beside it.
+/// An enumeration is stored by its codes, from 1 to that of `last_of(Code)`, which stands beside
+/// it.
 template <class Code>
 Code code_of(std::int64_t stored) {
   if (stored < 1 || stored > static_cast<std::int64_t>(last_of(Code{}))) refuse_code(stored);

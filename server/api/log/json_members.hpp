@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/json_value.hpp"
 #include "base/digest.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::api {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/json_value.hpp"
 #include "app/runs/run_report.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::api {
 

@@ -4,8 +4,8 @@
 #include <future>
 
 #include "api/statistics/uncertainty_resource.hpp"
-#include "base/json_value.hpp"
 #include "app/service/document_service.hpp"
+#include "base/json_value.hpp"
 
 namespace fitgauge::api {
 namespace {

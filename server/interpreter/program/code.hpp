@@ -54,7 +54,7 @@ enum class Op : std::uint8_t {
   JumpWhen,       ///< the condition node of index a (strings)
   // additions in one step with what follows, which stays as it is for who jumps there
   AddThenAdd,
-  AddThenJumpLess,  ///< the end of a counted loop
+  AddThenJumpLess,       ///< the end of a counted loop
   AddTwiceThenJumpLess,  ///< Add, then AddThenJumpLess
   // flow
   Count,      ///< nothing: accounts for blocks without effect before a label

@@ -1,6 +1,6 @@
-// Contacts of a ball on a bore in a block: in closed form, and by tracing the distance step by step,
-// as all contacts were found in the first release. Prints contacts per second of the processor and
-// their ratio, medians of interleaved rounds; exits with 1 below three times as many.
+// Contacts of a ball on a bore in a block: in closed form, and by tracing the distance step by
+// step, as all contacts were found in the first release. Prints contacts per second of the
+// processor and their ratio, medians of interleaved rounds; exits with 1 below three times as many.
 // Usage: bench_contact [rounds]
 
 #include <algorithm>

@@ -40,7 +40,8 @@ TEST_CASE("a number keeps its digits") {
 }
 
 TEST_CASE("what is not one JSON document is refused") {
-  for (const char* text : {"", "{", "{} {}", "[1,]", "\xFF"}) CHECK_FALSE(parse_document(text).has_value());
+  for (const char* text : {"", "{", "{} {}", "[1,]", "\xFF"})
+    CHECK_FALSE(parse_document(text).has_value());
 }
 
 TEST_CASE("a text is written so that it is read back") {
