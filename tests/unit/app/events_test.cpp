@@ -85,6 +85,7 @@ TEST_CASE("readers of events at the same place share a page") {
   written = 0;
   BusyReaders busy(service);
   std::vector<std::future<Page>> pages;
+  pages.reserve(50);
   for (int i = 0; i < 50; ++i) pages.push_back(read(service, kFromTheFirst));
   auto another = read(service, {.after = EventPosition{.measurement = 2}, .source = {}});
   busy.end();
