@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "sql/connection.hpp"
 #include "sql/measurement_query.hpp"
@@ -129,6 +130,7 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
       count_values_(c, "SELECT count(*) FROM measurement_values") {}
 
 bool MeasurementIndexer::step() {
+  if (!std::exchange(is_begun_, true)) pairs_.find_missing();
   if (const auto stale = first_of(stale_)) {
     renew(*stale);
     return true;

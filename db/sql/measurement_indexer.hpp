@@ -66,6 +66,7 @@ class MeasurementIndexer {
 
   sql::Connection& connection_;
   PairIndex pairs_;
+  bool is_begun_ = false;
   sql::Statement last_block_;
   sql::Statement block_;
   sql::Statement insert_node_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sql/pair_index.hpp"
 #include "store/pair_statistics.hpp"
 
 namespace fitgauge::store {
@@ -51,8 +52,8 @@ MeasurementSummary::MeasurementSummary(sql::Connection& c, TextField group_by)
                        "AND value = ? LIMIT ?) AS found"),
       corrected_(
           c, fmt::format("SELECT correction_of FROM measurements WHERE correction_of IS NOT NULL "
-                         "UNION SELECT m.id FROM measurements m WHERE m.correction_of IS NOT "
-                         "NULL AND NOT {} ORDER BY 1",
+                         "UNION SELECT m.id FROM measurements m WHERE m.id IN (SELECT id FROM "
+                         "measurements WHERE correction_of IS NOT NULL) AND NOT {} ORDER BY 1",
                          CurrentCondition(std::to_string(kLastId)).has_no_later_rival)) {}
 
 Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilter& filter,
@@ -92,24 +93,25 @@ Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilte
 /// by.
 void MeasurementSummary::look_at_filter() {
   const MeasurementFilter& filter = *filter_;
-  std::vector<Other> others;
+  others_.clear();
   if (filter.designation) {
-    others.push_back(
+    others_.push_back(
         {number_of(IndexField::Designation),
          designation_key(filter.designation->nominal_nm, filter.designation->tolerance_class)});
   }
   for (const TextColumn& column : kTextColumns) {
     const auto& text = filter.text(column.field);
-    if (text && column.field != group_by_) others.push_back({number_of(column.field), *text});
+    if (text && column.field != group_by_) others_.push_back({number_of(column.field), *text});
   }
-  other_ = others.empty() ? std::nullopt : std::optional(others.front());
   is_additive_ = !filter.run_id && !filter.as_of_id && !filter.cause && !filter.has_notes &&
-                 others.size() < 2 && !(other_ && is_rare(*other_));
+                 std::none_of(others_.begin(), others_.end(),
+                              [&](const auto& other) { return is_rare(other); });
 }
 
 /// Whether the blocks with a value are so few that they are found sooner than nodes.
-bool MeasurementSummary::is_rare(const Other& other) {
-  return blocks_of_value_.returning<std::int64_t>(other.field, other.value, kFanOut + 1) <= kFanOut;
+bool MeasurementSummary::is_rare(const FieldValue& wanted) {
+  return blocks_of_value_.returning<std::int64_t>(wanted.field, wanted.value, kFanOut + 1) <=
+         kFanOut;
 }
 
 /// Goes over what is indexed by the largest nodes there are, then reads the newer rows.
@@ -133,12 +135,13 @@ void MeasurementSummary::add_node(const IndexNode& node) {
   bool usable = false;
   const Relation where = relation(node, usable);
   if (where == Relation::Outside) return;
-  if (where == Relation::Inside && usable && (other_ ? add_pairs(node) : add_aggregates(node))) {
+  if (where == Relation::Inside && usable &&
+      (others_.empty() ? add_aggregates(node) : add_pairs(node) || add_tuples(node))) {
     aggregated_.push_back(node.ids());
     return;
   }
   // Blocks have no pairs; a query finds those of a value without looking at the others.
-  if (node.level <= (other_ ? 1 : 0)) return add_later(node.ids());
+  if (node.level <= (others_.empty() ? 0 : 1)) return add_later(node.ids());
   for (std::int64_t i = 0; i < kFanOut && fits_; ++i) add_node(node.child(i));
 }
 
@@ -146,7 +149,7 @@ void MeasurementSummary::add_node(const IndexNode& node) {
 MeasurementSummary::Relation MeasurementSummary::relation(const IndexNode& node, bool& usable) {
   Rows rows = node_.query(node.level, node.node);
   if (!rows.next()) return Relation::Partly;
-  usable = other_ ? rows.get<bool>(5) : !rows.get<bool>(4);
+  usable = others_.empty() ? !rows.get<bool>(4) : rows.get<bool>(5);
   const auto measured = relation_of<Relation>(rows.get<std::int64_t>(0), rows.get<std::int64_t>(1),
                                               filter_->from_ns, filter_->to_ns);
   const auto received = relation_of<Relation>(rows.get<std::int64_t>(2), rows.get<std::int64_t>(3),
@@ -183,13 +186,14 @@ bool MeasurementSummary::add_aggregates(const IndexNode& node) {
 
 /// @returns whether the node has the two fields' statistics.
 bool MeasurementSummary::add_pairs(const IndexNode& node) {
-  if (node.level == 0) return false;
-  Rows rows = pairs_.query(node.level, other_->field, number_of(group_by_), node.node);
+  if (node.level == 0 || others_.size() > 1) return false;
+  const auto& other = others_.front();
+  Rows rows = pairs_.query(node.level, other.field, number_of(group_by_), node.node);
   if (!rows.next()) return false;
   const auto& wanted = filter_->text(group_by_);
   visit_values(rows.get<Blob>(0).bytes, [&](std::string_view value, std::string_view pairs) {
-    if (value < other_->value) return true;
-    if (value != other_->value) return false;
+    if (value < other.value) return true;
+    if (value != other.value) return false;
     visit_pairs_of(pairs, [&](std::optional<std::string_view> group, int kind,
                               const ExactStatistics& statistics) {
       if (!is_asked(kind) || (wanted && group != *wanted) || !fits_) return;
@@ -198,6 +202,60 @@ bool MeasurementSummary::add_pairs(const IndexNode& node) {
     return false;
   });
   return true;
+}
+
+/// @returns whether the node has tuples by all fields that are asked for. Their sums, which are the
+/// most, are looked at only where there are such values.
+bool MeasurementSummary::add_tuples(const IndexNode& node) {
+  if (node.level == 0) return false;
+  std::string group_bytes, bytes;
+  const auto groups = read_column(node, number_of(group_by_), group_bytes);
+  if (!groups) return false;
+  matching_tuples_.assign(groups->numbers.size(), 1);
+  bool found = true;
+  for (const auto& [field, value] : others_) {
+    const auto column = read_column(node, field, bytes);
+    if (!column || column->numbers.size() != matching_tuples_.size()) return false;
+    found = found && column->keep(value, matching_tuples_);
+  }
+  if (const auto& value = filter_->text(group_by_)) {
+    found = found && groups->keep(*value, matching_tuples_);
+  }
+  if (!found) return true;
+  Rows rows =
+      pairs_.query(node.level, PairIndex::kTuples.first, PairIndex::kTuples.second, node.node);
+  TupleSums sums;
+  if (!rows.next() || !sums.read(rows.get<Blob>(0).bytes) ||
+      sums.size() != matching_tuples_.size()) {
+    return false;
+  }
+  add_sums(sums, *groups);
+  return true;
+}
+
+/// @param bytes what the column is a view of
+std::optional<TupleColumn> MeasurementSummary::read_column(const IndexNode& node, int field,
+                                                           std::string& bytes) {
+  Rows rows = pairs_.query(node.level, field, PairIndex::kTuples.second, node.node);
+  if (!rows.next()) return std::nullopt;
+  bytes = rows.get<Blob>(0).bytes;
+  TupleColumn column;
+  return column.read(bytes) ? std::optional(std::move(column)) : std::nullopt;
+}
+
+void MeasurementSummary::add_sums(const TupleSums& sums, const TupleColumn& groups) {
+  std::array<bool, kKinds> asked{};
+  for (int kind = 0; kind < kKinds; ++kind) asked[static_cast<std::size_t>(kind)] = is_asked(kind);
+  tuple_sums_.assign(groups.values.size() * kKinds, {});
+  sums.visit([&](std::size_t tuple, int kind, const auto& read) {
+    if (matching_tuples_[tuple] == 0 || !asked[static_cast<std::size_t>(kind)]) return;
+    const auto group = static_cast<unsigned char>(groups.numbers[tuple]);
+    tuple_sums_[std::size_t{group} * kKinds + static_cast<std::size_t>(kind)].add(read());
+  });
+  for (std::size_t i = 0; i < tuple_sums_.size() && fits_; ++i) {
+    if (tuple_sums_[i].count() == 0) continue;
+    add(groups.values[i / kKinds], verdict_of(static_cast<int>(i % kKinds)), tuple_sums_[i]);
+  }
 }
 
 /// Reads what was left before, where these ids do not follow it.

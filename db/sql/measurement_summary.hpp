@@ -17,12 +17,13 @@
 #include "store/measurement_index.hpp"
 #include "store/measurement_statistics.hpp"
 #include "store/measurement_summary.hpp"
+#include "store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 
 /// Sums measurements up by the values of one field. Where the filter allows, whole nodes of the
 /// index are added by what they add up: filters by verdict, source and times, by the field itself,
-/// and by one other field or the designation. Else, and in what is left at the ends, blocks are
+/// and by other fields and the designation. Else, and in what is left at the ends, blocks are
 /// added by their columns, and only the newest rows and those of few blocks are read one by one.
 class MeasurementSummary {
  public:
@@ -36,21 +37,22 @@ class MeasurementSummary {
     ExactStatistics statistics;
     std::array<std::int64_t, 4> verdicts{};  ///< by Verdict, Good first
   };
-  enum class Relation { Outside, Inside, Partly };
-
-  /// A filter by another field than the one that is grouped by.
-  struct Other {
+  struct FieldValue {
     int field = 0;
     std::string value;
   };
+  enum class Relation { Outside, Inside, Partly };
 
   void look_at_filter();
-  bool is_rare(const Other& other);
+  bool is_rare(const FieldValue& wanted);
   void add_nodes();
   void add_node(const IndexNode& node);
   Relation relation(const IndexNode& node, bool& usable);
   bool add_aggregates(const IndexNode& node);
   bool add_pairs(const IndexNode& node);
+  bool add_tuples(const IndexNode& node);
+  std::optional<TupleColumn> read_column(const IndexNode& node, int field, std::string& bytes);
+  void add_sums(const TupleSums& sums, const TupleColumn& groups);
   void add_later(const IdSpan& ids);
   void add_rows(const IdSpan& ids);
   MeasurementQuery::BlockRead add_block(std::int64_t block, const RowSet& rows, const IdSpan& ids);
@@ -74,11 +76,13 @@ class MeasurementSummary {
   const MeasurementFilter* filter_ = nullptr;
   std::size_t max_groups_ = 0;
   bool fits_ = true;
-  bool is_additive_ = true;  ///< nodes answer the filter
-  std::optional<Other> other_;
-  IdSpan left_;  ///< rows to be read, as long as they go on
+  bool is_additive_ = true;         ///< nodes answer the filter
+  std::vector<FieldValue> others_;  ///< by other fields than the one grouped by
+  IdSpan left_;                     ///< rows to be read, as long as they go on
   std::map<std::optional<std::string>, Group, std::less<>> groups_;
   std::vector<IdSpan> aggregated_;  ///< what was added by nodes, which leave corrected rows out
+  std::vector<std::uint8_t> matching_tuples_;
+  std::vector<ExactStatistics> tuple_sums_;
   BlockColumns block_;
   BlockColumns::Column groups_of_block_;
   std::vector<ExactStatistics> block_statistics_;

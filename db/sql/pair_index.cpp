@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "store/block_columns.hpp"
 #include "store/pair_counter.hpp"
 #include "store/pair_statistics.hpp"
+#include "store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 namespace {
@@ -21,6 +23,13 @@ std::size_t most_statistics(const IndexNode& node) {
   return kMostStatistics.at(static_cast<std::size_t>(node.level));
 }
 
+/// More tuples than these are not kept.
+constexpr std::array<std::size_t, kLevels> kMostTuples = {0, 4'096, 32'768, 65'536};
+
+std::size_t most_tuples(const IndexNode& node) {
+  return kMostTuples.at(static_cast<std::size_t>(node.level));
+}
+
 /// Calls `visit` with the fields of each pair that can be kept: whatever is grouped by is a text.
 template <class Visit>
 void for_each_pair(const Visit& visit) {
@@ -28,6 +37,16 @@ void for_each_pair(const Visit& visit) {
     for (std::size_t column = 0; column < kBlockColumns; ++column) {
       if (const int field = field_of_column(column); field != by) visit(field, by);
     }
+  }
+}
+
+/// And with those of tuples.
+template <class Visit>
+void for_each_entry(const Visit& visit) {
+  for_each_pair(visit);
+  visit(PairIndex::kTuples.first, PairIndex::kTuples.second);
+  for (std::size_t column = 0; column < kBlockColumns; ++column) {
+    visit(field_of_column(column), PairIndex::kTuples.second);
   }
 }
 
@@ -47,6 +66,11 @@ PairIndex::PairIndex(sql::Connection& c)
       delete_pair_(c,
                    "DELETE FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
                    "AND node = ?"),
+      find_missing_(c,
+                    "UPDATE measurement_nodes SET paired = 0 WHERE level > 0 AND paired = 1 AND "
+                    "NOT EXISTS (SELECT 1 FROM measurement_pairs p WHERE p.level = "
+                    "measurement_nodes.level AND p.field = 0 AND p.by_field = 0 AND p.node = "
+                    "measurement_nodes.node)"),
       count_surplus_columns_(c,
                              "SELECT count(*) FROM measurement_columns c WHERE NOT EXISTS (SELECT "
                              "1 FROM measurement_nodes n WHERE n.level = 0 AND n.node = c.block)"),
@@ -62,6 +86,7 @@ PairIndex::Node PairIndex::derive(const IndexNode& node) {
 }
 
 void PairIndex::derive_from_columns(const IndexNode& node, Node& index) {
+  index.pairs[kTuples];  // empty where a block has no columns
   PairCounter counter;
   for (std::int64_t i = 0; i < kFanOut; ++i) {
     BlockColumns block;
@@ -74,6 +99,7 @@ void PairIndex::derive_from_columns(const IndexNode& node, Node& index) {
     if (by_column >= kTextColumns.size()) return;
     index.pairs[{field_of_column(column), field_of_column(by_column)}] = encode(pairs);
   });
+  take(counter.tuples(most_tuples(node)), index);
 }
 
 /// Joins the nodes below in their order: sums count from the first value.
@@ -98,6 +124,53 @@ void PairIndex::derive_from_pairs(const IndexNode& node, Node& index) {
     if (children < kFanOut || count_of(joined) > most_statistics(node)) return;
     index.pairs[{field, by}] = encode(joined);
   });
+  join_tuples(node, index);
+}
+
+/// Numbers what the nodes below are by first, then adds them up: their statistics are not all kept.
+void PairIndex::join_tuples(const IndexNode& node, Node& index) {
+  index.pairs[kTuples];
+  std::array<NumberedColumn, kBlockColumns> columns;
+  std::vector<std::uint8_t> kinds;
+  TupleSums sums;
+  const auto for_each_sums = [&](const auto& visit) {
+    for (std::int64_t i = 0; i < kFanOut; ++i) {
+      const IndexNode child = node.child(i);
+      Rows rows = pair_.query(child.level, kTuples.first, kTuples.second, child.node);
+      if (!rows.next() || !sums.read(rows.get<Blob>(0).bytes)) return false;
+      sums.visit(visit);
+    }
+    return true;
+  };
+  if (!for_each_sums([&](std::size_t, int kind, const auto&) {
+        kinds.push_back(static_cast<std::uint8_t>(kind));
+      })) {
+    return;
+  }
+  for (std::size_t column = 0; column < kBlockColumns; ++column) {
+    NumberedColumn& all = columns[column];
+    for (std::int64_t i = 0; i < kFanOut && all.fits(); ++i) add_column(node.child(i), column, all);
+    if (all.rows().size() != kinds.size()) all.give_up();
+  }
+  TupleWriter writer(columns, kinds, most_tuples(node));
+  std::size_t row = 0;
+  for_each_sums([&](std::size_t, int, const auto& read) { writer.add(row++, read()); });
+  take(writer, index);
+}
+
+void PairIndex::add_column(const IndexNode& node, std::size_t column, NumberedColumn& all) {
+  TupleColumn found;
+  Rows rows = pair_.query(node.level, field_of_column(column), kTuples.second, node.node);
+  if (!rows.next() || !found.read(rows.get<Blob>(0).bytes)) return all.give_up();
+  const std::vector<std::uint16_t> numbers = all.numbers_of(found.values);
+  for (const char number : found.numbers) all.add(numbers[static_cast<unsigned char>(number)]);
+}
+
+void PairIndex::take(const TupleWriter& tuples, Node& index) {
+  tuples.visit_columns([&](int field, std::string bytes) {
+    index.pairs[{field, kTuples.second}] = std::move(bytes);
+  });
+  index.pairs[kTuples] = tuples.encode_sums();
 }
 
 void PairIndex::insert(const IndexNode& node, const Node& index) {
@@ -109,8 +182,10 @@ void PairIndex::insert(const IndexNode& node, const Node& index) {
 
 void PairIndex::erase(const IndexNode& node) {
   if (node.level == 0) return delete_columns_.run(node.node);
-  for_each_pair([&](int field, int by) { delete_pair_.run(node.level, field, by, node.node); });
+  for_each_entry([&](int field, int by) { delete_pair_.run(node.level, field, by, node.node); });
 }
+
+void PairIndex::find_missing() { find_missing_.run(); }
 
 bool PairIndex::is_stored(const IndexNode& node, const Node& index) {
   const auto is_same = [](Rows rows, const std::string* expected) {
@@ -120,9 +195,12 @@ bool PairIndex::is_stored(const IndexNode& node, const Node& index) {
   if (node.level == 0) {
     return is_same(columns_.query(node.node), index.columns ? &*index.columns : nullptr);
   }
+  // Of an earlier release there are no tuples until the next start that writes.
+  const bool has_tuples = pair_.query(node.level, kTuples.first, kTuples.second, node.node).next();
   bool all = true;
-  for_each_pair([&](int field, int by) {
+  for_each_entry([&](int field, int by) {
     const auto expected = index.pairs.find({field, by});
+    if (by == kTuples.second && !has_tuples) return;
     all = all && is_same(pair_.query(node.level, field, by, node.node),
                          expected == index.pairs.end() ? nullptr : &expected->second);
   });

@@ -8,12 +8,15 @@
 
 #include "sql/statement.hpp"
 #include "store/measurement_index.hpp"
+#include "store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 
 /// The part of the index that tells how values of two fields meet: the columns of a block
 /// (store::BlockColumns), and above blocks the statistics of the values of one field by those of
-/// another (store::PairStatistics), where they are few enough.
+/// another (store::PairStatistics), where they are few enough, and by those of many together
+/// (store::TupleSums). Of these each field's column stands where its pair with no field would, and
+/// the sums where a pair of none would.
 class PairIndex {
  public:
   /// What there is of a node.
@@ -23,12 +26,17 @@ class PairIndex {
     std::map<std::pair<int, int>, std::string> pairs{};  ///< of others, by the two fields
   };
 
+  static constexpr std::pair<int, int> kTuples{0, 0};  ///< their sums
+
   explicit PairIndex(sql::Connection& connection);
 
   /// From what is stored of the nodes below. @pre node.level > 0
   Node derive(const IndexNode& node);
   void insert(const IndexNode& node, const Node& index);
   void erase(const IndexNode& node);
+
+  /// Has nodes that have no tuples made anew: an earlier release leaves them so.
+  void find_missing();
 
   bool is_stored(const IndexNode& node, const Node& index);
   /// How much is stored of nodes that are not there.
@@ -37,6 +45,9 @@ class PairIndex {
  private:
   void derive_from_columns(const IndexNode& node, Node& index);
   void derive_from_pairs(const IndexNode& node, Node& index);
+  void join_tuples(const IndexNode& node, Node& index);
+  void add_column(const IndexNode& node, std::size_t column, NumberedColumn& all);
+  static void take(const TupleWriter& tuples, Node& index);
 
   sql::Statement columns_;
   sql::Statement insert_columns_;
@@ -45,6 +56,7 @@ class PairIndex {
   sql::Statement pair_;
   sql::Statement insert_pair_;
   sql::Statement delete_pair_;
+  sql::Statement find_missing_;
   sql::Statement count_surplus_columns_;
   sql::Statement count_surplus_pairs_;
 };

@@ -75,6 +75,7 @@ class PackedNumbers {
     at_ += size;
     return bytes;
   }
+  std::string_view rest() { return bytes(static_cast<std::uint64_t>(end_ - at_)); }
   std::optional<std::string_view> text() {
     const std::uint64_t size = number();
     return size == 0 ? std::nullopt : std::optional(bytes(size - 1));

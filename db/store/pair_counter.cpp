@@ -14,47 +14,37 @@ void PairCounter::add(const BlockColumns& block) {
 }
 
 void PairCounter::add(const BlockColumns& block, std::size_t column) {
-  Column& all = columns_[column];
+  NumberedColumn& all = columns_[column];
   BlockColumns::Column found;
-  all.fits = all.fits && block.read(column, found);
-  if (!all.fits) return;
-  std::vector<std::uint16_t> numbers;
-  numbers.reserve(found.values.size());
-  for (const auto& value : found.values) {
-    const auto next = static_cast<std::uint16_t>(all.numbers.size());
-    const auto [known, is_new] =
-        all.numbers.try_emplace(value ? std::optional<std::string>(*value) : std::nullopt, next);
-    if (is_new) all.values.push_back(&known->first);
-    numbers.push_back(known->second);
-  }
-  all.fits = all.values.size() <= kMostColumnValues;
+  if (!all.fits()) return;
+  if (!block.read(column, found)) return all.give_up();
+  const std::vector<std::uint16_t> numbers = all.numbers_of(found.values);
   for (std::size_t row = 0; row < kBlockRows; ++row) {
-    if (!block.is_current(block.kind_of_row(row))) continue;
-    all.rows.push_back(numbers[found.rows[row]]);
+    if (block.is_current(block.kind_of_row(row))) all.add(numbers[found.rows[row]]);
   }
 }
 
 void PairCounter::visit_pairs(std::size_t most, const Visitor& visit) const {
   for (std::size_t a = 0; a < kBlockColumns; ++a) {
     for (std::size_t b = a + 1; b < kBlockColumns; ++b) {
-      if (columns_[a].fits && columns_[b].fits) visit_pair(a, b, most, visit);
+      if (columns_[a].fits() && columns_[b].fits()) visit_pair(a, b, most, visit);
     }
   }
 }
 
 void PairCounter::visit_pair(std::size_t a, std::size_t b, std::size_t most,
                              const Visitor& visit) const {
-  const Column& of = columns_[a];
-  const Column& by = columns_[b];
+  const NumberedColumn& of = columns_[a];
+  const NumberedColumn& by = columns_[b];
   struct Slot {
     std::size_t place = 0;
     ExactStatistics statistics{};
   };
   std::vector<Slot> slots;
-  std::vector<std::uint32_t> slot_at(of.values.size() * by.values.size() * kKinds);  // and one
+  std::vector<std::uint32_t> slot_at(of.values().size() * by.values().size() * kKinds);  // and one
   for (std::size_t row = 0; row < measured_nm_.size(); ++row) {
     const std::size_t place =
-        (of.rows[row] * by.values.size() + by.rows[row]) * kKinds + kinds_[row];
+        (of.rows()[row] * by.values().size() + by.rows()[row]) * kKinds + kinds_[row];
     std::uint32_t& slot = slot_at[place];
     if (slot == 0) {
       if (slots.size() == most) return;
@@ -66,13 +56,19 @@ void PairCounter::visit_pair(std::size_t a, std::size_t b, std::size_t most,
   PairStatistics pairs, back;
   for (const auto& [place, statistics] : slots) {
     const auto kind = static_cast<int>(place % kKinds);
-    const auto& value = *of.values[place / kKinds / by.values.size()];
-    const auto& by_value = *by.values[place / kKinds % by.values.size()];
+    const auto& value = *of.values()[place / kKinds / by.values().size()];
+    const auto& by_value = *by.values()[place / kKinds % by.values().size()];
     if (value) pairs[*value][by_value][kind] = statistics;
     if (by_value) back[*by_value][value][kind] = statistics;
   }
   visit(a, b, std::move(pairs));
   visit(b, a, std::move(back));
+}
+
+TupleWriter PairCounter::tuples(std::size_t most) const {
+  TupleWriter tuples(columns_, kinds_, most);
+  for (std::size_t row = 0; row < measured_nm_.size(); ++row) tuples.add(row, measured_nm_[row]);
+  return tuples;
 }
 
 }  // namespace fitgauge::store

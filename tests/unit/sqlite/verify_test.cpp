@@ -206,6 +206,8 @@ TEST_CASE("columns and pairs of fields are derived again") {
   CHECK(count() == 1);
   fixture.tamper("UPDATE measurement_pairs SET node = 7 WHERE field = 4 AND by_field = 2");
   CHECK(count() == 2);  // and the node that is not there
+  fixture.tamper("UPDATE measurement_pairs SET bytes = x'00' WHERE field = 4 AND by_field = 0");
+  CHECK(count() == 2);
   fixture.tamper("INSERT INTO measurement_columns VALUES (40, x'00')");
   CHECK(count() == 2);
   fixture.tamper("DELETE FROM measurement_columns WHERE block = 3");

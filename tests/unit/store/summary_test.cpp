@@ -24,7 +24,8 @@ constexpr std::size_t kSize = 36'000;
 constexpr std::size_t kDesignation = kTextColumns.size();
 constexpr std::size_t kNoFilter = kDesignation + 1;
 constexpr std::size_t kTwoFilters = kNoFilter + 1;
-constexpr std::size_t kFilters = kTwoFilters + 1;
+constexpr std::size_t kThreeFilters = kTwoFilters + 1;
+constexpr std::size_t kFilters = kThreeFilters + 1;
 
 std::string line(std::optional<std::string_view> value, std::int64_t count,
                  const std::array<std::int64_t, 4>& verdicts, const std::string& mean,
@@ -155,7 +156,7 @@ struct Shop : Fixture {
     });
   }
 
-  /// @param number of the filter: a field, the designation, none, or two fields
+  /// @param number of the filter: a field, the designation, none, or two or three fields
   MeasurementFilter filter(std::size_t number, TextField group_by) {
     MeasurementFilter filter;
     const auto any = [&](TextField field) {
@@ -168,7 +169,9 @@ struct Shop : Fixture {
       filter.designation = {.nominal_nm = 25'000'000 + static_cast<std::int64_t>(random() % 2),
                             .tolerance_class = random() % 2 == 0 ? "H7" : "H8"};
     }
-    if (number == kTwoFilters) any(any_field(random)), any(any_field(random));
+    for (std::size_t i = 0; number >= kTwoFilters && i < number - kTwoFilters + 2; ++i) {
+      any(any_field(random));
+    }
     if (random() % 5 == 0) any(group_by);
     if (random() % 3 == 0) filter.verdict = random() % 2 == 0 ? Verdict::Reject : Verdict::Rework;
     if (random() % 3 == 0) filter.source.reset();
@@ -233,6 +236,8 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   REQUIRE(shop.count("measurement_columns") == 35);
   REQUIRE(shop.count("measurement_pairs WHERE field = 4 AND by_field = 3") == 1);
   REQUIRE(shop.count("measurement_pairs WHERE field = 1 OR by_field = 1") == 0);
+  REQUIRE(shop.count("measurement_pairs WHERE field = 0 AND by_field = 0") == 1);
+  REQUIRE(shop.count("measurement_pairs WHERE by_field = 0") > 4);
   shop.check("indexed", 1);
 
   shop.correct(20);
@@ -255,5 +260,16 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   REQUIRE(shop.count("measurement_columns") == 35);
   REQUIRE(shop.count("measurement_pairs WHERE field = 4 AND by_field = 3") == 1);
   shop.check("with all of them again");
+  CHECK(shop.database->verify()->findings.empty());
+
+  // As one does that has pairs and no tuples: the next start makes them.
+  shop.execute("DELETE FROM measurement_pairs WHERE by_field = 0");
+  CHECK(shop.database->verify()->findings.empty());
+  shop.check("without tuples");
+  shop.database.reset();
+  shop.open();
+  shop.index(1'000'000);
+  REQUIRE(shop.count("measurement_pairs WHERE field = 0 AND by_field = 0") == 1);
+  shop.check("with tuples again");
   CHECK(shop.database->verify()->findings.empty());
 }

@@ -1,0 +1,129 @@
+#include "store/tuple_statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/unordered/unordered_flat_map.hpp>
+#include <numeric>
+#include <utility>
+
+namespace fitgauge::store {
+
+// Of a field there are how many values it has, the values, and of each tuple the number of its
+// value, a byte. Of the tuples alone how many there are, of each its kind, a byte, and the size of
+// its statistics, a byte, and behind these the statistics.
+
+std::vector<std::uint16_t> NumberedColumn::numbers_of(
+    std::span<const std::optional<std::string_view>> values) {
+  std::vector<std::uint16_t> numbers;
+  numbers.reserve(values.size());
+  for (const auto& value : values) {
+    const auto next = static_cast<std::uint16_t>(numbers_.size());
+    const auto [known, is_new] =
+        numbers_.try_emplace(value ? std::optional<std::string>(*value) : std::nullopt, next);
+    if (is_new) values_.push_back(&known->first);
+    numbers.push_back(known->second);
+  }
+  fits_ = fits_ && values_.size() <= kMostColumnValues;
+  return numbers;
+}
+
+TupleWriter::TupleWriter(std::span<const NumberedColumn> columns,
+                         std::span<const std::uint8_t> kinds, std::size_t most)
+    : columns_(columns), kinds_(kinds), tuple_of_row_(kinds.size()) {
+  std::array<std::uint32_t, kKinds> tuple_of_kind{};  // and one
+  for (std::size_t row = 0; row < kinds.size(); ++row) {
+    std::uint32_t& tuple = tuple_of_kind.at(kinds[row]);
+    if (tuple == 0) {
+      row_of_tuple_.push_back(row);
+      tuple = static_cast<std::uint32_t>(row_of_tuple_.size());
+    }
+    tuple_of_row_[row] = tuple - 1;
+  }
+  std::vector<std::size_t> order(columns.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return columns[a].values().size() < columns[b].values().size();
+  });
+  for (const std::size_t column : order) {
+    if (columns[column].fits() && split_by(columns[column], most)) taken_.push_back(column);
+  }
+  std::sort(taken_.begin(), taken_.end());
+  statistics_.resize(row_of_tuple_.size());
+}
+
+/// @returns false, and leaves them as they are, where more than `most` tuples come of it.
+bool TupleWriter::split_by(const NumberedColumn& column, std::size_t most) {
+  if (column.values().size() == 1) return true;
+  boost::unordered_flat_map<std::uint64_t, std::uint32_t> parts;
+  std::vector<std::uint32_t> tuple_of_row(tuple_of_row_.size());
+  std::vector<std::size_t> row_of_tuple;
+  for (std::size_t row = 0; row < tuple_of_row.size(); ++row) {
+    const std::uint64_t part =
+        std::uint64_t{tuple_of_row_[row]} * kMostColumnValues + column.rows()[row];
+    const auto [found, is_new] =
+        parts.try_emplace(part, static_cast<std::uint32_t>(row_of_tuple.size()));
+    if (is_new) {
+      if (row_of_tuple.size() == most) return false;
+      row_of_tuple.push_back(row);
+    }
+    tuple_of_row[row] = found->second;
+  }
+  tuple_of_row_ = std::move(tuple_of_row);
+  row_of_tuple_ = std::move(row_of_tuple);
+  return true;
+}
+
+std::string TupleWriter::encode(const NumberedColumn& column) const {
+  std::string bytes;
+  append_number(bytes, column.values().size());
+  for (const auto* value : column.values()) append_text(bytes, *value);
+  for (const std::size_t row : row_of_tuple_) bytes += static_cast<char>(column.rows()[row]);
+  return bytes;
+}
+
+std::string TupleWriter::encode_sums() const {
+  std::string bytes;
+  append_number(bytes, row_of_tuple_.size());
+  for (const std::size_t row : row_of_tuple_) bytes += static_cast<char>(kinds_[row]);
+  std::string statistics;
+  for (const ExactStatistics& of : statistics_) {
+    const std::size_t before = statistics.size();
+    of.pack(statistics);
+    bytes += static_cast<char>(statistics.size() - before);
+  }
+  return bytes + statistics;
+}
+
+bool TupleColumn::read(std::string_view bytes) {
+  PackedNumbers in(bytes);
+  const std::uint64_t count = in.number();
+  values.clear();
+  for (std::uint64_t i = 0; i < count && in.is_sound(); ++i) values.push_back(in.text());
+  numbers = in.rest();
+  return in.is_sound() && std::all_of(numbers.begin(), numbers.end(), [&](char number) {
+           return static_cast<unsigned char>(number) < count;
+         });
+}
+
+bool TupleColumn::keep(std::string_view value, std::span<std::uint8_t> tuples) const {
+  const auto found = std::find(values.begin(), values.end(), value);
+  if (found == values.end()) return false;
+  const auto wanted = static_cast<char>(found - values.begin());
+  for (std::size_t i = 0; i < tuples.size(); ++i) {
+    tuples[i] = static_cast<std::uint8_t>(tuples[i] & (numbers[i] == wanted ? 1U : 0U));
+  }
+  return true;
+}
+
+bool TupleSums::read(std::string_view bytes) {
+  PackedNumbers in(bytes);
+  const std::uint64_t size = in.number();
+  kinds_ = in.bytes(size);
+  sizes_ = in.bytes(size);
+  const auto is_kind = [](char kind) { return static_cast<unsigned char>(kind) < kKinds; };
+  const auto add = [](std::size_t sum, char n) { return sum + static_cast<unsigned char>(n); };
+  statistics_ = in.bytes(std::accumulate(sizes_.begin(), sizes_.end(), std::size_t{0}, add));
+  return in.is_at_end() && size > 0 && std::all_of(kinds_.begin(), kinds_.end(), is_kind);
+}
+
+}  // namespace fitgauge::store

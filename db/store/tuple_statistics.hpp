@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "store/block_columns.hpp"
+#include "store/measurement_statistics.hpp"
+#include "store/packed_numbers.hpp"
+
+namespace fitgauge::store {
+
+// Statistics of the current rows of a node by the values of several fields at once: one for each
+// combination that occurs, a tuple. A shop has few of them, as a characteristic is measured at one
+// operation by one gauge, so that a filter by any of the fields, grouped by any other, looks at
+// hundreds of tuples instead of ten thousands of rows.
+
+/// The values of a field in all rows so far, each by a number, if they are no more than
+/// kMostColumnValues.
+class NumberedColumn {
+ public:
+  bool fits() const { return fits_; }
+  void give_up() { fits_ = false; }
+  /// @returns the numbers that these values have here
+  std::vector<std::uint16_t> numbers_of(std::span<const std::optional<std::string_view>> values);
+  void add(std::uint16_t number) { rows_.push_back(number); }
+
+  const std::vector<const std::optional<std::string>*>& values() const { return values_; }
+  /// Of each row the number of its value. @pre fits()
+  const std::vector<std::uint16_t>& rows() const { return rows_; }
+
+ private:
+  bool fits_ = true;
+  std::map<std::optional<std::string>, std::uint16_t> numbers_;
+  std::vector<const std::optional<std::string>*> values_;
+  std::vector<std::uint16_t> rows_;
+};
+
+/// Finds the tuples of rows, and adds up the statistics of each.
+class TupleWriter {
+ public:
+  /// Takes fields that fit in, those with the fewest values first, as long as no more than `most`
+  /// tuples come of them. @param columns by column_of_field() @param kinds 8 * source + verdict of
+  /// each row, which all columns that fit have
+  TupleWriter(std::span<const NumberedColumn> columns, std::span<const std::uint8_t> kinds,
+              std::size_t most);
+
+  /// In their order: sums count from the first value.
+  template <class Lengths>
+  void add(std::size_t row, const Lengths& lengths) {
+    statistics_[tuple_of_row_[row]].add(lengths);
+  }
+
+  /// Calls `visit(field, bytes)` for what a TupleColumn reads of each field that was taken.
+  template <class Visit>
+  void visit_columns(const Visit& visit) const {
+    for (const std::size_t column : taken_)
+      visit(field_of_column(column), encode(columns_[column]));
+  }
+  /// As TupleSums reads them.
+  std::string encode_sums() const;
+
+ private:
+  bool split_by(const NumberedColumn& column, std::size_t most);
+  std::string encode(const NumberedColumn& column) const;
+
+  std::span<const NumberedColumn> columns_;
+  std::span<const std::uint8_t> kinds_;
+  std::vector<std::size_t> taken_;  ///< columns
+  std::vector<std::uint32_t> tuple_of_row_;
+  std::vector<std::size_t> row_of_tuple_;  ///< the first
+  std::vector<ExactStatistics> statistics_;
+};
+
+/// The values of a field, and of each tuple the number of its value, a byte.
+struct TupleColumn {
+  std::vector<std::optional<std::string_view>> values{};
+  std::string_view numbers{};
+
+  /// Of bytes that live as long as it is used. @returns false where they are no column.
+  bool read(std::string_view bytes);
+
+  /// Takes the tuples with other values than this one out of `tuples`, which has a byte for each.
+  /// @returns whether any has it.
+  bool keep(std::string_view value, std::span<std::uint8_t> tuples) const;
+};
+
+/// The statistics of tuples. What it says are views of the bytes it has read.
+class TupleSums {
+ public:
+  /// @returns false where the bytes are none.
+  bool read(std::string_view bytes);
+
+  std::size_t size() const { return kinds_.size(); }
+
+  /// Calls `visit(tuple, kind, read)` for each tuple in order; read() gives its statistics.
+  template <class Visit>
+  void visit(const Visit& visit) const {
+    std::size_t at = 0;
+    for (std::size_t tuple = 0; tuple < kinds_.size(); ++tuple) {
+      const auto size = static_cast<unsigned char>(sizes_[tuple]);
+      visit(tuple, static_cast<int>(kinds_[tuple]), [&] {
+        PackedNumbers in(statistics_.substr(at, size));
+        return ExactStatistics::unpack(in);
+      });
+      at += size;
+    }
+  }
+
+ private:
+  std::string_view kinds_;
+  std::string_view sizes_;
+  std::string_view statistics_;
+};
+
+}  // namespace fitgauge::store
