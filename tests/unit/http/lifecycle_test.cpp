@@ -153,6 +153,34 @@ TEST_CASE("what a hook throws ends its connection alone, and is reported") {
   CHECK(reported == "a connection: a bug of the /now\na connection: a bug of the /late\n");
 }
 
+TEST_CASE("a client that sends its last request and its end at once is answered and closed") {
+  std::promise<void> entered;
+  std::promise<void> go_on;
+  TestServer server({{.pattern = "/busy",
+                      .handler = [&](const Request&) -> Result<Response> {
+                        entered.set_value();
+                        go_on.get_future().wait();
+                        return Response(200, "text/plain", std::string("busy"));
+                      },
+                      .response_types = {}},
+                     echo(Method::Get, "/a")});
+  Client last = server.connect();
+  CHECK(last.ask(get("/a"))->status == 200);
+  Client busy = server.connect();
+  busy.send(get("/busy"));
+  entered.get_future().wait();  // the I/O thread meets what follows in one piece
+  last.send(get("/a"));
+  last.shut_down_send();
+  busy.send(get("/a"));
+  busy.shut_down_send();
+  go_on.set_value();
+  for (Client* const client : {&last, &busy}) {
+    CHECK(client->read()->status == 200);
+    if (client == &busy) CHECK(client->read()->status == 200);
+    CHECK(client->is_closed_by_server());
+  }
+}
+
 TEST_CASE("stop finishes the request in flight, closes idle connections and accepts no more") {
   Worker worker;
   std::promise<void> entered;
