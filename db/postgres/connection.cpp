@@ -146,9 +146,7 @@ ResultPtr Connection::wait() {
   return last;
 }
 
-void Connection::commit(const std::string& then) {
-  send("COMMIT");
-  send(then);
+void Connection::wait_for_commit() {
   try {
     wait();
   } catch (const std::logic_error& failed) {

@@ -63,9 +63,9 @@ class Connection final : public sql::Connection {
   /// none.
   /// @throws StorageFailure, std::logic_error of the first that failed.
   ResultPtr wait();
-  /// Commits and then runs a statement, in one exchange with the server.
+  /// Waits for all that was sent, a COMMIT among it.
   /// @throws as wait(); StorageFailure for all that fails when it has committed.
-  void commit(const std::string& then);
+  void wait_for_commit();
   /// Whether something was sent and not waited for.
   bool is_waiting() const { return !sent_.empty(); }
   /// Runs statements without parameters, outside of all transactions.

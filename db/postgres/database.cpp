@@ -34,7 +34,7 @@ class SharedDatabase final : public Database {
         readers_(reader_engine_) {
     if (chosen.access != Access::Serve) return;
     listener_.emplace(
-        chosen.address, daemon, [this](bool names) { heard(names); },
+        chosen.address, daemon, tellings_, [this](bool names) { heard(names); },
         [this](Listener::Figures figures) {
           const std::lock_guard lock(figures_mutex_);
           figures_ = figures;
@@ -45,9 +45,9 @@ class SharedDatabase final : public Database {
   ReadPool& readers() override { return readers_; }
 
   void drain() override {
-    listener_.reset();
     reader_engine_.stop();
     writer_engine_.stop();
+    listener_.reset();
   }
 
   Health health() const override { return monitor_.health(); }
@@ -68,7 +68,7 @@ class SharedDatabase final : public Database {
 
  private:
   std::unique_ptr<sql::Session> session(std::int64_t daemon) {
-    return std::make_unique<Session>(options_, clock_, daemon, names_);
+    return std::make_unique<Session>(options_, clock_, daemon, names_, tellings_);
   }
 
   /// Any transaction tells of changed names.
@@ -83,6 +83,7 @@ class SharedDatabase final : public Database {
   const OpenOptions options_;
   const Clock& clock_;
   Names names_;
+  Tellings tellings_;
   HealthMonitor monitor_;
   Writer::Engine writer_engine_;
   ReadPool::Engine reader_engine_;
@@ -100,7 +101,8 @@ Result<VerifyReport> SharedDatabase::verify(const MeasurementCheck& check) const
   try {
     VerifyReport report;
     Names names({});
-    Session session(options_, clock_, 0, names);
+    Tellings tellings;
+    Session session(options_, clock_, 0, names, tellings);
     const auto note = [&](std::string finding) {
       if (report.findings.size() < kMostFindings) report.findings.push_back(std::move(finding));
     };

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <string_view>
@@ -13,7 +16,6 @@
 namespace fitgauge::store::postgres {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{200};
 constexpr std::chrono::milliseconds kBetweenAttempts{500};
 constexpr std::chrono::seconds kBetweenFigures{5};
 
@@ -22,6 +24,11 @@ constexpr const char* kFigures =
     "SELECT pg_database_size(current_database()), (SELECT count(*) FROM pg_stat_replication), "
     "(SELECT max(pg_wal_lsn_diff(pg_current_wal_lsn(), flush_lsn))::bigint FROM "
     "pg_stat_replication)";
+
+/// With a message to nobody, so that the commit waits for the disk (Session): who reads then need
+/// not.
+constexpr const char* kNotify =
+    "SELECT pg_logical_emit_message(true, 'fitgauge', ''), pg_notify('fitgauge', '')";
 
 struct Heard {
   bool commit = false;
@@ -47,16 +54,32 @@ ServerFigures read_figures(sql::Statement& figures) {
           .standby_behind_bytes = rows.get<std::optional<std::int64_t>>(2)};
 }
 
+/// Waits until the bell rings or the socket can be read. @returns whether it has rung.
+bool wait_for(int socket, int bell, Tellings::Clock::duration patience) {
+  using std::chrono::milliseconds;
+  const auto longest = std::max(std::chrono::ceil<milliseconds>(patience), milliseconds(0));
+  std::array<pollfd, 2> sources{pollfd{.fd = socket, .events = POLLIN, .revents = 0},
+                                pollfd{.fd = bell, .events = POLLIN, .revents = 0}};
+  ::poll(sources.data(), sources.size(), static_cast<int>(longest.count()));
+  eventfd_t rung = 0;
+  return eventfd_read(bell, &rung) == 0;
+}
+
 }  // namespace
 
-Listener::Listener(std::string address, std::int64_t daemon, std::function<void(bool)> heard,
-                   std::function<void(Figures)> told)
+Listener::Listener(std::string address, std::int64_t daemon, Tellings& tellings,
+                   std::function<void(bool)> heard, std::function<void(Figures)> told)
     : address_(std::move(address)),
       daemon_(daemon),
+      tellings_(tellings),
       heard_(std::move(heard)),
       told_(std::move(told)),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
-Listener::~Listener() = default;
+
+Listener::~Listener() {
+  thread_.request_stop();
+  tellings_.ring();
+}
 
 void Listener::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
@@ -65,30 +88,47 @@ void Listener::run(const std::stop_token& stop) {
     } catch (const std::exception&) {  // the writer tells what is wrong with the database
       std::this_thread::sleep_for(kBetweenAttempts);
     }
+    tellings_.owe();  // what was to be told may be lost
     told_(std::nullopt);
   }
 }
 
 void Listener::listen(const std::stop_token& stop) {
   Connection connection(address_);
+  connection.send("SET synchronous_commit = local");  // a standby need not have what is told
   connection.send("LISTEN fitgauge");
   connection.send(fmt::format("SELECT pg_advisory_lock_shared({}, {})", kDaemonLocks, daemon_));
   connection.wait();
   heard_(true);
   const int own = PQsocket(connection.handle());
   sql::Statement figures(connection, kFigures);
-  auto due = std::chrono::steady_clock::now();
+  sql::Statement notify(connection, kNotify);
+  const auto pay = [&] {
+    if (!tellings_.take()) return;
+    notify.run();
+    connection.wait();
+  };
+  auto look_at = Tellings::Clock::now();
+  auto pay_at = look_at;  // what another connection left
   while (!stop.stop_requested()) {
-    if (const auto now = std::chrono::steady_clock::now(); now >= due) {
+    const auto now = Tellings::Clock::now();
+    if (now >= look_at) {
       told_(read_figures(figures));
-      due = now + kBetweenFigures;
+      heard_(false);
+      look_at = now + kBetweenFigures;
+    }
+    if (now >= pay_at) {
+      pay();
+      pay_at = Tellings::Clock::time_point::max();
     }
     // What came with the figures is here already.
     if (const Heard heard = hear(connection); heard.commit) heard_(heard.names);
-    pollfd socket{.fd = own, .events = POLLIN, .revents = 0};
-    ::poll(&socket, 1, static_cast<int>(kLook.count()));
-    if (socket.revents != 0 && PQconsumeInput(connection.handle()) != 1) return;
+    if (wait_for(own, tellings_.bell(), std::min(look_at, pay_at) - now)) {
+      pay_at = std::min(pay_at, Tellings::Clock::now() + Tellings::kBetween);
+    }
+    if (PQconsumeInput(connection.handle()) != 1) return;
   }
+  pay();
 }
 
 }  // namespace fitgauge::store::postgres

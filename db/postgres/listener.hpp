@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "postgres/connection.hpp"
+#include "postgres/tellings.hpp"
 #include "store/server_figures.hpp"
 
 namespace fitgauge::store::postgres {
@@ -14,20 +15,23 @@ namespace fitgauge::store::postgres {
 /// The class of the advisory locks that daemons hold while they live.
 inline constexpr int kDaemonLocks = 0x46744761;
 
-/// Hears of the commits of all daemons, on a connection and a thread of its own, and holds the lock
-/// that says this daemon lives. Where the connection is lost it is opened again, and what was not
-/// heard meanwhile counts as heard. Every few seconds it looks at what the server says of itself.
+/// Hears of the commits of all daemons and tells what is owed of this one's, on a connection and a
+/// thread of its own, and holds the lock that says this daemon lives. Where the connection is lost
+/// it is opened again, and what was not heard meanwhile counts as heard. Every few seconds it looks
+/// at what the server says of itself, and as if it had heard: a killed daemon may owe its last.
 class Listener {
  public:
   using Figures = std::optional<ServerFigures>;  ///< nothing while the server is away
 
-  /// @param heard called on the thread, after one or more commits, with whether one of them has
+  /// @param tellings outlive it. @param heard called on the thread, after one or more commits, with
+  /// whether one of them has
   ///   changed names (store::postgres::Names); must not block.
   /// @param told called on the thread with what is new; must not block.
-  Listener(std::string address, std::int64_t daemon, std::function<void(bool names)> heard,
-           std::function<void(Figures)> told);
+  Listener(std::string address, std::int64_t daemon, Tellings& tellings,
+           std::function<void(bool names)> heard, std::function<void(Figures)> told);
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
+  /// Tells what is owed.
   ~Listener();
 
  private:
@@ -36,6 +40,7 @@ class Listener {
 
   const std::string address_;
   const std::int64_t daemon_;
+  Tellings& tellings_;
   const std::function<void(bool names)> heard_;
   const std::function<void(Figures)> told_;
   std::jthread thread_;

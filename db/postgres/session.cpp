@@ -15,14 +15,18 @@ constexpr const char* kHead =
     "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint FROM head";
 constexpr const char* kFlushed = "SELECT (pg_current_wal_flush_lsn() - '0/0')::bigint";
 
-/// With one notification for all that the transaction holds. The commit frees the row before the
-/// WAL is on the disk, which the session waits for behind it. Not where a standby has to have it,
-/// as reading would then wait for the standby; nor with new names, which daemons keep in memory
-/// beyond a crash of the server.
+/// Who waits for a row is woken twice, to be the next one and to have it, and then reads it again:
+/// who waits here finds it free. The row still keeps out those who do not wait here.
+constexpr const char* kQueueForHead = "SELECT pg_advisory_xact_lock(6044937214080451862)";
+
+/// The commit frees the row before the WAL is on the disk, which the session waits for behind it.
+/// Not where a standby has to have it, as reading would then wait for the standby; nor with new
+/// names, which daemons keep in memory beyond a crash of the server.
 constexpr const char* kSetHead =
-    "UPDATE head SET last_id = ?, own_rows = ? RETURNING pg_notify('fitgauge', ''),"
+    "UPDATE head SET last_id = ?, own_rows = ? RETURNING"
     " CASE WHEN names = ? AND current_setting('synchronous_standby_names') = ''"
-    " THEN set_config('synchronous_commit', 'off', true) END";
+    " THEN set_config('synchronous_commit', 'off', true) END,"
+    " CASE WHEN ? = 1 THEN pg_notify('fitgauge', '') END";
 
 /// The WAL is one: with a commit of its own on the disk are all before it. PostgreSQL waits only
 /// for the disk when the transaction has written something, be it an empty message to nobody.
@@ -34,15 +38,25 @@ constexpr const char* kOnThisServer = ", set_config('synchronous_commit', 'local
 
 }  // namespace
 
-Session::Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names)
+Session::Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names,
+                 Tellings& tellings)
     : connection_(options.address),
       stores_(connection_, clock, options.idempotency_retention),
       names_(names),
+      tellings_(tellings),
       is_durable_(options.synchronous == Synchronous::Full),
+      begin_reading_(connection_, "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"),
+      begin_writing_(connection_, "BEGIN ISOLATION LEVEL READ COMMITTED READ WRITE"),
+      queue_for_head_(connection_, kQueueForHead),
       head_(connection_, kHead),
       locked_head_(connection_, std::string(kHead) + " FOR UPDATE"),
       set_head_(connection_, kSetHead),
-      flushed_(connection_, kFlushed) {
+      commit_(connection_, "COMMIT"),
+      flush_(connection_, std::string(kFlush) + kUnlessFlushed),
+      flush_here_(connection_, std::string(kFlush) + kOnThisServer),
+      flushed_(connection_, kFlushed),
+      savepoint_(connection_, "SAVEPOINT job"),
+      release_(connection_, "RELEASE job") {
   connection_.send(fmt::format("SET fitgauge.daemon = '{}'", daemon));
   if (!is_durable_) connection_.send("SET synchronous_commit = off");
   connection_.wait();
@@ -65,13 +79,14 @@ void Session::read_head(sql::Statement& head) {
 
 void Session::begin_reading() {
   writes_ = false;
-  connection_.send("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY");
+  begin_reading_.run();
   read_head(head_);
 }
 
 void Session::begin_writing() {
   writes_ = true;
-  connection_.send("BEGIN ISOLATION LEVEL READ COMMITTED READ WRITE");
+  begin_writing_.run();
+  queue_for_head_.run();
   read_head(locked_head_);
 }
 
@@ -80,9 +95,13 @@ void Session::commit() { writes_ ? commit_written() : commit_read(); }
 /// One exchange with the server, whatever the jobs have left to be done.
 void Session::commit_written() {
   const Head& head = connection_.head;
-  set_head_.run(head.last_id, head.own_rows, begun_.names);
+  const bool tells = tellings_.is_due();
+  set_head_.run(head.last_id, head.own_rows, begun_.names, tells ? 1 : 0);
   connection_.take_warning();
-  connection_.commit(std::string(kFlush) + kUnlessFlushed);
+  commit_.run();
+  flush_.run();
+  connection_.wait_for_commit();
+  tellings_.committed(tells);
   // The one it has: the wait for a standby was ended, by an operator or by statement_timeout. What
   // is on this server alone is not acknowledged.
   if (const std::string warning = connection_.take_warning(); !warning.empty()) {
@@ -93,9 +112,9 @@ void Session::commit_written() {
 
 /// What was read may be of a commit that is not on the disk yet: nobody hears of it before it is.
 void Session::commit_read() {
-  connection_.send("COMMIT");
+  commit_.run();
   if (!is_durable_ || flushed_.returning<std::int64_t>() >= seen_wal_) return settle();
-  connection_.send(std::string(kFlush) + kOnThisServer);
+  flush_here_.run();
   connection_.wait();
 }
 
@@ -119,7 +138,7 @@ void Session::settle_undone() {
 
 void Session::savepoint() {
   before_job_ = connection_.head;
-  connection_.send("SAVEPOINT job");
+  savepoint_.run();
 }
 
 void Session::undo() {
@@ -133,7 +152,7 @@ void Session::settle() {
   if (connection_.is_waiting()) connection_.wait();
 }
 
-void Session::release() { connection_.send("RELEASE job"); }
+void Session::release() { release_.run(); }
 
 void Session::probe() {
   connection_.send("UPDATE head SET probes = probes + 1");

@@ -3,6 +3,7 @@
 #include "base/clock.hpp"
 #include "postgres/connection.hpp"
 #include "postgres/names.hpp"
+#include "postgres/tellings.hpp"
 #include "sql/session.hpp"
 #include "sql/statement.hpp"
 #include "store/open_options.hpp"
@@ -15,8 +16,9 @@ namespace fitgauge::store::postgres {
 /// what was written as of what was read, when all of it is on the disk.
 class Session final : public sql::Session {
  public:
-  /// @param daemon what open runs are marked with. @param names outlive the session.
-  Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names);
+  /// @param daemon what open runs are marked with. @param names and `tellings` outlive the session.
+  Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names,
+          Tellings& tellings);
 
   Stores& stores() override { return stores_; }
   void begin_reading() override;
@@ -39,11 +41,21 @@ class Session final : public sql::Session {
   Connection connection_;
   Stores stores_;
   Names& names_;
+  Tellings& tellings_;
   const bool is_durable_;
+  // Each is parsed and planned once, like the statements of the stores.
+  sql::Statement begin_reading_;
+  sql::Statement begin_writing_;
+  sql::Statement queue_for_head_;
   sql::Statement head_;
   sql::Statement locked_head_;
   sql::Statement set_head_;
+  sql::Statement commit_;
+  sql::Statement flush_;
+  sql::Statement flush_here_;
   sql::Statement flushed_;
+  sql::Statement savepoint_;
+  sql::Statement release_;
   bool writes_ = false;
   Head begun_;  ///< as the transaction found it
   Head before_job_;

@@ -1,0 +1,64 @@
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "fixture.hpp"
+#include "postgres/connection.hpp"
+#include "postgres/tellings.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::store;
+using namespace fitgauge::store::test;
+
+namespace {
+
+/// The sessions that have told, of each as often as it did.
+std::multiset<int> heard(const postgres::Connection& connection) {
+  std::multiset<int> sessions;
+  REQUIRE(PQconsumeInput(connection.handle()) == 1);
+  while (PGnotify* const notify = PQnotifies(connection.handle())) {
+    sessions.insert(notify->be_pid);
+    PQfreemem(notify);
+  }
+  return sessions;
+}
+
+void listen(postgres::Connection& connection) {
+  connection.send("LISTEN fitgauge");
+  connection.wait();
+}
+
+}  // namespace
+
+TEST_CASE("commits that follow each other are told together") {
+  using postgres::Tellings;
+  constexpr int kCommits = 200;
+  Fixture fixture;
+  REQUIRE(fixture.append(sample_row()).has_value());
+  postgres::Connection other(fixture.options.address);
+  listen(other);
+  const auto begun = Tellings::Clock::now();
+  for (int i = 0; i < kCommits; ++i) REQUIRE(fixture.append(sample_row()).has_value());
+  const auto told = heard(other).size();
+  const auto times = (Tellings::Clock::now() - begun) / Tellings::kBetween;
+  CHECK(told >= 1);
+  CHECK(told <= 3 + 2 * static_cast<std::size_t>(times));
+}
+
+TEST_CASE("a commit that did not tell of itself is told a little later") {
+  constexpr int kTries = 100;
+  Fixture fixture;
+  REQUIRE(fixture.append(sample_row()).has_value());
+  postgres::Connection other(fixture.options.address);
+  listen(other);
+  std::set<int> sessions;
+  for (int i = 0; i < kTries && sessions.size() < 2; ++i) {
+    for (int row = 0; row < 2; ++row) REQUIRE(fixture.append(sample_row()).has_value());
+    std::this_thread::sleep_for(3 * postgres::Tellings::kBetween);
+    const auto told = heard(other);
+    sessions.insert(told.begin(), told.end());
+  }
+  CHECK(sessions.size() == 2);  // the writer's, and the one that pays what it owes
+}
