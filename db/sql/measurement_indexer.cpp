@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "sql/connection.hpp"
 #include "sql/measurement_query.hpp"
@@ -87,7 +89,7 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
       last_block_(last_block_statement(c)),
       block_(c, block_sql()),
       insert_node_(c, "INSERT INTO measurement_nodes VALUES (?, ?, ?, ?, ?, ?, 0, ?)"),
-      insert_posting_(c, "INSERT INTO measurement_postings VALUES (?, ?, ?, ?)"),
+      insert_postings_(c, "INSERT INTO measurement_postings VALUES ", "(?, ?, ?, ?)"),
       insert_values_(c, "INSERT INTO measurement_values VALUES (?, ?)"),
       insert_aggregate_(c,
                         fmt::format("INSERT INTO measurement_aggregates VALUES (?, ?, ?, {}, ?, ?)",
@@ -332,9 +334,19 @@ void MeasurementIndexer::aggregate_rows(const IndexNode& node, TextField field, 
 void MeasurementIndexer::insert(const IndexNode& node, const NodeIndex& index) {
   insert_node_.run(node.level, node.node, index.min_measured_at, index.max_measured_at,
                    index.min_received_at, index.max_received_at, index.pairs.is_complete);
+  struct Posting {
+    int field;
+    std::string_view value;
+    std::string rows;
+  };
+  std::vector<Posting> postings;
+  postings.reserve(index.postings.size());
   for (const auto& [key, rows] : index.postings) {
-    insert_posting_.run(key.first, key.second, node.node, Blob{rows.encode()});
+    postings.push_back({key.first, key.second, rows.encode()});
   }
+  insert_postings_.run(postings, [&](const Posting& posting, const auto& bind) {
+    bind(posting.field, posting.value, node.node, Blob{posting.rows});
+  });
   if (index.values) insert_values_.run(node.node, Blob{*index.values});
   insert_sums(node, index);
 }

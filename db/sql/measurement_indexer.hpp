@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "sql/pair_index.hpp"
+#include "sql/rows_insert.hpp"
 #include "sql/statement.hpp"
 #include "store/measurement_index.hpp"
 #include "store/measurement_statistics.hpp"
@@ -70,7 +71,7 @@ class MeasurementIndexer {
   sql::Statement last_block_;
   sql::Statement block_;
   sql::Statement insert_node_;
-  sql::Statement insert_posting_;
+  sql::RowsInsert insert_postings_;
   sql::Statement insert_values_;
   sql::Statement insert_aggregate_;
   sql::Statement child_times_;
