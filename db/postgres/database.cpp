@@ -34,7 +34,7 @@ class SharedDatabase final : public Database {
         readers_(reader_engine_) {
     if (chosen.access != Access::Serve) return;
     listener_.emplace(
-        chosen.address, daemon, tellings_, [this](bool names) { heard(names); },
+        chosen.address, daemon, notifications_, [this](bool names) { heard(names); },
         [this](Listener::Figures figures) {
           const std::lock_guard lock(figures_mutex_);
           figures_ = figures;
@@ -68,7 +68,7 @@ class SharedDatabase final : public Database {
 
  private:
   std::unique_ptr<sql::Session> session(std::int64_t daemon) {
-    return std::make_unique<Session>(options_, clock_, daemon, names_, tellings_);
+    return std::make_unique<Session>(options_, clock_, daemon, names_, notifications_);
   }
 
   /// Any transaction tells of changed names.
@@ -83,7 +83,7 @@ class SharedDatabase final : public Database {
   const OpenOptions options_;
   const Clock& clock_;
   Names names_;
-  Tellings tellings_;
+  Notifications notifications_;
   HealthMonitor monitor_;
   Writer::Engine writer_engine_;
   ReadPool::Engine reader_engine_;
@@ -101,8 +101,8 @@ Result<VerifyReport> SharedDatabase::verify(const MeasurementCheck& check) const
   try {
     VerifyReport report;
     Names names({});
-    Tellings tellings;
-    Session session(options_, clock_, 0, names, tellings);
+    Notifications notifications;
+    Session session(options_, clock_, 0, names, notifications);
     const auto note = [&](std::string finding) {
       if (report.findings.size() < kMostFindings) report.findings.push_back(std::move(finding));
     };

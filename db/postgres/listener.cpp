@@ -54,31 +54,31 @@ ServerFigures read_figures(sql::Statement& figures) {
           .standby_behind_bytes = rows.get<std::optional<std::int64_t>>(2)};
 }
 
-/// Waits until the bell rings or the socket can be read. @returns whether it has rung.
-bool wait_for(int socket, int bell, Tellings::Clock::duration patience) {
+/// Waits until one of the two can be read. @returns whether `wake_up` could.
+bool wait_for(int socket, int wake_up, Notifications::Clock::duration patience) {
   using std::chrono::milliseconds;
   const auto longest = std::max(std::chrono::ceil<milliseconds>(patience), milliseconds(0));
   std::array<pollfd, 2> sources{pollfd{.fd = socket, .events = POLLIN, .revents = 0},
-                                pollfd{.fd = bell, .events = POLLIN, .revents = 0}};
+                                pollfd{.fd = wake_up, .events = POLLIN, .revents = 0}};
   ::poll(sources.data(), sources.size(), static_cast<int>(longest.count()));
-  eventfd_t rung = 0;
-  return eventfd_read(bell, &rung) == 0;
+  eventfd_t times = 0;
+  return eventfd_read(wake_up, &times) == 0;
 }
 
 }  // namespace
 
-Listener::Listener(std::string address, std::int64_t daemon, Tellings& tellings,
+Listener::Listener(std::string address, std::int64_t daemon, Notifications& notifications,
                    std::function<void(bool)> heard, std::function<void(Figures)> told)
     : address_(std::move(address)),
       daemon_(daemon),
-      tellings_(tellings),
+      notifications_(notifications),
       heard_(std::move(heard)),
       told_(std::move(told)),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 Listener::~Listener() {
   thread_.request_stop();
-  tellings_.ring();
+  notifications_.wake_listener();
 }
 
 void Listener::run(const std::stop_token& stop) {
@@ -88,7 +88,7 @@ void Listener::run(const std::stop_token& stop) {
     } catch (const std::exception&) {  // the writer tells what is wrong with the database
       std::this_thread::sleep_for(kBetweenAttempts);
     }
-    tellings_.owe();  // what was to be told may be lost
+    notifications_.postpone();  // what was notified may be lost
     told_(std::nullopt);
   }
 }
@@ -103,32 +103,32 @@ void Listener::listen(const std::stop_token& stop) {
   const int own = PQsocket(connection.handle());
   sql::Statement figures(connection, kFigures);
   sql::Statement notify(connection, kNotify);
-  const auto pay = [&] {
-    if (!tellings_.take()) return;
+  const auto notify_postponed = [&] {
+    if (!notifications_.take_postponed()) return;
     notify.run();
     connection.wait();
   };
-  auto look_at = Tellings::Clock::now();
-  auto pay_at = look_at;  // what another connection left
+  auto look_at = Notifications::Clock::now();
+  auto notify_at = look_at;  // what another connection left
   while (!stop.stop_requested()) {
-    const auto now = Tellings::Clock::now();
+    const auto now = Notifications::Clock::now();
     if (now >= look_at) {
       told_(read_figures(figures));
       heard_(false);
       look_at = now + kBetweenFigures;
     }
-    if (now >= pay_at) {
-      pay();
-      pay_at = Tellings::Clock::time_point::max();
+    if (now >= notify_at) {
+      notify_postponed();
+      notify_at = Notifications::Clock::time_point::max();
     }
     // What came with the figures is here already.
     if (const Heard heard = hear(connection); heard.commit) heard_(heard.names);
-    if (wait_for(own, tellings_.bell(), std::min(look_at, pay_at) - now)) {
-      pay_at = std::min(pay_at, Tellings::Clock::now() + Tellings::kBetween);
+    if (wait_for(own, notifications_.wake_up(), std::min(look_at, notify_at) - now)) {
+      notify_at = std::min(notify_at, Notifications::Clock::now() + Notifications::kInterval);
     }
     if (PQconsumeInput(connection.handle()) != 1) return;
   }
-  pay();
+  notify_postponed();
 }
 
 }  // namespace fitgauge::store::postgres

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "postgres/connection.hpp"
-#include "postgres/tellings.hpp"
+#include "postgres/notifications.hpp"
 #include "store/server_figures.hpp"
 
 namespace fitgauge::store::postgres {
@@ -15,23 +15,24 @@ namespace fitgauge::store::postgres {
 /// The class of the advisory locks that daemons hold while they live.
 inline constexpr int kDaemonLocks = 0x46744761;
 
-/// Hears of the commits of all daemons and tells what is owed of this one's, on a connection and a
+/// Hears of the commits of all daemons, notifies what this one has postponed, on a connection and a
 /// thread of its own, and holds the lock that says this daemon lives. Where the connection is lost
 /// it is opened again, and what was not heard meanwhile counts as heard. Every few seconds it looks
-/// at what the server says of itself, and as if it had heard: a killed daemon may owe its last.
+/// at what the server says of itself, and as if it had heard: a killed daemon may not have
+/// notified.
 class Listener {
  public:
   using Figures = std::optional<ServerFigures>;  ///< nothing while the server is away
 
-  /// @param tellings outlive it. @param heard called on the thread, after one or more commits, with
-  /// whether one of them has
+  /// @param notifications outlive it.
+  /// @param heard called on the thread, after one or more commits, with whether one of them has
   ///   changed names (store::postgres::Names); must not block.
   /// @param told called on the thread with what is new; must not block.
-  Listener(std::string address, std::int64_t daemon, Tellings& tellings,
+  Listener(std::string address, std::int64_t daemon, Notifications& notifications,
            std::function<void(bool names)> heard, std::function<void(Figures)> told);
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
-  /// Tells what is owed.
+  /// Notifies what is postponed.
   ~Listener();
 
  private:
@@ -40,7 +41,7 @@ class Listener {
 
   const std::string address_;
   const std::int64_t daemon_;
-  Tellings& tellings_;
+  Notifications& notifications_;
   const std::function<void(bool names)> heard_;
   const std::function<void(Figures)> told_;
   std::jthread thread_;

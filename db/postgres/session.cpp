@@ -39,11 +39,11 @@ constexpr const char* kOnThisServer = ", set_config('synchronous_commit', 'local
 }  // namespace
 
 Session::Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names,
-                 Tellings& tellings)
+                 Notifications& notifications)
     : connection_(options.address),
       stores_(connection_, clock, options.idempotency_retention),
       names_(names),
-      tellings_(tellings),
+      notifications_(notifications),
       is_durable_(options.synchronous == Synchronous::Full),
       begin_reading_(connection_, "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"),
       begin_writing_(connection_, "BEGIN ISOLATION LEVEL READ COMMITTED READ WRITE"),
@@ -95,13 +95,13 @@ void Session::commit() { writes_ ? commit_written() : commit_read(); }
 /// One exchange with the server, whatever the jobs have left to be done.
 void Session::commit_written() {
   const Head& head = connection_.head;
-  const bool tells = tellings_.is_due();
-  set_head_.run(head.last_id, head.own_rows, begun_.names, tells ? 1 : 0);
+  const bool notifies = notifications_.is_due();
+  set_head_.run(head.last_id, head.own_rows, begun_.names, notifies ? 1 : 0);
   connection_.take_warning();
   commit_.run();
   flush_.run();
   connection_.wait_for_commit();
-  tellings_.committed(tells);
+  notifications_.committed(notifies);
   // The one it has: the wait for a standby was ended, by an operator or by statement_timeout. What
   // is on this server alone is not acknowledged.
   if (const std::string warning = connection_.take_warning(); !warning.empty()) {

@@ -3,7 +3,7 @@
 #include "base/clock.hpp"
 #include "postgres/connection.hpp"
 #include "postgres/names.hpp"
-#include "postgres/tellings.hpp"
+#include "postgres/notifications.hpp"
 #include "sql/session.hpp"
 #include "sql/statement.hpp"
 #include "store/open_options.hpp"
@@ -16,9 +16,10 @@ namespace fitgauge::store::postgres {
 /// what was written as of what was read, when all of it is on the disk.
 class Session final : public sql::Session {
  public:
-  /// @param daemon what open runs are marked with. @param names and `tellings` outlive the session.
+  /// @param daemon what open runs are marked with. @param names and `notifications` outlive the
+  /// session.
   Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names,
-          Tellings& tellings);
+          Notifications& notifications);
 
   Stores& stores() override { return stores_; }
   void begin_reading() override;
@@ -41,7 +42,7 @@ class Session final : public sql::Session {
   Connection connection_;
   Stores stores_;
   Names& names_;
-  Tellings& tellings_;
+  Notifications& notifications_;
   const bool is_durable_;
   // Each is parsed and planned once, like the statements of the stores.
   sql::Statement begin_reading_;

@@ -6,7 +6,7 @@
 
 #include "fixture.hpp"
 #include "postgres/connection.hpp"
-#include "postgres/tellings.hpp"
+#include "postgres/notifications.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -14,7 +14,7 @@ using namespace fitgauge::store::test;
 
 namespace {
 
-/// The sessions that have told, of each as often as it did.
+/// The sessions that have notified, of each as often as it did.
 std::multiset<int> heard(const postgres::Connection& connection) {
   std::multiset<int> sessions;
   REQUIRE(PQconsumeInput(connection.handle()) == 1);
@@ -32,22 +32,22 @@ void listen(postgres::Connection& connection) {
 
 }  // namespace
 
-TEST_CASE("commits that follow each other are told together") {
-  using postgres::Tellings;
+TEST_CASE("one notification is for all commits within 20 ms") {
+  using postgres::Notifications;
   constexpr int kCommits = 200;
   Fixture fixture;
   REQUIRE(fixture.append(sample_row()).has_value());
   postgres::Connection other(fixture.options.address);
   listen(other);
-  const auto begun = Tellings::Clock::now();
+  const auto begun = Notifications::Clock::now();
   for (int i = 0; i < kCommits; ++i) REQUIRE(fixture.append(sample_row()).has_value());
-  const auto told = heard(other).size();
-  const auto times = (Tellings::Clock::now() - begun) / Tellings::kBetween;
-  CHECK(told >= 1);
-  CHECK(told <= 3 + 2 * static_cast<std::size_t>(times));
+  const auto notified = heard(other).size();
+  const auto times = (Notifications::Clock::now() - begun) / Notifications::kInterval;
+  CHECK(notified >= 1);
+  CHECK(notified <= 3 + 2 * static_cast<std::size_t>(times));
 }
 
-TEST_CASE("a commit that did not tell of itself is told a little later") {
+TEST_CASE("a commit that was not notified is a little later") {
   constexpr int kTries = 100;
   Fixture fixture;
   REQUIRE(fixture.append(sample_row()).has_value());
@@ -56,9 +56,9 @@ TEST_CASE("a commit that did not tell of itself is told a little later") {
   std::set<int> sessions;
   for (int i = 0; i < kTries && sessions.size() < 2; ++i) {
     for (int row = 0; row < 2; ++row) REQUIRE(fixture.append(sample_row()).has_value());
-    std::this_thread::sleep_for(3 * postgres::Tellings::kBetween);
-    const auto told = heard(other);
-    sessions.insert(told.begin(), told.end());
+    std::this_thread::sleep_for(3 * postgres::Notifications::kInterval);
+    const auto notified = heard(other);
+    sessions.insert(notified.begin(), notified.end());
   }
-  CHECK(sessions.size() == 2);  // the writer's, and the one that pays what it owes
+  CHECK(sessions.size() == 2);  // the writer's, and the listener's
 }
