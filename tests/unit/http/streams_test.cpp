@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 
 #include "http/body_stream.hpp"
@@ -186,6 +187,35 @@ TEST_CASE("a stream whose reader has gone is cancelled") {
   }
   for (int i = 0; i < 300 && !stream->is_cancelled; ++i) std::this_thread::sleep_for(10ms);
   CHECK(stream->is_cancelled);
+}
+
+TEST_CASE("a stream that throws in the silence ends alone, and deadlines are kept") {
+  class Throwing final : public BodyStream {
+   public:
+    void next(ChunkSink sink) override { sink_.emplace(std::move(sink)); }
+    void idle() override { throw std::runtime_error("a bug of the silence"); }
+    void cancelled() override { throw std::runtime_error("a bug of the end"); }
+
+   private:
+    std::optional<ChunkSink> sink_;
+  };
+  ServerOptions options;
+  options.idle_timeout = 300ms;
+  const Route throwing{.pattern = "/events",
+                       .handler = [](const Request&) -> Result<Response> {
+                         return Response(
+                             200, "text/event-stream",
+                             StreamedBody{std::make_shared<Throwing>(), ": \n\n", 50ms});
+                       },
+                       .response_types = {"text/event-stream"}};
+  TestServer server({throwing, echo(Method::Get, "/a")}, options);
+  Client reader = server.connect();
+  reader.send(get("/events"));
+  CHECK(reader.read_some().find("200 OK") != std::string::npos);
+  CHECK(reader.is_closed_by_server());
+  Client idle = server.connect();
+  CHECK(idle.ask(get("/a"))->status == 200);
+  CHECK(idle.is_closed_by_server());
 }
 
 TEST_CASE("a stream that fails closes without the end of the body") {
