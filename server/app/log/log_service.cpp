@@ -249,7 +249,6 @@ struct LogService::Stretch {
 /// Takes in what was stored since, keeps the nodes it completes, mostly in one commit, and signs.
 /// After an upgrade that may be a long way: it is gone in stretches.
 Result<void> LogService::grow(const std::stop_token& stop) {
-  const std::uint64_t before = frontier_.size();
   for (bool more = true; more && !stop.stop_requested();) {
     Stretch stretch{.grown = frontier_};
     if (const auto taken = take_leaves(stop, stretch); !taken) return taken;
@@ -262,7 +261,8 @@ Result<void> LogService::grow(const std::stop_token& stop) {
     frontier_ = std::move(stretch.grown);
     more = stretch.more;
   }
-  if (frontier_.size() != before) sign();
+  // Not this growth alone: what was taken in before may not have been signed.
+  if (frontier_.size() != head_.get()->checkpoint.size) sign();
   return {};
 }
 

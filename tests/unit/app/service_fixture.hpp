@@ -64,6 +64,8 @@ class Service {
   Application& operator*() { return *app_; }
   Application* operator->() { return app_.get(); }
 
+  const std::filesystem::path& folder() const { return folder_.path(); }
+
   void upload(std::string_view path, std::string_view bytes) {
     const auto written = wait_for<FileService::Written>([&](auto done) {
       app_->files().write(interpreter::ControlPath::parse(path).value(), bytes, "test", {},
