@@ -132,7 +132,6 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
       count_values_(c, "SELECT count(*) FROM measurement_values") {}
 
 bool MeasurementIndexer::step() {
-  if (!std::exchange(is_begun_, true)) pairs_.find_missing();
   if (const auto stale = first_of(stale_)) {
     renew(*stale);
     return true;

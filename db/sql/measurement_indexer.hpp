@@ -67,7 +67,6 @@ class MeasurementIndexer {
 
   sql::Connection& connection_;
   PairIndex pairs_;
-  bool is_begun_ = false;
   sql::Statement last_block_;
   sql::Statement block_;
   sql::Statement insert_node_;

@@ -66,11 +66,6 @@ PairIndex::PairIndex(sql::Connection& c)
       delete_pair_(c,
                    "DELETE FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
                    "AND node = ?"),
-      find_missing_(c,
-                    "UPDATE measurement_nodes SET paired = 0 WHERE level > 0 AND paired = 1 AND "
-                    "NOT EXISTS (SELECT 1 FROM measurement_pairs p WHERE p.level = "
-                    "measurement_nodes.level AND p.field = 0 AND p.by_field = 0 AND p.node = "
-                    "measurement_nodes.node)"),
       count_surplus_columns_(c,
                              "SELECT count(*) FROM measurement_columns c WHERE NOT EXISTS (SELECT "
                              "1 FROM measurement_nodes n WHERE n.level = 0 AND n.node = c.block)"),
@@ -185,8 +180,6 @@ void PairIndex::erase(const IndexNode& node) {
   for_each_entry([&](int field, int by) { delete_pair_.run(node.level, field, by, node.node); });
 }
 
-void PairIndex::find_missing() { find_missing_.run(); }
-
 bool PairIndex::is_stored(const IndexNode& node, const Node& index) {
   const auto is_same = [](Rows rows, const std::string* expected) {
     const bool found = rows.next();
@@ -195,12 +188,9 @@ bool PairIndex::is_stored(const IndexNode& node, const Node& index) {
   if (node.level == 0) {
     return is_same(columns_.query(node.node), index.columns ? &*index.columns : nullptr);
   }
-  // Of an earlier release there are no tuples until the next start that writes.
-  const bool has_tuples = pair_.query(node.level, kTuples.first, kTuples.second, node.node).next();
   bool all = true;
   for_each_entry([&](int field, int by) {
     const auto expected = index.pairs.find({field, by});
-    if (by == kTuples.second && !has_tuples) return;
     all = all && is_same(pair_.query(node.level, field, by, node.node),
                          expected == index.pairs.end() ? nullptr : &expected->second);
   });

@@ -35,9 +35,6 @@ class PairIndex {
   void insert(const IndexNode& node, const Node& index);
   void erase(const IndexNode& node);
 
-  /// Has nodes that have no tuples made anew: an earlier release leaves them so.
-  void find_missing();
-
   bool is_stored(const IndexNode& node, const Node& index);
   /// How much is stored of nodes that are not there.
   std::int64_t count_surplus();
@@ -56,7 +53,6 @@ class PairIndex {
   sql::Statement pair_;
   sql::Statement insert_pair_;
   sql::Statement delete_pair_;
-  sql::Statement find_missing_;
   sql::Statement count_surplus_columns_;
   sql::Statement count_surplus_pairs_;
 };

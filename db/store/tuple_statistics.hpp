@@ -59,8 +59,9 @@ class TupleWriter {
   /// Calls `visit(field, bytes)` for what a TupleColumn reads of each field that was taken.
   template <class Visit>
   void visit_columns(const Visit& visit) const {
-    for (const std::size_t column : taken_)
+    for (const std::size_t column : taken_) {
       visit(field_of_column(column), encode(columns_[column]));
+    }
   }
   /// As TupleSums reads them.
   std::string encode_sums() const;

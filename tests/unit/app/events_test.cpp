@@ -29,28 +29,6 @@ void write(std::string& text, const Event& event) {
   if (const auto act = std::exchange(meanwhile, nullptr)) act();
 }
 
-/// The answer to a request whose rows nobody reads.
-class Nothing final : public Rendering {
- public:
-  void add(std::span<const Measurement>, std::string_view) override {}
-  Answer finish() override { return {}; }
-};
-
-void record(Service& service, int count) {
-  Measurement bore;
-  bore.nominal_size = Length::millimetres(25);
-  bore.deviations = {.upper = Length::micrometres(50), .lower = Length()};
-  bore.basis = LimitsBasis::Explicit;
-  bore.measured = bore.nominal_size;
-  judge(bore);
-  const auto answer = wait_for<Answer>([&](auto done) {
-    service->measurements().record(
-        std::vector<Measurement>(static_cast<std::size_t>(count), bore), {},
-        [] { return std::make_unique<Nothing>(); }, std::move(done));
-  });
-  REQUIRE(answer.has_value());
-}
-
 std::future<Page> read(Service& service, const Place& place) {
   const auto promise = std::make_shared<std::promise<Page>>();
   service->events().read(place, write,
@@ -81,7 +59,7 @@ class BusyReaders {
 
 TEST_CASE("readers of events at the same place share a page") {
   Service service;
-  record(service, 3);
+  service.record(3);
   written = 0;
   BusyReaders busy(service);
   std::vector<std::future<Page>> pages;
@@ -101,10 +79,10 @@ TEST_CASE("readers of events at the same place share a page") {
 
 TEST_CASE("a reader that asks after a commit gets no page that was begun before it") {
   Service service;
-  record(service, 1);
+  service.record(1);
   std::future<Page> later;
   meanwhile = [&] {
-    record(service, 1);
+    service.record(1);
     later = read(service, kFromTheFirst);
   };
   CHECK(read(service, kFromTheFirst).get().position.measurement == 1);
@@ -113,7 +91,7 @@ TEST_CASE("a reader that asks after a commit gets no page that was begun before 
 
 TEST_CASE("a page has no more than 200 measurements, and says that there are more") {
   Service service;
-  record(service, 201);
+  service.record(201);
   const Page first = read(service, kFromTheFirst).get();
   CHECK(first.position.measurement == 200);
   CHECK(first.more);

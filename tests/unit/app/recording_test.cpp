@@ -7,31 +7,12 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/log/log_keys.hpp"
-#include "app/log/log_service.hpp"
 #include "service_fixture.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::app;
 
 namespace {
-
-/// A bore of 25 +0.05 by the drawing, measured as 25 mm and `nm` more.
-Measurement bore(std::int64_t nm) {
-  Measurement m;
-  m.nominal_size = Length::millimetres(25);
-  m.deviations = {.upper = Length::micrometres(50), .lower = Length()};
-  m.basis = LimitsBasis::Explicit;
-  m.measured = m.nominal_size + Length::nanometres(nm);
-  judge(m);
-  return m;
-}
-
-std::vector<Measurement> bores(std::int64_t first, std::int64_t count) {
-  std::vector<Measurement> measurements;
-  for (std::int64_t i = 0; i < count; ++i) measurements.push_back(bore(first + i));
-  return measurements;
-}
 
 /// Writes down the ids it is given.
 class Ids final : public Rendering {
@@ -70,14 +51,6 @@ auto long_request(Service& service, const Work& work) {
   service->measurements().run([&] { promise.set_value(work()); },
                               [&](Error error) { promise.set_value(std::move(error)); });
   return promise.get_future().get();
-}
-
-void record_one(Service& service) {
-  const auto answer = wait_for<Answer>([&](auto done) {
-    service->measurements().record(
-        bores(0, 1), std::nullopt, [] { return std::make_unique<Ids>(); }, std::move(done));
-  });
-  REQUIRE(answer.has_value());
 }
 
 }  // namespace
@@ -221,44 +194,6 @@ TEST_CASE("small requests at once are all stored, each with the ids of its own r
   clients.clear();
   CHECK(answered == kThreads * kEach);
   CHECK(stored(service) == 2 * kThreads * kEach);
-}
-
-TEST_CASE("who waits for a proof until the end hears so, whatever others do with their answer") {
-  Service service;
-  record_one(service);
-  while (service->log().head()->checkpoint.size < 1) std::this_thread::yield();
-  record_one(service);  // a checkpoint covers it a second after the last one
-  service->log().prove({.number = 2}, [](const Result<LogService::Proof>&) {
-    throw std::logic_error("a bug of who waits");
-  });
-  std::promise<ErrorCode> told;
-  service->log().prove({.number = 2}, [&told](const Result<LogService::Proof>& proof) {
-    told.set_value(proof ? ErrorCode::Internal : proof.error().code);
-  });
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // until they are waiting
-  service->log().stop();
-  CHECK(told.get_future().get() == ErrorCode::ShuttingDown);
-}
-
-TEST_CASE("a head that a bug kept from being signed is signed a second later, without a commit") {
-  std::atomic<bool> thrown = false;
-  ApplicationOptions options;
-  options.log_told = [&](std::string_view event, const std::string&) {
-    if (event == "log_checkpoint_not_kept" && !thrown.exchange(true)) {
-      throw std::logic_error("a bug of who is told");
-    }
-  };
-  Service service(options);
-  const auto in_the_way = service.folder() / kCheckpointFile;
-  std::filesystem::remove(in_the_way);
-  std::filesystem::create_directories(in_the_way / "folder");
-  record_one(service);
-  const auto is_signed = [&] { return service->log().head()->checkpoint.size == 1; };
-  for (int i = 0; i < 500 && !is_signed(); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  CHECK(is_signed());
-  CHECK(thrown);
 }
 
 TEST_CASE("a request that hits a bug is refused, those stored with it are not") {

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "app/application.hpp"
 
@@ -43,6 +44,30 @@ Result<T> wait_for(const Call& call) {
   return promise.get_future().get();
 }
 
+/// A bore of 25 +0.05 by the drawing, measured as 25 mm and `nm` more.
+inline Measurement bore(std::int64_t nm) {
+  Measurement m;
+  m.nominal_size = Length::millimetres(25);
+  m.deviations = {.upper = Length::micrometres(50), .lower = Length()};
+  m.basis = LimitsBasis::Explicit;
+  m.measured = m.nominal_size + Length::nanometres(nm);
+  judge(m);
+  return m;
+}
+
+inline std::vector<Measurement> bores(std::int64_t first, std::int64_t count) {
+  std::vector<Measurement> measurements;
+  for (std::int64_t i = 0; i < count; ++i) measurements.push_back(bore(first + i));
+  return measurements;
+}
+
+/// The answer to a request whose rows nobody reads.
+class Nothing final : public Rendering {
+ public:
+  void add(std::span<const Measurement>, std::string_view) override {}
+  Answer finish() override { return {}; }
+};
+
 /// The service on an empty database, one run at a time, with the reports of its runs at hand.
 class Service {
  public:
@@ -73,6 +98,16 @@ class Service {
     });
     REQUIRE(written.has_value());
   }
+  /// Stores that many bores of 25 mm.
+  void record(std::int64_t count) {
+    const auto answer = wait_for<Answer>([&](auto done) {
+      app_->measurements().record(
+          bores(0, count), std::nullopt, [] { return std::make_unique<Nothing>(); },
+          std::move(done));
+    });
+    REQUIRE(answer.has_value());
+  }
+
   /// Uploads a program of these lines, `TNC:\main.h`.
   void program(std::string_view body) {
     upload("TNC:\\main.h", "BEGIN PGM main MM\n" + std::string(body) + "\nEND PGM main MM\n");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "damaged_bytes.hpp"
 #include "store/pair_statistics.hpp"
 
 using namespace fitgauge::store;
@@ -107,14 +108,7 @@ TEST_CASE("bytes that are no columns are refused or read as some, never behind t
     }
     return is_read;
   };
-  for (std::size_t size = 0; size < whole.size(); size += 1 + size / 40) {
-    CHECK_FALSE(read_all(std::string(whole.data(), size)));
-  }
-  for (int i = 0; i < 300; ++i) {
-    std::string bytes = whole;
-    bytes[random() % bytes.size()] = static_cast<char>(random());
-    static_cast<void>(read_all(bytes));
-  }
+  test::read_damaged(whole, random, read_all);
 }
 
 TEST_CASE("statistics of pairs come back as they were") {

@@ -262,14 +262,7 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   shop.check("with all of them again");
   CHECK(shop.database->verify()->findings.empty());
 
-  // As one does that has pairs and no tuples: the next start makes them.
   shop.execute("DELETE FROM measurement_pairs WHERE by_field = 0");
-  CHECK(shop.database->verify()->findings.empty());
+  CHECK(shop.database->verify()->findings.size() == 1);
   shop.check("without tuples");
-  shop.database.reset();
-  shop.open();
-  shop.index(1'000'000);
-  REQUIRE(shop.count("measurement_pairs WHERE field = 0 AND by_field = 0") == 1);
-  shop.check("with tuples again");
-  CHECK(shop.database->verify()->findings.empty());
 }

@@ -6,6 +6,8 @@
 #include <random>
 #include <set>
 
+#include "damaged_bytes.hpp"
+
 using namespace fitgauge::store;
 
 namespace {
@@ -131,14 +133,7 @@ TEST_CASE("bytes that are no tuples are refused or read as some, never behind th
     return count > 0;
   };
   CHECK(read_all(whole));
-  for (std::size_t size = 0; size < whole.size(); size += 1 + size / 40) {
-    CHECK_FALSE(read_all(std::string(whole.data(), size)));
-  }
-  for (int i = 0; i < 300; ++i) {
-    std::string bytes = whole;
-    bytes[random() % bytes.size()] = static_cast<char>(random());
-    static_cast<void>(read_all(bytes));
-  }
+  test::read_damaged(whole, random, read_all);
   TupleColumn column;
   CHECK_FALSE(column.read(""));
   CHECK_FALSE(column.read(std::string("\x01\x03H7\x01", 5)));
