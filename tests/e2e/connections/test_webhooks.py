@@ -127,7 +127,7 @@ class Webhooks(Receivers):
             headers = request["headers"]
             self.assertEqual(headers["webhook-signature"], signature(SECRETS[0], headers, request["body"]))
         self.assertEqual(len(set(receiver.ids())), 12)
-        self.assertEqual(self.state(daemon)["measurements"], 3)
+        receiver.wait(lambda: self.state(daemon)["measurements"] == 3)
         bad = daemon.request("PUT", "/v1/connections/bad", {"kind": "webhook", "url": receiver.url, "secrets": SECRETS, "events": ["run.began"]})
         self.assertEqual((bad.status, bad.json["errors"][0]["pointer"]), (422, "/events"))
 
@@ -158,6 +158,8 @@ class Webhooks(Receivers):
         self.assertEqual(sorted(told), sorted(happened))
         self.assertEqual([each for each in told if each[0] != "measurement.recorded"],
                          [each for each in happened if each[0] != "measurement.recorded"])
+        # A page's dead letters are kept when its last event is told.
+        receiver.wait(lambda: self.state(daemon)["dead_letters"])
         letters = self.state(daemon)["dead_letters"]
         self.assertEqual([letter["reason"] for letter in letters], ["the receiver answers 422"])
         self.assertRegex(letters[0]["measurement"], "^e[0-9]+-[0-9a-f]{16}$")
