@@ -25,7 +25,7 @@ struct ListenAddress {
   bool health_only = false;
 
   bool is_loopback() const;
-  /// As one asks for it on this machine: `127.0.0.1:8286` for 0.0.0.0, `[::1]:8286` for ::.
+  /// The address to reach it by on this machine: `127.0.0.1:8286` for 0.0.0.0, `[::1]:8286` for ::.
   std::string own_address() const;
 };
 
@@ -56,6 +56,9 @@ struct ServerOptions {
   /// Bytes of large bodies in memory at once, all connections together. A body waits for its share;
   /// under pressure a sender that has stopped loses its own.
   std::size_t body_budget = std::size_t{64} << 20;
+  /// Bytes of answers that wait for their readers, all connections together. Beyond it those end
+  /// that have been leaving longest. What several answers share counts for none.
+  std::size_t unsent_budget = std::size_t{64} << 20;
   std::chrono::milliseconds header_timeout = std::chrono::seconds(10);
   std::chrono::milliseconds request_timeout = std::chrono::seconds(30);  ///< header and body
   std::chrono::milliseconds idle_timeout = std::chrono::seconds(30);

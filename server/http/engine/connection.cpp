@@ -195,11 +195,13 @@ bool Connection::send() {
     output_.consume(count);
     if (count == bytes.size()) continue;
     output_.keep();
+    if (!unsent_since_) unsent_since_ = thread_.now();
     writing_ = true;
     write_deadline_ = thread_.now() + thread_.shared().options.write_timeout;
     write_some(output_.front());
     return false;
   }
+  unsent_since_.reset();
   return true;
 }
 

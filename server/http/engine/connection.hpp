@@ -46,6 +46,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   /// Acts on a deadline that has passed.
   void check_deadline(Tick now);
+  /// The bytes of answers that the client has not taken yet, and since when it takes them.
+  std::size_t bytes_unsent() const { return output_.held(); }
+  std::optional<Tick> unsent_since() const { return unsent_since_; }
+
   /// The bytes a body waits for before it can be read on, or 0.
   std::size_t bytes_waited_for() const;
   std::uint64_t request_id() const { return exchange_.request().id(); }
@@ -69,8 +73,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// What the socket takes at once; `broken` when it takes nothing any more.
   virtual std::size_t write_now(std::string_view bytes, bool& broken) = 0;
   virtual void write_some(std::string_view bytes) = 0;  ///< then on_write
-  /// Everything is sent, the client may still be sending: says so and closes in the end, at the
-  /// latest when the deadline has passed.
+  /// Shuts down the sending side when all is sent and the client may still be sending; closes when
+  /// the client does, at the latest at the deadline.
   virtual void end_gracefully() = 0;
   virtual void close_socket() noexcept = 0;
 
@@ -90,7 +94,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Closed,
   };
 
-  /// What is out of memory, or a hook that throws, ends this connection alone.
+  /// Running out of memory, or a hook that throws, ends this connection alone.
   template <class Function>
   void guarded(Function&& function) noexcept {
     if (!fitgauge::guarded("a connection", std::forward<Function>(function))) close();
@@ -135,6 +139,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Tick deadline_{};           ///< of the phase
   Tick request_deadline_{};
   Tick write_deadline_{};
+  std::optional<Tick> unsent_since_{};  ///< none: everything has left
   Tick last_body_byte_{};
   Tick wait_begun_{};
   Tick started_{};

@@ -98,6 +98,28 @@ void IoThread::sweep() {
   update_clock();
   for_each_connection([this](Connection& connection) { connection.check_deadline(now_); });
   if (shared_.budget.is_short()) admit_waiting();
+  bound_unsent();
+}
+
+/// Answers that their clients do not take end, those that have been leaving longest first, until
+/// the others have room: so that readers who drip, however many, cannot hold all memory. The newest
+/// goes on, however long it is.
+void IoThread::bound_unsent() {
+  const std::size_t most = shared_.options.unsent_budget / std::max(shared_.options.io_threads, 1U);
+  std::size_t held = 0;
+  for_each_connection([&](const Connection& connection) { held += connection.bytes_unsent(); });
+  if (held <= most) return;
+  std::vector<std::shared_ptr<Connection>> leaving;
+  for_each_connection([&](Connection& connection) {
+    const bool is_long = connection.bytes_unsent() > OutputQueue::kLongBody;
+    if (is_long && connection.unsent_since()) leaving.push_back(connection.shared_from_this());
+  });
+  std::sort(leaving.begin(), leaving.end(),
+            [](const auto& a, const auto& b) { return *a->unsent_since() < *b->unsent_since(); });
+  for (std::size_t i = 0; i + 1 < leaving.size() && held > most; ++i) {
+    held -= leaving[i]->bytes_unsent();
+    leaving[i]->close();
+  }
 }
 
 void IoThread::admit_waiting() {

@@ -89,6 +89,7 @@ class IoThread {
   void schedule_sweep();
   void sweep();
   void admit_waiting();
+  void bound_unsent();
 
   ServerShared& shared_;
   /// Only its own thread touches its sockets, so that these need no locks. post() and the timer

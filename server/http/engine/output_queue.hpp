@@ -25,11 +25,16 @@ class OutputQueue {
   void append_long(std::shared_ptr<const void> owner, std::string_view bytes) {
     owner_ = std::move(owner);
     long_body_ = bytes;
+    owned_ = bytes.size();
   }
 
   bool has_long_body() const { return !long_body_.empty(); }
   std::size_t long_body_size() const { return long_body_.size(); }
   std::size_t text_size() const { return shared_.size(); }
+  /// The bytes of memory that it alone keeps: they are free once all has left, or at discard().
+  std::size_t held() const {
+    return kept_.size() + later_.size() + (owner_.use_count() == 1 ? owned_ : 0);
+  }
   bool empty() const { return kept_.empty() && shared_.empty() && !has_long_body(); }
 
   /// The next bytes to send.
@@ -88,6 +93,7 @@ class OutputQueue {
   std::size_t sent_ = 0;  ///< of kept_, or of the shared text when there is none
   std::shared_ptr<const void> owner_;
   std::string_view long_body_;
+  std::size_t owned_ = 0;  ///< bytes behind owner_
 };
 
 }  // namespace fitgauge::http

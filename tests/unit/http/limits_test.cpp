@@ -170,3 +170,24 @@ TEST_CASE("chunked bodies take their budget as they grow and give it back") {
   for (int i = 0; i < 3; ++i) CHECK(server.ask(request).body == body);
   CHECK(server.server().counters().body_bytes_in_flight == 0);
 }
+
+TEST_CASE(
+    "answers that nobody takes are bounded in bytes, and the newest is not the one that ends") {
+  ServerOptions options;
+  options.unsent_budget = 50'000'000;  // two answers, and what sockets take of others
+  TestServer server(limited_routes(), options);
+  std::vector<Client> stuck;
+  std::string begun;
+  for (int i = 0; i < 6; ++i) {
+    stuck.push_back(server.connect());
+    stuck.back().send(get("/large", "Connection: close\r\n"));
+    begun = stuck.back().read_some();  // its answer is on its way
+    std::this_thread::sleep_for(300ms);
+  }
+  for (int i = 0; i < 500 && server.server().counters().connections_open > 2; ++i) {
+    std::this_thread::sleep_for(10ms);
+  }
+  CHECK(server.server().counters().connections_open == 2);
+  CHECK(stuck.front().read_to_end().size() < 20'000'000);
+  CHECK(begun.size() + stuck.back().read_to_end().size() > 20'000'000);
+}
