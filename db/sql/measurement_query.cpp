@@ -19,6 +19,8 @@ using sql::Statement;
 /// Statements kept for the filters asked with; then all begin anew.
 constexpr std::size_t kMostKept = 64;
 constexpr std::int64_t kRowsAtATime = 1024;
+/// Smaller nodes are not worth a look: their blocks are found as soon.
+constexpr int kLeastLookedAt = 2;
 
 /// Calls `add(condition, value)` for each condition a row `m` has to meet.
 template <class Add>
@@ -117,6 +119,7 @@ MeasurementQuery::MeasurementQuery(sql::Connection& connection, std::string colu
     : connection_(connection),
       columns_(std::move(columns)),
       most_at_once_(connection.dialect().streams ? kLastId : kRowsAtATime),
+      nodes_(connection),
       last_block_(last_block_statement(connection)),
       block_rows_(connection,
                   "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND "
@@ -134,13 +137,20 @@ bool MeasurementQuery::run(const MeasurementFilter& filter, const IdSpan& ids, L
   return run_current({.filter = all,
                       .order = order,
                       .visit = visit,
-                      .read_block = is_said_by_index(all) ? read_block : none},
+                      .read_block = is_said_by_index(all) ? read_block : none,
+                      .is_current = asks_for_current(filter)},
                      ids);
+}
+
+/// Whether the rows that are asked for are among those that count now, which nodes add up.
+bool MeasurementQuery::asks_for_current(const MeasurementFilter& filter) {
+  const bool is_now = !filter.as_of_id || *filter.as_of_id >= connection_.measurements().last_id();
+  return (is_now && !filter.history) || corrected_.returning<std::int64_t>(kLastId) == 0;
 }
 
 bool MeasurementQuery::run_current(const Reading& reading, const IdSpan& ids) {
   if (statements_.size() > kMostKept) statements_.clear();
-  const auto& [filter, order, visit, read_block] = reading;
+  const auto& [filter, order, visit, read_block, is_current] = reading;
   const std::int64_t indexed = indexed_to(last_block_);
   const IdSpan all = intersection(ids, {.first = 1, .last = filter.as_of_id.value_or(kLastId)});
   const IdSpan known = intersection(all, {.first = 1, .last = indexed});
@@ -191,9 +201,8 @@ bool MeasurementQuery::scan(Statement& matching, const IdSpan& ids, ListOrder or
 }
 
 /// The values asked for, those first that are likely to have the fewest rows.
-std::vector<MeasurementQuery::Posting> MeasurementQuery::postings_of(
-    const MeasurementFilter& filter) {
-  std::vector<Posting> postings;
+std::vector<FieldValue> MeasurementQuery::postings_of(const MeasurementFilter& filter) {
+  std::vector<FieldValue> postings;
   const auto add_text = [&](TextField field) {
     if (const auto& text = filter.text(field)) postings.push_back({number_of(field), *text});
   };
@@ -222,15 +231,15 @@ std::vector<MeasurementQuery::Posting> MeasurementQuery::postings_of(
 }
 
 /// A source is mostly looked at in the rows: nearly all have the one that is asked for.
-bool MeasurementQuery::is_source(const Posting& posting) {
+bool MeasurementQuery::is_source(const FieldValue& posting) {
   return posting.field == number_of(IndexField::Source);
 }
 
 bool MeasurementQuery::run_indexed(const Reading& reading, Statement& matching, const IdSpan& ids) {
   if (ids.empty()) return true;
-  const auto& [filter, order, visit, read_block] = reading;
+  const auto& [filter, order, visit, read_block, is_current] = reading;
   if (filter.cause || filter.has_notes) return run_noted(reading, matching, ids);
-  std::vector<Posting> postings = postings_of(filter);
+  std::vector<FieldValue> postings = postings_of(filter);
   if (postings.empty() && !filter.has_times() && !read_block) {
     return scan(matching, ids, order, visit);
   }
@@ -242,33 +251,78 @@ bool MeasurementQuery::run_indexed(const Reading& reading, Statement& matching, 
   int index = 0;
   const auto bind_time = [&](std::string_view, std::int64_t value) { blocks.bind(++index, value); };
   if (tells_inside) for_each_inside_condition(filter, bind_time);
-  for (const Posting& posting : postings) {
+  for (const FieldValue& posting : postings) {
     blocks.bind(++index, posting.field);
     blocks.bind(++index, std::string_view(posting.value));
   }
-  blocks.bind(++index, IndexNode::of(ids.first, 0).node);
-  blocks.bind(++index, IndexNode::of(ids.last, 0).node);
+  const int first_block = ++index, last_block = ++index;
   for_each_time_condition(filter, bind_time);
   static const BlockReader none;
   const Reading by_rows{filter, order, visit, none};
   const auto first = static_cast<int>(tells_inside) + 1;
-  for (Rows rows(blocks); rows.next();) {
-    RowSet wanted = RowSet::all();
-    for (int i = first; i < rows.columns(); ++i) wanted &= RowSet::decode(rows.get<Blob>(i).bytes);
-    if (wanted.empty()) continue;
-    const bool is_inside = !tells_inside || rows.get<bool>(1);
-    if (!run_block(is_inside ? reading : by_rows, matching, ids, wanted,
-                   rows.get<std::int64_t>(0))) {
-      return false;
+  return visit_nodes(reading, postings, ids, [&](const IdSpan& span) {
+    blocks.bind(first_block, IndexNode::of(span.first, 0).node);
+    blocks.bind(last_block, IndexNode::of(span.last, 0).node);
+    for (Rows rows(blocks); rows.next();) {
+      RowSet wanted = RowSet::all();
+      for (int i = first; i < rows.columns(); ++i)
+        wanted &= RowSet::decode(rows.get<Blob>(i).bytes);
+      if (wanted.empty()) continue;
+      const bool is_inside = !tells_inside || rows.get<bool>(1);
+      if (!run_block(is_inside ? reading : by_rows, matching, span, wanted,
+                     rows.get<std::int64_t>(0))) {
+        return false;
+      }
     }
+    return true;
+  });
+}
+
+/// Reads all ids, or, where the nodes of the index can tell that they have none that match, those
+/// of the others. One value alone leads to its blocks without them.
+bool MeasurementQuery::visit_nodes(const Reading& reading, std::span<const FieldValue> postings,
+                                   const IdSpan& ids, const SpanReader& read) {
+  if (postings.size() < 2 && !reading.filter.has_times()) return read(ids);
+  IndexNode node = IndexNode::of(ids.first, kLevels - 1);
+  IndexNode end = IndexNode::of(ids.last, kLevels - 1);
+  const bool newest = reading.order == ListOrder::NewestFirst;
+  if (newest) std::swap(node, end);
+  while (visit_node(reading, postings, node, ids, read)) {
+    if (node.node == end.node) return true;
+    node.node += newest ? -1 : 1;
+  }
+  return false;
+}
+
+bool MeasurementQuery::visit_node(const Reading& reading, std::span<const FieldValue> postings,
+                                  const IndexNode& node, const IdSpan& ids,
+                                  const SpanReader& read) {
+  const IdSpan here = intersection(ids, node.ids());
+  if (here.empty()) return true;
+  const bool is_whole = here.first == node.ids().first && here.last == node.ids().last;
+  if (is_whole && has_none(reading, postings, node)) return true;
+  if (node.level == kLeastLookedAt) return read(here);
+  const bool newest = reading.order == ListOrder::NewestFirst;
+  for (std::int64_t i = 0; i < kFanOut; ++i) {
+    const IndexNode child = node.child(newest ? kFanOut - 1 - i : i);
+    if (!visit_node(reading, postings, child, ids, read)) return false;
   }
   return true;
+}
+
+/// Whether it is known that no row of the node matches.
+bool MeasurementQuery::has_none(const Reading& reading, std::span<const FieldValue> postings,
+                                const IndexNode& node) {
+  const auto found = nodes_.find(node, reading.filter);
+  return found && (found->times == IndexNodes::Times::Outside ||
+                   (reading.is_current && nodes_.lacks(node, postings, reading.filter)));
 }
 
 /// The blocks that have all values, each with whether all its times match, if that is asked, and
 /// with the rows of each value.
 Statement& MeasurementQuery::matching_blocks(const Reading& reading,
-                                             std::span<const Posting> postings, bool tells_inside) {
+                                             std::span<const FieldValue> postings,
+                                             bool tells_inside) {
   const MeasurementFilter& filter = reading.filter;
   const bool has_nodes = postings.empty() || filter.has_times();
   std::string block = "b.node", columns, tables, conditions;
@@ -302,7 +356,7 @@ Statement& MeasurementQuery::matching_blocks(const Reading& reading,
 /// Notes are few, as people write them: from one block with some to the next.
 bool MeasurementQuery::run_noted(const Reading& reading, Statement& matching, const IdSpan& ids) {
   const MeasurementFilter& filter = reading.filter;
-  const std::vector<Posting> postings = postings_of(filter);
+  const std::vector<FieldValue> postings = postings_of(filter);
   const std::string where = fmt::format("FROM notes WHERE measurement BETWEEN ? AND ?{}",
                                         filter.cause ? " AND cause = ?" : "");
   const bool newest = reading.order == ListOrder::NewestFirst;
@@ -324,7 +378,7 @@ bool MeasurementQuery::run_noted(const Reading& reading, Statement& matching, co
     in_block.bind(2, whole.last);
     RowSet wanted;
     for (Rows rows(in_block); rows.next();) wanted.add(rows.get<std::int64_t>(0) - whole.first);
-    for (const Posting& posting : postings) {
+    for (const FieldValue& posting : postings) {
       if (wanted.empty() || is_source(posting)) break;
       wanted &= rows_in_block(posting, block.node);
     }
@@ -338,7 +392,7 @@ bool MeasurementQuery::run_noted(const Reading& reading, Statement& matching, co
   return true;
 }
 
-RowSet MeasurementQuery::rows_in_block(const Posting& posting, std::int64_t block) {
+RowSet MeasurementQuery::rows_in_block(const FieldValue& posting, std::int64_t block) {
   Rows rows = block_rows_.query(posting.field, posting.value, block);
   return rows.next() ? RowSet::decode(rows.get<Blob>(0).bytes) : RowSet();
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sql/index_nodes.hpp"
 #include "sql/statement.hpp"
 #include "store/measurement_filter.hpp"
 #include "store/measurement_index.hpp"
@@ -61,13 +62,8 @@ class MeasurementQuery {
            const Visitor& visit, const BlockReader& read_block = {});
 
  private:
-  /// A value that the index knows the rows of.
-  struct Posting {
-    int field = 0;
-    std::string value;
-  };
-  static std::vector<Posting> postings_of(const MeasurementFilter& filter);
-  static bool is_source(const Posting& posting);
+  static std::vector<FieldValue> postings_of(const MeasurementFilter& filter);
+  static bool is_source(const FieldValue& posting);
 
   /// What a run hands down to its parts.
   struct Reading {
@@ -75,23 +71,33 @@ class MeasurementQuery {
     ListOrder order;
     const Visitor& visit;
     const BlockReader& read_block;  ///< empty where the index does not say all
+    bool is_current = false;        ///< only rows that no other corrects now are asked for
   };
+  using SpanReader = std::function<bool(const IdSpan& ids)>;
 
+  bool asks_for_current(const MeasurementFilter& filter);
   sql::Statement& matching_rows(const MeasurementFilter& filter, ListOrder order);
   bool run_current(const Reading& reading, const IdSpan& ids);
   bool scan(sql::Statement& matching, const IdSpan& ids, ListOrder order, const Visitor& visit);
   bool run_indexed(const Reading& reading, sql::Statement& matching, const IdSpan& ids);
+  bool visit_nodes(const Reading& reading, std::span<const FieldValue> postings, const IdSpan& ids,
+                   const SpanReader& read);
+  bool visit_node(const Reading& reading, std::span<const FieldValue> postings,
+                  const IndexNode& node, const IdSpan& ids, const SpanReader& read);
+  bool has_none(const Reading& reading, std::span<const FieldValue> postings,
+                const IndexNode& node);
   bool run_noted(const Reading& reading, sql::Statement& matching, const IdSpan& ids);
   bool run_block(const Reading& reading, sql::Statement& matching, const IdSpan& ids,
                  const RowSet& rows, std::int64_t block);
-  sql::Statement& matching_blocks(const Reading& reading, std::span<const Posting> postings,
+  sql::Statement& matching_blocks(const Reading& reading, std::span<const FieldValue> postings,
                                   bool tells_inside);
-  RowSet rows_in_block(const Posting& posting, std::int64_t block);
+  RowSet rows_in_block(const FieldValue& posting, std::int64_t block);
   sql::Statement& statement(const std::string& sql);
 
   sql::Connection& connection_;
   const std::string columns_;
   const std::int64_t most_at_once_;
+  IndexNodes nodes_;
   sql::Statement last_block_;
   sql::Statement block_rows_;
   sql::Statement corrected_;

@@ -14,36 +14,13 @@ namespace {
 using sql::Blob;
 using sql::Rows;
 
-Source source_of(int kind) { return static_cast<Source>(kind / 8); }
-Verdict verdict_of(int kind) { return static_cast<Verdict>(kind % 8); }
-
-/// Where the times from `min` to `max` lie to the range `from` <= time < `to`.
-template <class Relation>
-Relation relation_of(std::int64_t min, std::int64_t max, std::optional<std::int64_t> from,
-                     std::optional<std::int64_t> to) {
-  if ((from && max < *from) || (to && min >= *to)) return Relation::Outside;
-  if ((!from || min >= *from) && (!to || max < *to)) return Relation::Inside;
-  return Relation::Partly;
-}
-
 }  // namespace
 
 MeasurementSummary::MeasurementSummary(sql::Connection& c, TextField group_by)
     : group_by_(group_by),
       rows_(c, fmt::format("m.{}, m.verdict, m.measured_nm", column_of(group_by))),
+      nodes_(c),
       last_block_(last_block_statement(c)),
-      node_(c,
-            "SELECT min_measured_at, max_measured_at, min_received_at, max_received_at, stale, "
-            "paired FROM measurement_nodes WHERE level = ? AND node = ?"),
-      aggregates_(c, fmt::format("SELECT value, kind, statistics, {} FROM measurement_aggregates "
-                                 "WHERE level = ? AND node = ? AND field = ?",
-                                 AggregatedValue(c).is_none)),
-      aggregates_of_value_(c,
-                           "SELECT value, kind, statistics, 0 FROM measurement_aggregates "
-                           "WHERE level = ? AND node = ? AND field = ? AND value = ?"),
-      pairs_(c,
-             "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
-             "AND node = ?"),
       columns_(c,
                "SELECT c.bytes FROM measurement_nodes n JOIN measurement_columns c ON c.block = "
                "n.node WHERE n.level = 0 AND n.node = ? AND n.paired = 1"),
@@ -132,11 +109,12 @@ void MeasurementSummary::add_nodes() {
 }
 
 void MeasurementSummary::add_node(const IndexNode& node) {
-  bool usable = false;
-  const Relation where = relation(node, usable);
-  if (where == Relation::Outside) return;
-  if (where == Relation::Inside && usable &&
-      (others_.empty() ? add_aggregates(node) : add_pairs(node) || add_tuples(node))) {
+  using Times = IndexNodes::Times;
+  const auto found = nodes_.find(node, *filter_).value_or(IndexNodes::Found());
+  if (found.times == Times::Outside) return;
+  if (found.times == Times::Inside &&
+      (others_.empty() ? found.has_aggregates && add_aggregates(node)
+                       : found.has_pairs && add_by_others(node))) {
     aggregated_.push_back(node.ids());
     return;
   }
@@ -145,18 +123,10 @@ void MeasurementSummary::add_node(const IndexNode& node) {
   for (std::int64_t i = 0; i < kFanOut && fits_; ++i) add_node(node.child(i));
 }
 
-/// @param usable set to whether what the node adds up is of its current rows.
-MeasurementSummary::Relation MeasurementSummary::relation(const IndexNode& node, bool& usable) {
-  Rows rows = node_.query(node.level, node.node);
-  if (!rows.next()) return Relation::Partly;
-  usable = others_.empty() ? !rows.get<bool>(4) : rows.get<bool>(5);
-  const auto measured = relation_of<Relation>(rows.get<std::int64_t>(0), rows.get<std::int64_t>(1),
-                                              filter_->from_ns, filter_->to_ns);
-  const auto received = relation_of<Relation>(rows.get<std::int64_t>(2), rows.get<std::int64_t>(3),
-                                              filter_->received_from_ns, filter_->received_to_ns);
-  if (measured == Relation::Outside || received == Relation::Outside) return Relation::Outside;
-  const bool inside = measured == Relation::Inside && received == Relation::Inside;
-  return inside ? Relation::Inside : Relation::Partly;
+/// @returns whether the node tells what there is by the other fields.
+bool MeasurementSummary::add_by_others(const IndexNode& node) {
+  return add_pairs(node) || add_tuples(node) ||
+         (node.level > 1 && nodes_.lacks(node, others_, *filter_));
 }
 
 /// @returns whether the node has any by the field.
@@ -168,18 +138,18 @@ bool MeasurementSummary::add_aggregates(const IndexNode& node) {
     while (rows.next() && fits_) {
       found = true;
       const auto kind = rows.get<int>(1);
-      if (!is_asked(kind)) continue;
+      if (!is_asked(*filter_, kind)) continue;
       const auto group =
           rows.get<bool>(3) ? std::nullopt : rows.get<std::optional<std::string_view>>(0);
       add(group, verdict_of(kind), ExactStatistics::decode(rows.get<Blob>(2).bytes));
     }
   };
   if (value) {
-    add_all(aggregates_of_value_.query(node.level, node.node, field, *value));
+    add_all(nodes_.aggregates(node, field, *value));
     // No rows of the value, or no aggregates of the field?
-    found = found || aggregates_.query(node.level, node.node, field).next();
+    found = found || nodes_.aggregates(node, field).next();
   } else {
-    add_all(aggregates_.query(node.level, node.node, field));
+    add_all(nodes_.aggregates(node, field));
   }
   return found;
 }
@@ -188,7 +158,7 @@ bool MeasurementSummary::add_aggregates(const IndexNode& node) {
 bool MeasurementSummary::add_pairs(const IndexNode& node) {
   if (node.level == 0 || others_.size() > 1) return false;
   const auto& other = others_.front();
-  Rows rows = pairs_.query(node.level, other.field, number_of(group_by_), node.node);
+  Rows rows = nodes_.pairs(node, other.field, number_of(group_by_));
   if (!rows.next()) return false;
   const auto& wanted = filter_->text(group_by_);
   visit_values(rows.get<Blob>(0).bytes, [&](std::string_view value, std::string_view pairs) {
@@ -196,7 +166,7 @@ bool MeasurementSummary::add_pairs(const IndexNode& node) {
     if (value != other.value) return false;
     visit_pairs_of(pairs, [&](std::optional<std::string_view> group, int kind,
                               const ExactStatistics& statistics) {
-      if (!is_asked(kind) || (wanted && group != *wanted) || !fits_) return;
+      if (!is_asked(*filter_, kind) || (wanted && group != *wanted) || !fits_) return;
       add(group, verdict_of(kind), statistics);
     });
     return false;
@@ -204,58 +174,52 @@ bool MeasurementSummary::add_pairs(const IndexNode& node) {
   return true;
 }
 
-/// @returns whether the node has tuples by all fields that are asked for. Their sums, which are the
-/// most, are looked at only where there are such values.
+/// @returns whether the node has tuples by all fields that are asked for.
 bool MeasurementSummary::add_tuples(const IndexNode& node) {
   if (node.level == 0) return false;
   std::string group_bytes, bytes;
-  const auto groups = read_column(node, number_of(group_by_), group_bytes);
+  const auto groups = nodes_.column(node, number_of(group_by_), group_bytes);
   if (!groups) return false;
   matching_tuples_.assign(groups->numbers.size(), 1);
   bool found = true;
   for (const auto& [field, value] : others_) {
-    const auto column = read_column(node, field, bytes);
+    const auto column = nodes_.column(node, field, bytes);
     if (!column || column->numbers.size() != matching_tuples_.size()) return false;
     found = found && column->keep(value, matching_tuples_);
   }
   if (const auto& value = filter_->text(group_by_)) {
     found = found && groups->keep(*value, matching_tuples_);
   }
-  if (!found) return true;
-  Rows rows =
-      pairs_.query(node.level, PairIndex::kTuples.first, PairIndex::kTuples.second, node.node);
-  TupleSums sums;
-  if (!rows.next() || !sums.read(rows.get<Blob>(0).bytes) ||
-      sums.size() != matching_tuples_.size()) {
-    return false;
-  }
-  add_sums(sums, *groups);
-  return true;
+  return !found || add_sums(node, *groups);
 }
 
-/// @param bytes what the column is a view of
-std::optional<TupleColumn> MeasurementSummary::read_column(const IndexNode& node, int field,
-                                                           std::string& bytes) {
-  Rows rows = pairs_.query(node.level, field, PairIndex::kTuples.second, node.node);
-  if (!rows.next()) return std::nullopt;
-  bytes = rows.get<Blob>(0).bytes;
-  TupleColumn column;
-  return column.read(bytes) ? std::optional(std::move(column)) : std::nullopt;
-}
-
-void MeasurementSummary::add_sums(const TupleSums& sums, const TupleColumn& groups) {
+/// Reads the sums only where there are matching tuples.
+/// @returns whether all are there
+bool MeasurementSummary::add_sums(const IndexNode& node, const TupleColumn& groups) {
   std::array<bool, kKinds> asked{};
-  for (int kind = 0; kind < kKinds; ++kind) asked[static_cast<std::size_t>(kind)] = is_asked(kind);
+  for (int kind = 0; kind < kKinds; ++kind)
+    asked[static_cast<std::size_t>(kind)] = is_asked(*filter_, kind);
   tuple_sums_.assign(groups.values.size() * kKinds, {});
-  sums.visit([&](std::size_t tuple, int kind, const auto& read) {
-    if (matching_tuples_[tuple] == 0 || !asked[static_cast<std::size_t>(kind)]) return;
-    const auto group = static_cast<unsigned char>(groups.numbers[tuple]);
-    tuple_sums_[std::size_t{group} * kKinds + static_cast<std::size_t>(kind)].add(read());
-  });
+  const std::span<const std::uint8_t> matching(matching_tuples_);
+  TupleSums sums;
+  for (std::size_t first = 0; first < matching.size(); first += kTuplesTogether) {
+    const auto here = matching.subspan(first, std::min(kTuplesTogether, matching.size() - first));
+    if (std::find(here.begin(), here.end(), 1) == here.end()) continue;
+    Rows rows = nodes_.pairs(node, PairIndex::kSums, static_cast<int>(first / kTuplesTogether));
+    if (!rows.next() || !sums.read(rows.get<Blob>(0).bytes) || sums.size() != here.size()) {
+      return false;
+    }
+    sums.visit([&](std::size_t tuple, int kind, const auto& read) {
+      if (here[tuple] == 0 || !asked[static_cast<std::size_t>(kind)]) return;
+      const auto group = static_cast<unsigned char>(groups.numbers[first + tuple]);
+      tuple_sums_[std::size_t{group} * kKinds + static_cast<std::size_t>(kind)].add(read());
+    });
+  }
   for (std::size_t i = 0; i < tuple_sums_.size() && fits_; ++i) {
     if (tuple_sums_[i].count() == 0) continue;
     add(groups.values[i / kKinds], verdict_of(static_cast<int>(i % kKinds)), tuple_sums_[i]);
   }
+  return true;
 }
 
 /// Reads what was left before, where these ids do not follow it.
@@ -307,11 +271,6 @@ MeasurementQuery::BlockRead MeasurementSummary::add_block(std::int64_t block, co
         block_statistics_[i]);
   }
   return fits_ ? BlockRead::Taken : BlockRead::Ended;
-}
-
-bool MeasurementSummary::is_asked(int kind) const {
-  return (!filter_->source || source_of(kind) == *filter_->source) &&
-         (!filter_->verdict || verdict_of(kind) == *filter_->verdict);
 }
 
 /// Aggregates are of current rows: a summary of all rows has the corrected ones as well.

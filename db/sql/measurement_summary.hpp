@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "sql/index_nodes.hpp"
 #include "sql/measurement_query.hpp"
 #include "sql/statement.hpp"
 #include "store/block_columns.hpp"
@@ -37,37 +38,27 @@ class MeasurementSummary {
     ExactStatistics statistics;
     std::array<std::int64_t, 4> verdicts{};  ///< by Verdict, Good first
   };
-  struct FieldValue {
-    int field = 0;
-    std::string value;
-  };
-  enum class Relation { Outside, Inside, Partly };
 
   void look_at_filter();
   bool is_rare(const FieldValue& wanted);
   void add_nodes();
   void add_node(const IndexNode& node);
-  Relation relation(const IndexNode& node, bool& usable);
   bool add_aggregates(const IndexNode& node);
+  bool add_by_others(const IndexNode& node);
   bool add_pairs(const IndexNode& node);
   bool add_tuples(const IndexNode& node);
-  std::optional<TupleColumn> read_column(const IndexNode& node, int field, std::string& bytes);
-  void add_sums(const TupleSums& sums, const TupleColumn& groups);
+  bool add_sums(const IndexNode& node, const TupleColumn& groups);
   void add_later(const IdSpan& ids);
   void add_rows(const IdSpan& ids);
   MeasurementQuery::BlockRead add_block(std::int64_t block, const RowSet& rows, const IdSpan& ids);
-  bool is_asked(int kind) const;
   void add_corrected_rows();
   void add(std::optional<std::string_view> value, Verdict verdict,
            const ExactStatistics& statistics);
 
   const TextField group_by_;
   MeasurementQuery rows_;
+  IndexNodes nodes_;
   sql::Statement last_block_;
-  sql::Statement node_;
-  sql::Statement aggregates_;
-  sql::Statement aggregates_of_value_;
-  sql::Statement pairs_;
   sql::Statement columns_;
   sql::Statement blocks_of_value_;
   sql::Statement corrected_;

@@ -42,12 +42,23 @@ void for_each_pair(const Visit& visit) {
 
 /// And with those of tuples.
 template <class Visit>
-void for_each_entry(const Visit& visit) {
+void for_each_entry(const IndexNode& node, const Visit& visit) {
   for_each_pair(visit);
-  visit(PairIndex::kTuples.first, PairIndex::kTuples.second);
   for (std::size_t column = 0; column < kBlockColumns; ++column) {
-    visit(field_of_column(column), PairIndex::kTuples.second);
+    visit(field_of_column(column), PairIndex::kColumns);
   }
+  const std::size_t sums = most_tuples(node) / kTuplesTogether;
+  for (std::size_t i = 0; i < sums; ++i) visit(PairIndex::kSums, static_cast<int>(i));
+}
+
+void add_tuples(const TupleWriter& tuples, PairIndex::Node& index) {
+  tuples.visit_columns([&](int field, std::string bytes) {
+    index.pairs[{field, PairIndex::kColumns}] = std::move(bytes);
+  });
+  int by = 0;
+  tuples.visit_sums([&](std::string bytes) {
+    index.pairs[{PairIndex::kSums, by++}] = std::move(bytes);
+  });
 }
 
 }  // namespace
@@ -81,7 +92,7 @@ PairIndex::Node PairIndex::derive(const IndexNode& node) {
 }
 
 void PairIndex::derive_from_columns(const IndexNode& node, Node& index) {
-  index.pairs[kTuples];  // empty where a block has no columns
+  index.pairs[{kSums, 0}];  // empty where a block has no columns
   PairCounter counter;
   for (std::int64_t i = 0; i < kFanOut; ++i) {
     BlockColumns block;
@@ -94,7 +105,7 @@ void PairIndex::derive_from_columns(const IndexNode& node, Node& index) {
     if (by_column >= kTextColumns.size()) return;
     index.pairs[{field_of_column(column), field_of_column(by_column)}] = encode(pairs);
   });
-  take(counter.tuples(most_tuples(node)), index);
+  add_tuples(counter.tuples(most_tuples(node)), index);
 }
 
 /// Joins the nodes below in their order: sums count from the first value.
@@ -124,16 +135,12 @@ void PairIndex::derive_from_pairs(const IndexNode& node, Node& index) {
 
 /// Numbers what the nodes below are by first, then adds them up: their statistics are not all kept.
 void PairIndex::join_tuples(const IndexNode& node, Node& index) {
-  index.pairs[kTuples];
+  index.pairs[{kSums, 0}];
   std::array<NumberedColumn, kBlockColumns> columns;
   std::vector<std::uint8_t> kinds;
-  TupleSums sums;
   const auto for_each_sums = [&](const auto& visit) {
     for (std::int64_t i = 0; i < kFanOut; ++i) {
-      const IndexNode child = node.child(i);
-      Rows rows = pair_.query(child.level, kTuples.first, kTuples.second, child.node);
-      if (!rows.next() || !sums.read(rows.get<Blob>(0).bytes)) return false;
-      sums.visit(visit);
+      if (!visit_sums(node.child(i), visit)) return false;
     }
     return true;
   };
@@ -150,22 +157,29 @@ void PairIndex::join_tuples(const IndexNode& node, Node& index) {
   TupleWriter writer(columns, kinds, most_tuples(node));
   std::size_t row = 0;
   for_each_sums([&](std::size_t, int, const auto& read) { writer.add(row++, read()); });
-  take(writer, index);
+  add_tuples(writer, index);
+}
+
+/// @returns false where the node has no tuples
+template <class Visit>
+bool PairIndex::visit_sums(const IndexNode& node, const Visit& visit) {
+  TupleSums sums;
+  std::size_t last = kTuplesTogether;
+  for (int by = 0; last == kTuplesTogether; ++by, last = sums.size()) {
+    Rows rows = pair_.query(node.level, kSums, by, node.node);
+    if (!rows.next()) return by > 0;
+    if (!sums.read(rows.get<Blob>(0).bytes)) return false;
+    sums.visit(visit);
+  }
+  return true;
 }
 
 void PairIndex::add_column(const IndexNode& node, std::size_t column, NumberedColumn& all) {
   TupleColumn found;
-  Rows rows = pair_.query(node.level, field_of_column(column), kTuples.second, node.node);
+  Rows rows = pair_.query(node.level, field_of_column(column), kColumns, node.node);
   if (!rows.next() || !found.read(rows.get<Blob>(0).bytes)) return all.give_up();
   const std::vector<std::uint16_t> numbers = all.numbers_of(found.values);
   for (const char number : found.numbers) all.add(numbers[static_cast<unsigned char>(number)]);
-}
-
-void PairIndex::take(const TupleWriter& tuples, Node& index) {
-  tuples.visit_columns([&](int field, std::string bytes) {
-    index.pairs[{field, kTuples.second}] = std::move(bytes);
-  });
-  index.pairs[kTuples] = tuples.encode_sums();
 }
 
 void PairIndex::insert(const IndexNode& node, const Node& index) {
@@ -177,7 +191,8 @@ void PairIndex::insert(const IndexNode& node, const Node& index) {
 
 void PairIndex::erase(const IndexNode& node) {
   if (node.level == 0) return delete_columns_.run(node.node);
-  for_each_entry([&](int field, int by) { delete_pair_.run(node.level, field, by, node.node); });
+  for_each_entry(node,
+                 [&](int field, int by) { delete_pair_.run(node.level, field, by, node.node); });
 }
 
 bool PairIndex::is_stored(const IndexNode& node, const Node& index) {
@@ -189,7 +204,7 @@ bool PairIndex::is_stored(const IndexNode& node, const Node& index) {
     return is_same(columns_.query(node.node), index.columns ? &*index.columns : nullptr);
   }
   bool all = true;
-  for_each_entry([&](int field, int by) {
+  for_each_entry(node, [&](int field, int by) {
     const auto expected = index.pairs.find({field, by});
     all = all && is_same(pair_.query(node.level, field, by, node.node),
                          expected == index.pairs.end() ? nullptr : &expected->second);

@@ -15,8 +15,9 @@ namespace fitgauge::store {
 /// The part of the index that tells how values of two fields meet: the columns of a block
 /// (store::BlockColumns), and above blocks the statistics of the values of one field by those of
 /// another (store::PairStatistics), where they are few enough, and by those of many together
-/// (store::TupleSums). Of these each field's column stands where its pair with no field would, and
-/// the sums where a pair of none would.
+/// (store::TupleSums). Of these each field's column stands where its pair with no field would.
+/// Their sums stand where pairs of no field would: those of kTuplesTogether by 0, of the next by 1
+/// and so on. Where there are none, 0 is empty.
 class PairIndex {
  public:
   /// What there is of a node.
@@ -26,7 +27,8 @@ class PairIndex {
     std::map<std::pair<int, int>, std::string> pairs{};  ///< of others, by the two fields
   };
 
-  static constexpr std::pair<int, int> kTuples{0, 0};  ///< their sums
+  static constexpr int kSums = 0;     ///< the field of tuples' sums
+  static constexpr int kColumns = 0;  ///< what their columns stand by
 
   explicit PairIndex(sql::Connection& connection);
 
@@ -44,7 +46,8 @@ class PairIndex {
   void derive_from_pairs(const IndexNode& node, Node& index);
   void join_tuples(const IndexNode& node, Node& index);
   void add_column(const IndexNode& node, std::size_t column, NumberedColumn& all);
-  static void take(const TupleWriter& tuples, Node& index);
+  template <class Visit>
+  bool visit_sums(const IndexNode& node, const Visit& visit);
 
   sql::Statement columns_;
   sql::Statement insert_columns_;

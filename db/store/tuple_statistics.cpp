@@ -9,8 +9,8 @@
 namespace fitgauge::store {
 
 // Of a field there are how many values it has, the values, and of each tuple the number of its
-// value, a byte. Of the tuples alone how many there are, of each its kind, a byte, and the size of
-// its statistics, a byte, and behind these the statistics.
+// value, a byte. Of tuples that stand together how many they are, of each its kind, a byte, and the
+// size of its statistics, a byte, and behind these the statistics.
 
 std::vector<std::uint16_t> NumberedColumn::numbers_of(
     std::span<const std::optional<std::string_view>> values) {
@@ -47,8 +47,32 @@ TupleWriter::TupleWriter(std::span<const NumberedColumn> columns,
   for (const std::size_t column : order) {
     if (columns[column].fits() && split_by(columns[column], most)) taken_.push_back(column);
   }
+  sort();
   std::sort(taken_.begin(), taken_.end());
   statistics_.resize(row_of_tuple_.size());
+}
+
+/// By the fields in the order they were taken.
+void TupleWriter::sort() {
+  std::vector<std::uint32_t> order(row_of_tuple_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const std::size_t row = row_of_tuple_[a], other = row_of_tuple_[b];
+    for (const std::size_t column : taken_) {
+      const std::uint16_t value = columns_[column].rows()[row];
+      const std::uint16_t other_value = columns_[column].rows()[other];
+      if (value != other_value) return value < other_value;
+    }
+    return kinds_[row] < kinds_[other];
+  });
+  std::vector<std::uint32_t> place(order.size());
+  std::vector<std::size_t> row_of_tuple(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[order[i]] = static_cast<std::uint32_t>(i);
+    row_of_tuple[i] = row_of_tuple_[order[i]];
+  }
+  for (std::uint32_t& tuple : tuple_of_row_) tuple = place[tuple];
+  row_of_tuple_ = std::move(row_of_tuple);
 }
 
 /// @returns false, and leaves them as they are, where more than `most` tuples come of it.
@@ -81,14 +105,15 @@ std::string TupleWriter::encode(const NumberedColumn& column) const {
   return bytes;
 }
 
-std::string TupleWriter::encode_sums() const {
+std::string TupleWriter::encode_sums(std::size_t first) const {
+  const std::size_t last = std::min(first + kTuplesTogether, row_of_tuple_.size());
   std::string bytes;
-  append_number(bytes, row_of_tuple_.size());
-  for (const std::size_t row : row_of_tuple_) bytes += static_cast<char>(kinds_[row]);
+  append_number(bytes, last - first);
+  for (std::size_t i = first; i < last; ++i) bytes += static_cast<char>(kinds_[row_of_tuple_[i]]);
   std::string statistics;
-  for (const ExactStatistics& of : statistics_) {
+  for (std::size_t i = first; i < last; ++i) {
     const std::size_t before = statistics.size();
-    of.pack(statistics);
+    statistics_[i].pack(statistics);
     bytes += static_cast<char>(statistics.size() - before);
   }
   return bytes + statistics;

@@ -18,7 +18,10 @@ namespace fitgauge::store {
 // Statistics of the current rows of a node by the values of several fields at once: one for each
 // combination that occurs, a tuple. A shop has few of them, as a characteristic is measured at one
 // operation by one gauge, so that a filter by any of the fields, grouped by any other, looks at
-// hundreds of tuples instead of ten thousands of rows.
+// hundreds of tuples instead of ten thousands of rows. They are in the order of their values, so
+// that those with one stand together, and the sums of kTuplesTogether are read at a time.
+
+inline constexpr std::size_t kTuplesTogether = 256;
 
 /// The values of a field in all rows so far, each by a number, if they are no more than
 /// kMostColumnValues.
@@ -63,12 +66,19 @@ class TupleWriter {
       visit(field_of_column(column), encode(columns_[column]));
     }
   }
-  /// As TupleSums reads them.
-  std::string encode_sums() const;
+  /// Calls `visit(bytes)` for what TupleSums reads of each kTuplesTogether tuples.
+  template <class Visit>
+  void visit_sums(const Visit& visit) const {
+    for (std::size_t first = 0; first < row_of_tuple_.size(); first += kTuplesTogether) {
+      visit(encode_sums(first));
+    }
+  }
 
  private:
   bool split_by(const NumberedColumn& column, std::size_t most);
+  void sort();
   std::string encode(const NumberedColumn& column) const;
+  std::string encode_sums(std::size_t first) const;
 
   std::span<const NumberedColumn> columns_;
   std::span<const std::uint8_t> kinds_;
@@ -91,7 +101,7 @@ struct TupleColumn {
   bool keep(std::string_view value, std::span<std::uint8_t> tuples) const;
 };
 
-/// The statistics of tuples. What it says are views of the bytes it has read.
+/// The statistics of tuples that stand together. What it says are views of the bytes it has read.
 class TupleSums {
  public:
   /// @returns false where the bytes are none.
