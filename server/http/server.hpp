@@ -57,8 +57,10 @@ struct ServerOptions {
   /// under pressure a sender that has stopped loses its own.
   std::size_t body_budget = std::size_t{64} << 20;
   /// Bytes of answers that wait for their readers, all connections together. Beyond it those end
-  /// that have been leaving longest. What several answers share counts for none.
+  /// that have been leaving longest, if for longer than `unsent_time`: who reads has his by then.
+  /// What several answers share counts for none.
   std::size_t unsent_budget = std::size_t{64} << 20;
+  std::chrono::milliseconds unsent_time = std::chrono::seconds(10);
   std::chrono::milliseconds header_timeout = std::chrono::seconds(10);
   std::chrono::milliseconds request_timeout = std::chrono::seconds(30);  ///< header and body
   std::chrono::milliseconds idle_timeout = std::chrono::seconds(30);

@@ -101,9 +101,9 @@ void IoThread::sweep() {
   bound_unsent();
 }
 
-/// Answers that their clients do not take end, those that have been leaving longest first, until
-/// the others have room: so that readers who drip, however many, cannot hold all memory. The newest
-/// goes on, however long it is.
+/// Answers that their clients have not taken for long end, the oldest first, until the others have
+/// room: so that readers who drip, however many, cannot hold all memory. The newest goes on,
+/// however long it is.
 void IoThread::bound_unsent() {
   const std::size_t most = shared_.options.unsent_budget / std::max(shared_.options.io_threads, 1U);
   std::size_t held = 0;
@@ -112,7 +112,9 @@ void IoThread::bound_unsent() {
   std::vector<std::shared_ptr<Connection>> leaving;
   for_each_connection([&](Connection& connection) {
     const bool is_long = connection.bytes_unsent() > OutputQueue::kLongBody;
-    if (is_long && connection.unsent_since()) leaving.push_back(connection.shared_from_this());
+    const auto since = connection.unsent_since();
+    if (is_long && since && now_ - *since > shared_.options.unsent_time)
+      leaving.push_back(connection.shared_from_this());
   });
   std::sort(leaving.begin(), leaving.end(),
             [](const auto& a, const auto& b) { return *a->unsent_since() < *b->unsent_since(); });

@@ -171,23 +171,45 @@ TEST_CASE("chunked bodies take their budget as they grow and give it back") {
   CHECK(server.server().counters().body_bytes_in_flight == 0);
 }
 
-TEST_CASE(
-    "answers that nobody takes are bounded in bytes, and the newest is not the one that ends") {
-  ServerOptions options;
-  options.unsent_budget = 50'000'000;  // two answers, and what sockets take of others
-  TestServer server(limited_routes(), options);
+namespace {
+
+/// Six clients that ask for 20 MB and read little of it.
+std::vector<Client> ask_and_read_not(TestServer& server, std::string& begun) {
   std::vector<Client> stuck;
-  std::string begun;
   for (int i = 0; i < 6; ++i) {
     stuck.push_back(server.connect());
     stuck.back().send(get("/large", "Connection: close\r\n"));
     begun = stuck.back().read_some();  // its answer is on its way
-    std::this_thread::sleep_for(300ms);
+    std::this_thread::sleep_for(100ms);
   }
+  return stuck;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "answers that nobody takes are bounded in bytes, and the newest is not the one that ends") {
+  ServerOptions options;
+  options.unsent_budget = 50'000'000;  // two answers, and what sockets take of others
+  options.unsent_time = 0ms;
+  TestServer server(limited_routes(), options);
+  std::string begun;
+  std::vector<Client> stuck = ask_and_read_not(server, begun);
   for (int i = 0; i < 500 && server.server().counters().connections_open > 2; ++i) {
     std::this_thread::sleep_for(10ms);
   }
   CHECK(server.server().counters().connections_open == 2);
   CHECK(stuck.front().read_to_end().size() < 20'000'000);
   CHECK(begun.size() + stuck.back().read_to_end().size() > 20'000'000);
+}
+
+TEST_CASE("many who read at once get all of it, as long as they take no longer than they may") {
+  ServerOptions options;
+  options.unsent_budget = 50'000'000;
+  TestServer server(limited_routes(), options);
+  std::string begun;
+  std::vector<Client> readers = ask_and_read_not(server, begun);
+  std::this_thread::sleep_for(2s);
+  CHECK(server.server().counters().connections_open == 6);
+  for (Client& reader : readers) CHECK(reader.read_to_end().size() > 19'900'000);
 }
