@@ -44,7 +44,6 @@ inline constexpr int kProcess = 11;
 inline constexpr int kGauge = 12;
 inline constexpr int kPartIdent = 14;
 inline constexpr int kSubgroupSize = 20;
-inline constexpr int kErrors = 21;
 inline constexpr int kOrder = 53;
 inline constexpr int kGuid = 97;
 inline constexpr int kCount = 100;

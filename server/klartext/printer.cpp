@@ -57,11 +57,4 @@ std::string format_program(const Program& program) {
   return text;
 }
 
-std::string print_statement(const Program& program, const Block& block) {
-  std::string text;
-  BlockWriter out(program, text);
-  std::visit([&](const auto& statement) { write_block(out, statement); }, block.statement);
-  return text;
-}
-
 }  // namespace fitgauge::klartext

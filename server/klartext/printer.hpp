@@ -13,7 +13,4 @@ std::string print_program(const Program& program);
 /// As print_program, with every block numbered from 0: how a control lists it.
 std::string format_program(const Program& program);
 
-/// One block without its number, skip mark and comment, for traces and messages.
-std::string print_statement(const Program& program, const Block& block);
-
 }  // namespace fitgauge::klartext

@@ -334,13 +334,4 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
   return made;
 }
 
-Result<long double> within_standard_deviation(const Subgroups& data) {
-  if (data.values.size() < 2) {
-    return Error{ErrorCode::StatisticsTooFew, "one value says nothing of its spread"};
-  }
-  const Source source(data, {0, data.count()});
-  const Spread spread = spread_of(source, ChartKind::XbarR);
-  return spread.mean / spread.per_mean;
-}
-
 }  // namespace fitgauge::metrology

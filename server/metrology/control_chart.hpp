@@ -71,8 +71,4 @@ struct ControlCharts {
 ///   `phase1`.
 Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan);
 
-/// The standard deviation of single values from within: the mean range over d2, the mean moving
-/// range over 1.128. @errors StatisticsTooFew with fewer than two values.
-Result<long double> within_standard_deviation(const Subgroups& data);
-
 }  // namespace fitgauge::metrology

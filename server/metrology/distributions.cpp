@@ -12,8 +12,6 @@ namespace bm = boost::math;
 
 long double normal_below(long double z) { return std::erfc(-z / std::sqrt(2.0L)) / 2; }
 
-long double normal_above(long double z) { return normal_below(-z); }
-
 long double normal_quantile(long double p) {
   return bm::quantile(bm::normal_distribution<long double>(), p);
 }

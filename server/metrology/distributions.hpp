@@ -9,7 +9,6 @@ namespace fitgauge::metrology {
 long double normal_below(long double z);
 inline double normal_below(double z) { return std::erfc(-z / std::sqrt(2.0)) / 2; }
 inline double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
-long double normal_above(long double z);
 /// The z with that probability below it.
 long double normal_quantile(long double p);
 

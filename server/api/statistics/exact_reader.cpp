@@ -61,11 +61,6 @@ std::optional<Exact> read_exact(FieldReader& fields, std::string_view name, bool
   return errors.mark() == before ? std::optional(one[0]) : std::nullopt;
 }
 
-Exact read_exact_or(FieldReader& fields, std::string_view name, const Exact& fallback,
-                    FieldErrors& errors) {
-  return read_exact(fields, name, false, errors).value_or(fallback);
-}
-
 Decimals read_values(FieldReader& fields, std::string_view name, FieldErrors& errors) {
   const JsonValue* array = fields.array(name);
   return array == nullptr ? Decimals() : read_items(*array, fields.at(name), errors);

@@ -16,9 +16,6 @@ namespace fitgauge::api {
 /// A member that is one decimal; none when it is absent or cannot be read.
 std::optional<metrology::Exact> read_exact(FieldReader& fields, std::string_view name,
                                            bool required, FieldErrors& errors);
-/// The same, or what stands in its place when it is absent.
-metrology::Exact read_exact_or(FieldReader& fields, std::string_view name,
-                               const metrology::Exact& fallback, FieldErrors& errors);
 
 /// One decimal to the end of `to`; also reports what is neither a number nor a string.
 void add_exact(const JsonValue& value, const std::string& pointer, metrology::Decimals& to,
