@@ -27,8 +27,8 @@ class Database {
   virtual Writer& writer() = 0;
   virtual ReadPool& readers() = 0;
 
-  /// Runs what is queued and ends the threads; what comes later is refused with ShuttingDown. After
-  /// it no completion is under way: what jobs refer to may go.
+  /// Runs what is queued and ends the threads; what comes later is refused with ShuttingDown. When
+  /// it returns no completion runs any more: what the jobs refer to may be destroyed.
   virtual void drain() = 0;
 
   virtual Health health() const = 0;

@@ -36,8 +36,8 @@ struct StoredAnswer {
   bool replayed = false;  ///< set on an answer that came from the store
 };
 
-/// The answers of requests with an Idempotency-Key. Expired ones are as if never kept; the writer
-/// purges them when it is idle.
+/// The answers of requests with an Idempotency-Key. Expired ones count as never
+/// kept; the writer's maintenance purges them.
 class IdempotencyStore {
  public:
   IdempotencyStore(sql::Connection& connection, const Clock& clock, std::chrono::hours retention);

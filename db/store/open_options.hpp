@@ -37,10 +37,10 @@ struct OpenOptions {
       1024;              ///< write jobs and read jobs waiting, each; one more is StorageBusy
   unsigned readers = 2;  ///< reader threads, each with a connection of its own
 
-  int checkpoint_pages = 4000;  ///< in the log when it begins to be copied into the database
+  int checkpoint_pages = 4000;  ///< of the log: from here on it is checkpointed
 
   std::uintmax_t check_at_open_limit = std::uintmax_t{256} << 20;  ///< bytes; larger: in background
-  std::chrono::milliseconds scrub_interval = std::chrono::hours(24);  ///< from pass to pass
+  std::chrono::milliseconds scrub_interval = std::chrono::hours(24);  ///< between two passes
   std::chrono::hours idempotency_retention{30 * 24};
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
   std::int64_t event_retention = 100'000;     ///< events kept for replay
@@ -56,12 +56,12 @@ struct OpenOptions {
   /// Called once for each change of health, on the thread that found out. Neither blocks nor throws
   /// nor asks for the health.
   std::function<void(const Health&)> health_changed{};
-  /// Called for each job that threw, which is a bug and answered with Internal. As above.
+  /// Called for each job that threw: a bug, answered with Internal. Neither blocks nor throws.
   std::function<void(const Error&)> job_threw{};
 
-  /// Others have added what the application keeps in memory: table revisions, origins, keys of the
-  /// log. Called inside a transaction, before a job sees rows that need them. @returns whether it
-  /// is known now.
+  /// Another daemon has added what the application keeps in memory: table revisions, origins, keys
+  /// of the log. Called inside a transaction, before a job sees rows that need them. @returns
+  /// whether the application has taken them up.
   std::function<bool(const Stores&)> names_changed{};
 
   /// Called on the writer thread after each commit, when its jobs have their outcomes, and on

@@ -10,11 +10,11 @@
 
 namespace fitgauge::daemon {
 
-// Families of /metrics, read when somebody asks. None blocks for more than a look at the kernel.
+// Families of /metrics, read at each scrape. None waits for anything but the kernel.
 
 void write_server_metrics(const http::Server& server, api::Exposition& out);
 void write_application_metrics(app::Application& app, api::Exposition& out);
-/// @param clock how far it is ahead of `machine`, which was set back.
+/// How far `clock` is ahead of `machine`, the system's clock, since that was set back.
 void write_clock_metrics(const Clock& clock, const Clock& machine, api::Exposition& out);
 /// The database's files and the free space beside them, or what its server says of itself.
 void write_storage_metrics(const app::Application& app, const std::filesystem::path& folder,

@@ -12,7 +12,7 @@ struct PathName {
   std::string_view name;
 };
 
-/// In the order of Path. APPR and DEP take their second word, a paraxial block has none.
+/// In the order of Path. APPR and DEP: by their second word; a paraxial block has no name.
 inline constexpr PathName kPaths[] = {
     {Path::L, "L"},
     {Path::Lp, "LP"},

@@ -28,14 +28,14 @@ void append_progress(std::string& out, app::RunState state, std::uint64_t blocks
   append_event(out, "progress", std::to_string(lines), data);
 }
 
-/// How many lines a reader has had; an id that is none begins from the start.
+/// How many lines the reader has received; an id of another form begins at the first line.
 std::size_t lines_had(std::optional<std::string_view> last) {
   std::size_t lines = 0;
   if (last) std::from_chars(last->data(), last->data() + last->size(), lines);
   return lines;
 }
 
-/// The lines of a report's screen that a reader has not had. @errors StorageCorrupt.
+/// The lines of a report's screen that the reader has not received. @errors StorageCorrupt.
 Result<void> append_screen(std::string& out, const std::string& report, std::size_t had) {
   const auto screen = stored_member(report, "screen", "report of a run");
   if (!screen) return screen.error();
@@ -49,7 +49,7 @@ Result<void> append_screen(std::string& out, const std::string& report, std::siz
   return {};
 }
 
-/// Follows one run; a slow reader gets what has happened meanwhile in one piece.
+/// Follows one run; a slow reader receives all that happened meanwhile in one piece.
 class RunEventStream final : public http::BodyStream,
                              public std::enable_shared_from_this<RunEventStream> {
  public:

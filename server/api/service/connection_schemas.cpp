@@ -38,7 +38,7 @@ Fields folder_in_fields() {
                "Size and time of a file are the same for so long; 2 when absent"}});
 }
 
-/// Which stands among the fields of lsv2.
+/// For lsv2, whose own fields have the interval already.
 Fields without_interval(Fields fields) {
   std::erase_if(fields, [](const schema::Field& field) { return field.name == "interval_s"; });
   return fields;

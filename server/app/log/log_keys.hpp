@@ -15,7 +15,7 @@ namespace fitgauge::app {
 inline constexpr std::string_view kLogKeyFile = "fitgauge.log.key";
 inline constexpr std::string_view kCheckpointFile = "fitgauge.checkpoint";
 
-/// Whether a log may be called so: `[a-z0-9][a-z0-9./-]{0,63}`.
+/// Whether a log may have this name: `[a-z0-9][a-z0-9./-]{0,63}`.
 bool is_origin_name(std::string_view name);
 
 /// The private keys of the file, one a line, the one in use first; none where there is no file.
@@ -27,13 +27,13 @@ Result<std::vector<tlog::SigningKey>> read_log_keys(const std::filesystem::path&
 Result<void> write_log_keys(const std::filesystem::path& folder,
                             const std::vector<tlog::SigningKey>& keys);
 
-/// Puts a new key before the one in use, which signs beside it once, at the next start.
+/// Makes a new key, which signs from the next start on; the old one signs with it once more.
 /// @returns the new public key. @errors StorageUnavailable when there is none yet; KeyMalformed.
 Result<std::string> renew_log_key(const std::filesystem::path& folder);
 
-/// What a checkpoint says below its root that hands over to another key: `next key VKEY`.
+/// The line below a checkpoint's root that hands over to another key: `next key VKEY`.
 std::string next_key_line(const tlog::VerifierKey& key);
-/// The key that a note's text hands over to; none where it does not.
+/// The key that a note's text hands over to, if it does.
 std::optional<tlog::VerifierKey> next_key_of(std::string_view text);
 
 /// Replaces a small file in one step. @param durably it is on disk when this returns.

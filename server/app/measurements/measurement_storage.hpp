@@ -17,17 +17,17 @@ class Origins;
 class Rendering;
 class TableCatalog;
 
-/// So many that their rows stay in the cache.
+/// Few enough that their rows stay in the processor's cache.
 inline constexpr std::size_t kRowsAtATime = 128;
 
-/// Gives measurements the numbers of the revisions that have judged them, before they are stored.
+/// Sets in each measurement the number of the table revision that judged it, before it is stored.
 void number_revisions(std::span<Measurement> measurements, const TableCatalog& tables);
 
 /// Gives the measurements their ids. @returns the next id.
 std::int64_t number_from(std::int64_t first, std::string_view origin,
                          std::span<Measurement> measurements);
 
-/// Adds the rows that store the measurements, which have their ids; the rows' texts are theirs.
+/// Adds a row for each measurement. @pre they have their ids. The rows view their texts.
 void append_rows(std::vector<store::MeasurementRow>& rows,
                  std::span<const Measurement> measurements, LeafMaker& leaves);
 
@@ -37,16 +37,16 @@ void append_rows(std::vector<store::MeasurementRow>& rows,
 Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
                             std::string_view origin, Rendering* rendering = nullptr);
 
-/// The row of a measurement in this folder, none where there is no such.
+/// The row of a measurement in this folder; none when there is no such measurement.
 std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name);
 
-/// The same of one that is there. @errors MeasurementUnknown.
+/// The same, where it must be there. @errors MeasurementUnknown.
 Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordName& name,
                                      const Origins& origins);
 
 Error unknown_measurement(const RecordName& name, const Origins& origins);
 
-/// More waits to be stored than may.
+/// The error when the queue of writes is full.
 Error too_much_work();
 
 }  // namespace fitgauge::app

@@ -14,7 +14,7 @@
 
 namespace fitgauge::app {
 
-/// As the store has them.
+/// Numbered as in the database.
 enum class RevisionKind : std::uint8_t {
   Tables = 1,
   Key = 2,
@@ -28,12 +28,12 @@ enum class RevisionKind : std::uint8_t {
 std::string_view word(RevisionKind kind);
 std::optional<RevisionKind> revision_kind_from_word(std::string_view text);
 
-/// A thing as a centre has it since its change of that number. What is not of its kind is empty.
+/// Change `number` of a centre: what it sets or removes. Members of other kinds are empty.
 struct Revision {
   std::int64_t number = 0;
   RevisionKind kind = RevisionKind::Tables;
   std::string name{};       ///< of the key or document
-  bool is_removed = false;  ///< or revoked
+  bool is_removed = false;  ///< a key: revoked
   std::string text{};       ///< of the document, or the correction's record
 
   std::string id{};  ///< of the tables, as records name them

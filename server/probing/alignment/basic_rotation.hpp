@@ -7,14 +7,14 @@ namespace fitgauge::probing {
 /// The tilted plane in the workpiece system; the identity without one.
 machine::Matrix3 tilt_of(const machine::Frames& frames);
 
-/// The angle, in -90 < angle <= 90, of a line in the plane to the main axis of the workpiece
-/// system, which the basic rotation turns, or of the plane that is tilted in it; `direction` in
-/// plane coordinates of the input system.
+/// The angle, -90 < angle <= 90, from the main axis to a line in the plane: the main axis of the
+/// workpiece system, or of the tilted plane when one is active.
+/// @param direction of the line, in plane coordinates of the input system.
 double workpiece_angle(const machine::Frames& frames, const WorkingPlane& plane,
                        const Vec3& direction);
 
-/// The spatial angles of the active basic rotation turned on by `angle_deg` around the probe axis
-/// of the workpiece system, or of the plane that is tilted in it.
+/// The spatial angles of the active basic rotation after a further turn by `angle_deg` around the
+/// probe axis of the workpiece system, or of the tilted plane when one is active.
 Vec3 turned_rotation(const machine::Frames& frames, machine::Axis probe, double angle_deg);
 
 /// Measuring and alignment cycles begin without a basic rotation.

@@ -53,8 +53,8 @@ std::size_t measuring_axis(const Arguments& arguments) {
   return static_cast<std::size_t>(arguments.whole(272) - 1);
 }
 
-/// From inside the slot, first in the positive direction, then in the negative one, the second time
-/// moved along the slot by Q310.
+/// From inside the slot: first in the positive direction; then in the negative one, moved along the
+/// slot by Q310.
 std::array<Touch, 2> slot_touches(const Arguments& arguments) {
   const std::size_t axis = measuring_axis(arguments);
   const Vec3 start{arguments.number(328), arguments.number(329), arguments.number(261)};
