@@ -38,7 +38,6 @@ struct BlockColumn {
     Upper,
     CorrectionOf,
     Origin,
-    Current,
     Texts
   };
 };
@@ -49,9 +48,9 @@ std::string block_sql() {
   return fmt::format(
       "SELECT m.measured_at, m.received_at, m.measured_nm, m.verdict, m.source, m.nominal_nm, "
       "m.run_id, coalesce(m.corrected_nm, m.measured_nm), m.nominal_nm + m.lower_deviation_nm, "
-      "m.nominal_nm + m.upper_deviation_nm, m.correction_of, coalesce(m.origin, 0), {}{} FROM "
+      "m.nominal_nm + m.upper_deviation_nm, m.correction_of, coalesce(m.origin, 0){} FROM "
       "measurements m WHERE m.id BETWEEN ? AND ? ORDER BY m.id",
-      CurrentCondition(std::to_string(kLastId)).both(), columns);
+      columns);
 }
 
 int kind_of(int source, int verdict) { return 8 * source + verdict; }
@@ -88,6 +87,9 @@ MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
       pairs_(c),
       last_block_(last_block_statement(c)),
       block_(c, block_sql()),
+      corrected_(c, "SELECT correction_of FROM measurements WHERE correction_of BETWEEN ? AND ?"),
+      stands_(c, fmt::format("SELECT count(*) FROM measurements m WHERE m.id = ? AND {}",
+                             CurrentCondition(std::to_string(kLastId)).has_no_later_rival)),
       insert_node_(c, "INSERT INTO measurement_nodes VALUES (?, ?, ?, ?, ?, ?, 0, ?)"),
       insert_postings_(c, "INSERT INTO measurement_postings VALUES ", "(?, ?, ?, ?)"),
       insert_values_(c, "INSERT INTO measurement_values VALUES (?, ?)"),
@@ -190,7 +192,14 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   ValueBlockWriter block;
   BlockColumnsWriter columns;
   DesignationPlace designation;
+  int kind = 0;
+  RowSet* sources = nullptr;  // those of the kind's source
+  RowSet* verdicts = nullptr;
   bool is_plain = true;
+  RowSet corrected;
+  for (Rows rows = corrected_.query(ids.first, ids.last); rows.next();) {
+    corrected.add(rows.get<std::int64_t>(0) - ids.first);
+  }
   const auto post = [&](int field, std::string value) {
     RowSet& with = index.postings[{field, std::move(value)}];
     with.add(row);
@@ -207,8 +216,11 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
     index.max_measured_at = std::max(index.max_measured_at, measured_at);
     index.min_received_at = std::min(index.min_received_at, received_at);
     index.max_received_at = std::max(index.max_received_at, received_at);
-    is_plain = is_plain && rows.get<std::int64_t>(BlockColumn::Origin) == 0 &&
-               !rows.get<std::optional<std::int64_t>>(BlockColumn::CorrectionOf);
+    const bool corrects =
+        rows.get<std::optional<std::int64_t>>(BlockColumn::CorrectionOf).has_value();
+    const bool is_current = !corrected.contains(row) &&
+                            (!corrects || stands_.returning<std::int64_t>(ids.first + row) == 1);
+    is_plain = is_plain && rows.get<std::int64_t>(BlockColumn::Origin) == 0 && !corrects;
     block.add({.measured_nm = rows.get<std::int64_t>(BlockColumn::Corrected),
                .lower_limit_nm = rows.get<std::int64_t>(BlockColumn::Lower),
                .upper_limit_nm = rows.get<std::int64_t>(BlockColumn::Upper),
@@ -217,10 +229,14 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
     const auto source = rows.get<int>(BlockColumn::Source);
     const auto verdict = rows.get<int>(BlockColumn::Verdict);
     const auto measured_nm = rows.get<std::int64_t>(BlockColumn::Measured);
-    const bool is_current = rows.get<bool>(BlockColumn::Current);
-    columns.add(kind_of(source, verdict), is_current, measured_nm);
-    post(number_of(IndexField::Source), std::to_string(source));
-    post(number_of(IndexField::Verdict), std::to_string(verdict));
+    if (row == 0 || kind_of(source, verdict) != kind) {
+      kind = kind_of(source, verdict);
+      sources = post(number_of(IndexField::Source), std::to_string(source));
+      verdicts = post(number_of(IndexField::Verdict), std::to_string(verdict));
+    }
+    sources->add(row);
+    verdicts->add(row);
+    columns.add(kind, is_current, measured_nm);
     if (const auto run = rows.get<std::optional<std::int64_t>>(BlockColumn::Run)) {
       post(number_of(IndexField::Run), std::to_string(*run));
     }
@@ -250,7 +266,6 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
         }
       }
       if (is_current && values[field].size() <= kMostValues[0]) {
-        const int kind = kind_of(source, verdict);
         if (place.statistics == nullptr || place.kind != kind) {
           values[field].insert(place.value);
           place.kind = kind;

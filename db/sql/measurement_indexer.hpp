@@ -69,6 +69,8 @@ class MeasurementIndexer {
   PairIndex pairs_;
   sql::Statement last_block_;
   sql::Statement block_;
+  sql::Statement corrected_;
+  sql::Statement stands_;
   sql::Statement insert_node_;
   sql::RowsInsert insert_postings_;
   sql::Statement insert_values_;

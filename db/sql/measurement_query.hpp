@@ -36,7 +36,6 @@ struct CurrentCondition {
   std::string has_no_later_rival;
 
   explicit CurrentCondition(std::string_view last);
-  std::string both() const { return is_not_corrected + " AND " + has_no_later_rival; }
 };
 
 /// Finds the measurements that match a filter, in either order: of the indexed blocks those that

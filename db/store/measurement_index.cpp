@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace fitgauge::store {
 
@@ -18,10 +19,12 @@ RowSet RowSet::all() {
 
 std::string RowSet::encode() const {
   std::string rows;
-  for (std::int64_t row = 0; row < kBlock && rows.size() < bits_.size(); ++row) {
-    if (!contains(row)) continue;
-    rows += static_cast<char>(row & 0xFF);
-    rows += static_cast<char>(row >> 8);
+  for (std::size_t i = 0; i < bits_.size() && rows.size() < bits_.size(); ++i) {
+    for (unsigned left = bits_[i]; left != 0; left &= left - 1) {
+      const std::size_t row = 8 * i + static_cast<std::size_t>(std::countr_zero(left));
+      rows += static_cast<char>(row & 0xFFU);
+      rows += static_cast<char>(row >> 8U);
+    }
   }
   if (rows.size() < bits_.size()) return rows;
   return {bits_.begin(), bits_.end()};

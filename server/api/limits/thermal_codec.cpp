@@ -17,16 +17,17 @@ struct BodyWords {
 /// The coefficient of a body, which is given by its number or by its material, with the
 /// uncertainties; none where it does not expand. A material has that of its source.
 Result<std::optional<gauging::ThermalBody>> read_body(const BodyWords& words) {
+  const bool expands = words.expansion || words.material;
+  if (!expands && !words.temperature_uncertainty && !words.expansion_uncertainty) {
+    return std::optional<gauging::ThermalBody>();
+  }
   const std::string field = fmt::format("{}_material", words.name);
   const std::string number = fmt::format("{}_expansion_um_per_m_k", words.name);
   if (words.expansion && words.material) {
     return Error{ErrorCode::FieldConflict, fmt::format("give {} or {}, not both", number, field),
                  field};
   }
-  if (!words.expansion && !words.material) {
-    if (!words.temperature_uncertainty && !words.expansion_uncertainty) {
-      return std::optional<gauging::ThermalBody>();
-    }
+  if (!expands) {
     return Error{ErrorCode::FieldMissing,
                  fmt::format("an uncertainty of the {} is of its correction to 20 degrees, which "
                              "needs {} or {}",

@@ -15,7 +15,7 @@ void MeasurementAnswer::add(std::span<const app::Measurement> measurements,
     return app::measurement_id_text(m.id, m.origin);
   };
   if (count_ == 0) first_id_ = id_of(measurements.front());
-  last_id_ = id_of(measurements.back());
+  if (!single_) last_id_ = id_of(measurements.back());
   if (lists_records()) {
     answer_.body += count_ == 0 ? R"({"measurements":[)" : ",";
     answer_.body += records;

@@ -25,9 +25,8 @@ template <class Given, class Refuse>
 void refuse_not_applicable(std::span<const Applicable> table, std::string_view what,
                            std::string_view kind, const Given& given, const Refuse& refuse) {
   for (const Applicable& row : table) {
-    if (const auto message = not_applicable(row, what, kind); message && given(row)) {
-      refuse(row.member, *message);
-    }
+    if (!given(row)) continue;
+    if (const auto message = not_applicable(row, what, kind)) refuse(row.member, *message);
   }
 }
 
