@@ -10,6 +10,7 @@ import unittest
 from support.cli import FITGAUGE, Client, ClientTest
 from support.control import EXAMPLES
 from support.daemon import Daemon
+from support.waiting import wait_for
 
 
 class Tables(ClientTest):
@@ -139,10 +140,7 @@ class Keys(ClientTest):
         key = self.make_key()
         self.client.write("key", key + "\n")
         # A new key is in force within two seconds.
-        for _ in range(200):
-            if self.client.run("limits", "25H7", environment={"FITGAUGE_KEY": key}).returncode == 0:
-                break
-        self.assert_runs(0, "limits", "25H7", environment={"FITGAUGE_KEY": key})
+        wait_for(lambda: self.client.run("limits", "25H7", environment={"FITGAUGE_KEY": key}).returncode == 0, "the key")
         self.assert_runs(0, "--key-file", "key", "limits", "25H7")
         self.assert_fails(5, "--key-file", "missing", "limits", "25H7")
         self.assert_fails(4, "limits", "25H7", environment={"FITGAUGE_KEY": "a b"})

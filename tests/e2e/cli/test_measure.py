@@ -14,6 +14,8 @@ import unittest
 
 from support.cli import Client, ClientTest
 from support.daemon import Daemon
+from support.ports import lasting_address
+from support.waiting import PATIENCE, wait_for
 
 ROUNDS = int(os.environ.get("MEASURE_ROUNDS", "12"))
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
@@ -125,7 +127,7 @@ class Stopped(unittest.TestCase):
     def setUp(self):
         print(f"seed {SEED}, {ROUNDS} rounds")
         self.random = random.Random(SEED)
-        self.daemon = Daemon()
+        self.daemon = Daemon(listen=lasting_address())
         self.addCleanup(self.daemon.cleanup)
         self.daemon.start()
         self.client = Client(f"127.0.0.1:{self.daemon.port}")
@@ -159,7 +161,6 @@ class Stopped(unittest.TestCase):
         self.assert_every_row_is_stored_once()
 
     def test_a_service_that_is_killed_is_waited_for(self):
-        self.daemon.listen = f"127.0.0.1:{self.daemon.port}"
         process = self.client.spawn(*self.command)
         for _ in range(4):
             time.sleep(self.random.uniform(0.02, 0.2))
@@ -172,16 +173,15 @@ class Stopped(unittest.TestCase):
         self.assert_every_row_is_stored_once()
 
     def test_it_gives_up_when_it_was_told_to_and_resumes_later(self):
-        self.daemon.listen = f"127.0.0.1:{self.daemon.port}"
-        process = self.client.spawn(*self.command, "--retry", "0")
-        while not self.daemon.get("/v1/measurements?limit=1").json["measurements"]:
-            time.sleep(0.005)
+        command = ("measure", "night.csv", "--chunk", "25")  # so many requests that it is not through before the kill
+        process = self.client.spawn(*command, "--retry", "0")
+        wait_for(lambda: self.daemon.get("/v1/measurements?limit=1").json["measurements"], "a row")
         self.daemon.kill()
         self.client.end(process)
         self.assertEqual(process.returncode, 6, process.stderr_text)
         self.assertIn("run it again to resume", process.stderr_text)
         self.daemon.start()
-        self.assertEqual(self.client.run(*self.command).returncode, 0)
+        self.assertEqual(self.client.run(*command, timeout=4 * PATIENCE).returncode, 0)
         self.assert_every_row_is_stored_once()
 
 

@@ -8,11 +8,13 @@ import unittest
 
 from support.cli import Client, ClientTest
 from support.daemon import Daemon
+from support.ports import lasting_address
+from support.waiting import PATIENCE
 
 
 class Watching(unittest.TestCase):
     def test_it_goes_on_with_the_next_event_after_a_restart(self):
-        daemon = Daemon()
+        daemon = Daemon(listen=lasting_address())
         self.addCleanup(daemon.cleanup)
         daemon.start()
         client = Client(f"127.0.0.1:{daemon.port}")
@@ -30,7 +32,6 @@ class Watching(unittest.TestCase):
             self.assertIn(f"REJECT  SN-{number}\n", watch.stdout.readline().decode())
             if number == 2:
                 daemon.stop()
-                daemon.listen = f"127.0.0.1:{daemon.port}"
                 daemon.start()
         self.assertEqual(client.end(watch).returncode, 0)
         self.assertEqual(client.run("watch", "--source", "none").returncode, 4)
@@ -80,7 +81,7 @@ class Serial(ClientTest):
         gauge, process = self.begin()
         os.close(os.dup(gauge))
         os.dup2(os.open(os.devnull, os.O_RDONLY), gauge)  # the far end is closed; the number stays for the cleanup
-        self.assertEqual(process.wait(30), 5)
+        self.assertEqual(process.wait(PATIENCE), 5)
         self.assertIn(b"is gone", process.stderr.read())
 
     def test_what_cannot_work_is_refused(self):
@@ -94,5 +95,5 @@ class Serial(ClientTest):
     def test_a_value_that_cannot_be_stored_is_named(self):
         gauge, process = self.begin("--record", "--operator", "x" * 300)
         os.write(gauge, b"25.0131\n")
-        self.assertEqual(process.wait(30), 7)
+        self.assertEqual(process.wait(PATIENCE), 7)
         self.assertIn(b"25.0131 was not stored", process.stderr.read())

@@ -76,7 +76,7 @@ class BadFiles(Folders):
                 self.assertLess(len(content), 32 << 20)
                 pathlib.Path(f"/proc/{process}/clear_refs").write_text("5")  # VmHWM begins anew
                 self.drop(name, content)
-                self.wait(lambda: name in self.files("failed") + self.files("done"), 120)
+                self.wait(lambda: name in self.files("failed") + self.files("done"))
                 taken = memory(process, "VmHWM") - idle
                 if os.environ.get("FITGAUGE_DEEP"):
                     print(f"{name}: {taken / MEGABYTE:.0f} MB", flush=True)

@@ -9,12 +9,13 @@ import re
 import shutil
 import subprocess
 import tempfile
-import threading
 import time
 import unittest
 
 from support.cli import FITGAUGE
 from support.daemon import TRACEABLE, Daemon
+from support.tracing import attach, can_trace
+from support.waiting import PATIENCE, wait_for
 
 DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
 ROWS = "designation;measured_mm;part_id\n" + "".join(f"25 H7;25,01;P{number}\n" for number in range(5))
@@ -46,12 +47,8 @@ class Folders(unittest.TestCase):
         beside.write_bytes(content if isinstance(content, bytes) else content.encode())
         beside.rename(self.folder / name)
 
-    def wait(self, condition, seconds=60):
-        deadline = time.monotonic() + seconds
-        while not condition():
-            if time.monotonic() > deadline:
-                raise AssertionError(sorted(str(path.relative_to(self.root)) for path in self.root.rglob("*")))
-            time.sleep(0.02)
+    def wait(self, condition):
+        wait_for(condition, lambda: sorted(str(path.relative_to(self.root)) for path in self.root.rglob("*")))
 
     def files(self, folder=""):
         return sorted(path.name for path in (self.folder / folder).glob("*") if path.is_file())
@@ -83,7 +80,7 @@ class Taking(Folders):
 
     def test_only_whole_files_are_taken(self):
         daemon = self.daemon().start()
-        self.connect(daemon, rest_s=2)
+        self.connect(daemon, rest_s=5)  # longer than a busy machine lets the writer stand still
         with open(self.folder / "slow.csv", "w") as file:
             for line in ROWS.splitlines(True):
                 file.write(line)
@@ -173,6 +170,7 @@ class Taking(Folders):
                     for row in daemon.stored()]
         without_empty = lambda rows: [{name: value for name, value in row.items() if value != ""} for row in rows]
         self.assertEqual(plain(second), without_empty(plain(first)))
+        self.assertEqual(second.stop(), 0)  # the next file is not its own
         third, fourth = self.daemon().start(), self.daemon().start()
         self.connect(third)
         records = first.get("/v1/measurements", Accept="application/x-ndjson").body
@@ -264,8 +262,7 @@ class Writing(Folders):
         daemon = self.daemon().start()
         self.assertEqual(self.out(daemon)["direction"], "out")
         self.store(daemon, range(5), comment='=HYPERLINK("http://x")')
-        self.wait(lambda: len(self.rows()) == 5)
-        rows = self.rows()
+        rows = wait_for(lambda: len(found := self.rows()) == 5 and found)
         self.assertEqual([row["part_id"] for row in rows], [f"P{number}" for number in range(5)])
         self.assertEqual({(row["measured_mm"], row["verdict"], row["comment"][:2]) for row in rows}, {("25.01", "good", "'=")})
         self.assertRegex(self.files()[0], r"^caq-000000000001-00000000000\d\.csv$")
@@ -311,10 +308,6 @@ class Writing(Folders):
         self.assertEqual(sorted(e["pointer"] for e in problem["errors"]), ["/every_s", "/folder", "/format", "/split"])
 
 
-def can_trace():
-    return shutil.which("strace") and subprocess.run(["strace", "-qq", "-o", "/dev/null", "true"], check=False).returncode == 0
-
-
 @unittest.skipUnless(can_trace(), "needs strace and the right to trace")
 class Killed(Folders):
     """kill -9 at the N-th of each call that writes, while two files are taken and one is refused; then a start that
@@ -326,13 +319,7 @@ class Killed(Folders):
         self.folder.mkdir()
         daemon = self.daemon(environment=TRACEABLE).start()
         self.connect(daemon)
-        tracer = subprocess.Popen(["strace", "-f", "-p", str(daemon.process.pid), "-e", f"trace={WRITES}", *strace],
-                                  stderr=subprocess.PIPE, text=True)
-        self.addCleanup(tracer.stderr.close)
-        self.addCleanup(tracer.kill)
-        self.assertIn("attached", tracer.stderr.readline())
-        threading.Thread(target=tracer.stderr.read, daemon=True).start()
-        time.sleep(0.3)  # the other threads are attached too
+        tracer = attach(self, daemon, "-e", f"trace={WRITES}", *strace)
         values = "".join(f"25.01\r\nK0014/1 Q{number}\r\n" for number in range(5))
         for name, content in (("0.csv", ROWS), ("1.dfq", DFQ + values), ("2.csv", "designation;measured_mm\n25 H7;oops\n")):
             self.drop(name, content)
@@ -347,7 +334,7 @@ class Killed(Folders):
         daemon, tracer = self.taking("-o", str(trace))
         self.wait(self.all_dealt_with)
         daemon.cleanup()
-        tracer.wait(30)
+        tracer.wait(PATIENCE)
         made = collections.Counter(re.findall(r"^(\d+) +(\w+)\(", trace.read_text(errors="replace"), re.MULTILINE))
         most = collections.Counter()
         for (_, call), count in made.items():
@@ -363,7 +350,7 @@ class Killed(Folders):
                 self.wait(lambda: self.all_dealt_with() or daemon.process.poll() is not None)
                 killed += daemon.process.poll() is not None
                 daemon.kill()
-                tracer.wait(30)
+                tracer.wait(PATIENCE)
                 daemon.start()
                 self.wait(self.all_dealt_with)
                 self.assertEqual(sorted(self.parts(daemon)), sorted(f"{c}{n}" for c in "PQ" for n in range(5)))

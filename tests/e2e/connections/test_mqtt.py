@@ -8,9 +8,11 @@ import threading
 import time
 import unittest
 
-from support.broker import Broker, Forgetful, free_port, kill_in_step, wait_for
+from support.broker import Broker, Forgetful, kill_in_step
 from support.certificates import certificate
 from support.daemon import Daemon
+from support.ports import free_port
+from support.waiting import wait_for
 
 TOPIC = "plant/{machine}/{characteristic}"
 
@@ -45,7 +47,7 @@ class Mqtt(unittest.TestCase):
         return daemon.get(f"/v1/connections/{name}").json
 
     def wait_state(self, daemon, word, name="dash"):
-        wait_for(lambda: self.state(daemon, name)["state"] == word, 60, lambda: self.state(daemon, name))
+        wait_for(lambda: self.state(daemon, name)["state"] == word, lambda: self.state(daemon, name))
 
     def store(self, daemon, numbers, **more):
         return [daemon.measure(part(number, **more)).json["id"] for number in numbers]
@@ -64,7 +66,7 @@ class Publishing(Mqtt):
         run = daemon.post("/v1/runs?wait=1", {"program": "p.h"}).json
         daemon.request("PUT", "/v1/tables/shaft/classes/press2", {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": 3}]})
         events = lambda: [m for m in seen.messages if m.topic.startswith("plant-events/")]
-        wait_for(lambda: len(events()) == 2, 60, lambda: self.state(daemon))
+        wait_for(lambda: len(events()) == 2, lambda: self.state(daemon))
         self.assertEqual(self.ids(seen), [measured])
         self.assertEqual([(m.topic, m.qos, m.retain) for m in events()],
                          [("plant-events/4/run.finished", 1, False), ("plant-events/4/table.changed", 1, False)])
@@ -79,7 +81,7 @@ class Publishing(Mqtt):
         made = self.connect(daemon, broker.port)
         self.assertEqual((made["direction"], made["position"], made["topic"]), ("out", 3, TOPIC))
         ids = self.store(daemon, range(3, 40))
-        wait_for(lambda: len(self.ids(seen)) == 37, 60, lambda: self.state(daemon))
+        wait_for(lambda: len(self.ids(seen)) == 37, lambda: self.state(daemon))
         self.assertEqual(self.ids(seen), ids)
         told = [m for m in seen.messages if m.topic.startswith("plant/")]
         self.assertEqual({(m.topic, m.qos, m.retain) for m in told}, {("plant/M3/bore", 1, False)})
@@ -104,7 +106,7 @@ class Publishing(Mqtt):
         texts = ["a/b", "a+b", "a#", "100 %", "Bohrung Ø", "-", "$SYS", "\u0001", "%2F"]
         for text in texts:
             daemon.measure({"designation": "25 H7", "measured_mm": 26, "part_id": text})
-        wait_for(lambda: len(seen.messages) == len(texts), 30, lambda: (seen.messages, self.state(daemon)))
+        wait_for(lambda: len(seen.messages) == len(texts), lambda: (seen.messages, self.state(daemon)))
         levels = ["a%2Fb", "a%2Bb", "a%23", "100 %25", "Bohrung Ø", "%2D", "$SYS", "%01", "%252F"]
         self.assertEqual([m.topic for m in seen.messages], [f"plant/-/{level}/reject/H7" for level in levels])
 
@@ -145,14 +147,14 @@ class Publishing(Mqtt):
         broker, daemon = self.broker("allow_anonymous true", f"acl_file {acl}"), self.daemon()
         self.connect(daemon, broker.port, version="5", status_topic="fitgauge/s")
         self.store(daemon, [1])
-        wait_for(lambda: "authori" in (self.state(daemon)["last_error"] or ""), 60, lambda: self.state(daemon))
+        wait_for(lambda: "authori" in (self.state(daemon)["last_error"] or ""), lambda: self.state(daemon))
         self.assertEqual((self.state(daemon)["state"], self.state(daemon)["behind"]), ("failing", 1))
 
 
 class Lost(Mqtt):
     def test_a_broker_that_is_killed_and_stopped_under_load_misses_nothing(self):
         broker, daemon = self.broker(), self.daemon()
-        seen = broker.subscribe("plant/#")
+        seen = broker.subscribe("plant/#", options=("-t", "in-step"))
         broker.save()
         self.connect(daemon, broker.port)
         ids, over = [], threading.Event()
@@ -163,18 +165,18 @@ class Lost(Mqtt):
 
         writer = threading.Thread(target=load)
         writer.start()
-        kill = lambda: kill_in_step(broker, daemon, seen)  # noqa: E731
+        kill = lambda: kill_in_step(broker, daemon, seen, "in-step")  # noqa: E731
         for end in (kill, broker.stop, kill):
             told = len(seen.messages)
-            wait_for(lambda: len(seen.messages) > told + 50, 60, lambda: self.state(daemon))
+            wait_for(lambda: len(seen.messages) > told + 50, lambda: self.state(daemon))
             end()
             time.sleep(0.5)
             broker.start()
         told = len(seen.messages)
-        wait_for(lambda: len(seen.messages) > told + 50, 60, lambda: self.state(daemon))
+        wait_for(lambda: len(seen.messages) > told + 50, lambda: self.state(daemon))
         over.set()
         writer.join()
-        wait_for(lambda: len(set(self.ids(seen))) == len(ids), 60, lambda: (len(set(self.ids(seen))), len(ids)))
+        wait_for(lambda: len(set(self.ids(seen))) == len(ids), lambda: (len(set(self.ids(seen))), len(ids)))
         self.assertEqual(distinct(self.ids(seen)), ids)
         wait_for(lambda: self.state(daemon)["position"] == len(ids))
         self.assertEqual(self.state(daemon)["dead_letters"], [])
@@ -190,7 +192,7 @@ class Lost(Mqtt):
                 wait_for(lambda: len(seen.messages) > 25)
             daemon.kill()
             daemon.start()
-        wait_for(lambda: len(set(self.ids(seen))) == 80, 60, lambda: self.state(daemon))
+        wait_for(lambda: len(set(self.ids(seen))) == 80, lambda: self.state(daemon))
         self.assertEqual(distinct(self.ids(seen)), ids)
 
     def test_what_is_not_acknowledged_comes_again(self):
@@ -198,7 +200,7 @@ class Lost(Mqtt):
         forgetful, daemon = Forgetful(port, acknowledges=lambda number: number <= 3, most=7), self.daemon()
         ids = self.store(daemon, range(10))
         self.connect(daemon, port, status_topic="plant/status", start="beginning")
-        wait_for(lambda: len(forgetful.taken) >= 20, 60, lambda: self.state(daemon))
+        wait_for(lambda: len(forgetful.taken) >= 20, lambda: self.state(daemon))
         said = [json.loads(payload)["id"] for topic, payload in forgetful.taken if topic == "plant/M3/bore"]
         # Three were acknowledged: the first is the status. Each new connection begins behind them.
         self.assertEqual(said[:6], ids[:6])
@@ -206,7 +208,7 @@ class Lost(Mqtt):
         wait_for(lambda: self.state(daemon)["position"] == 2)
         forgetful.close()
         broker = self.broker(port=port)
-        wait_for(lambda: self.state(daemon)["position"] == 10, 60, lambda: self.state(daemon))
+        wait_for(lambda: self.state(daemon)["position"] == 10, lambda: self.state(daemon))
         last = broker.subscribe("plant/M3/bore")
         wait_for(lambda: last.messages)
         self.assertEqual(self.ids(last), ids[-1:])

@@ -9,7 +9,9 @@ import shutil
 import unittest
 
 from support.daemon import Daemon, command
-from support.lsv2 import Client, control_port, text, wait_for
+from support.lsv2 import Client, control_port, text
+from support.ports import lasting_address
+from support.waiting import wait_for
 
 DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
 # Typed by hand after the example of HEIDENHAIN's manuals.
@@ -73,7 +75,7 @@ class Shop:
 
     def __init__(self, controls):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-shop-"))
-        self.controls = [Daemon("--control-listen", "127.0.0.1:0", "--control-write") for _ in range(controls)]
+        self.controls = [Daemon("--control-listen", lasting_address(), "--control-write") for _ in range(controls)]
         self.starts = [0] * controls
         self.ports = [0] * controls
         for index in range(controls):
@@ -81,10 +83,6 @@ class Shop:
         self.collector = Daemon("--connections", self.folder / "connections.toml", environment={"TZ": "UTC"})
 
     def start_control(self, index):
-        """On the port it had before."""
-        if self.ports[index]:
-            flags = self.controls[index].flags
-            flags[flags.index("--control-listen") + 1] = f"127.0.0.1:{self.ports[index]}"
         self.controls[index].start()
         self.starts[index] += 1
         self.ports[index] = control_port(self.controls[index], self.starts[index])
@@ -167,7 +165,7 @@ class Collecting(unittest.TestCase):
         self.assertEqual([(row["part_id"], row["designation"], row["verdict"]) for row in found],
                          [("SN-1", "25 H7", "good"), ("SN-2", "25 H7", "rework")])
         self.assertEqual(state["unreadable"], 1)
-        wait_for(lambda: "result 3: a measured size is above 0" in shop.collector.log)
+        shop.collector.wait_for_log("result 3: a measured size is above 0")
 
     def test_what_no_reader_understands_is_kept_and_said(self):
         shop = self.shop(1, "TNC:\\logs\\*")
@@ -178,7 +176,7 @@ class Collecting(unittest.TestCase):
         self.assertEqual(shop.collector.get("/v1/files/collected/m0/logs/NOTE.A").body, content)
         self.settle(shop)
         self.assertEqual(shop.states()["m0"]["unreadable"], 1)
-        wait_for(lambda: '"event":"log_not_understood"' in shop.collector.log)
+        shop.collector.wait_for_log('"event":"log_not_understood"')
         self.assertEqual(shop.collector.log.count('"event":"log_not_understood"'), 1)
         self.assertEqual(all_measurements(shop.collector), [])
 
@@ -223,7 +221,7 @@ class Collecting(unittest.TestCase):
         self.put(shop.controls[0], "nc_prog/b.txt", log(1))
         wait_for(lambda: len(all_measurements(shop.collector)) == 6)
         wait_for(lambda: shop.states()["m0"]["state"] == "ok")
-        wait_for(lambda: '"event":"connection_recovered"' in shop.collector.log)
+        shop.collector.wait_for_log('"event":"connection_recovered"')
         self.assertEqual(shop.collector.log.count('"event":"connection_failing"'), 1)
 
     def test_each_result_is_stored_once_whoever_is_killed(self):
@@ -252,7 +250,7 @@ class Collecting(unittest.TestCase):
                     shop.controls[victim].kill()
                     shop.start_control(victim)
         total = machines * logs * 3
-        wait_for(lambda: len(all_measurements(shop.collector)) >= total, 300)
+        wait_for(lambda: len(all_measurements(shop.collector)) >= total, seconds=300)
         for index in range(machines):
             self.settle(shop, f"m{index}", 2)
         found = all_measurements(shop.collector)

@@ -8,7 +8,8 @@ import threading
 import unittest
 
 from support.cli import Client, ClientTest
-from support.lsv2 import control_port, telegram, text, wait_for
+from support.lsv2 import control_port, telegram, text
+from support.waiting import wait_for
 
 LOOP = "BEGIN PGM LOOP MM\nLBL 1\nL X+10 R0 FMAX\nL X-10 R0 F500\nFN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM LOOP MM\n"
 

@@ -6,7 +6,7 @@ import struct
 import unittest
 
 from support.daemon import SANITIZED, DaemonTest
-from support.lsv2 import Client, Refused, control_port, telegram, text, wait_for
+from support.lsv2 import Client, Refused, control_port, served, telegram, text
 
 DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
 NAMES = ["A_LG", "A_LO", "R_VR", "R_PR", "R_CI", "C_CC", "C_DC", "R_DI", "R_FI", "R_DR", "C_DM", "C_DD", "C_FD", "C_FC",
@@ -22,14 +22,6 @@ class Hostile(DaemonTest):
         """What lies beside the control's disk, in the folder of the service and around it."""
         return sorted(str(path) for path in self.daemon.folder.rglob("*") if not path.name.startswith("fitgauge.db"))
 
-    def serves(self):
-        """False while the places of those who have left are not free yet."""
-        try:
-            with Client(self.port) as client:
-                return "nc_prog" in client.login("FILE").listing("TNC:\\")
-        except OSError:
-            return False
-
     def setUp(self):
         self.port = control_port(self.daemon)
         self.files = self.outside()
@@ -39,7 +31,8 @@ class Hostile(DaemonTest):
     def tearDown(self):
         for client in self.clients:
             client.close()
-        wait_for(self.serves)
+        with served(self.port, "FILE") as client:
+            self.assertIn("nc_prog", client.listing("TNC:\\"))
         self.assertEqual(self.daemon.get("/livez").status, 200)
         self.assertEqual(self.outside(), self.files)
         if not SANITIZED:
@@ -47,7 +40,7 @@ class Hostile(DaemonTest):
             self.assertLess(grown, 64 * MEGABYTE)
 
     def connect(self, count, *logins):
-        self.clients = [Client(self.port).login(*logins) for _ in range(count)]
+        self.clients = [served(self.port, *logins) for _ in range(count)]
         return self.clients
 
     def test_a_length_is_only_a_claim(self):

@@ -5,7 +5,8 @@ import struct
 import unittest
 
 from support.daemon import Daemon, DaemonTest
-from support.lsv2 import Client, Refused, control_port, telegram, text, wait_for
+from support.lsv2 import Client, Refused, control_port, served, telegram, text
+from support.waiting import PATIENCE, wait_for
 
 WRITABLE = ("--control-listen", "127.0.0.1:0", "--control-write")
 LOOP = ("BEGIN PGM LOOP MM\nTOOL CALL 30 Z\nLBL 2\nLBL 1\nL X+10 Y+20 R0 FMAX\nL X-10 R0 F500\n"
@@ -199,9 +200,8 @@ class ReadOnly(ControlTest):
     def test_a_thousand_clients_and_broken_telegrams(self):
         """Beyond a hundred a client is closed at once; what is no telegram ends its connection."""
         port = control_port(self.daemon)
-        clients = [Client(port) for _ in range(100)]
+        clients = [served(port) for _ in range(100)]
         try:
-            wait_for(lambda: clients[-1].ask("A_LG", text("INSPECT")))
             for _ in range(900):
                 with Client(port) as late:
                     self.assertIsNone(late.read())
@@ -213,8 +213,7 @@ class ReadOnly(ControlTest):
         finally:
             for client in clients:
                 client.close()
-        with Client(port) as client:
-            wait_for(lambda: client.ask("A_LG", text("INSPECT")))
+        served(port).close()
         self.assertEqual(self.daemon.get("/livez").status, 200)
 
     def test_random_telegrams_are_all_answered(self):
@@ -235,7 +234,7 @@ class Settings(unittest.TestCase):
     def test_an_unknown_model_ends_the_start(self):
         daemon = Daemon("--control-listen", "127.0.0.1:0", "--control-model", "TNC9")
         self.addCleanup(daemon.cleanup)
-        self.assertEqual(daemon.spawn().process.wait(30), 2)
+        self.assertEqual(daemon.spawn().process.wait(PATIENCE), 2)
         self.assertIn("control-model must be one of TNC640", daemon.log)
 
     def test_the_end_of_the_service_waits_for_no_long_trace(self):
@@ -258,7 +257,7 @@ class Settings(unittest.TestCase):
         daemon = Daemon("--control-listen", "127.0.0.1:0", "--control-setup", "cell-3")
         self.addCleanup(daemon.cleanup)
         daemon.start()
-        wait_for(lambda: "control_setup_unusable" in daemon.log)
+        daemon.wait_for_log("control_setup_unusable")
         setup = {"machine": {"start_mm": {"X": 12.5, "Y": -3, "Z": 250}}}
         self.assertEqual(daemon.request("PUT", "/v1/setups/cell-3", setup).status, 201)
         self.assertEqual(daemon.stop(), 0)

@@ -6,13 +6,13 @@ import re
 import shutil
 import sqlite3
 import sys
-import time
 import unittest
 
 from measurements.test_log import flip, wait_for_size
 from measurements.test_storage import PART
 from support.contract import Contract
 from support.daemon import ROOT, Daemon, DaemonTest, command
+from support.waiting import wait_for
 
 sys.path.insert(0, str(ROOT / "clients" / "python"))
 
@@ -200,7 +200,7 @@ class Intake(unittest.TestCase):
             answer = self.put(batch(twin, theirs[4:], note=note), origin_of(records), 5)
             self.assert_refused(answer, 409, "log.forked")
             twin.measure([PART] * more)
-        self.assertEqual(self.daemon.log.count('"event":"log_forked"'), 2)
+        self.daemon.wait_for_log('"event":"log_forked"', times=2)
         self.assertEqual(records_of(self.daemon), records)
         self.assertEqual(records_of(twin)[4], theirs[4], "the other history stays where it is")
         with sqlite3.connect(f"file:{self.daemon.database}?mode=ro", uri=True) as database:
@@ -275,13 +275,11 @@ class IntakeWithKeys(DaemonTest):
         self.assertEqual(posted.status, 403, "a station forwards, and measures at its own place")
 
     def put_as(self, token, body, records):
-        for _ in range(50):  # keys are loaded every two seconds
-            answer = self.daemon.request("PUT", f"/v1/log/{origin_of(records)}/1", body,
-                                         {**NDJSON, "Authorization": f"Bearer {token}"})
-            if answer.status != 401 or token == "fg_none":
-                return answer.status
-            time.sleep(0.1)
-        return 401
+        def status():
+            return self.daemon.request("PUT", f"/v1/log/{origin_of(records)}/1", body,
+                                       {**NDJSON, "Authorization": f"Bearer {token}"}).status
+        # Keys are loaded every two seconds.
+        return status() if token == "fg_none" else wait_for(lambda: (found := status()) != 401 and found, "a new key")
 
 
 if __name__ == "__main__":

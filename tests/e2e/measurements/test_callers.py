@@ -1,9 +1,9 @@
 """Who may do what: keys, roles, the modes of --auth, proxies, foreign pages."""
 
 import socket
-import time
 
 from support.daemon import Daemon, DaemonTest
+from support.waiting import PATIENCE, wait_for
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
 CONTROL = {"kind": "lsv2", "address": "127.0.0.1:1", "paths": ["TNC:\\logs\\*.TXT"]}
@@ -18,12 +18,6 @@ class Callers(DaemonTest):
         made = self.daemon.command("key", "create", "--name", name, "--role", role)
         self.assertEqual(made.returncode, 0, made.stderr)
         return made.stdout.strip()
-
-    def wait_for(self, condition):
-        deadline = time.monotonic() + 15
-        while not condition():
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.05)
 
     def assert_needs_a_key(self, answer):
         self.assert_problem(answer, 401, "auth.required")
@@ -46,7 +40,7 @@ class Open(Callers):
 
     def test_a_proxy_that_says_nothing_is_told_of_once(self):
         def ask(field):
-            with socket.create_connection(("127.0.0.1", self.daemon.port), timeout=10) as client:
+            with socket.create_connection(("127.0.0.1", self.daemon.port), timeout=PATIENCE) as client:
                 client.sendall(b"GET /v1/limits/25H7 HTTP/1.0\r\nHost: h\r\n" + field + b"\r\n")
                 while client.recv(4096):
                     pass
@@ -56,7 +50,7 @@ class Open(Callers):
         self.assertEqual(warned(), 0, "HTTP/1.0 alone is an old client")
         for _ in range(3):
             ask(b"Connection: close\r\n")
-        self.wait_for(lambda: warned() == 1)
+        wait_for(lambda: warned() == 1)
 
     def test_foreign_credentials_count_as_none_where_none_are_needed(self):
         for value in ("Basic dXNlcjpwYXNz", "Bearer of-another-service", "Negotiate x", ""):
@@ -81,7 +75,7 @@ class Open(Callers):
         proxied = {"X-Forwarded-Proto": "https", "X-Forwarded-For": "10.0.0.9", "Host": "gauge.example"}
         key = self.make_key("page", "operator")
         headers = {**proxied, "Origin": "https://gauge.example", "Authorization": f"Bearer {key}"}
-        self.wait_for(lambda: self.daemon.measure(PART, headers).status != 401)
+        wait_for(lambda: self.daemon.measure(PART, headers).status != 401)
         self.assertEqual(self.daemon.measure(PART, headers).status, 201)
         for origin in ("https://evil.example", "http://gauge.example"):
             self.assert_problem(self.daemon.measure(PART, {**headers, "Origin": origin}), 403, "origin.refused")
@@ -114,7 +108,7 @@ class ReadOpen(Callers):
             self.assertEqual(self.daemon.get(path).status, 200)
             self.assert_needs_a_key(self.daemon.get(path + stored))
             key = f"Bearer {self.make_key('viewer' + str(len(path)), 'viewer')}"
-            self.wait_for(lambda: self.daemon.get(path + stored, Authorization=key).status != 401)
+            wait_for(lambda: self.daemon.get(path + stored, Authorization=key).status != 401)
             self.assert_problem(self.daemon.get(path + stored, Authorization=key), 422, "statistics.too_few")
 
     def test_the_first_start_shows_the_administrators_key_once(self):
@@ -159,7 +153,7 @@ class Keys(Callers):
                  ("operator", "POST", "/v1/runs", {"program": "TNC:\\p.h"}),
                  ("viewer", "POST", "/v1/files/p.h?action=check", None), ("admin", "DELETE", "/v1/files/p.h", None)]
         order = ["viewer", "operator", "admin"]
-        self.wait_for(lambda: self.daemon.get(
+        wait_for(lambda: self.daemon.get(
             "/v1/measurements", Authorization=f"Bearer {tokens['admin']}").status == 200)
         for needed, method, path, body in calls:
             for role in order:
@@ -184,14 +178,14 @@ class Keys(Callers):
     def test_a_key_is_listed_and_revoked(self):
         token = self.make_key("press-3", "operator")
         use = lambda: self.daemon.measure(PART, {"Authorization": f"Bearer {token}"}).status
-        self.wait_for(lambda: use() == 201)
+        wait_for(lambda: use() == 201)
         listed = self.daemon.command("key", "list").stdout
         self.assertIn("press-3\toperator", listed)
         self.assertNotIn(token, listed)
         self.assertEqual(self.daemon.command("key", "create", "--name", "press-3", "--role",
                                              "viewer").returncode, 1)
         self.assertEqual(self.daemon.command("key", "revoke", "--name", "press-3").returncode, 0)
-        self.wait_for(lambda: use() == 401)
+        wait_for(lambda: use() == 401)
         self.assertIn("revoked", self.daemon.command("key", "list").stdout)
         self.assertEqual(self.daemon.command("key", "revoke", "--name", "press-3").returncode, 1)
 

@@ -55,9 +55,9 @@ class SetBack(unittest.TestCase):
         self.set_clock("+3600")
         records.append(self.measure())
         self.check(records)
+        self.assertEqual(self.daemon.stop(), 0)  # its log is written
         warning, = self.warnings()
-        self.assertRegex(warning, "3(599|600) s before")
-        self.assertEqual(self.daemon.stop(), 0)
+        self.assertRegex(warning, "3(600|5..) s before")  # the test itself takes a while
 
     def test_by_an_hour_while_it_is_off(self):
         self.daemon.start()
@@ -67,5 +67,5 @@ class SetBack(unittest.TestCase):
         self.daemon.start()
         records.append(self.measure())
         self.check(records)
-        self.assertEqual(len(self.warnings()), 1)
         self.assertEqual(self.daemon.stop(), 0)
+        self.assertEqual(len(self.warnings()), 1)

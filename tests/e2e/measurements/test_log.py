@@ -15,6 +15,7 @@ import unittest
 from measurements.test_storage import PART, StorageTest
 from support.daemon import ROOT, Daemon, DaemonTest, command
 from support.seals import alter, sealed_anew
+from support.waiting import wait_for
 
 sys.path.insert(0, str(ROOT / "clients" / "python"))
 
@@ -34,12 +35,10 @@ def flip(text):
 
 def wait_for_size(daemon, size):
     """The checkpoint, once it covers so many measurements."""
-    deadline = time.monotonic() + 30
-    while True:
-        note = daemon.get("/v1/log/checkpoint").text
-        if int(note.split("\n")[1]) >= size or time.monotonic() > deadline:
-            return note
-        time.sleep(0.05)
+    def note():
+        text = daemon.get("/v1/log/checkpoint").text
+        return text if int(text.split("\n")[1]) >= size else None
+    return wait_for(note, f"a checkpoint of {size}")
 
 
 class Log(DaemonTest):
@@ -114,10 +113,7 @@ class Log(DaemonTest):
         self.daemon.measure(PART)
         ready = self.daemon.get("/readyz").json["log"]
         self.assertEqual(set(ready), {"name", "size", "root"})
-        deadline = time.monotonic() + 10
-        while '"event":"log_head"' not in self.daemon.log and time.monotonic() < deadline:
-            time.sleep(0.05)
-        self.assertIn('"event":"log_head"', self.daemon.log)
+        self.daemon.wait_for_log('"event":"log_head"')
 
 
 @unittest.skipUnless(shutil.which("go") and MODULES.is_dir(), "needs the packages golang-go and golang-golang-x-mod-dev")
@@ -281,8 +277,8 @@ class Tampered(StorageTest):
         shutil.copy(copy, self.daemon.database)
         self.assert_found("an older copy was put back")
         self.daemon.start()
-        self.assertIn('"event":"log_behind"', self.daemon.log)
         self.assertEqual(self.daemon.stop(), 0)
+        self.assertIn('"event":"log_behind"', self.daemon.log)
         self.assert_found("an older copy was put back", self.kept)
 
 
@@ -356,7 +352,7 @@ class Keys(StorageTest):
         daemon.start()
         keys = daemon.get("/v1/log/key").text.split()
         self.assertEqual(len(keys), 2)
-        self.assertIn('"event":"log_key_lost"', daemon.log)
+        daemon.wait_for_log('"event":"log_key_lost"')
         record = daemon.measure(PART)
         proof = daemon.get(f"/v1/measurements/{record.json['id']}/proof").json
         self.assertIsNone(check_proof.check(record.text, proof, keys[:1]))

@@ -11,13 +11,13 @@ import os
 import random
 import shutil
 import sqlite3
-import subprocess
 import sys
 import time
 import unittest
 
 from support import releases
 from support.daemon import ROOT, TRACEABLE, Daemon
+from support.tracing import can_trace
 
 sys.path.insert(0, str(ROOT / "clients" / "python"))
 
@@ -29,12 +29,6 @@ SAMPLE = 10
 # Each call with how often it is made, or more.
 CALLS = {"pwrite64": 60, "fdatasync": 8, "fsync": 6, "renameat2": 2, "unlink": 4}
 FAILURES = ("error=EIO", "error=ENOSPC", "signal=SIGKILL")
-
-
-def can_trace():
-    return shutil.which("strace") and subprocess.run(
-        ["strace", "-qq", "-o", "/dev/null", "-e", "inject=getppid:retval=7", "true"],
-        capture_output=True, check=False).returncode == 0
 
 
 def faults():

@@ -6,6 +6,7 @@ import unittest
 import urllib.request
 
 from support.daemon import Daemon, DaemonTest
+from support.waiting import PATIENCE
 
 VALUE = {"designation": "25 H7", "measured_mm": "25.05", "part_id": "SN-1", "characteristic": "bore-A"}
 WORN = {"cause": "Insert worn", "measure": "Insert changed", "operator": "Kim"}
@@ -83,7 +84,7 @@ class Notes(DaemonTest):
     def test_is_told_as_an_event(self):
         record = self.record()
         heard = []
-        stream = urllib.request.urlopen(f"http://127.0.0.1:{self.daemon.port}/v1/events", timeout=30)
+        stream = urllib.request.urlopen(f"http://127.0.0.1:{self.daemon.port}/v1/events", timeout=PATIENCE)
 
         def listen():
             for line in stream:
@@ -94,7 +95,7 @@ class Notes(DaemonTest):
         stream.readline()  # it says where it stands
         listener.start()
         self.note(record, WORN)
-        listener.join(30)
+        listener.join(PATIENCE)
         stream.close()
         self.assertEqual(heard, ["note.added"])
 

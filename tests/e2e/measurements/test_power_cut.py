@@ -17,6 +17,7 @@ import time
 import unittest
 
 from support.daemon import Daemon
+from support.waiting import wait_for
 from support.writers import Writers, compare
 
 ROUNDS = 20 if os.environ.get("FITGAUGE_DEEP") else 3
@@ -80,6 +81,7 @@ class PowerCut(unittest.TestCase):
         snapshots = []
         with Writers(daemon) as writers:
             for number in range(ROUNDS):
+                wait_for(lambda: writers.acknowledged, "a value")
                 time.sleep(1 + 0.05 * number)
                 acknowledged = dict(writers.acknowledged)
                 head = daemon.get("/v1/log/checkpoint").text

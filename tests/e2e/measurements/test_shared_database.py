@@ -18,7 +18,9 @@ import time
 import unittest
 
 from support.daemon import SANITIZED, Daemon, command
+from support.ports import lasting_address
 from support.postgres import Cluster, FrontDoor
+from support.waiting import PATIENCE, wait_for
 from support.writers import Writers, compare
 
 DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
@@ -29,11 +31,7 @@ LEAST_A_SECOND = 100  # acknowledged values, in the long form, whose outages are
 
 def daemons_on(address, count, *flags):
     """Started daemons, each to be started again on the same port."""
-    made = [Daemon("--database", address, *flags) for _ in range(count)]
-    for daemon in made:
-        daemon.start()
-        daemon.listen = f"127.0.0.1:{daemon.port}"
-    return made
+    return [Daemon("--database", address, *flags, listen=lasting_address()).start() for _ in range(count)]
 
 
 class Follower(threading.Thread):
@@ -53,12 +51,10 @@ class Follower(threading.Thread):
             except (OSError, http.client.HTTPException):
                 time.sleep(0.05)
 
-    def end(self, expected, patience=30):
-        deadline = time.monotonic() + patience
-        while len(self.seen) < expected and time.monotonic() < deadline:
-            time.sleep(0.05)
+    def end(self, expected):
+        wait_for(lambda: len(self.seen) >= expected, lambda: f"{expected} records, {len(self.seen)} were seen; {self.problems}")
         self.ending.set()
-        self.join(10)
+        self.join(PATIENCE)
 
 
 class ListFollower(Follower):
@@ -178,17 +174,12 @@ class Shared(unittest.TestCase):
         self.wait_until_ready(living, 200)
         self.assertEqual(front.get("/readyz").status, 200, "and is there as soon as they are")
 
-    def wait_until_told(self, daemon, line, patience=30):
-        deadline = time.monotonic() + patience
-        while line not in daemon.get("/metrics").text:
-            self.assertLess(time.monotonic(), deadline, line)
-            time.sleep(0.1)
+    def wait_until_told(self, daemon, line):
+        wait_for(lambda: line in daemon.get("/metrics").text, line)
 
-    def wait_until_ready(self, daemons, status, patience=60):
-        deadline = time.monotonic() + patience
-        while [daemon.get("/readyz").status for daemon in daemons] != [status] * len(daemons):
-            self.assertLess(time.monotonic(), deadline, [daemon.get("/readyz") for daemon in daemons])
-            time.sleep(0.1)
+    def wait_until_ready(self, daemons, status):
+        wait_for(lambda: all(daemon.get("/readyz").status == status for daemon in daemons),
+                 lambda: [daemon.get("/readyz") for daemon in daemons])
 
     def test_a_commit_that_the_standby_does_not_have_is_not_acknowledged(self):
         """An operator ends the wait for a standby: the row is here alone, and a fail-over would lose it."""
@@ -217,24 +208,36 @@ class Shared(unittest.TestCase):
         self.cluster = Cluster("wal_writer_delay=10s", "wal_writer_flush_after=1GB", "autovacuum=off").start()
         self.addCleanup(self.cluster.cleanup)
         daemon, = self.daemons(1, "--durability", "off")
+        lost, ends = [], 0
         with Writers(daemon, count=4) as writers:
-            time.sleep(2)
-            self.cluster.stop("immediate")
-            self.cluster.start()
-            early = dict(writers.acknowledged)
-        lost, _ = compare(early, daemon.stored())
+            while not lost and ends < 10:  # one that comes just after the server has written by itself loses nothing
+                told = len(writers.acknowledged)
+                wait_for(lambda: len(writers.acknowledged) > told + 10, "values")
+                self.cluster.stop("immediate")
+                self.cluster.start()
+                ends += 1
+                early = dict(writers.acknowledged)
+                wait_for(lambda: len(writers.acknowledged) > len(early), "a database that is back")
+                lost, _ = compare(early, daemon.stored())
         self.assertNotEqual(lost, [])
 
     def test_keys_taken_in_the_order_they_come_in_are_caught(self):
         """Two batches with the same keys in opposite orders: one of them fails, unless both sort, or wait for one row
         first as the daemons do."""
         self.cluster.query("CREATE TABLE keys (key text PRIMARY KEY); CREATE TABLE head (id int); INSERT INTO head VALUES (1)")
+        # Each has its first key, or waits for the other's end.
+        both = ("SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock' OR "
+                "(state = 'idle in transaction' AND query LIKE 'INSERT%')")
+
         def take(before, batches):
-            script = "BEGIN; {} INSERT INTO keys VALUES ('{}'); SELECT pg_sleep(1); INSERT INTO keys VALUES ('{}'); ROLLBACK;"
-            taking = [subprocess.Popen(["psql", "-qX", "-v", "ON_ERROR_STOP=1", "-d", self.cluster.address(), "-c",
-                                        script.format(before, *keys)], text=True, stdout=subprocess.DEVNULL,
-                                       stderr=subprocess.PIPE) for keys in batches]
-            return "".join(process.communicate(timeout=60)[1] for process in taking)
+            sessions = [subprocess.Popen(["psql", "-qX", "-v", "ON_ERROR_STOP=1", "-d", self.cluster.address()], text=True,
+                                         stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) for _ in batches]
+            for session, (first, _) in zip(sessions, batches):
+                print(f"BEGIN; {before} INSERT INTO keys VALUES ('{first}');", file=session.stdin, flush=True)
+            wait_for(lambda: self.cluster.query(both) == [["2"]], "the first keys")
+            for session, (_, second) in zip(sessions, batches):
+                print(f"INSERT INTO keys VALUES ('{second}'); ROLLBACK;", file=session.stdin, flush=True)
+            return "".join(session.communicate(timeout=PATIENCE)[1] for session in sessions)
         self.assertIn("deadlock", take("", ("ab", "ba")))
         self.assertEqual(take("", ("ab", "ab")), "")
         self.assertEqual(take("SELECT id FROM head FOR UPDATE;", ("ab", "ba")), "")
@@ -302,46 +305,31 @@ class Together(unittest.TestCase):
     def test_the_run_of_a_killed_daemon_is_run_again_by_another(self):
         killed, = daemons_on(self.cluster.address(), 1)
         self.addCleanup(killed.cleanup)
-        self.one.request("PUT", "/v1/files/nc_prog/E.H",
-                         "BEGIN PGM E MM\nLBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM E MM\n",
-                         {"Content-Type": "text/plain"})
-        order = {"program": "TNC:\\nc_prog\\E.H", "limits": {"blocks": 100_000_000, "seconds": 2}}
-        begun = killed.post("/v1/runs", order, {"Prefer": "respond-async"})
-        self.assertEqual(begun.status, 202, begun)
+        place = self.endless_run(killed, seconds=10)
         killed.kill()
-        place = begun.headers["location"]
         self.assertIn(self.other.get(place).json["status"], ("queued", "running"))
-        deadline = time.monotonic() + 60
-        while (run := self.other.get(place).json)["status"] in ("queued", "running"):
-            self.assertLess(time.monotonic(), deadline, run)
-            time.sleep(0.2)
+        run = wait_for(lambda: (found := self.other.get(place).json)["status"] not in ("queued", "running") and found, "its end")
         self.assertEqual(run["status"], "limit_exceeded", run)
         self.assertEqual(run, self.one.get(place).json)
 
-    def endless_run(self, daemon):
-        """Starts a run that only a cancellation or a minute ends. @returns its place"""
+    def endless_run(self, daemon, seconds=60):
+        """Starts a run that only a cancellation or so much time ends. @returns its place"""
         # The most blocks a run may have would be over in half a second, if they did nothing.
         words = "QS1 = TOCHAR ( DAT+Q1 DECIMALS4 )\n" * 20
         self.one.request("PUT", "/v1/files/nc_prog/ENDLESS.H",
                          f"BEGIN PGM ENDLESS MM\nFN 16: F-PRINT BEGUN.A / SCREEN:\nQ1 = 1\nLBL 1\n{words}"
                          "FN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM ENDLESS MM\n", {"Content-Type": "text/plain"})
         self.one.request("PUT", "/v1/files/nc_prog/BEGUN.A", '"BEGUN";\n', {"Content-Type": "text/plain"})
-        order = {"program": "TNC:\\nc_prog\\ENDLESS.H", "limits": {"blocks": 100_000_000, "seconds": 60}}
+        order = {"program": "TNC:\\nc_prog\\ENDLESS.H", "limits": {"blocks": 100_000_000, "seconds": seconds}}
         begun = daemon.post("/v1/runs", order, {"Prefer": "respond-async"})
         self.assertEqual(begun.status, 202, begun)
         return begun.headers["location"]
-
-    def wait_for(self, condition, what, patience=60):
-        deadline = time.monotonic() + patience
-        while not condition():
-            self.assertLess(time.monotonic(), deadline, what)
-            time.sleep(0.05)
 
     def test_a_run_is_cancelled_and_followed_at_either_daemon(self):
         for runs, asks in ((self.one, self.other), (self.other, self.one)):
             place, beside = self.endless_run(runs), self.endless_run(runs)
             for run in (place, beside):
-                self.wait_for(lambda run=run: asks.get(run).json["status"] == "running", "it runs")
+                wait_for(lambda run=run: asks.get(run).json["status"] == "running", "it runs")
             listed = asks.get("/v1/runs?status=running").json["runs"]
             self.assertEqual(len(listed), 2, listed)
             with asks.client() as client:
@@ -368,7 +356,7 @@ class Together(unittest.TestCase):
         killed, = daemons_on(self.cluster.address(), 1)
         self.addCleanup(killed.cleanup)
         place = self.endless_run(killed)
-        self.wait_for(lambda: self.other.get(place).json["status"] == "running", "it runs")
+        wait_for(lambda: self.other.get(place).json["status"] == "running", "it runs")
         killed.process.send_signal(signal.SIGSTOP)
         answers = []
         cancelling = threading.Thread(target=lambda: answers.append(self.other.request("DELETE", place)))
@@ -376,7 +364,7 @@ class Together(unittest.TestCase):
         cancelling.join(1)
         self.assertEqual(answers, [], "it is not told before it is true")
         killed.kill()
-        cancelling.join(60)
+        cancelling.join(PATIENCE)
         self.assertEqual([answer.status for answer in answers], [204], answers)
         run = self.one.get(place).json
         self.assertEqual(run["status"], "cancelled")
@@ -386,7 +374,7 @@ class Together(unittest.TestCase):
         def metrics():
             return dict(re.findall(r"^(fitgauge_\S+) (\S+)$", self.one.get("/metrics").text, re.MULTILINE))
         size = 'fitgauge_database_bytes{file="database"}'
-        self.wait_for(lambda: size in metrics(), "the server was asked")
+        wait_for(lambda: size in metrics(), "the server was asked")
         found = metrics()
         there = int(self.cluster.query("SELECT pg_database_size(current_database())")[0][0])
         self.assertAlmostEqual(float(found[size]) / there, 1, delta=0.2)

@@ -4,11 +4,11 @@ import json
 import pathlib
 import sqlite3
 import threading
-import time
 import unittest
 
 from support.daemon import Daemon, DaemonTest, command
 from support.seals import alter
+from support.waiting import PATIENCE, wait_for
 
 PART = {"designation": "25 H7", "measured_mm": 25.013, "part_id": "SN-1"}
 
@@ -28,16 +28,14 @@ class StorageTest(unittest.TestCase):
         return daemon
 
     def assert_refused(self, daemon, *texts):
-        """Ends within 2 s (the machine may be busy: 10), in one line, with nothing touched."""
+        """Ends within 2 s (the machine may be slow and busy: 30), in one line, with nothing touched."""
         def files():
             return {p.name: p.read_bytes() for p in daemon.data.iterdir() if p.suffix != ".lock"}
 
         before = files()
         (daemon.folder / "log").unlink(missing_ok=True)
-        began = time.monotonic()
         daemon.spawn()
         self.assertIn(daemon.process.wait(30), (1, 2))
-        self.assertLess(time.monotonic() - began, 10)
         line, = daemon.log.strip().splitlines()
         self.assertTrue(line.startswith("fitgauged: "), line)
         for text in texts:
@@ -84,7 +82,7 @@ class RefusedFiles(StorageTest):
         daemon.start()
         second = self.make_daemon(data=daemon.data)
         second.spawn()
-        self.assertEqual(second.process.wait(20), 1)
+        self.assertEqual(second.process.wait(PATIENCE), 1)
         self.assertIn("in use by another fitgauged", second.log)
         self.assertEqual(daemon.measure(PART).status, 201)
         self.assertEqual(daemon.stop(), 0)
@@ -94,7 +92,7 @@ class RefusedFiles(StorageTest):
         daemon.start()
         second = self.make_daemon(listen=f"127.0.0.1:{daemon.port}")
         second.spawn()
-        self.assertIn(second.process.wait(20), (1, 2))
+        self.assertIn(second.process.wait(PATIENCE), (1, 2))
         self.assertIn(str(daemon.port), second.log)
         self.assertEqual(daemon.stop(), 0)
 
@@ -209,11 +207,10 @@ class TheEnd(DaemonTest):
         threads = [threading.Thread(target=post) for _ in range(4)]
         for thread in threads:
             thread.start()
-        time.sleep(0.5)
+        wait_for(lambda: acknowledged, "an answer")
         self.assertEqual(self.daemon.stop(), 0)
         for thread in threads:
             thread.join()
-        self.assertTrue(acknowledged)
         wal = pathlib.Path(str(self.daemon.database) + "-wal")
         self.assertFalse(wal.exists() and wal.stat().st_size, "the log was checkpointed")
         self.daemon.start()

@@ -4,11 +4,11 @@ import http.client
 import shutil
 import signal
 import ssl
-import time
 import unittest
 
 from support.certificates import certificate
 from support.daemon import Daemon, trust
+from support.waiting import PATIENCE
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
 
@@ -41,22 +41,16 @@ class Tls(unittest.TestCase):
         shutil.copy(new_key, self.key)
         self.daemon.tls = trust(new_certificate)
         self.daemon.process.send_signal(signal.SIGHUP)
-        self.wait_for_log("certificates_reloaded")
+        self.daemon.wait_for_log("certificates_reloaded")
         self.assertEqual(self.serial(), 2)
         self.assertEqual(self.daemon.request("GET", "/livez", connection=standing).status, 200)
         standing.close()
 
         self.certificate.write_text("nonsense")
         self.daemon.process.send_signal(signal.SIGHUP)
-        self.wait_for_log("certificates_kept")
+        self.daemon.wait_for_log("certificates_kept")
         self.assertEqual(self.serial(), 2)
         self.assertEqual(self.daemon.stop(), 0)
-
-    def wait_for_log(self, event):
-        deadline = time.monotonic() + 15
-        while event not in self.daemon.log:
-            self.assertLess(time.monotonic(), deadline, self.daemon.log)
-            time.sleep(0.02)
 
     def test_plain_http_on_the_port_is_not_answered(self):
         self.daemon.start()
@@ -82,10 +76,10 @@ class Tls(unittest.TestCase):
         self.assertEqual(check().returncode, 0, check().stderr)
         port = int((self.daemon.data / "health.port").read_text())
         with self.assertRaises(OSError):
-            http.client.HTTPConnection("127.0.0.2", port, timeout=5).request("GET", "/livez")
+            http.client.HTTPConnection("127.0.0.2", port, timeout=PATIENCE).request("GET", "/livez")
         statuses = {}
         for path in ("/livez", "/readyz", "/v1/limits/25H7", "/v1/measurements", "/", "/metrics"):
-            connection = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
+            connection = http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
             connection.request("GET", path)
             statuses[path] = connection.getresponse().status
             connection.close()
@@ -109,6 +103,6 @@ class Tls(unittest.TestCase):
         self.certificate.write_text("nonsense")
         self.daemon.wrapper = ["prlimit", "--nofile=64:400"]  # not a word about that either
         self.daemon.spawn()
-        self.assertIn(self.daemon.process.wait(20), (1, 2))
+        self.assertIn(self.daemon.process.wait(PATIENCE), (1, 2))
         self.assertIn("first.pem", self.daemon.log)
         self.assertEqual(len(self.daemon.log.strip().splitlines()), 1, self.daemon.log)

@@ -9,6 +9,7 @@ from unittest import mock
 
 from support.certificates import certificate
 from support.daemon import Daemon, fitgauge, trust
+from support.ports import lasting_address
 from support.scripted import ScriptedServer, answer, problem
 
 PART = {"designation": "25 H7", "measured_mm": "25.013", "part_id": "SN-1"}
@@ -202,13 +203,12 @@ class EventStreams(Scripted):
 
 class OnTheService(unittest.TestCase):
     def setUp(self):
-        self.daemon = Daemon()
+        self.daemon = Daemon(listen=lasting_address())
         self.addCleanup(self.daemon.cleanup)
 
     def restart(self):
         """On the same port, as a service comes back."""
         self.daemon.kill()
-        self.daemon.listen = f"127.0.0.1:{self.daemon.port}"
         self.daemon.start()
 
     def test_events_across_a_restart(self):

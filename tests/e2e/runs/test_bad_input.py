@@ -1,14 +1,12 @@
 """Programs that cannot run say so with file, line and block; the service stays responsive."""
 
 import pathlib
-import shutil
-import subprocess
 import threading
-import time
 import unittest
 
 from support.control import ControlTest
 from support.daemon import TRACEABLE
+from support.tracing import attach, can_trace
 
 
 class BadInput(ControlTest):
@@ -81,15 +79,13 @@ class BadInput(ControlTest):
     def test_endless_loop_ends_at_its_budget_while_others_are_served(self):
         loop = self.upload_program("forever", "LBL 1", "FN 9: IF +1 EQU +1 GOTO LBL 1")
         answer = self.post_run(loop, headers={"Prefer": "respond-async"},
-                               limits={"blocks": 100_000_000, "seconds": 2})
+                               limits={"blocks": 100_000_000, "seconds": 5})
         self.assertEqual(answer.status, 202)
-        while True:
-            begun = time.monotonic()
+        served = 0  # meanwhile: whoever waits for its end is served once
+        while (run := self.daemon.get(answer.headers["location"]).json)["status"] in ("queued", "running"):
             self.assertEqual(self.daemon.get("/v1/limits/25H7").status, 200)
-            self.assertLess(time.monotonic() - begun, 1)
-            run = self.daemon.get(answer.headers["location"]).json
-            if run["status"] not in ("queued", "running"):
-                break
+            served += 1
+        self.assertGreater(served, 3)
         self.assertEqual(run["status"], "limit_exceeded")
         self.assertEqual(run["messages"][-1]["kind"], "limit")
 
@@ -129,10 +125,11 @@ class BadInput(ControlTest):
         checked = threading.Thread(target=lambda: answers.append(self.post_run("TNC:\\large.h")))
         answers = []
         checked.start()
+        served = 0
         while checked.is_alive():
-            begun = time.monotonic()
             self.assertEqual(self.daemon.get("/v1/limits/25H7").status, 200)
-            self.assertLess(time.monotonic() - begun, 1)
+            served += 1
+        self.assertGreater(served, 3)
         problem = self.assert_problem(answers[0], 422, "program.invalid")
         self.assertEqual(problem["diagnostics"][0]["line"], 260_002)
 
@@ -147,12 +144,6 @@ class BadInput(ControlTest):
         self.assert_problem(self.post_run("TNC:\\nothing.h"), 422, "program.unknown")
 
 
-def can_trace():
-    """Whether strace is there and may attach."""
-    return bool(shutil.which("strace")) and subprocess.run(
-        ["strace", "-qq", "-o", "/dev/null", "true"], check=False).returncode == 0
-
-
 @unittest.skipUnless(can_trace(), "needs strace and the right to trace")
 class HostFiles(ControlTest):
     PATHS = ("..\\..\\..\\etc\\passwd", "TNC:\\..\\..\\etc\\passwd", "/etc/passwd", "C:\\x.h",
@@ -162,11 +153,7 @@ class HostFiles(ControlTest):
     def test_no_path_of_a_program_opens_a_file_of_the_host(self):
         self.daemon.get("/v1/limits/25H7")
         trace = self.daemon.folder / "trace"
-        tracer = subprocess.Popen(["strace", "-f", "-qq", "-o", trace, "-e", "trace=%file,fdatasync",
-                                   "-p", str(self.daemon.process.pid)])
-        self.addCleanup(tracer.wait)
-        self.addCleanup(tracer.terminate)
-        time.sleep(0.5)
+        attach(self, self.daemon, "-o", trace, "-e", "trace=%file,fdatasync")
         self.upload("say.a", '"X";\n')
         for n, path in enumerate(self.PATHS):
             for block in (f"CALL PGM {path}", f'SEL PGM "{path}"\nCALL SELECTED PGM',

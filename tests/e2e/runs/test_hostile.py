@@ -11,6 +11,7 @@ import unittest
 from support.control import ControlTest
 from support.daemon import Daemon
 from support.hostile import ENDLESS, LOBES, PLANE, part, programs
+from support.waiting import PATIENCE, wait_for
 
 SECONDS = 0.3
 ENDS = {"completed", "stopped", "failed", "limit_exceeded"}
@@ -94,20 +95,14 @@ class Ending(ControlTest):
                                    limits={"blocks": 100_000_000, "seconds": 60})
             self.assertEqual(answer.status, 202, answer)
             runs.append(answer.headers["location"])
-        deadline = time.monotonic() + 20
-        while any(self.daemon.get(run).json["status"] == "queued" for run in runs):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.02)
+        wait_for(lambda: all(self.daemon.get(run).json["status"] != "queued" for run in runs), "their begin")
         return runs
 
     def test_a_move_is_cancelled(self):
         runs = self.lasting_runs()
         for run in runs:
             self.assertIn(self.daemon.request("DELETE", run).status, (200, 202, 204))
-        deadline = time.monotonic() + 30
-        while any(self.daemon.get(run).json["status"] == "running" for run in runs):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.02)
+        wait_for(lambda: all(self.daemon.get(run).json["status"] != "running" for run in runs), "their end")
         for run in runs:
             self.assertEqual(self.daemon.get(run).json["status"], "cancelled")
 
@@ -125,9 +120,9 @@ class Ending(ControlTest):
             for thread in waiting:
                 thread.start()
             daemon.process.send_signal(signal.SIGTERM)
-            self.assertEqual(daemon.process.wait(30), 0)
+            self.assertEqual(daemon.process.wait(PATIENCE), 0)
             for thread in waiting:
-                thread.join(10)
+                thread.join(PATIENCE)
             threading.excepthook = old
         finally:
             self.__class__.daemon = shared

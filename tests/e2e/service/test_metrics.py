@@ -9,6 +9,7 @@ import unittest
 
 from support.control import workpiece
 from support.daemon import ROOT, DaemonTest
+from support.waiting import wait_for
 
 SAMPLE = re.compile(r'^([a-z_]+)(?:\{((?:[a-z]+="[^"]*",?)*)\})? (\S+)$')
 LABEL = re.compile(r'([a-z]+)="([^"]*)"')
@@ -43,11 +44,8 @@ class Metrics(DaemonTest):
         return self.scrape()[1].get((name, tuple(sorted(labels.items()))), 0)
 
     def wait_for(self, expected, name, **labels):
-        deadline = time.monotonic() + 10
-        while self.value(name, **labels) < expected:
-            self.assertLess(time.monotonic(), deadline, f"{name} {labels} is {self.value(name, **labels)}")
-            time.sleep(0.02)
-        self.assertEqual(self.value(name, **labels), expected)
+        wait_for(lambda: self.value(name, **labels) == expected,
+                 lambda: f"{name} {labels} of {expected} is {self.value(name, **labels)}")
 
     def test_names_and_types_are_prometheus_own(self):
         types, values = self.scrape()

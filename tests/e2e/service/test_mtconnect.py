@@ -1,7 +1,6 @@
 """MTConnect: the documents of a small agent over the log, read by the XML parser of Python and held against the
 schemas where MTCONNECT_SCHEMAS names their folder."""
 
-import http.client
 import os
 import pathlib
 import subprocess
@@ -189,7 +188,7 @@ class Agent(DaemonTest):
         self.assertEqual(len(self.read("assets?type=CuttingTool").find("Assets")), 0)
 
     def stream(self, query):
-        connection = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=30)
+        connection = self.daemon.connect()
         self.addCleanup(connection.close)
         connection.request("GET", "/mtconnect/sample?" + query)
         return connection.getresponse()

@@ -6,7 +6,7 @@ import unittest
 import xml.etree.ElementTree as tree
 
 from support.daemon import Daemon, DaemonTest, command
-from support.lsv2 import wait_for
+from support.waiting import wait_for
 
 FLAGS = ("--shdr-listen", "127.0.0.1:0")
 

@@ -9,6 +9,7 @@ import time
 import unittest
 
 from support.daemon import Daemon
+from support.waiting import wait_for
 from support.writers import Writers, compare
 
 REPORT = re.compile(r"Sanitizer|runtime error|terminate called")
@@ -69,12 +70,9 @@ class Shutdown(unittest.TestCase):
                 with daemon.client() as client:
                     client.put_file("loop.h", PROGRAM)
                 with Writers(daemon, count=4) as writers, Load(daemon) as load:
-                    deadline = time.monotonic() + 60
-                    while len(load.answered) < len(load.threads) or not writers.acknowledged:
-                        self.assertLess(time.monotonic(), deadline, load.answered)
-                        time.sleep(0.1)
+                    wait_for(lambda: len(load.answered) == len(load.threads) and writers.acknowledged, lambda: load.answered)
                     time.sleep(0.3 * number)
-                    code = daemon.stop(timeout=120)
+                    code = daemon.stop()
                 self.assertEqual(code, 0, daemon.log[-4000:])
                 self.assertIsNone(REPORT.search(daemon.log), daemon.log[-4000:])
                 daemon.start()

@@ -7,30 +7,21 @@ import socket
 import subprocess
 import tempfile
 import threading
-import time
+
+from support.ports import free_port
+from support.waiting import PATIENCE, wait_for
 
 
-def free_port():
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        return taken.getsockname()[1]
-
-
-def wait_for(condition, seconds=60, say=lambda: ""):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > deadline:
-            raise AssertionError(f"in {seconds} s it did not come: {say()}")
-        time.sleep(0.01)
-
-
-def kill_in_step(broker, daemon, subscriber):
-    """Kills the broker when the subscriber has all it took: what it has acknowledged it forgets with its life."""
+def kill_in_step(broker, daemon, subscriber, mark):
+    """Kills the broker when the subscriber has all it took: what it has acknowledged it forgets with its life. `mark` is
+    a topic of the subscriber that is of no use otherwise."""
     daemon.process.send_signal(signal.SIGSTOP)
-    told = -1
-    while told != len(subscriber.messages):
+    quiet = 0
+    while quiet < 10:  # rounds in which nothing but our own word has come through the broker
         told = len(subscriber.messages)
-        time.sleep(1)
+        broker.publish(mark, b"in step")
+        wait_for(lambda: any(message.topic == mark for message in subscriber.messages[told:]), lambda: broker.log[-2000:])
+        quiet = quiet + 1 if len(subscriber.messages) == told + 1 else 0
     broker.kill()
     daemon.process.send_signal(signal.SIGCONT)
 
@@ -56,7 +47,7 @@ class Broker:
     def start(self):
         binary = shutil.which("mosquitto", path="/usr/sbin:/usr/bin:/usr/local/sbin:/usr/local/bin")
         self.process = subprocess.Popen([binary, "-c", self.file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        wait_for(self.listens, 30, lambda: self.log)
+        wait_for(self.listens, lambda: self.log)
         return self
 
     def listens(self):
@@ -74,11 +65,11 @@ class Broker:
 
     def stop(self):
         self.process.terminate()
-        self.process.wait(30)
+        self.process.wait(PATIENCE)
 
     def kill(self):
         self.process.kill()
-        self.process.wait(30)
+        self.process.wait(PATIENCE)
 
     def subscribe(self, topic="#", **more):
         """A subscriber that has begun to listen."""
@@ -88,7 +79,7 @@ class Broker:
 
     def publish(self, topic, payload=b"", retain=False, qos=1):
         subprocess.run(["mosquitto_pub", "-p", str(self.port), "-t", topic, "-q", str(qos), "-s", *(["-r"] if retain else [])],
-                       input=payload, check=True, timeout=30)
+                       input=payload, check=True, timeout=PATIENCE)
 
     def cleanup(self):
         for subscriber in self.subscribers:
@@ -118,7 +109,7 @@ class Subscriber:
              "-t", topic, "-F", "%t\t%r\t%q\t%x", *options], stdout=subprocess.PIPE, text=True)
         self.thread = threading.Thread(target=self.read, daemon=True)
         self.thread.start()
-        wait_for(lambda: any("Sending SUBACK" in line for line in broker.log.split("\n")[seen:]), 30, lambda: broker.log)
+        wait_for(lambda: any("Sending SUBACK" in line for line in broker.log.split("\n")[seen:]), lambda: broker.log)
 
     def read(self):
         for line in self.process.stdout:
@@ -126,8 +117,8 @@ class Subscriber:
 
     def close(self):
         self.process.terminate()
-        self.process.wait(30)
-        self.thread.join(30)
+        self.process.wait(PATIENCE)
+        self.thread.join(PATIENCE)
         self.process.stdout.close()
 
 

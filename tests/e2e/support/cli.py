@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 
 from support.daemon import DaemonTest
+from support.waiting import PATIENCE
 
 FITGAUGE = os.environ.get("FITGAUGE", "build/release/bin/fitgauge")
 
@@ -25,13 +26,13 @@ class Client:
                                 stderr=subprocess.PIPE, cwd=self.folder,
                                 env={**self.environment, **(environment or {})}, **named)
 
-    def run(self, *arguments, stdin="", environment=None, timeout=60):
+    def run(self, *arguments, stdin="", environment=None, timeout=PATIENCE):
         """Runs it to its end."""
         return self.end(self.spawn(*arguments, environment=environment, stdin=subprocess.PIPE),
                         stdin.encode(), timeout)
 
     @staticmethod
-    def end(process, stdin=None, timeout=60):
+    def end(process, stdin=None, timeout=PATIENCE):
         """Waits for its end; what it printed, byte for byte, is in stdout_text and stderr_text."""
         out, err = process.communicate(stdin, timeout)
         process.stdout_text, process.stderr_text = out.decode(), err.decode()

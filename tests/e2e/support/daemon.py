@@ -11,13 +11,14 @@ import ssl
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "clients" / "python"))
 
 import fitgauge  # noqa: E402 - the client of this tree, not an installed one
+
+from support.waiting import PATIENCE, wait_for  # noqa: E402
 
 FITGAUGED = os.environ.get("FITGAUGED", "build/release/bin/fitgauged")
 JSON = {"Content-Type": "application/json"}
@@ -41,7 +42,7 @@ def environment_of(settings):
     return {name: value for name, value in {**os.environ, **(settings or {})}.items() if name not in of_tests}
 
 
-def command(*arguments, environment=None, timeout=60):
+def command(*arguments, environment=None, timeout=PATIENCE):
     """Runs fitgauged to its end."""
     return subprocess.run([FITGAUGED, *map(str, arguments)], capture_output=True, text=True,
                           env=environment_of(environment), timeout=timeout, check=False)
@@ -90,6 +91,10 @@ class Daemon:
     def log(self):
         return (self.folder / "log").read_text(errors="replace")
 
+    def wait_for_log(self, text, times=1):
+        """The log is written beside what it tells of: until it has `text` so many times."""
+        wait_for(lambda: self.log.count(text) >= times, lambda: f"{text} in {self.log}")
+
     @property
     def output(self):
         return (self.folder / "output").read_text(errors="replace")
@@ -105,34 +110,30 @@ class Daemon:
                 stdout=output, stderr=self.stderr or log, env=self.environment)
         return self
 
-    def start(self, timeout=30):
+    def start(self):
         """Starts the process and waits until its socket listens."""
         self.spawn()
-        deadline = time.monotonic() + timeout
-        while not self.port_file.exists():
-            if self.process.poll() is not None:
-                raise RuntimeError(f"fitgauged ended with {self.process.returncode}: {self.log}")
-            if time.monotonic() > deadline:
-                raise RuntimeError("fitgauged does not listen")
-            time.sleep(0.005)
+        wait_for(lambda: self.port_file.exists() or self.process.poll() is not None, "fitgauged does not listen")
+        if not self.port_file.exists():
+            raise RuntimeError(f"fitgauged ended with {self.process.returncode}: {self.log}")
         self.port = int(self.port_file.read_text())
         return self
 
-    def stop(self, timeout=30):
+    def stop(self, timeout=PATIENCE):
         """SIGTERM; gives the exit code."""
         self.process.send_signal(signal.SIGTERM)
         return self.process.wait(timeout)
 
     def kill(self):
         self.process.kill()
-        self.process.wait(30)
+        self.process.wait(PATIENCE)
 
     def cleanup(self):
         if self.process and self.process.poll() is None:
             self.kill()
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def connect(self, timeout=30):
+    def connect(self, timeout=PATIENCE):
         if self.tls:
             return http.client.HTTPSConnection("localhost", self.port, timeout=timeout,
                                                context=self.tls)

@@ -21,6 +21,8 @@ import tempfile
 
 from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
+from support.ports import free_port
+from support.waiting import PATIENCE
 
 BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 # Where a document names a place of the machine, the test has a folder of its own.
@@ -121,20 +123,18 @@ class Reader:
             (self.folder / "bin" / program.name).symlink_to(program.resolve())
         self.provide("curl", CURL)
         self.provide("systemctl", SYSTEMCTL)
+        port = str(free_port())
         self.environment = {
             **{name: value for name, value in os.environ.items() if not name.startswith(("FITGAUGE", "XDG_"))},
             "HOME": str(self.folder), "LC_ALL": "C.UTF-8",
             "PATH": f"{self.folder}/bin:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}",
             "DOCS_TEST_STATE": str(self.state), "DOCS_TEST_DATA": str(self.data),
-            "DOCS_TEST_BINARY": str(pathlib.Path(FITGAUGED).resolve()), "DOCS_TEST_PORT": "0",
+            "DOCS_TEST_BINARY": str(pathlib.Path(FITGAUGED).resolve()), "DOCS_TEST_PORT": port,
+            "FITGAUGE_SERVER": f"http://127.0.0.1:{port}",
             "PYTHONPATH": str(ROOT / "clients/python"), "PYTHONDONTWRITEBYTECODE": "1"}
         for name, text in (("environment", ""), ("directory", str(self.tree))):
             (self.state / name).write_text(text)
         self.shell("systemctl start fitgauged")
-        port = (self.state / "port").read_text().strip()
-        self.environment = {**self.environment, "DOCS_TEST_PORT": port,
-                            "FITGAUGE_SERVER": f"http://127.0.0.1:{port}"}
-        (self.state / "environment").write_text("")
 
     def close(self):
         if (self.state / "pid").exists():
@@ -160,7 +160,7 @@ class Reader:
         return self.check([sys.executable, "-W", "error", "-c", self.placed(text)], text, directory)
 
     def check(self, command, text, directory=None):
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False, cwd=directory,
+        done = subprocess.run(command, capture_output=True, text=True, timeout=3 * PATIENCE, check=False, cwd=directory,
                               stdin=subprocess.DEVNULL, env=self.environment)
         if done.returncode != 0:
             raise AssertionError(f"{text}\nended with {done.returncode}: {done.stdout}{done.stderr}")

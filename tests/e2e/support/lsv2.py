@@ -3,23 +3,26 @@
 import re
 import socket
 import struct
-import time
 
-
-def wait_for(what, seconds=30):
-    """What `what` gives as soon as it is true."""
-    deadline = time.monotonic() + seconds
-    while not (found := what()):
-        if time.monotonic() > deadline:
-            raise AssertionError("it did not come")
-        time.sleep(0.01)
-    return found
+from support.waiting import PATIENCE, wait_for
 
 
 def control_port(daemon, starts=1):
     """Of its last start; the log is written a moment after it."""
     listening = r'"event":"control_listening","detail":"[^"]* on port (\d+)'
     return int(wait_for(lambda: re.findall(listening, daemon.log)[starts - 1:])[0])
+
+
+def served(port, *logins):
+    """A client that the control serves: of a hundred, the place of one that has left is free a moment later."""
+    def logged_in():
+        client = Client(port)
+        try:
+            return client.login("INSPECT", *logins)
+        except OSError:
+            client.close()
+            return None
+    return wait_for(logged_in, "a place at the control")
 
 
 class Refused(Exception):
@@ -39,7 +42,7 @@ def telegram(name, payload=b""):
 
 
 class Client:
-    def __init__(self, port, timeout=30):
+    def __init__(self, port, timeout=PATIENCE):
         self.socket = socket.create_connection(("127.0.0.1", port), timeout)
         self.bytes = self.socket.makefile("rb")
         self.buffer = 256

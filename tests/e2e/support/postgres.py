@@ -4,12 +4,12 @@ import os
 import pathlib
 import re
 import shutil
-import socket
 import subprocess
 import tempfile
-import time
 
 from support.daemon import ROOT, Daemon
+from support.ports import free_port
+from support.waiting import PATIENCE, wait_for
 
 SCRIPT = ROOT / "tests" / "support" / "postgres_cluster"
 
@@ -22,33 +22,29 @@ class Cluster:
         self.settings = settings
 
     def start(self):
-        subprocess.run([SCRIPT, "start", self.folder, *self.settings], check=True, timeout=90)
+        subprocess.run([SCRIPT, "start", self.folder, *self.settings], check=True, timeout=PATIENCE)
         return self
 
     def standby(self):
         """Another server that follows this one: from now on a commit is not told before it is there too."""
         other = Cluster()
-        subprocess.run([SCRIPT, "standby", other.folder, self.folder], check=True, timeout=90)
+        subprocess.run([SCRIPT, "standby", other.folder, self.folder], check=True, timeout=PATIENCE)
         other.start()
         self.query("ALTER SYSTEM SET synchronous_standby_names = '*'")
         self.query("SELECT pg_reload_conf()")
         self.wait_for_standby()
         return other
 
-    def wait_for_standby(self, patience=60):
+    def wait_for_standby(self):
         """Until the standby holds all that this server does."""
-        deadline = time.monotonic() + patience
-        while self.query("SELECT count(*) FROM pg_stat_replication WHERE state = 'streaming' AND "
-                         "sync_state = 'sync'") != [["1"]]:
-            if time.monotonic() > deadline:
-                raise TimeoutError("the standby does not follow")
-            time.sleep(0.1)
+        count = "SELECT count(*) FROM pg_stat_replication WHERE state = 'streaming' AND sync_state = 'sync'"
+        wait_for(lambda: self.query(count) == [["1"]], "the standby does not follow")
 
     def promote(self):
-        subprocess.run([SCRIPT, "promote", self.folder], check=True, timeout=90)
+        subprocess.run([SCRIPT, "promote", self.folder], check=True, timeout=PATIENCE)
 
     def stop(self, how="immediate"):
-        subprocess.run([SCRIPT, "stop", self.folder, how], check=True, timeout=90)
+        subprocess.run([SCRIPT, "stop", self.folder, how], check=True, timeout=PATIENCE)
 
     def address(self, database="postgres", *others):
         """Of this server, or of that one among `others` which takes writes."""
@@ -58,7 +54,7 @@ class Cluster:
     def query(self, sql, database="postgres"):
         """Rows as lists of texts."""
         printed = subprocess.run(["psql", "-qAtX", "-v", "ON_ERROR_STOP=1", "-d", self.address(database), "-c", sql],
-                                 check=True, capture_output=True, text=True, timeout=60).stdout
+                                 check=True, capture_output=True, text=True, timeout=PATIENCE).stdout
         return [line.split("|") for line in printed.splitlines()]
 
     def cleanup(self):
@@ -94,9 +90,8 @@ class FrontDoor(Daemon):
         super().__init__()
         self.daemons = daemons
 
-    def start(self, timeout=30):
-        with socket.create_server(("127.0.0.1", 0)) as free:
-            self.port = free.getsockname()[1]
+    def start(self):
+        self.port = free_port()
         shown = shown_to_users((f"127.0.0.1:{daemon.port}" for daemon in self.daemons), self.port)
         configuration = self.folder / "nginx.conf"
         configuration.write_text(NGINX.format(folder=self.folder, shown=shown))
@@ -105,12 +100,11 @@ class FrontDoor(Daemon):
         # One process: a worker would outlive its killed master and hold what reads our output.
         self.process = subprocess.Popen(["nginx", "-c", configuration, "-p", self.folder, *user],
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        deadline = time.monotonic() + timeout
-        while True:
-            try:
-                self.get("/livez")
-                return self
-            except OSError:
-                if time.monotonic() > deadline:
-                    raise
-                time.sleep(0.05)
+        wait_for(self.answers, "nginx")
+        return self
+
+    def answers(self):
+        try:
+            return self.get("/livez")
+        except OSError:
+            return None

@@ -3,7 +3,8 @@
 import http.server
 import json
 import threading
-import time
+
+from support.waiting import wait_for
 
 
 class Receiver:
@@ -60,12 +61,8 @@ class Receiver:
         """The ids in the order of their first coming."""
         return list(dict.fromkeys(self.ids()))
 
-    def wait(self, condition, seconds=60):
-        deadline = time.monotonic() + seconds
-        while not condition():
-            if time.monotonic() > deadline:
-                raise AssertionError(f"{len(self.attempts)} attempts, {len(self.events)} events: {self.attempts[-3:]}")
-            time.sleep(0.01)
+    def wait(self, condition, **named):
+        wait_for(condition, lambda: f"{len(self.attempts)} attempts, {len(self.events)} events: {self.attempts[-3:]}", **named)
 
     def close(self):
         self.server.shutdown()
