@@ -18,6 +18,7 @@ sys.path.insert(0, str(ROOT / "clients" / "python"))
 
 import fitgauge  # noqa: E402 - the client of this tree, not an installed one
 
+from support.stutter import Service  # noqa: E402
 from support.waiting import PATIENCE, wait_for  # noqa: E402
 
 FITGAUGED = os.environ.get("FITGAUGED", "build/release/bin/fitgauged")
@@ -38,7 +39,7 @@ def preload(library):
 
 def environment_of(settings):
     """That of the test with `settings`, without what is meant for the tests alone."""
-    of_tests = ("FITGAUGE_DEEP", "FITGAUGE_OUTAGE_S")
+    of_tests = ("FITGAUGE_DEEP", "FITGAUGE_OUTAGE_S", "FITGAUGE_STUTTER")
     return {name: value for name, value in {**os.environ, **(settings or {})}.items() if name not in of_tests}
 
 
@@ -104,7 +105,7 @@ class Daemon:
         self.port_file = self.folder / "port"
         self.port_file.unlink(missing_ok=True)
         with open(self.folder / "log", "a") as log, open(self.folder / "output", "a") as output:
-            self.process = subprocess.Popen(
+            self.process = Service(
                 [*self.wrapper, FITGAUGED, "--listen", self.listen, "--data", str(self.data),
                  "--port-file", str(self.port_file), *self.flags],
                 stdout=output, stderr=self.stderr or log, env=self.environment)
