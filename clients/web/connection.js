@@ -21,8 +21,9 @@ class Connection extends EventTarget {
   }
 
   async #ask() {
+    const asked = Date.now();
     const response = await fetch('/livez', { cache: 'no-store', signal: AbortSignal.timeout(TIMEOUT_MS) });
-    this.#setClock(response.headers.get('Date'));
+    this.#setClock(response.headers.get('Date'), asked);
     this.report(response.ok);
   }
 
@@ -49,11 +50,14 @@ class Connection extends EventTarget {
     return new Date(milliseconds + this.#offset);
   }
 
-  #setClock(date) {
-    const offset = Date.parse(date ?? '') - Date.now();
-    // The field counts in seconds, so less than two says nothing.
-    this.#timeKnown = Number.isFinite(offset);
-    if (this.#timeKnown) this.#offset = Math.abs(offset) < 2000 ? 0 : offset;
+  /** The field counts in seconds, and was written at some time since the question: where the clocks may agree, they do. */
+  #setClock(date, asked) {
+    const written = Date.parse(date ?? '');
+    this.#timeKnown = Number.isFinite(written);
+    if (!this.#timeKnown) return;
+    const [least, greatest] = [written - Date.now(), written + 1000 - asked];
+    const offset = (least + greatest) / 2;
+    this.#offset = least <= 0 && greatest >= 0 || Math.abs(offset) < 2000 ? 0 : offset;
   }
 }
 

@@ -5,60 +5,77 @@
 
 import { h, refill } from '../dom.js';
 import { number, t } from '../i18n.js';
-import { readJson, store } from '../stored.js';
+import { forget, readJson, store, storedKeys } from '../stored.js';
 import { distanceText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
 
-const KEPT = 'arrivals';
+/** Each under a name of its own: no tab writes over what another one has written. */
+const PREFIX = 'arrival.';
+const GATHER_MS = 100;
 
-const NOTHING = { stored: 0, refused: 0, verdicts: {}, bad: [], ids: [] };
+const readAll = () => new Map(storedKeys(PREFIX).map((name) => [name, readJson(name, null)])
+  .filter(([, one]) => one?.verdict === 'good' || one?.record || one?.shown));
+const timeOf = ({ record, shown }) => new Date(record?.measured_at ?? shown.at).getTime();
 
 export class Arrivals {
+  /** {verdict, record} of what is stored, with a record unless it is good; {shown, reason} of what is refused */
+  #all = readAll();
+  /** Those the browser had no room for. */
+  #unkept = new Map();
+  #timer = 0;
+
   /** The tabs of a browser are one station: each shows what came through any of them. @param leaving ends it */
   constructor(leaving) {
     this.element = h('section.arrived', { role: 'alert', hidden: true });
-    addEventListener('storage', () => this.#draw(), { signal: leaving });
+    addEventListener('storage', ({ key }) => (key ?? PREFIX).includes(PREFIX) && this.#hear(), { signal: leaving });
+    leaving.addEventListener('abort', () => clearTimeout(this.#timer));
     this.#draw();
-  }
-
-  get counts() {
-    return { ...NOTHING, ...readJson(KEPT, this.kept ?? {}) };
   }
 
   /** A value that two tabs have sent is one. */
   stored(record) {
-    const { counts } = this;
-    if (counts.ids.includes(record.id)) return;
-    const { verdict } = record;
-    this.#keep({
-      ...counts, stored: counts.stored + 1, ids: [...counts.ids, record.id], verdicts: { ...counts.verdicts, [verdict]: (counts.verdicts[verdict] ?? 0) + 1 },
-      bad: verdict === 'good' ? counts.bad : [...counts.bad, { record }],
-    });
+    const { id, verdict } = record;
+    this.#keep(id, verdict === 'good' ? { verdict } : { verdict, record });
   }
 
-  refused(shown, reason) {
-    const { counts } = this;
-    this.#keep({ ...counts, refused: counts.refused + 1, bad: [...counts.bad, { shown, reason }] });
+  /** @param key of its entry in the queue */
+  refused(key, shown, reason) {
+    this.#keep(key, { shown, reason });
   }
 
   #seen() {
-    this.#keep(NOTHING);
-  }
-
-  #keep(counts) {
-    this.kept = counts;
-    store(KEPT, JSON.stringify(counts));
+    for (const name of this.#all.keys()) forget(name);
+    this.#all.clear();
+    this.#unkept.clear();
     this.#draw();
   }
 
+  #keep(id, one) {
+    const name = PREFIX + id;
+    this.#all.set(name, one);
+    if (!store(name, JSON.stringify(one))) this.#unkept.set(name, one);
+    this.#draw();
+  }
+
+  /** Another tab has written or seen something. */
+  #hear() {
+    this.#timer ||= setTimeout(() => {
+      this.#timer = 0;
+      this.#all = new Map([...readAll(), ...this.#unkept]);
+      this.#draw();
+    }, GATHER_MS);
+  }
+
   #draw() {
-    const { stored, refused, verdicts, bad } = this.counts;
-    this.element.hidden = stored + refused === 0;
+    const all = [...this.#all.values()];
+    const bad = all.filter(({ verdict }) => verdict !== 'good').sort((one, other) => timeOf(one) - timeOf(other));
+    const count = (wanted) => all.filter(({ verdict }) => verdict === wanted).length;
+    const refused = count(undefined);
+    this.element.hidden = all.length === 0;
     this.element.classList.toggle('bad', bad.length > 0);
-    const parts = VERDICTS.filter((verdict) => verdicts[verdict])
-      .map((verdict) => h('strong', { class: verdict }, t(`arrived.${verdict}`, { count: verdicts[verdict] })));
+    const parts = VERDICTS.filter(count).map((verdict) => h('strong', { class: verdict }, t(`arrived.${verdict}`, { count: count(verdict) })));
     if (refused) parts.push(h('strong.reject', t('arrived.refused', { count: refused })));
     refill(this.element,
-      h('p', t('arrived.stored', { count: stored }), ' ', parts.flatMap((part, i) => (i ? [', ', part] : [part]))),
+      h('p', t('arrived.stored', { count: all.length - refused }), ' ', parts.flatMap((part, i) => (i ? [', ', part] : [part]))),
       h('button', { type: 'button', onclick: () => this.#seen() }, t('arrived.seen')),
       bad.length > 0 && h('ol', bad.map((each) => this.#item(each))));
   }

@@ -103,9 +103,11 @@ export class Entry {
 
   #enter(event) {
     event?.preventDefault();
+    // When the key was struck, not when a busy page has time for it: the second of a pair would answer for somebody.
+    const now = this.struck ?? event?.timeStamp ?? performance.now();
+    this.struck = undefined;
     // A size is being asked for: what is typed stays in the field.
     if (this.adopting) return this.input.value.trim() ? this.#refuse(t('entry.busy')) : undefined;
-    const now = performance.now();
     const second = now - this.lastEnter < SECOND_ENTER_MS;
     this.lastEnter = now;
     if (this.unchanged) {
@@ -234,6 +236,7 @@ export class Entry {
       this.#follow(event);
     }
     if (event.key === 'Enter' && event.repeat) event.preventDefault();
+    else if (event.key === 'Enter') this.struck = event.timeStamp;
     if (event.key === 'Tab' && !event.shiftKey && value.trim() && !this.asked) this.#enter(event);
     if (event.key === 'Escape') this.#drop();
   }

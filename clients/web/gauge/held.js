@@ -5,7 +5,7 @@ import { connection } from '../connection.js';
 import { readJson, store } from '../stored.js';
 
 /** Limits that were given since the tables changed last. */
-const atHand = new Map();
+let atHand = new Map();
 
 /**
  * What the service gives at a path, or gave last where it is away.
@@ -29,8 +29,9 @@ export async function held(parts, otherwise) {
 
 /** The limits of a size and class; null where the service is away and never gave any. */
 export async function limitsOf(text) {
+  const kept = atHand;
   const limits = await held(['limits', text], null);
-  if (limits) atHand.set(text, limits);
+  if (limits) kept.set(text, limits);
   return limits;
 }
 
@@ -38,4 +39,4 @@ export async function limitsOf(text) {
 export const limitsAtHand = (text) => atHand.get(text) ?? null;
 
 /** The tables may have changed. */
-export const forgetAtHand = () => atHand.clear();
+export const forgetAtHand = () => { atHand = new Map(); };

@@ -15,6 +15,8 @@ import { isReading } from './reading.js';
 import { Rule } from './rule.js';
 
 const ECHO_MS = 150;
+/** After an answer that did not come. */
+const AGAIN_MS = 2000;
 /** Which side of the material is measured: where the designation does not say. */
 const SIDES = ['shaft', 'hole'];
 
@@ -60,6 +62,8 @@ export class Job {
 
   /** Begins to say how the designation is understood. */
   start(leaving) {
+    this.leaving = leaving;
+    leaving.addEventListener('abort', () => clearTimeout(this.timer));
     this.asking = new Latest(leaving);
     this.#look();
     this.#lookAtGauge();
@@ -86,7 +90,9 @@ export class Job {
 
   /** Gauges another size from now on, if there is such a one. @returns whether there is; undefined where nobody can say */
   async adopt(text) {
+    const { value } = this.input;
     const limits = await limitsOf(parseDesignation(text).text).catch(() => false);
+    if (this.input.value !== value) return true; // another size was chosen meanwhile
     if (!limits) return limits === false ? false : undefined;
     this.input.value = text;
     this.#show(limits, '');
@@ -144,10 +150,10 @@ export class Job {
   }
 
   #changed() {
+    this.#lookAtGauge();
     const given = Object.entries(this.options).filter(([name, value]) => value && !['part_id', 'feature'].includes(name));
     this.given.textContent = given.map(([name, value]) =>
       (name === 'rule' ? t(`rule.${value}`) : `${t(`field.${name}`)} ${value}`)).join(' · ');
-    this.#lookAtGauge();
     const gauged = this.#gauged();
     const another = gauged !== this.gauged;
     this.gauged = gauged;
@@ -160,6 +166,7 @@ export class Job {
     if (name === this.gaugeShown || !this.asking) return;
     this.gaugeShown = name;
     this.gaugeNote.textContent = '';
+    this.rule.unfill();
     this.asking.run((signal) => gaugeInUse(name, signal)).then((gauge) => {
       if (gauge === undefined) return;
       this.gaugeNote.textContent = gauge ? gaugeText(gauge) : '';
@@ -172,7 +179,7 @@ export class Job {
     clearTimeout(this.timer);
     this.reason = '';
     this.limits = null;
-    this.looking = true;
+    this.#isLooking(true);
     this.timer = setTimeout(() => this.#look(), ECHO_MS);
   }
 
@@ -181,9 +188,13 @@ export class Job {
     this.#changed();
   }
 
-  /** Asks the service what was typed, and says how it was understood. */
-  async #look() {
+  /**
+   * Asks the service what was typed, and says how it was understood.
+   * @param again where nobody could say: values are taken meanwhile
+   */
+  async #look(again = false) {
     clearTimeout(this.timer);
+    const look = this.last = Symbol('look');
     const typed = this.designation;
     const parsed = parseDesignation(typed);
     if (typed) this.own = null;
@@ -195,17 +206,25 @@ export class Job {
       this.#show(null, typed ? t('error.designation.malformed') : '');
       return;
     }
-    this.looking = true;
+    if (!again) this.#isLooking(true);
+    // Only the last question counts: what was asked before may be of another size, or of tables that have changed.
     try {
       const limits = await limitsOf(parsed.text);
-      if (typed === this.designation) this.#show(limits, '');
+      if (look !== this.last || typed !== this.designation) return;
+      if (limits || !again) this.#show(limits, '');
+      if (!limits && !this.leaving.aborted) this.timer = setTimeout(() => this.#look(true), AGAIN_MS);
     } catch (problem) {
-      if (typed === this.designation) this.#show(null, explain(problem));
+      if (look === this.last && typed === this.designation) this.#show(null, explain(problem));
     }
   }
 
+  #isLooking(looking) {
+    this.looking = looking;
+    this.echo.ariaBusy = looking ? 'true' : null;
+  }
+
   #show(limits, reason) {
-    this.looking = false;
+    this.#isLooking(false);
     this.read = limits;
     this.sideField.hidden = !isOpen(limits);
     this.limits = isOpen(limits) ? { ...limits, feature: this.side.value } : limits;

@@ -15,15 +15,24 @@ const about = ({ part_id: part, characteristic, designation }) =>
   h('p.about', [part, characteristic, designation && designationText(designation)].filter(Boolean).join(' · '));
 
 export class Panel {
+  /** The key of the value that is shown; undefined where what is gauged now has none yet. */
+  of;
+
   constructor() {
     this.element = h('section.verdict', { role: 'status', 'aria-live': 'polite', 'aria-atomic': 'true', 'aria-label': t('panel.label') });
   }
 
   /** Nothing was judged yet of what is gauged now: {limits, part}, of a plan what is next, or that it is finished. */
   next({ limits, part, step, finished }) {
+    this.of = undefined;
     const what = [part, step].filter(Boolean).join(' · ');
     const text = !limits ? t('panel.no_job') : finished ? t('panel.next_part') : what ? t('panel.measure_part', { part: what }) : t('panel.measure');
     this.#show('idle', [word(text), limits && limitStrip(limits)]);
+  }
+
+  /** A value was taken: what becomes of it is shown from now on. @param key of its entry in the queue */
+  begin(key) {
+    this.of = key;
   }
 
   /**
@@ -55,7 +64,7 @@ export class Panel {
     ], away ? 'away' : 'storing');
   }
 
-  /** A value is stored. @param overtaken whether a newer one stands here already: then it is only heard */
+  /** A value is stored. @param overtaken whether something newer stands here already: then it is only heard */
   judged(record, overtaken = false) {
     sound(record.verdict);
     if (overtaken) return;
@@ -78,6 +87,7 @@ export class Panel {
 
   /** A value was typed that is asked about or not taken: no verdict may stand for it. */
   open(typed) {
+    this.of = undefined;
     this.#show('open', [
       verdictShape('open'),
       h('div.said', word(t('panel.open')), h('p.measured', typed), h('p.distance', t('panel.open_how'))),

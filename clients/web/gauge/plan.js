@@ -47,10 +47,11 @@ const planOf = (part) => held(['plans', part]).catch(() => undefined);
 export class Plan {
   /**
    * @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none
-   * @param machine whose samples these are; @param leaving ends it
+   * @param machine whose samples these are; @param subject the part that is measured; @param leaving ends it
    */
-  constructor({ onStep, onChoose, machine, leaving }) {
+  constructor({ onStep, onChoose, machine, subject, leaving }) {
     this.onStep = onStep;
+    this.subjectNow = subject;
     this.samples = new Samples({ machine, leaving, onChange: () => this.#renew() });
     leaving.addEventListener('abort', () => clearTimeout(this.timer));
     this.known = readJson(KEPT_LIST, []);
@@ -83,6 +84,11 @@ export class Plan {
     return this.plan?.part ?? '';
   }
 
+  /** The part number that was chosen last: its plan may be on its way. */
+  get chosen() {
+    return this.asked ? this.asked.part : this.part;
+  }
+
   /** The designations that it measures by. */
   get designations() {
     return (this.plan?.characteristics ?? []).map(designationOf).filter(Boolean);
@@ -105,11 +111,11 @@ export class Plan {
 
   /**
    * Takes up the plan of a part number; without one there is none.
-   * @param subject the part that is measured; @param again whether to go on where it was left: after a reload
+   * @param again whether to go on where it was left: after a reload
    * @returns whether it has: another may be asked for meanwhile
    */
-  async load(part, subject, again = false) {
-    const asked = Symbol(part);
+  async load(part, again = false) {
+    const asked = { part };
     this.asked = asked;
     this.element.setAttribute('aria-busy', true);
     const plan = part ? await planOf(part) : undefined;
@@ -121,16 +127,16 @@ export class Plan {
     this.asked = undefined;
     this.element.removeAttribute('aria-busy');
     this.plan = this.samples.plan;
-    if (again && plan && this.#resume(subject)) return true;
-    this.begin(subject, missing);
+    if (again && plan && this.#resume()) return true;
+    this.begin(missing);
     if (part && !plan) this.note.textContent = t('plan.gone', { part });
     return true;
   }
 
   /** Another part: from the first characteristic on. Says what was not measured at the one before. */
-  begin(subject, missing = this.missing) {
+  begin(missing = this.missing) {
     this.note.textContent = missing.length ? t('plan.missing', { part: this.subject || t('part.none'), names: missing.join(', ') }) : '';
-    this.subject = subject;
+    this.subject = this.subjectNow();
     this.#clear();
     this.#goTo(this.#open ?? this.#next(0));
   }
@@ -219,8 +225,9 @@ export class Plan {
   }
 
   /** Goes on where this window was with this part. @returns whether it was there */
-  #resume(subject) {
+  #resume() {
     const kept = readJson(KEPT_STATE, {}, 'session');
+    const subject = this.subjectNow();
     if (kept.part !== this.part || kept.subject !== subject || !this.plan.characteristics[kept.at]) return false;
     Object.assign(this, { subject, verdicts: kept.verdicts, taken: kept.taken });
     this.go(kept.at, kept.finished);

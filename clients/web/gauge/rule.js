@@ -37,6 +37,12 @@ export class Rule {
     return true;
   }
 
+  /** Another gauge: what the one before gave is none of its own. */
+  unfill() {
+    if (this.filled !== undefined && this.uncertainty.value.trim() === this.filled) this.uncertainty.value = '';
+    this.filled = undefined;
+  }
+
   get isSimple() {
     return this.select.value === 'simple';
   }

@@ -13,8 +13,17 @@ const BAUDS = [1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200];
 /** Plain decimals in mm, and those of Digimatic adapters (01A+0025.013). */
 const PATTERN = '^(?:\\d\\dA)?\\s*([+-]?\\d+(?:[.,]\\d+)?)\\s*(?:mm)?$';
 const LONGEST_LINE = 200;
-/** A line that comes so soon after the port was opened may have lost its beginning. */
-const CUT_MS = 200;
+/** What begins in a silence of so many ms begins a line: anything else, where reading begins, may be the end of one. */
+const SILENCE_MS = 200;
+/** What came while the page was busy is read within so many ms more. */
+const BUSY_MS = 50;
+
+/** Whether nothing comes for a while. @param coming the next that is read */
+async function isSilent(coming) {
+  const came = coming.then(() => false, () => false);
+  const wait = (milliseconds) => new Promise((resolve) => { setTimeout(resolve, milliseconds, true); });
+  return await Promise.race([came, wait(SILENCE_MS)]) && Promise.race([came, wait(BUSY_MS)]);
+}
 
 export class SerialGauge {
   /** @param onValue takes the text of a value; @param onUnread why a line is none; @param leaving ends it */
@@ -67,24 +76,24 @@ export class SerialGauge {
     return undefined;
   }
 
-  /** Until the port is closed or unplugged; a line with a fault of transmission is lost, and said. */
+  /** Until the port is closed or unplugged; a line with a fault of transmission is lost, what is left of it too, and said. */
   async #read(port) {
-    let cut = performance.now() + CUT_MS;
     while (this.port === port && port.readable) {
       const decoder = new TextDecoder('ascii');
       this.reader = port.readable.getReader();
       let rest = '';
       try {
-        for (;;) {
-          const { value, done } = await this.reader.read();
+        let coming = this.reader.read();
+        let isWhole = await isSilent(coming);
+        for (;; coming = this.reader.read()) {
+          const { value, done } = await coming;
           if (done) return;
           const lines = (rest + decoder.decode(value, { stream: true })).split(/[\r\n]+/);
           rest = lines.pop().slice(0, LONGEST_LINE);
-          for (const line of lines.filter((each) => each.trim())) {
-            if (performance.now() < cut) this.onUnread(t('serial.cut', { line: line.trim() }));
-            else this.#take(line.trim());
-            cut = 0;
-          }
+          const cut = isWhole ? '' : lines.shift()?.trim();
+          isWhole ||= cut !== undefined;
+          if (cut) this.onUnread(t('serial.cut', { line: cut }));
+          for (const line of lines.filter((each) => each.trim())) this.#take(line.trim());
         }
       } catch {
         this.onUnread(t('serial.fault'));

@@ -69,7 +69,7 @@ export default {
   'serial.refused': 'Die Schnittstelle lässt sich nicht öffnen: Vielleicht hat sie ein anderes Programm.',
   'serial.bad_pattern': 'Das ist kein regulärer Ausdruck.',
   'serial.unread': '„{line}“ passt nicht zum Muster des Messgeräts. Nichts wird gespeichert.',
-  'serial.cut': '„{line}“ kam beim Öffnen der Schnittstelle und ist vielleicht abgeschnitten. Bitte noch einmal senden.',
+  'serial.cut': '„{line}“ ist die erste Zeile, die gelesen wurde, und vielleicht abgeschnitten. Bitte noch einmal senden.',
   'serial.fault': 'Übertragungsfehler an der seriellen Schnittstelle. Den Wert bitte noch einmal senden.',
   'job.prefixes': 'Was vor einem Scan des Feldes steht',
   'job.side': 'Gemessen wird',

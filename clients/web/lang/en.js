@@ -69,7 +69,7 @@ export default {
   'serial.refused': 'The port cannot be opened: another program may have it.',
   'serial.bad_pattern': 'This is no regular expression.',
   'serial.unread': '“{line}” does not fit the pattern of the gauge. Nothing is stored.',
-  'serial.cut': '“{line}” came while the port was opened and may be cut. Send it again.',
+  'serial.cut': '“{line}” is the first line that was read and may be cut. Send it again.',
   'serial.fault': 'A fault of transmission at the serial port. Send the value again.',
   'job.prefixes': 'What stands before a scan of each field',
   'job.side': 'Measured',

@@ -69,7 +69,7 @@ export default {
   'serial.refused': 'La porta non si apre: forse la usa un altro programma.',
   'serial.bad_pattern': 'Questa non è un’espressione regolare.',
   'serial.unread': '«{line}» non corrisponde al modello dello strumento. Nulla viene salvato.',
-  'serial.cut': '«{line}» è arrivato all’apertura della porta e potrebbe essere tagliato. Inviarlo di nuovo.',
+  'serial.cut': '«{line}» è la prima riga letta e potrebbe essere tagliata. Inviarla di nuovo.',
   'serial.fault': 'Errore di trasmissione sulla porta seriale. Inviare di nuovo il valore.',
   'job.prefixes': 'Che cosa precede la lettura di ogni campo',
   'job.side': 'Si misura',

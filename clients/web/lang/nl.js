@@ -69,7 +69,7 @@ export default {
   'serial.refused': 'De poort kan niet worden geopend: misschien heeft een ander programma hem.',
   'serial.bad_pattern': 'Dit is geen reguliere expressie.',
   'serial.unread': '“{line}” past niet bij het patroon van het meetmiddel. Er wordt niets opgeslagen.',
-  'serial.cut': '“{line}” kwam terwijl de poort openging en is misschien afgekapt. Stuur het nog eens.',
+  'serial.cut': '“{line}” is de eerste regel die gelezen is en is misschien afgekapt. Stuur hem nog eens.',
   'serial.fault': 'Fout in de overdracht aan de seriële poort. Stuur de waarde nog eens.',
   'job.prefixes': 'Wat voor een scan van het veld staat',
   'job.side': 'Gemeten wordt',

@@ -61,7 +61,8 @@ export function mount(main, route) {
   const unkept = h('p.unkept', { role: 'status' });
 
   const plan = new Plan({
-    onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part), machine: () => job.options.machine, leaving: leaving.signal,
+    onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part),
+    machine: () => job.options.machine, subject: () => job.part, leaving: leaving.signal,
   });
   let stepped = false;
 
@@ -71,7 +72,7 @@ export function mount(main, route) {
   };
 
   async function choosePlan(part, again) {
-    if (!await plan.load(part, job.part, again)) return;
+    if (!await plan.load(part, again)) return;
     prepare();
     stepped = false;
     jobChanged(true);
@@ -86,8 +87,9 @@ export function mount(main, route) {
 
   /** The next part: the plan may have been changed since the last. */
   async function begin() {
-    if (!plan.part || !connection.up) return plan.begin(job.part);
-    if (await plan.load(plan.part, job.part)) {
+    if (plan.loading) return undefined; // what is being asked for begins with this part
+    if (!plan.part || !connection.up) return plan.begin();
+    if (await plan.load(plan.part)) {
       prepare();
       jobChanged(true);
     }
@@ -103,7 +105,7 @@ export function mount(main, route) {
   /** A verdict stands for one part and one size: another one begins without. */
   function jobChanged(another) {
     const path = job.designation ? [job.designation] : [];
-    go({ view: 'gauge', path, options: { ...job.options, plan: plan.part, ...(plan.part && { gauge: job.ownGauge }) } }, { refine: true });
+    go({ view: 'gauge', path, options: { ...job.options, plan: plan.chosen, ...(plan.part && { gauge: job.ownGauge }) } }, { refine: true });
     if (plan.samples.ofAnother) plan.samples.renew();
     if (job.part !== partBefore) {
       partBefore = job.part;
@@ -158,11 +160,12 @@ export function mount(main, route) {
 
   function send(path, body, shown, timed) {
     const { key } = queue.add(path, toJson(body), { ...shown, late: !connection.up }, timed);
+    panel.begin(key);
     if (shown.verdict) panel.waiting(shown, !connection.up);
     recent.set({ key, state: 'waiting', shown });
     reactions.judged(key, shown, shown.verdict);
     setTimeout(() => {
-      if (queue.values.at(-1)?.key === key) panel.waiting(shown, !connection.up, true);
+      if (panel.of === key && queue.values.some((waiting) => waiting.key === key)) panel.waiting(shown, !connection.up, true);
     }, GAP_MS);
   }
 
@@ -176,8 +179,9 @@ export function mount(main, route) {
     if ((record.part_id ?? '') === job.part) plan.judged(record.characteristic, record.verdict);
     reactions.judged(key, shown, record.verdict);
     if (shown.late) arrivals.stored(record);
-    // A verdict that comes late is no verdict of the part that lies there now.
-    if (!shown.late) panel.judged(record, queue.values.some((waiting) => waiting.shown.verdict));
+    // A verdict that comes late is no verdict of what is gauged now. What was not seen and is not good is shown all the same.
+    const isSeen = record.verdict === 'good' || record.verdict === shown.verdict;
+    if (!shown.late) panel.judged(record, panel.of !== key && isSeen);
     else if (!queue.values.length) next();
   }, { signal });
   queue.addEventListener('refused', ({ detail: { entry: { key, of, shown }, problem } }) => {
@@ -186,7 +190,7 @@ export function mount(main, route) {
     if (of) return entry.unread(t('note.refused', { reason }));
     reactions.refused(key);
     if ((shown.part_id ?? '') === job.part) plan.refused(shown.characteristic);
-    if (shown.late) arrivals.refused(shown, explain(problem));
+    if (shown.late) arrivals.refused(key, shown, explain(problem));
     else panel.refused(shown, explain(problem));
   }, { signal });
   function sayUnkept() {
@@ -197,7 +201,8 @@ export function mount(main, route) {
     sayUnkept();
     if (connection.up || !queue.values.length) return;
     for (const waiting of queue.entries) queue.mark(waiting, { late: true });
-    panel.waiting(queue.values.at(-1).shown, true);
+    const shown = queue.values.find(({ key }) => key === panel.of);
+    if (shown) panel.waiting(shown.shown, true);
   }, { signal });
 
   document.addEventListener('keydown', (event) => {
@@ -231,6 +236,12 @@ export function mount(main, route) {
   }, { signal });
   if (route.options.plan) choosePlan(route.options.plan, true);
   plan.list().then(() => {
+    // It was scanned before it was known which plans there are.
+    if (!plan.chosen && plan.knows(job.part)) {
+      const { part } = job;
+      job.set('part_id', '');
+      setField('part_id', part);
+    }
     // Where there are plans, a station begins with the scan of one.
     if (plan.known.length && document.activeElement === job.input && !job.designation) entry.focus();
   });

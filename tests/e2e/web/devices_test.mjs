@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
 
 import { close, findings, open, openIn, picture } from './support/browser.mjs';
-import { Daemon, sleep } from './support/daemon.mjs';
+import { Daemon } from './support/daemon.mjs';
 import { scan } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
@@ -95,7 +95,6 @@ describe('a gauge on a serial port', () => {
     const note = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('#entry-note').textContent), text);
     const rows = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.recent li.stored').length === wanted, count);
     await note('may be cut');
-    await sleep(250);
     await feed('01A+0025.013\r');
     await rows(1);
     await feed('25,0');
@@ -117,6 +116,50 @@ describe('a gauge on a serial port', () => {
     await picture(page, 'gauge-serial', { fullPage: true });
     await page.getByRole('button', { name: 'Disconnect' }).click();
     await page.getByRole('button', { name: 'Connect', exact: true }).waitFor();
+    await close(page);
+  });
+});
+
+describe('a value whose beginning nobody saw', () => {
+  it('is none: where the page was busy while the port was opened, and after a fault in the middle of it', async () => {
+    const context = await browser.newContext({ locale: 'en-GB', viewport: { width: 1280, height: 800 } });
+    await context.addInitScript(() => {
+      let feed;
+      const begin = (text, busy = 0) => {
+        const stream = new ReadableStream({ start: (controller) => { feed = controller; } });
+        const { getReader } = stream;
+        stream.getReader = () => {
+          const reader = getReader.call(stream);
+          // What is left of 125.013 comes at once; the page reads it when it has time.
+          feed.enqueue(new TextEncoder().encode(text));
+          for (const until = performance.now() + busy; performance.now() < until;);
+          return reader;
+        };
+        port.readable = stream;
+      };
+      const port = { open: async () => begin('25.013\r\n', 400), close: async () => { port.readable = null; } };
+      globalThis.feed = (text) => feed.enqueue(new TextEncoder().encode(text));
+      globalThis.fault = (text) => {
+        const broken = feed;
+        begin(text);
+        broken.error(new DOMException('framing', 'FramingError'));
+      };
+      Object.defineProperty(navigator, 'serial', { value: { requestPort: async () => port, getPorts: async () => [] } });
+    });
+    const page = await openIn(context, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    const note = (text) => page.waitForFunction((source) => document.querySelector('#entry-note').textContent.includes(source), text);
+    const stored = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.recent li.stored').length === wanted, count);
+    await page.click('.more summary');
+    await page.getByRole('button', { name: 'Connect', exact: true }).click();
+    await note('“25.013” is the first line that was read and may be cut');
+    await page.evaluate(() => globalThis.feed('25.011\r\n'));
+    await stored(1);
+    await page.evaluate(() => { globalThis.feed('1'); globalThis.fault('25.014\r\n'); });
+    await note('“25.014” is the first line that was read and may be cut');
+    await page.evaluate(() => globalThis.feed('25.012\r\n'));
+    await stored(2);
+    assert.deepEqual((await storedSince()).map((record) => record.measured_mm), [25.011, 25.012]);
     await close(page);
   });
 });

@@ -6,7 +6,8 @@ import { afterEach, beforeEach, describe, it } from 'node:test';
 import { browserName, close, open, openIn, picture } from './support/browser.mjs';
 import { asSeenWith, difference, parseColour } from './support/colour.mjs';
 import { sleep } from './support/daemon.mjs';
-import { PAIR_MS } from './support/scanner.mjs';
+import { hold } from './support/hold.mjs';
+import { PAIR_MS, scan } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
 /** The driver of Firefox does not give the body of a request. */
@@ -43,25 +44,16 @@ describe('the gauging station', () => {
   });
 
   it('takes a second Enter within 300 ms for the same one', async () => {
-    await page.keyboard.type('25.0131');
-    for (let i = 0; i < 3; ++i) await page.keyboard.press('Enter');
+    await scan(page, '25.0131\n\n');
     await verdict('good');
-    await typeValue('25.0132\n');
+    await scan(page, '25.0132\n');
     await settled();
     assert.deepEqual(await measured(), [25.0131, 25.0132]);
     assert.equal(await page.textContent('#entry-note'), '');
   });
 
   it('judges at once by the limits it holds, hatched until the service has stored the value', async () => {
-    const held = [];
-    await page.route('**/v1/measurements', async (route) => {
-      await new Promise((resolve) => { held.push(resolve); });
-      await route.continue();
-    });
-    const answer = async () => {
-      while (!held.length) await sleep(5);
-      held.shift()();
-    };
+    const answer = await hold(page, '**/v1/measurements');
     await typeValue('25.0215');
     await page.waitForSelector('.verdict[data-verdict="reject"][data-provisional="storing"]');
     await page.waitForFunction(() => /25\.0215 mm.*The service is storing the value/.test(document.querySelector('.verdict').textContent));
@@ -161,9 +153,9 @@ describe('the gauging station', () => {
   });
 
   it('asks about a value more than five tolerances outside the limits', async () => {
-    await page.fill('#value', '250.131');
-    // The second Enter of a pair is no answer.
-    await page.$eval('.entry', (form) => { form.requestSubmit(); form.requestSubmit(); });
+    // The second Enter of a pair is no answer, also where the page was busy with the first.
+    await page.evaluate(() => document.addEventListener('submit', () => { for (const until = performance.now() + 400; performance.now() < until;); }, { once: true }));
+    await scan(page, '250.131\n');
     await page.waitForSelector('.entry.asking');
     await verdict('open');
     assert.deepEqual(await measured(), []);

@@ -195,7 +195,7 @@ describe('the page', () => {
         for (const [mode, media] of Object.entries(MODES)) {
           if (mode !== 'light' && !looksAt(view, width, mode)) continue;
           await page.emulateMedia(media);
-          await page.waitForFunction((wanted) => document.documentElement.scrollWidth === wanted, width, { timeout: 5000 })
+          await page.waitForFunction((wanted) => document.documentElement.scrollWidth === wanted, width)
             .catch(async () => assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width, mode));
           if (!looksAt(view, width, mode)) continue;
           assert.deepEqual(await findings(page), [], `${width} ${mode}`);

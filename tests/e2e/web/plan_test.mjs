@@ -5,7 +5,8 @@ import { before, describe, it } from 'node:test';
 
 import { close, findings, launch, open, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
-import { PAIR_MS, scan } from './support/scanner.mjs';
+import { patient } from './support/hold.mjs';
+import { PAIR_MS, scan, scanUnasked } from './support/scanner.mjs';
 
 describe('a plan', () => {
   let browser;
@@ -123,16 +124,17 @@ describe('a plan', () => {
     await page.waitForSelector('.echo .figures');
     const before = (await daemon.stored()).length;
     const held = {};
+    await patient(page);
     await page.route('**/v1/plans/*', async (route) => {
       await new Promise((resolve) => { held[route.request().url().split('/').at(-1)] = resolve; });
       await route.continue().catch(() => {});
     });
     const asked = async (part) => { while (!held[part]) await page.waitForTimeout(5); };
-    await line('4711-A');
+    await scanUnasked(page, '4711-A');
     await asked('4711-A');
-    await line('25.01');
+    await scanUnasked(page, '25.01');
     assert.match(await page.textContent('#entry-note'), /Nothing is stored/);
-    await line('OTHER-1');
+    await scanUnasked(page, 'OTHER-1');
     await asked('OTHER-1');
     held['OTHER-1']();
     await progress('1 of 1');
@@ -287,6 +289,12 @@ describe('a gauge in use', () => {
     await page.keyboard.press('Tab');
     await says('Calibration of G-08 was due on 31 Mar 2020.');
     assert.ok(await page.$('.gauge-note.overdue'));
+    assert.equal(await page.inputValue('[name="uncertainty_um"]'), '', 'that of G-07 is none of G-08');
+    await page.focus('#value');
+    await page.keyboard.type('25.0131\n');
+    await page.waitForFunction(() => /uncertainty/.test(document.querySelector('#entry-note').textContent));
+    await page.keyboard.press('Escape');
+    await page.click('.more summary');
     await page.fill('[name="gauge"]', 'some other');
     await page.keyboard.press('Tab');
     await says('');

@@ -4,9 +4,10 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { before, describe, it } from 'node:test';
 
-import { close, launch, open, picture } from './support/browser.mjs';
+import { close, drawn, launch, open, picture } from './support/browser.mjs';
 import { leastLettering, openChart } from './support/chart.mjs';
 import { Daemon } from './support/daemon.mjs';
+import { known } from './support/scanner.mjs';
 
 const SMALLEST_LETTERING = 12;
 const PHONE = { width: 390, height: 844 };
@@ -77,7 +78,7 @@ describe('the reach of the page', () => {
     const page = await openView('fit', {});
     for (const width of [768, 1023, 1024, 1025, 1366]) {
       await page.setViewportSize({ width, height: 768 });
-      await page.waitForTimeout(200);
+      await drawn(page);
       const [figure, side] = await page.$$eval('.fit figure, .fit .side', (all) => all.map((each) => each.getBoundingClientRect()).map((box) => ({ left: box.left, top: box.top, width: box.width })));
       if (Math.abs(figure.left - side.left) > 100) assert.ok(figure.width > side.width, `${width}: figure ${figure.width}, form ${side.width}`);
       const least = await page.$$eval('.fit figure svg text', (texts) => Math.min(...texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a)));
@@ -119,6 +120,7 @@ describe('the reach of the page', () => {
         await page.click('.more summary');
         await page.evaluate(() => scrollTo(0, 0));
       }
+      await known(page);
       await page.focus('#value');
       await page.keyboard.type('25.0305\n');
       await page.waitForSelector('.verdict[data-verdict="reject"]:not([data-provisional]) .distance');
@@ -174,7 +176,7 @@ describe('the reach of the page', () => {
       await page.waitForFunction(() => document.querySelector('#printed').checkVisibility());
       assert.match(await page.textContent('#printed'), /127\.0\.0\.1.*20\d\d/, view);
       if (view === 'gauge') assert.match(await page.textContent('#printed'), /Order WO-17.*Operator 42/);
-      await page.waitForTimeout(150); // figures are drawn anew for the width of the paper
+      await drawn(page); // figures too, anew for the width of the paper
       const cut = await page.evaluate(() => [...document.querySelectorAll('main *')]
         .filter((element) => element.checkVisibility() && !element.closest('.unseen, svg, .grid'))
         .filter((element) => element.getBoundingClientRect().right > innerWidth + 1 || (element.scrollHeight > element.clientHeight + 1 && getComputedStyle(element).overflowY !== 'visible'))

@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import path from 'node:path';
 import { afterEach, describe, it } from 'node:test';
 
-import { findings, open, openIn, picture } from './support/browser.mjs';
-import { Daemon } from './support/daemon.mjs';
+import { closeContext, findings, open, openIn, PATIENCE_MS, picture } from './support/browser.mjs';
+import { Daemon, sleep } from './support/daemon.mjs';
 import { scan } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
@@ -17,7 +17,7 @@ let pages = [];
 afterEach(async () => {
   const opened = pages;
   pages = [];
-  for (const context of new Set(opened.map((page) => page.context()))) await context.close();
+  for (const context of new Set(opened.map((page) => page.context()))) await closeContext(context);
   assert.deepEqual(opened.flatMap((page) => [...page.errors, ...page.foreign]), []);
 });
 
@@ -31,9 +31,12 @@ const storedOf = async (part, at = daemon) => (await at.stored()).filter(({ char
 const put = (part, characteristics, at = daemon) => at.send('PUT', `/v1/plans/${part}`,
   { characteristics: characteristics.map(([name, more]) => ({ name: `${part}-${name}`, ...H7, ...more })) });
 
-/** A page with a plan, at a station of its own. */
-async function station(part, query = '', at = daemon) {
-  const page = await open(browser, at, `#/gauge?plan=${part}${query}`);
+/** Five minutes past the hour before this one: no test meets the end of it. */
+const inTheHour = () => new Date(Math.floor(Date.now() / 3600000 - 1) * 3600000 + 300000);
+
+/** A page with a plan, at a station of its own. @param options of the page */
+async function station(part, query = '', at = daemon, options = {}) {
+  const page = await open(browser, at, `#/gauge?plan=${part}${query}`, options);
   pages.push(page);
   await ready(page);
   await page.focus('#value');
@@ -46,7 +49,7 @@ async function measure(page, at, ...values) {
     await page.waitForSelector('.plan:not([aria-busy])');
     const before = (await at.stored()).length;
     await scan(page, value);
-    for (const until = Date.now() + 10000; (await at.stored()).length === before;) assert.ok(Date.now() < until, `${value} is not stored`);
+    for (const until = Date.now() + PATIENCE_MS; (await at.stored()).length === before; await sleep(20)) assert.ok(Date.now() < until, `${value} is not stored`);
   }
 }
 
@@ -138,9 +141,7 @@ describe('every third part', () => {
 describe('so many of each hour', () => {
   it('are due until they are taken, by any station of the machine, and again in the next hour', async () => {
     await put('HOUR', [['bore', { frequency: '2 of each hour' }]]);
-    const page = await station('HOUR', '&machine=M1');
-    const other = await station('HOUR', '&machine=M1');
-    const elsewhere = await station('HOUR', '&machine=M2');
+    const [page, other, elsewhere] = await Promise.all(['M1', 'M1', 'M2'].map((machine) => station('HOUR', `&machine=${machine}`, daemon, { at: inTheHour() })));
     await measure(page, daemon, '25.001');
     await measure(other, daemon, '25.002');
     for (const each of [page, other]) {
@@ -153,8 +154,6 @@ describe('so many of each hour', () => {
     await page.click('.tiles-of-plan button'); // all the same
     await page.focus('#value');
     await measure(page, daemon, '25.004');
-    await page.route('**/livez', (route) => route.fulfill({ body: '{}' })); // which tells no time
-    await page.clock.install();
     await page.reload();
     await page.waitForFunction(() => /^2 of each hour · from \d\d:00$/.test(document.querySelector('.when')?.textContent));
     await page.clock.fastForward(3600000);
@@ -169,7 +168,7 @@ describe('a sample', () => {
   it('is asked for value by value, over a reload and an outage, and the chart sees it', async () => {
     const own = await new Daemon().start();
     await put('ROW', SAMPLE, own);
-    const page = await station('ROW', '', own);
+    const page = await station('ROW', '', own, { at: inTheHour() });
     await progress(page, '1 of 2 · value 1 of 3');
     assert.match(await page.textContent('.verdict .word'), /ROW-size · value 1 of 3/);
     assert.deepEqual(await tiles(page), ['each hour · sample of 3 · due', 'sample of 2 · due']);

@@ -7,6 +7,7 @@ import { after, afterEach, before, describe, it } from 'node:test';
 import { browserName, close, findings, hashOf, open, openIn, picture } from './support/browser.mjs';
 import { leastLettering, lettering, marksOf, openChart, untilPoints } from './support/chart.mjs';
 import { sleep } from './support/daemon.mjs';
+import { eventually } from './support/eventually.mjs';
 import { Gate } from './support/gate.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
@@ -74,10 +75,7 @@ describe('the trend', () => {
   let gate;
   before(async () => { gate = await new Gate(daemon).open(); });
   after(() => gate.close());
-  const untilStreams = async (count) => {
-    for (let i = 0; i < 100 && gate.streams !== count; ++i) await sleep(50);
-    assert.equal(gate.streams, count);
-  };
+  const untilStreams = (count) => eventually(() => assert.equal(gate.streams, count));
 
   it('holds no stream while nobody sees it, and misses nothing meanwhile', async () => {
     page = await open(browser, gate, '#/trend');
@@ -286,12 +284,10 @@ describe('the trend', () => {
     const marks = async () => [(await marksOf(page, 'good')).length, (await marksOf(page, 'reject')).length];
     assert.deepEqual(await marks(), [27, 3]);
     await page.emulateMedia({ colorScheme: 'dark' });
-    await page.waitForTimeout(200);
-    assert.deepEqual(await marks(), [27, 3]);
+    await eventually(async () => assert.deepEqual(await marks(), [27, 3]));
     if (browserName === 'chromium') {
       await page.emulateMedia({ forcedColors: 'active' });
-      await page.waitForTimeout(200);
-      assert.ok((await marks())[1] >= 3, 'in the text colour of the system');
+      await eventually(async () => assert.ok((await marks())[1] >= 3, 'in the text colour of the system'));
       assert.deepEqual(await findings(page), []);
       await picture(page, 'trend-forced', { fullPage: true });
     }

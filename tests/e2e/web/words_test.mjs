@@ -7,6 +7,7 @@ import { before, describe, it } from 'node:test';
 
 import { close, launch, open } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
+import { known } from './support/scanner.mjs';
 
 const LANG = path.resolve('clients/web/lang');
 const textsOf = async (file) => (await import(path.join(LANG, `${file}.js`))).default;
@@ -75,6 +76,7 @@ describe('the words', () => {
     'the gauge': ['#/gauge/25H7?part_id=SN-1&characteristic=bore-1&plan=WO-17', async (page) => {
       await page.waitForFunction(() => document.querySelector('.plan .progress')?.textContent);
       await page.waitForSelector('.echo .figures');
+      await known(page);
       await page.focus('#value');
       await page.keyboard.type('25.0131\n');
       await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');

@@ -14,6 +14,8 @@ const AXE = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 /** Where service workers are blocked, the driver asks for them in frames too, which a sandbox refuses. */
 const OF_THE_DRIVER = /Failed to read the 'serviceWorker' property from 'Navigator'.*sandboxed/;
 const SCREENSHOTS = path.resolve('build/screenshots');
+/** How long a test waits for what it was promised: a minute, so that a busy machine is no failure. */
+export const PATIENCE_MS = 60000;
 
 const BROWSERS = {
   chromium: () => playwright.chromium.launch({
@@ -46,7 +48,7 @@ export async function saved(page, act) {
     return [download.suggestedFilename(), fs.readFileSync(await download.path())];
   }
   await act();
-  for (const until = Date.now() + 15000; Date.now() < until; await page.waitForTimeout(50)) {
+  for (const until = Date.now() + PATIENCE_MS; Date.now() < until; await page.waitForTimeout(50)) {
     const names = fs.readdirSync(downloads());
     const [name] = names;
     // A file that is not whole yet has another beside it.
@@ -79,15 +81,25 @@ export async function launch() {
   return browser;
 }
 
-/** A page at a state, in a browser context of its own; `errors` holds what it logged. */
-export async function open(browser, daemon, fragment = '', options = {}) {
+/**
+ * A page at a state, in a browser context of its own; `errors` holds what it logged.
+ * @param at the time at which its clock begins to go; the service tells it no other then
+ */
+export async function open(browser, daemon, fragment = '', { at, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', reducedMotion: 'reduce', serviceWorkers: 'block', ...options });
+  if (at) {
+    await context.clock.install({ time: at });
+    await context.route('**/livez', async (route) => {
+      const answer = await route.fetch().catch(() => null);
+      await (answer ? route.fulfill({ status: answer.status(), body: '{}' }) : route.abort());
+    });
+  }
   return openIn(context, daemon, fragment);
 }
 
 export async function openIn(context, daemon, fragment = '') {
   const page = await context.newPage();
-  page.setDefaultTimeout(15000);
+  page.setDefaultTimeout(PATIENCE_MS);
   page.errors = [];
   page.foreign = [];
   page.on('pageerror', (error) => {
@@ -105,12 +117,21 @@ export async function openIn(context, daemon, fragment = '') {
   return page;
 }
 
+/** Until what changes with the window, the colours or the paper is drawn anew: a frame sees the change, and the next one has drawn it. */
+export const drawn = (page) => page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(resolve))); }));
+
 /** The state that a page's address names. */
 export const hashOf = (page) => decodeURIComponent(new URL(page.url()).hash);
 
+/** Closes a context; an answer that a test still holds back is none any more. */
+export async function closeContext(context) {
+  for (const each of [context, ...context.pages()]) await each.unrouteAll({ behavior: 'ignoreErrors' });
+  await context.close();
+}
+
 /** Closes a page's context, and checks that it logged no error and asked nobody else. */
 export async function close(page) {
-  await page.context().close();
+  await closeContext(page.context());
   assert.deepEqual(page.errors, []);
   assert.deepEqual(page.foreign, []);
 }

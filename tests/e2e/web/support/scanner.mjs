@@ -6,23 +6,32 @@ export const PAIR_MS = 310;
 /** Between two keys of a hand, in ms: slower than any scanner. */
 const HAND_MS = 45;
 
-/** How long a test waits for what is being asked of the service; one that holds the answer back goes on meanwhile. */
-const ANSWER_MS = 1000;
+/** Until it is known what is measured: its plan, its size, and whether a line is a size or the number of a part. */
+export const known = (page) => page.waitForSelector(':is(.plan, .entry, .echo)[aria-busy]', { state: 'detached' });
 
-/** All keys of a line at once: the page gets them without a gap, however busy the machine is. */
-export const scan = (page, text) => keys(page, text, 0);
+/**
+ * All keys of a line at once: the page gets them without a gap, however busy the machine is. Waits for what they are
+ * about, and for what they ask. Each line feed in it is one more Enter.
+ */
+export async function scan(page, text) {
+  await known(page);
+  await scanUnasked(page, text);
+  await known(page);
+}
 
-/** The same, with keys that say they came as slowly as from a hand: nobody waits for them. */
-export const typeSlowly = (page, text) => keys(page, text, HAND_MS);
+/** The same without waiting, where a test holds the answer back. */
+export const scanUnasked = (page, text) => keys(page, text, 0);
 
-/** Until it is known what is measured: its plan, and whether a line is a size or the number of a part. */
-const known = (page) =>
-  page.waitForSelector(':is(.plan, .entry)[aria-busy]', { state: 'detached', timeout: ANSWER_MS }).catch(() => {});
+/** The same as `scan`, with keys that say they came as slowly as from a hand: nobody waits for them. */
+export async function typeSlowly(page, text) {
+  await known(page);
+  await keys(page, text, HAND_MS);
+  await known(page);
+}
 
 async function keys(page, text, gap) {
-  await known(page);
   await page.evaluate(({ line, pace }) => {
-    let at = performance.now();
+    let at = performance.now() - pace * (line.length + 1);
     const type = (key) => {
       const down = new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true });
       Object.defineProperty(down, 'timeStamp', { value: at += pace });
@@ -35,7 +44,6 @@ async function keys(page, text, gap) {
       }
       if (key === 'Enter' && now.form) now.form.requestSubmit();
     };
-    for (const key of [...line, 'Enter']) type(key);
+    for (const key of [...line, '\n']) type(key === '\n' ? 'Enter' : key);
   }, { line: text, pace: gap });
-  await known(page);
 }

@@ -1,0 +1,24 @@
+/** A service that takes its time. */
+
+import { sleep } from './daemon.mjs';
+
+/** From here on the page waits for an answer as long as it takes, as a test that holds it back on a busy machine needs. */
+export async function patient(page) {
+  const wait = () => { AbortSignal.timeout = () => new AbortController().signal; };
+  await page.addInitScript(wait);
+  await page.evaluate(wait);
+}
+
+/** What is asked there waits. @returns what lets the oldest question through, once it was asked */
+export async function hold(page, where) {
+  const held = [];
+  await patient(page);
+  await page.route(where, async (route) => {
+    await new Promise((resolve) => { held.push(resolve); });
+    await route.continue();
+  });
+  return async () => {
+    while (!held.length) await sleep(5);
+    held.shift()();
+  };
+}
