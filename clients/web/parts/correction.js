@@ -1,11 +1,12 @@
 /** Corrects a record, its value or its part: a new record that names the old one, with the reason. */
 
-import { request, url } from '../api.js';
+import { url } from '../api.js';
 import { field, h } from '../dom.js';
 import { Decimal, LARGEST_NM, nmFromMm, parseMeasured } from '../exact.js';
 import { isFar } from '../gauge/reading.js';
-import { explain, number, t } from '../i18n.js';
+import { number, t } from '../i18n.js';
 import { measuredText } from '../verdict.js';
+import { orderOf } from './order.js';
 
 /** Resolves to whether the record was corrected. */
 export function correct(record) {
@@ -37,16 +38,10 @@ export function correct(record) {
     return { measured_mm: new Decimal(measured), ...(named && { part_id: named }), reason: reason.value.trim() };
   }
 
-  async function send(event) {
+  function send(event) {
     event.preventDefault();
     const body = correction();
-    if (!body) return;
-    try {
-      await request('POST', url(['measurements', record.id, 'corrections']), { body });
-      dialog.close('corrected');
-    } catch (problem) {
-      note.textContent = explain(problem);
-    }
+    if (body) order(body);
   }
 
   const dialog = h('dialog', { 'aria-labelledby': 'correct-title' },
@@ -56,6 +51,7 @@ export function correct(record) {
       field(t('entry.label'), value), field(t('field.part_id'), part), field(t('correct.reason'), reason), note,
       h('p.actions', h('button.primary', { type: 'submit' }, t('correct.store')),
         h('button', { type: 'button', onclick: () => dialog.close('') }, t('confirm.cancel')))));
+  const order = orderOf(dialog, url(['measurements', record.id, 'corrections']), note, 'corrected');
   document.body.append(dialog);
   dialog.showModal();
   value.select();

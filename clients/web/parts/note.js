@@ -1,9 +1,10 @@
 /** A note beside a record: why the value is what it is, and what was done about it. */
 
-import { getJson, request, url } from '../api.js';
+import { getJson, url } from '../api.js';
 import { field, h } from '../dom.js';
-import { explain, t } from '../i18n.js';
+import { t } from '../i18n.js';
 import { measuredText } from '../verdict.js';
+import { orderOf } from './order.js';
 
 const PARTS = { cause: 200, measure: 200, text: 2000, operator: 200 };
 
@@ -25,19 +26,14 @@ export function note(record) {
   })]));
   const why = h('p.note', { role: 'alert' });
 
-  async function send(event) {
+  function send(event) {
     event.preventDefault();
     const said = Object.fromEntries(Object.entries(inputs).map(([name, input]) => [name, input.value.trim()]).filter(([, text]) => text));
     if (!said.cause && !said.measure && !said.text) {
       why.textContent = t('note.nothing');
       return;
     }
-    try {
-      await request('POST', url(['measurements', record.id, 'notes']), { body: said });
-      dialog.close('noted');
-    } catch (problem) {
-      why.textContent = explain(problem);
-    }
+    order(said);
   }
 
   const dialog = h('dialog', { 'aria-labelledby': 'note-title' },
@@ -48,6 +44,7 @@ export function note(record) {
       field(t('field.operator'), inputs.operator), why,
       h('p.actions', h('button.primary', { type: 'submit' }, t('note.store')),
         h('button', { type: 'button', onclick: () => dialog.close('') }, t('confirm.cancel')))));
+  const order = orderOf(dialog, url(['measurements', record.id, 'notes']), why, 'noted');
   document.body.append(dialog);
   dialog.showModal();
   offer(lists).catch(() => {});

@@ -17,6 +17,8 @@ addEventListener('beforeunload', (event) => { if (drafts.size) event.preventDefa
 
 export class ProgramText {
   #timer = 0;
+  #opening;
+  #storing = Promise.resolve();
 
   /**
    * @param leaving the signal of the view that is left
@@ -46,12 +48,14 @@ export class ProgramText {
     if (!drafts.has(path)) drafts.set(path, { text, tag: null });
   }
 
+  /** Until the file is there, what is shown, edited and stored is the one before. @returns whether it is there: another may be asked for meanwhile */
   async open(path) {
     clearTimeout(this.#timer);
-    this.path = path;
+    this.#opening = path;
     const draft = drafts.get(path);
     const file = draft?.tag === null ? { text: null, ...draft, stored: null } : await readFile(path);
-    if (this.path !== path) return;
+    if (this.#opening !== path) return false;
+    this.path = path;
     this.tag = draft ? draft.tag : file.tag;
     this.stored = draft?.tag === null ? null : file.text;
     this.lineBreak = file.text?.includes('\r\n') ? '\r\n' : '\n';
@@ -63,11 +67,13 @@ export class ProgramText {
     this.show([]);
     this.onState();
     if (!reason) this.#checkSoon(0);
+    return true;
   }
 
   /** Checks the text as it stands. @returns the findings */
   async check() {
     const { path } = this;
+    if (!path) return undefined;
     const found = await this.checking.run((signal) => check(path, this.editor.text || '\n', signal));
     if (found && this.path === path) this.show(found);
     return found;
@@ -84,14 +90,23 @@ export class ProgramText {
     this.editor.showLine(fileName(program).toLowerCase() === fileName(this.path).toLowerCase() ? line : 0);
   }
 
-  /** @errors precondition.failed where somebody else stored the file meanwhile */
-  async store() {
+  /** One after the other: the second of a pair of keys finds nothing left to store. @errors precondition.failed where somebody else stored the file meanwhile */
+  store() {
+    const storing = this.#storing.then(() => this.#store());
+    this.#storing = storing.catch(() => {});
+    return storing;
+  }
+
+  async #store() {
     if (!this.dirty) return;
     const { path } = this;
     const text = this.editor.text.replaceAll('\n', this.lineBreak);
-    this.tag = await writeFile(path, text, this.tag === null ? { 'If-None-Match': '*' } : { 'If-Match': this.tag });
-    this.stored = text;
-    drafts.delete(path);
+    const tag = await writeFile(path, text, this.tag === null ? { 'If-None-Match': '*' } : { 'If-Match': this.tag });
+    const draft = drafts.get(path);
+    if (draft?.text === text) drafts.delete(path);
+    else if (draft) draft.tag = tag;
+    if (this.path !== path) return;
+    Object.assign(this, { tag, stored: text });
     this.#remember();
   }
 

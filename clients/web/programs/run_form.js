@@ -149,9 +149,11 @@ export class RunForm {
     return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters}${subject}}`;
   }
 
-  /** Runs the program as it is set up here. */
-  run() {
-    return this.#try(async () => {
+  /** Runs the program as it is set up here: one run at a time, however often it is asked for. */
+  async run() {
+    if (this.isRunning) return;
+    this.isRunning = true;
+    await this.#try(async () => {
       await this.beforeRun();
       const response = await request('POST', url(['runs']), {
         body: this.#order(), headers: { 'Content-Type': 'application/json', Prefer: 'respond-async' },
@@ -163,6 +165,9 @@ export class RunForm {
       this.onRun(run.id, this.setup.value);
       await this.#followRun(run.id);
     });
+    this.isRunning = false;
+    this.cancel.hidden = true;
+    this.start.disabled = false;
   }
 
   async #followRun(id) {
@@ -189,9 +194,6 @@ export class RunForm {
     } catch (problem) {
       this.note.textContent = problem instanceof SyntaxError ? t('programs.setup_malformed', { reason: problem.message }) : explain(problem);
       if (problem.diagnostics?.length) this.onDiagnostics(problem.diagnostics);
-    } finally {
-      this.cancel.hidden = true;
-      this.start.disabled = false;
     }
   }
 }

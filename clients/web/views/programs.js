@@ -82,8 +82,8 @@ export function mount(main, route) {
     nothing.hidden = current !== '';
     program.hidden = current === '';
     if (!current) return;
+    if (!await source.open(current)) return;
     name.textContent = fileName(current);
-    await source.open(current);
     form.element.hidden = !isProgram(current);
     if (!isProgram(current)) return;
     await form.show(current, options.setup);

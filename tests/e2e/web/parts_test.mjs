@@ -89,6 +89,43 @@ describe('the parts', () => {
     await picture(page, 'parts-corrected', { fullPage: true });
   });
 
+  it('are corrected and noted once, however often it is asked for, and whatever becomes of the answer', async () => {
+    const record = await (await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', part_id: 'SN-O', order: 'WO-O' })).json();
+    page = await open(browser, daemon, '#/parts?order=WO-O');
+    let asked = 0;
+    let lost = true;
+    let go;
+    const held = new Promise((resolve) => { go = resolve; });
+    await page.route(/\/(notes|corrections)$/, async (route) => {
+      asked += 1;
+      const response = await route.fetch(); // it is stored
+      await held;
+      await (lost ? route.abort() : route.fulfill({ response }));
+    });
+    await page.click('.records tbody tr >> text=Note');
+    await page.fill('dialog [name="text"]', 'looked at');
+    const press = () => page.$eval('dialog form', (form) => { form.requestSubmit(); form.requestSubmit(); });
+    await press();
+    await page.waitForSelector('dialog[aria-busy]');
+    await page.$eval('dialog button[type="button"]', (cancel) => cancel.click());
+    assert.ok(await page.isVisible('dialog'), 'nobody gives up what is stored perhaps');
+    go();
+    await page.waitForFunction(() => document.querySelector('dialog .note')?.textContent !== '');
+    lost = false;
+    await press();
+    await page.waitForSelector('dialog', { state: 'detached' });
+    await page.waitForFunction(() => /looked at/.test(document.querySelector('.records tbody tr').textContent));
+    await page.click('.records tbody tr >> text=Correct');
+    await page.locator('dialog').getByLabel('Part').fill('SN-P');
+    await page.getByLabel('Reason').fill('misread');
+    await press();
+    await page.waitForSelector('dialog', { state: 'detached' });
+    await page.waitForSelector('.records a:has-text("SN-P")');
+    assert.equal(asked, 3);
+    const [old, corrected, ...others] = await daemon.stored('order=WO-O&history=all&notes=shown');
+    assert.deepEqual([old.notes.length, corrected.correction_of, others], [1, record.id, []]);
+  });
+
   it('of 100,000 values are found by their number, the newest first, and the list goes on', async () => {
     const at = (i) => new Date(Date.UTC(2026, 0, 1) + i * 1000).toISOString();
     for (let first = 0; first < 100_000; first += 10_000) {

@@ -5,7 +5,8 @@ import fs from 'node:fs';
 import { afterEach, before, describe, it } from 'node:test';
 
 import { KINDS, Trace } from '../../../clients/web/figures/trace.js';
-import { close, hashOf, open, openIn, picture } from './support/browser.mjs';
+import { close, drawn, hashOf, open, openIn, picture } from './support/browser.mjs';
+import { eventually } from './support/eventually.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 const EXAMPLE = 'clients/nc/8255';
@@ -170,6 +171,42 @@ describe('the programs', () => {
     assert.match(await page.textContent('.moves output'), /line 3 · Rapid/i);
   });
 
+  it('are run and stored once, and what is typed while another is opened stays its own', async () => {
+    const texts = Object.fromEntries(['one', 'two'].map((name) => [name, `BEGIN PGM ${name.toUpperCase()} MM\nEND PGM ${name.toUpperCase()} MM\n`]));
+    for (const [name, text] of Object.entries(texts)) await daemon.send('PUT', `/v1/files/nc_prog/${name}.h`, text, 'text/plain');
+    const there = async (name) => (await fetch(`${daemon.url}/v1/files/nc_prog/${name}.h`)).text();
+    page = await open(browser, daemon, '#/programs/nc_prog/one.h');
+    await page.waitForSelector('.cm-line:has-text("END PGM ONE MM")');
+    let go;
+    const held = new Promise((resolve) => { go = resolve; });
+    const late = async (route) => {
+      await held;
+      await route.continue();
+    };
+    await page.route('**/v1/runs', late);
+    await page.$eval('.run form', (form) => { form.requestSubmit(); form.requestSubmit(); });
+    await page.route('**/v1/files/nc_prog/two.h', late);
+    await page.click('.files button:has-text("two.h")');
+    await page.waitForSelector('.files button[aria-current]:has-text("two.h")');
+    await page.click('.cm-line >> nth=0');
+    await page.keyboard.press('End');
+    await page.keyboard.type(' ; of one');
+    go();
+    await page.waitForSelector('.cm-line:has-text("END PGM TWO MM")');
+    assert.equal(await page.textContent('.title'), 'two.h', 'nothing of it is not stored');
+    await page.click('.files button:has-text("one.h")');
+    await page.waitForSelector('.cm-line:has-text("; of one")');
+    assert.match(await page.textContent('.title'), /^one\.h.*not stored yet/);
+    await page.keyboard.press('Control+s');
+    await page.click('.cm-line >> nth=0');
+    await page.keyboard.press('Control+s');
+    await page.keyboard.press('Control+s');
+    await page.waitForFunction(() => !document.querySelector('.title .aside').textContent);
+    assert.equal(await page.textContent('.program > .note'), '');
+    assert.deepEqual([await there('one'), await there('two')], [texts.one.replace('MM\n', 'MM ; of one\n'), texts.two]);
+    await eventually(async () => assert.equal((await daemon.json('/v1/runs?program=TNC:%5Cnc_prog%5Cone.h')).runs.length, 1));
+  });
+
   it('begin with an empty one, which is stored under the name it got', async () => {
     page = await open(browser, daemon, '#/programs');
     await page.waitForSelector('.files .aside');
@@ -237,7 +274,7 @@ describe('the programs', () => {
     await page.waitForSelector('.path');
     if (!await page.$('.scene')) return test.skip('this browser has no WebGL here');
     await page.$eval('.scene', (figure) => figure.scrollIntoView({ block: 'center' }));
-    const settled = async () => { await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); })); return scenePixels(); };
+    const settled = async () => { await drawn(page); return scenePixels(); };
     const first = await settled();
     assert.ok(first.differing > first.all / 20, `${first.differing} of ${first.all} pixels are drawn`);
     await page.$eval('.moves input', (slider) => { slider.value = 3; slider.dispatchEvent(new Event('input')); });
