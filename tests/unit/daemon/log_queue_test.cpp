@@ -38,7 +38,7 @@ class Pipe {
     char bytes[1 << 16];
     while (!complete(all)) {
       pollfd wanted{.fd = ends_[0], .events = POLLIN, .revents = 0};
-      if (poll(&wanted, 1, 10'000) != 1) break;
+      if (poll(&wanted, 1, 60'000) != 1) break;
       const ssize_t count = read(ends_[0], bytes, sizeof bytes);
       if (count <= 0) break;
       all.append(bytes, static_cast<std::size_t>(count));

@@ -16,7 +16,7 @@
 namespace fitgauge::http::test {
 
 namespace {
-constexpr int kPatienceMs = 5000;
+constexpr int kPatienceMs = 60'000;
 }
 
 std::string Answer::field(std::string_view name) const {

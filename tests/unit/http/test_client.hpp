@@ -21,7 +21,7 @@ struct Answer {
 };
 
 /// A raw TCP client on the loopback that sends exactly the bytes it is given. Every wait ends after
-/// five seconds, so that a server that hangs fails a test instead of stopping it.
+/// a minute, so that a server that hangs fails a test instead of stopping it.
 class Client {
  public:
   explicit Client(std::uint16_t port);

@@ -41,7 +41,7 @@ TlsAnswer ask(std::uint16_t port, std::string_view request, const TlsFiles* iden
     SSL_CTX_use_PrivateKey_file(context.get(), identity->key().c_str(), SSL_FILETYPE_PEM);
   }
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  const timeval patience{.tv_sec = 5, .tv_usec = 0};
+  const timeval patience{.tv_sec = 60, .tv_usec = 0};
   ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   sockaddr_in address{};
   address.sin_family = AF_INET;

@@ -1,12 +1,12 @@
 #include "store/verify.hpp"
 
 #include <chrono>
-#include <thread>
 
 #include "fixture.hpp"
 #include "sqlite/connection.hpp"
 #include "sqlite/session.hpp"
 #include "sqlite/verifier.hpp"
+#include "support/comes_true.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -247,10 +247,10 @@ TEST_CASE("damage is found before somebody asks for the row") {
     fixture.options.scrub_interval = std::chrono::milliseconds(1);
     fixture.open();
     Health health;
-    for (int i = 0; i < 1000 && health.state == HealthState::Ok; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    comes_true([&] {
       health = fixture.database->health();
-    }
+      return health.state != HealthState::Ok;
+    });
     return health;
   };
   SUBCASE("a measurement") {
