@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "api/service/version.hpp"
+#include "api/wire/problem.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -13,6 +14,9 @@ namespace {
 using Seconds = Histogram<15>;
 constexpr Seconds::Bounds kSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025,
                                       0.05,   0.1,     0.25,   0.5,   1,      2.5,   10};
+
+constexpr int kUnauthorized = 401;
+constexpr int kServerError = 500;
 
 }  // namespace
 
@@ -32,7 +36,17 @@ struct Metrics::Parts {
   std::map<ErrorCode, std::uint64_t> problems;
 };
 
-Metrics::Metrics() : parts_(std::make_unique<Parts>()) {}
+Metrics::Metrics() : parts_(std::make_unique<Parts>()) {
+  // What somebody is woken by is there from the start: a series that begins with 1 has no increase.
+  for (const ErrorCode code : {
+#define FITGAUGE_ERROR(name, id, title) ErrorCode::name,
+#include "base/error_codes.inc"
+#undef FITGAUGE_ERROR
+       }) {
+    const int status = status_of(code);
+    if (status == kUnauthorized || status >= kServerError) parts_->problems[code] = 0;
+  }
+}
 Metrics::~Metrics() = default;
 
 void Metrics::count(const http::FinishedRequest& request) {

@@ -153,6 +153,20 @@ class Documents(DaemonTest):
             self.assertEqual(named - names, set(), document)
             self.assertEqual(set(re.findall(r'code="([^"]+)"', text)) - codes, set(), document)
 
+    def test_what_an_alert_counts_is_there_before_its_first_time(self):
+        # A series that begins with 1 has no increase: the first internal error would wake nobody.
+        alerts = (ROOT / "docs/deploy/alerts.yml").read_text()
+        counted = re.findall(r"increase\((\w+)(?:\{([^}]*)\})?\[", alerts)
+        self.assertGreater(len(counted), 5)
+        samples = [SAMPLE.match(line).groups() for line in self.daemon.get("/metrics").text.splitlines()
+                   if not line.startswith("#")]
+        for name, labels in counted:
+            if name.startswith("fitgauge_connection_"):
+                continue  # there from the connection's start
+            wanted = set(LABEL.findall(labels))
+            there = [set(LABEL.findall(own or "")) for sample, own, _ in samples if sample == name]
+            self.assertTrue(any(wanted <= own for own in there), (name, labels))
+
 
 if __name__ == "__main__":
     unittest.main()
