@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "base/thread.hpp"
 #include "postgres/connection.hpp"
 #include "postgres/notifications.hpp"
 #include "store/server_figures.hpp"
@@ -44,7 +44,7 @@ class Listener {
   Notifications& notifications_;
   const std::function<void(bool names)> heard_;
   const std::function<void(Figures)> told_;
-  std::jthread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::store::postgres

@@ -9,14 +9,15 @@ namespace fitgauge::store {
 
 ReadPool::Engine::Engine(const OpenOptions& options, HealthMonitor& health, sql::OpenSession open)
     : options_(options), health_(health), open_(std::move(open)), queue_(options.queue_limit) {
-  for (unsigned i = 0; i < options.readers; ++i) threads_.emplace_back([this] { run(); });
+  for (unsigned i = 0; i < options.readers; ++i)
+    threads_.emplace_back("a reader of the storage", [this](const auto&) { run(); });
 }
 
 ReadPool::Engine::~Engine() { stop(); }
 
 void ReadPool::Engine::stop() {
   queue_.close();
-  for (std::thread& thread : threads_) thread.join();
+  for (Thread& thread : threads_) thread.stop();
   threads_.clear();
 }
 

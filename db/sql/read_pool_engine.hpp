@@ -1,9 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <thread>
 #include <vector>
 
+#include "base/thread.hpp"
 #include "sql/health_monitor.hpp"
 #include "sql/session.hpp"
 #include "store/job_queue.hpp"
@@ -37,7 +37,7 @@ class ReadPool::Engine {
   HealthMonitor& health_;
   const sql::OpenSession open_;
   JobQueue<ReadJob> queue_;
-  std::vector<std::thread> threads_;
+  std::vector<Thread> threads_;
 };
 
 }  // namespace fitgauge::store

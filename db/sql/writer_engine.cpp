@@ -28,14 +28,14 @@ Writer::Engine::Engine(const OpenOptions& options, const Clock& clock, HealthMon
       open_(std::move(open)),
       queue_(options.queue_limit) {
   session();
-  thread_ = std::thread([this] { run(); });
+  thread_ = Thread("the writer", [this](const auto&) { run(); });
 }
 
 Writer::Engine::~Engine() { stop(); }
 
 void Writer::Engine::stop() {
   queue_.close();
-  if (thread_.joinable()) thread_.join();
+  thread_.stop();
 }
 
 bool Writer::Engine::begin(const IdempotentRequest& request) {

@@ -7,10 +7,10 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <thread>
 #include <tuple>
 #include <vector>
 
+#include "base/thread.hpp"
 #include "sql/health_monitor.hpp"
 #include "sql/maintenance.hpp"
 #include "sql/session.hpp"
@@ -75,7 +75,7 @@ class Writer::Engine {
   std::unique_ptr<sql::Session> session_;  // the thread's own from here on
   bool failing_ = false;
   MaintenancePace pace_;
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::store

@@ -20,7 +20,7 @@ void passive_checkpoint(const sqlite::Connection& connection) {
 }  // namespace
 
 Checkpointer::Checkpointer(const OpenOptions& options)
-    : options_(options), thread_([this] { run(); }) {}
+    : options_(options), thread_("the checkpointer", [this](const auto&) { run(); }) {}
 
 Checkpointer::~Checkpointer() {
   {
@@ -28,7 +28,7 @@ Checkpointer::~Checkpointer() {
     stopping_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  thread_.stop();
 }
 
 void Checkpointer::install(sqlite::Connection& writer) {

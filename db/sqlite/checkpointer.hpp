@@ -3,8 +3,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
-#include <thread>
 
+#include "base/thread.hpp"
 #include "sqlite/session.hpp"
 #include "store/open_options.hpp"
 
@@ -44,7 +44,7 @@ class Checkpointer {
   std::condition_variable changed_;
   State state_ = State::Idle;
   bool stopping_ = false;
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::store

@@ -22,8 +22,9 @@ Scrub::Scrub(const OpenOptions& options, const Clock& clock, HealthMonitor& heal
     health.checking(
         fmt::format("{} is being checked", (options.directory / kDatabaseFile).string()));
   }
-  thread_ = std::jthread(
-      [this, check_file_first](const std::stop_token& stop) { run(stop, check_file_first); });
+  thread_ = Thread("the scrub", [this, check_file_first](const std::stop_token& stop) {
+    run(stop, check_file_first);
+  });
 }
 
 void Scrub::run(const std::stop_token& stop, bool check_file_first) {

@@ -4,9 +4,9 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
-#include <thread>
 
 #include "base/clock.hpp"
+#include "base/thread.hpp"
 #include "sql/health_monitor.hpp"
 #include "store/open_options.hpp"
 
@@ -35,7 +35,7 @@ class Scrub {
   HealthMonitor& health_;
   std::mutex mutex_;
   std::condition_variable_any stopped_;
-  std::jthread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::store

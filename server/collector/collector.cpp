@@ -7,11 +7,11 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include "base/digest.hpp"
 #include "base/guarded.hpp"
 #include "base/text.hpp"
+#include "base/thread.hpp"
 #include "collector/intake.hpp"
 #include "control_link/link_client.hpp"
 
@@ -59,7 +59,7 @@ class Collector::Machine {
   Machine(MachineOptions options, app::Application& app, const Clock& clock,
           const CollectorHooks& hooks)
       : options_(std::move(options)), intake_(app, clock), clock_(clock), hooks_(hooks) {
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    thread_ = Thread("a collector", [this](const std::stop_token& stop) { run(stop); });
   }
 
   void stop() { thread_.request_stop(); }
@@ -107,7 +107,7 @@ class Collector::Machine {
   app::ConnectionState state_;
   std::condition_variable_any woken_;
   std::mutex waiting_;
-  std::jthread thread_;  // last: it uses all above
+  Thread thread_;  // last: it uses all above
 };
 
 void Collector::Machine::run(const std::stop_token& stop) {

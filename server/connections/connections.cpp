@@ -50,12 +50,12 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
       not_started(error.details.empty() ? error.message : error.details.front().message);
     }
   }
-  all->thread_ = std::jthread([self = all.get()](const std::stop_token& stop) { self->run(stop); });
+  all->thread_ = Thread("connections", [self = all.get()](const auto& stop) { self->run(stop); });
   return all;
 }
 
 Connections::~Connections() {
-  thread_ = {};
+  thread_.stop();
   for (const auto& [key, entry] : entries_) entry.worker->request_stop();
 }
 
@@ -182,7 +182,7 @@ Result<void> Connections::remove(const std::string& name) {
 Result<app::ConnectionTest> Connections::test(const std::string& name) {
   const auto found = find(name);
   if (!found || found->definition.name != name) return unknown(name);
-  return test_connection(found->definition, around_, thread_.get_stop_token());
+  return test_connection(found->definition, around_, thread_.stop_token());
 }
 
 }  // namespace fitgauge::connections

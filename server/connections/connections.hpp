@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
+#include "base/thread.hpp"
 #include "connections/definition.hpp"
 #include "connections/workers.hpp"
 
@@ -69,7 +69,7 @@ class Connections {
   std::map<std::string, Entry> entries_;  ///< by name in lower case
   std::condition_variable_any wake_;
   std::deque<std::function<void()>> work_;
-  std::jthread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::connections

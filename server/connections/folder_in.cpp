@@ -14,11 +14,11 @@
 #include <mutex>
 #include <set>
 #include <span>
-#include <thread>
 #include <utility>
 
 #include "base/guarded.hpp"
 #include "base/text.hpp"
+#include "base/thread.hpp"
 #include "collector/collector_options.hpp"
 #include "connections/file_rows.hpp"
 #include "connections/file_taking.hpp"
@@ -60,7 +60,7 @@ class FolderIn final : public Worker {
  public:
   FolderIn(FolderInOptions options, const Surroundings& around)
       : options_(std::move(options)), around_(around) {
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    thread_ = Thread("folder_in", [this](const std::stop_token& stop) { run(stop); });
   }
 
   void request_stop() override { thread_.request_stop(); }
@@ -112,7 +112,7 @@ class FolderIn final : public Worker {
 
   mutable std::mutex mutex_;
   app::ConnectionState state_;
-  std::jthread thread_;  // last: it uses all above
+  Thread thread_;  // last: it uses all above
 };
 
 void FolderIn::run(const std::stop_token& stop) {

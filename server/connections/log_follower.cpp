@@ -155,13 +155,14 @@ LogFollower::LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet
   state_.is_outgoing = true;
   outlet_->wake_by([bell = bell_] { bell->ring(); });
   around_.app.events().add(bell_);
-  const bool has_begun = begin();
-  thread_ = std::jthread([this, has_begun](const std::stop_token& stop) { run(has_begun, stop); });
+  bool has_begun = begin();
+  thread_ =
+      Thread("connection", [this, has_begun](const auto& stop) mutable { run(has_begun, stop); });
 }
 
 LogFollower::~LogFollower() {
   around_.app.events().remove(bell_);
-  thread_ = {};
+  thread_.stop();
 }
 
 void LogFollower::request_stop() { thread_.request_stop(); }
@@ -171,7 +172,7 @@ app::ConnectionState LogFollower::state() const {
   return state_;
 }
 
-void LogFollower::run(bool has_begun, const std::stop_token& stop) {
+void LogFollower::run(bool& has_begun, const std::stop_token& stop) {
   while (!has_begun && !stop.stop_requested()) {
     wait(stop, kBetweenSaves);
     has_begun = begin();

@@ -10,11 +10,11 @@
 #include <set>
 #include <span>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/measurements/measurement.hpp"
 #include "app/service/event_service.hpp"
+#include "base/thread.hpp"
 #include "connections/log_filter.hpp"
 #include "connections/progress.hpp"
 #include "connections/worker.hpp"
@@ -104,7 +104,7 @@ class LogFollower final : public Worker {
   using Time = std::chrono::steady_clock::time_point;
   class Bell;
 
-  void run(bool has_begun, const std::stop_token& stop);
+  void run(bool& has_begun, const std::stop_token& stop);
   bool begin();
   /// Reads what comes next, if there is room. @errors those of storage.
   Result<void> read();
@@ -152,7 +152,7 @@ class LogFollower final : public Worker {
 
   mutable std::mutex mutex_;
   app::ConnectionState state_;
-  std::jthread thread_;  // last: it uses all above
+  Thread thread_;  // last: it uses all above
 };
 
 }  // namespace fitgauge::connections

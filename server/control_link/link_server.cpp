@@ -14,11 +14,11 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "control_link/link_connection.hpp"
 
 namespace fitgauge::control_link {
@@ -76,15 +76,15 @@ class LinkServer::Loop {
     port_ =
         ntohs(bound.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6*>(&bound)->sin6_port
                                           : reinterpret_cast<const sockaddr_in*>(&bound)->sin_port);
-    thread_ = std::thread([this] { run(); });
+    thread_ = Thread("the control's connections", [this](const auto&) { run(); });
     return {};
   }
 
   void stop() {
-    if (!thread_.joinable()) return;
+    if (!thread_.has_begun()) return;
     const std::uint64_t one = 1;
     static_cast<void>(!::write(wake_.get(), &one, sizeof one));
-    thread_.join();
+    thread_.stop();
   }
 
   std::uint16_t port() const { return port_; }
@@ -175,7 +175,7 @@ class LinkServer::Loop {
   std::uint16_t port_ = 0;
   Time accept_after_{};
   std::vector<std::unique_ptr<Connection>> connections_;
-  std::thread thread_;
+  Thread thread_;
 };
 
 Result<std::unique_ptr<LinkServer>> LinkServer::start(LinkServerOptions options,

@@ -126,7 +126,7 @@ LogQueue::LogQueue(int descriptor, std::size_t room)
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([state = state_] { state->run(); });
+  thread_ = Thread("the log's writer", [state = state_](const auto&) { state->run(); });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
@@ -141,7 +141,7 @@ LogQueue::~LogQueue() {
       return;
     }
   }
-  thread_.join();
+  thread_.stop();
 }
 
 void LogQueue::push(std::string_view line, Kind kind) {

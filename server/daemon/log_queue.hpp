@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
-#include <thread>
+
+#include "base/thread.hpp"
 
 namespace fitgauge::daemon {
 
@@ -39,7 +40,7 @@ class LogQueue {
   struct State;
 
   std::shared_ptr<State> state_;  ///< the thread's, too: it may have to be left behind
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::daemon

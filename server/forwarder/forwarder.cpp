@@ -53,13 +53,10 @@ Forwarder::Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, Forwarde
   // tables. A centre that is away holds nothing up for long.
   const auto until = Steady::now() + kPatienceAtStart;
   guarded("the follower", [&] { follow([until] { return Steady::now() < until; }); });
-  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+  thread_ = Thread("the forwarder", [this](const std::stop_token& stop) { run(stop); });
 }
 
-Forwarder::~Forwarder() {
-  thread_.request_stop();
-  if (thread_.joinable()) thread_.join();
-}
+Forwarder::~Forwarder() { thread_.stop(); }
 
 Forwarder::State Forwarder::state() const {
   State state;

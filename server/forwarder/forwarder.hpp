@@ -9,9 +9,9 @@
 #include <random>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include "app/log/log_outbox.hpp"
+#include "base/thread.hpp"
 #include "forwarder/centre_link.hpp"
 #include "forwarder/follower.hpp"
 
@@ -72,7 +72,7 @@ class Forwarder {
   std::minstd_rand random_{std::random_device{}()};
   mutable std::mutex mutex_;
   State state_;
-  std::jthread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::forwarder

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <mutex>
 #include <random>
-#include <thread>
 #include <utility>
 
 #include "http/engine/exchange.hpp"

@@ -7,12 +7,12 @@
 #include <boost/asio/ip/address.hpp>
 #include <set>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "api/mtconnect/mtconnect_shdr.hpp"
 #include "app/measurements/measurement_service.hpp"
 #include "base/guarded.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::shdr {
 namespace {
@@ -60,14 +60,14 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     if (error) return failed(error);
     accept();
     app_.events().add(shared_from_this());
-    thread_ = std::thread([this] { run(); });
+    thread_ = Thread("the SHDR adapter", [this](const auto&) { io_.run(); });
     return {};
   }
 
   void stop() {
     app_.events().remove(shared_from_this());
     io_.stop();
-    if (thread_.joinable()) thread_.join();
+    thread_.stop();
     agents_.clear();
   }
 
@@ -90,13 +90,6 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     asio::post(io_, [weak = weak_from_this(), work = std::move(work)]() mutable {
       if (const auto self = weak.lock()) work(*self);
     });
-  }
-
-  void run() {
-    // A bug ends what it happened in alone.
-    while (!io_.stopped()) {
-      guarded("the SHDR adapter", [this] { io_.run(); });
-    }
   }
 
   void accept() {
@@ -256,7 +249,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   bool counts_soon_ = false;
   Line newest_;
   Line counts_;
-  std::thread thread_;
+  Thread thread_;
 };
 
 Result<std::unique_ptr<ShdrAdapter>> ShdrAdapter::start(AdapterOptions options,

@@ -177,13 +177,10 @@ std::optional<Error> LogService::behind() const {
 
 void LogService::start() {
   next_telling_ = Steady::now() + kBetweenTellings;
-  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+  thread_ = Thread("the log", [this](const std::stop_token& stop) { run(stop); });
 }
 
-void LogService::stop() {
-  thread_.request_stop();
-  if (thread_.joinable()) thread_.join();
-}
+void LogService::stop() { thread_.stop(); }
 
 void LogService::committed() {
   const std::lock_guard lock(mutex_);

@@ -12,7 +12,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "app/log/origins.hpp"
@@ -20,6 +19,7 @@
 #include "base/clock.hpp"
 #include "base/result.hpp"
 #include "base/snapshot.hpp"
+#include "base/thread.hpp"
 #include "tlog/checkpoint.hpp"
 #include "tlog/frontier.hpp"
 
@@ -173,7 +173,7 @@ class LogService {
   Steady::time_point next_signing_{};
   Steady::time_point next_telling_{};
   std::vector<Waiter> waiters_;
-  std::jthread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::app

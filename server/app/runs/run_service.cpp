@@ -39,7 +39,8 @@ RunService::~RunService() { stop(); }
 Result<void> RunService::open(RunFormat format) {
   format_ = std::move(format);
   if (!options_.shares) return close_interrupted();
-  looking_ = std::jthread([this](const std::stop_token& stop) { look_for_abandoned(stop); });
+  looking_ = Thread("the look for abandoned runs",
+                    [this](const std::stop_token& stop) { look_for_abandoned(stop); });
   const auto has_any = [this] {
     const std::lock_guard lock(mutex_);
     return !active_.empty();
@@ -54,8 +55,7 @@ Result<void> RunService::open(RunFormat format) {
 
 void RunService::stop() {
   stopping_.request_stop();
-  looking_.request_stop();
-  if (looking_.joinable()) looking_.join();
+  looking_.stop();
   if (shared_) shared_->stop();
   preparing_.stop();
   {

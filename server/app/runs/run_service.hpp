@@ -8,7 +8,6 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/files/stored_disk.hpp"
@@ -23,6 +22,7 @@
 #include "app/runs/stored_run.hpp"
 #include "app/runs/worker_pool.hpp"
 #include "app/tables/live_tables.hpp"
+#include "base/thread.hpp"
 #include "klartext/diagnostic.hpp"
 
 namespace fitgauge::app {
@@ -189,7 +189,7 @@ class RunService {
   // The workers end before what they use.
   WorkerPool preparing_;
   WorkerPool running_;
-  std::jthread looking_;                ///< for abandoned runs
+  Thread looking_;                      ///< for abandoned runs
   std::unique_ptr<SharedRuns> shared_;  ///< where daemons share the database
 };
 

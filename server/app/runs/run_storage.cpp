@@ -71,20 +71,18 @@ void RunService::look_for_abandoned(const std::stop_token& stop) {
       ended.wait_for(lock, stop, kBetween, [] { return false; });
     }
     if (stop.stop_requested()) return;
-    guarded("the look for abandoned runs", [&] {
-      const auto runs = database_.readers().wait(
-          [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
-            return stores.runs.abandoned(kPage);
-          });
-      if (!runs) return;
-      std::set<std::int64_t> still;
-      for (const store::Run& run : *runs) {
-        still.insert(run.id);
-        if (!seen.contains(run.id)) continue;
-        prepare([this, run] { take_over(run); }, [](const Error&) {});
-      }
-      seen = std::move(still);
-    });
+    const auto runs = database_.readers().wait(
+        [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
+          return stores.runs.abandoned(kPage);
+        });
+    if (!runs) continue;
+    std::set<std::int64_t> still;
+    for (const store::Run& run : *runs) {
+      still.insert(run.id);
+      if (!seen.contains(run.id)) continue;
+      prepare([this, run] { take_over(run); }, [](const Error&) {});
+    }
+    seen = std::move(still);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/guarded.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -28,13 +27,12 @@ Error no_longer() {
 SharedRuns::SharedRuns(store::Database& database, Own own)
     : database_(database),
       own_(std::move(own)),
-      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+      thread_("the runs of other daemons", [this](const std::stop_token& stop) { run(stop); }) {}
 
 SharedRuns::~SharedRuns() { stop(); }
 
 void SharedRuns::stop() {
-  thread_.request_stop();
-  if (thread_.joinable()) thread_.join();
+  thread_.stop();
   {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
@@ -68,11 +66,9 @@ void SharedRuns::run(const std::stop_token& stop) {
       ended_.wait_for(lock, stop, kBetweenLooks, [] { return false; });
     }
     if (stop.stop_requested()) return;
-    guarded("the runs of other daemons", [&] {
-      const bool runs_any = own_.has_any();
-      const Followed now = followed();
-      if (runs_any || !now.empty()) look(now, runs_any);
-    });
+    const bool runs_any = own_.has_any();
+    const Followed now = followed();
+    if (runs_any || !now.empty()) look(now, runs_any);
   }
 }
 

@@ -7,10 +7,10 @@
 #include <memory>
 #include <mutex>
 #include <stop_token>
-#include <thread>
 
 #include "app/runs/active_run.hpp"
 #include "app/runs/stored_run.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::store {
 class Database;
@@ -55,7 +55,7 @@ class SharedRuns {
   std::condition_variable_any ended_;
   Followed followed_;
   bool stopped_ = false;
-  std::jthread thread_;  // ends before what it uses
+  Thread thread_;  // ends before what it uses
 };
 
 }  // namespace fitgauge::app

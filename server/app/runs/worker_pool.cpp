@@ -8,7 +8,8 @@
 namespace fitgauge::app {
 
 WorkerPool::WorkerPool(unsigned threads, std::size_t queue) : capacity_(queue) {
-  for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+  for (unsigned i = 0; i < threads; ++i)
+    threads_.emplace_back("a worker", [this](const auto&) { run(); });
 }
 
 WorkerPool::~WorkerPool() { stop(); }
@@ -42,7 +43,7 @@ void WorkerPool::stop() {
     stopping_ = true;
   }
   changed_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
+  for (Thread& thread : threads_) thread.stop();
   threads_.clear();
 }
 

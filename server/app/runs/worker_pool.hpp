@@ -7,8 +7,9 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <vector>
+
+#include "base/thread.hpp"
 
 namespace fitgauge::app {
 
@@ -49,7 +50,7 @@ class WorkerPool {
   std::deque<Queued> jobs_;
   Ticket next_ticket_ = 1;
   bool stopping_ = false;
-  std::vector<std::thread> threads_;
+  std::vector<Thread> threads_;
 };
 
 }  // namespace fitgauge::app

@@ -14,13 +14,11 @@ constexpr std::chrono::milliseconds kRest{5};
 
 }  // namespace
 
-CommitSignal::CommitSignal() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
+CommitSignal::CommitSignal()
+    : thread_("the signal of commits", [this](const std::stop_token& stop) { run(stop); }) {}
 CommitSignal::~CommitSignal() = default;
 
-void CommitSignal::stop() {
-  thread_.request_stop();
-  if (thread_.joinable()) thread_.join();
-}
+void CommitSignal::stop() { thread_.stop(); }
 
 void CommitSignal::raise() {
   const std::lock_guard lock(mutex_);

@@ -5,7 +5,8 @@
 #include <memory>
 #include <mutex>
 #include <set>
-#include <thread>
+
+#include "base/thread.hpp"
 
 namespace fitgauge::app {
 
@@ -45,7 +46,7 @@ class CommitSignal {
   std::condition_variable_any wake_;
   std::set<std::shared_ptr<CommitListener>> listeners_;
   bool raised_ = false;
-  std::jthread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::app

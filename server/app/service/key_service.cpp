@@ -2,7 +2,6 @@
 
 #include <chrono>
 
-#include "base/guarded.hpp"
 #include "store/database.hpp"
 
 namespace fitgauge::app {
@@ -51,12 +50,12 @@ Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database,
                                                      const Clock& clock) {
   std::unique_ptr<KeyService> service(new KeyService(database, clock));
   if (const auto loaded = service->reload(); !loaded) return loaded.error();
-  service->loader_ = std::jthread([raw = service.get()](const std::stop_token& stop) {
+  service->loader_ = Thread("the loader of keys", [raw = service.get()](const auto& stop) {
     std::unique_lock lock(raw->mutex_);
     while (!raw->wake_.wait_for(lock, stop, kReloadInterval, [] { return false; }) &&
            !stop.stop_requested()) {
       // Storage that fails for a while leaves the keys that were loaded last in force.
-      guarded("the loader of keys", [raw] { static_cast<void>(raw->reload()); });
+      static_cast<void>(raw->reload());
     }
   });
   return service;

@@ -7,12 +7,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
 #include "base/snapshot.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::store {
 class Database;
@@ -80,7 +80,7 @@ class KeyService {
   Snapshot<store::KeyRing> ring_;
   std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::jthread loader_;
+  Thread loader_;
 };
 
 }  // namespace fitgauge::app

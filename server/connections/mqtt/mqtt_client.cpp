@@ -146,7 +146,7 @@ void MqttClient::Loop::on_message(mosquitto*, void* user, const mosquitto_messag
       client.arrived_.pop_front();
     }
   });
-  loop.client_.wake_();
+  loop.client_.wake();
 }
 
 void MqttClient::Loop::on_log(mosquitto*, void* user, int level, const char* text) {
@@ -282,16 +282,20 @@ void MqttClient::Loop::run(const std::stop_token& stop) {
   } else {
     end(fmt::format("the broker {}: {}", address, mosquitto_strerror(ended)));
   }
-  if (!is_leaving_ && !stop.stop_requested()) client_.wake_();
+  if (!is_leaving_ && !stop.stop_requested()) client_.wake();
 }
 
 MqttClient::MqttClient(Broker broker, std::optional<MqttMessage> will, std::function<void()> wake)
     : broker_(std::move(broker)),
       wake_(std::move(wake)),
       event_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-  thread_ = std::jthread(
-      [this, will = std::move(will)](const std::stop_token& stop) { run(will, stop); });
+  thread_ =
+      Thread("an MQTT connection",
+             [this, will = std::move(will)](const std::stop_token& stop) { run(will, stop); });
 }
+
+/// Also from within libmosquitto, through which no exception may go.
+void MqttClient::wake() const noexcept { guarded("who is told of an MQTT connection", wake_); }
 
 /// The whole life of the thread.
 void MqttClient::run(const std::optional<MqttMessage>& will, const std::stop_token& stop) {
@@ -302,13 +306,13 @@ void MqttClient::run(const std::optional<MqttMessage>& will, const std::stop_tok
     failure_ = "a defect of fitgauge ended the connection";
     changed_.notify_all();
   }
-  if (!stop.stop_requested()) wake_();
+  if (!stop.stop_requested()) wake();
 }
 
 MqttClient::~MqttClient() {
   thread_.request_stop();
   eventfd_write(event_, 1);
-  thread_ = {};
+  thread_.stop();
   close(event_);
 }
 

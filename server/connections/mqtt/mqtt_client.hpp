@@ -11,10 +11,10 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <thread>
 #include <variant>
 #include <vector>
 
+#include "base/thread.hpp"
 #include "control_link/link_socket.hpp"
 
 struct mosquitto;
@@ -100,6 +100,7 @@ class MqttClient {
   class Loop;
 
   void run(const std::optional<MqttMessage>& will, const std::stop_token& stop);
+  void wake() const noexcept;
   template <class What>
   Ticket order(What what);
   template <class Until>
@@ -122,7 +123,7 @@ class MqttClient {
   std::deque<MqttMessage> arrived_;
   std::size_t arrived_bytes_ = 0;
 
-  std::jthread thread_;  // last: it uses all above
+  Thread thread_;  // last: it uses all above
 };
 
 }  // namespace fitgauge::connections

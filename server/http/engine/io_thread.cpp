@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/guarded.hpp"
 #include "http/engine/connection.hpp"
 
 namespace fitgauge::http {
@@ -31,18 +30,14 @@ IoThread::~IoThread() { join(); }
 void IoThread::start() {
   update_clock();
   schedule_sweep();
-  thread_ = std::thread([this] {
-    while (!context_.stopped()) {
-      // A bug, or no memory, where no connection is to blame: the others go on.
-      guarded("an I/O thread", [this] { context_.run(); });
-    }
-  });
+  // A bug, or no memory, where no connection is to blame: the others go on.
+  thread_ = Thread("an I/O thread", [this](const auto&) { context_.run(); });
 }
 
 void IoThread::join() {
-  if (!thread_.joinable()) return;
+  if (!thread_.has_begun()) return;
   context_.stop();
-  thread_.join();
+  thread_.stop();
   close_all();  // on this thread: the other one has ended
 }
 

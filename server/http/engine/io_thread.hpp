@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/clock.hpp"
+#include "base/thread.hpp"
 #include "http/engine/asio.hpp"
 #include "http/engine/byte_budget.hpp"
 #include "http/engine/gate.hpp"
@@ -104,7 +104,7 @@ class IoThread {
   std::uint64_t next_request_id_;
   std::atomic<std::uint64_t> requests_{0};
   std::vector<std::shared_ptr<Connection>> connections_;
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace fitgauge::http
