@@ -34,7 +34,7 @@ async function begin(kind, name) {
   await page.fill('[name="name"]', name);
 }
 const store = () => page.click('form.sheet button[type="submit"]');
-const says = (pattern) => page.waitForFunction((text) => new RegExp(text).test(document.querySelector('.tried').textContent), pattern);
+const says = (pattern) => page.waitForFunction((text) => new RegExp(text).test(document.querySelector('.tried')?.textContent), pattern);
 
 describe('the connections', () => {
   it('are behind the state of the service, and there is a form for every kind', async () => {

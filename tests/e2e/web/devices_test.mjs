@@ -16,7 +16,7 @@ describe('a badge', () => {
     const [ada, bob] = [await locked.key('ada', 'operator'), await locked.key('bob', 'operator')];
     const page = await open(browser, locked, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
-    const says = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.badge').textContent), text);
+    const says = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.badge')?.textContent), text);
     for (const [i, [key, value]] of [[ada, '25.01'], [bob, '25.011']].entries()) {
       await scan(page, key);
       await says(`Key ${key.slice(0, 7)}… in use`);
@@ -92,7 +92,7 @@ describe('a gauge on a serial port', () => {
     await page.getByRole('button', { name: 'Disconnect' }).waitFor();
     assert.deepEqual(await page.evaluate(() => globalThis.opened), { baudRate: 4800 });
     const feed = (text) => page.evaluate((sent) => globalThis.feed(sent), text);
-    const note = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('#entry-note').textContent), text);
+    const note = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('#entry-note')?.textContent), text);
     const rows = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.recent li.stored').length === wanted, count);
     await note('may be cut');
     await feed('01A+0025.013\r');
@@ -148,7 +148,7 @@ describe('a value whose beginning nobody saw', () => {
     });
     const page = await openIn(context, daemon, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
-    const note = (text) => page.waitForFunction((source) => document.querySelector('#entry-note').textContent.includes(source), text);
+    const note = (text) => page.waitForFunction((source) => document.querySelector('#entry-note')?.textContent.includes(source), text);
     const stored = (count) => page.waitForFunction((wanted) => document.querySelectorAll('.recent li.stored').length === wanted, count);
     await page.click('.more summary');
     await page.getByRole('button', { name: 'Connect', exact: true }).click();

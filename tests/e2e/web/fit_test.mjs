@@ -36,18 +36,18 @@ describe('the fit', () => {
     // ISO 286-2: of 25 mm, H7 is 0 to +21 and g6 -20 to -7, so their clearance is 7 to 41.
     await page.waitForFunction(() => /^H7\/g6\+7 … \+41 µm/.test([...document.querySelectorAll('.found li')].find((item) => /^H7\/g6/.test(item.textContent))?.textContent ?? ''));
     await page.click('.found button:text-is("H7/g6")');
-    await page.waitForFunction(() => document.querySelector('.headline').textContent === 'Clearance fit');
+    await page.waitForFunction(() => document.querySelector('.headline')?.textContent === 'Clearance fit');
     assert.match(hash(), /25H7\/g6/);
     // Tolerances 21 and 13 about a mean of 24: their root of squares is 24.7.
     assert.match(await page.textContent('.result dl'), /Probable, 99.73 %11\.7 … 36\.3 µm/);
     for (const [feature, text] of [['H7', '⌀25 H7 (+0.021/0)'], ['g6', '⌀25 g6 (-0.007/-0.020)']]) {
       await page.click(`.limits button[aria-label="Copy 25 ${feature} for a drawing"]`);
-      await page.waitForFunction((wanted) => document.querySelector('.side .note').textContent === `${wanted} is copied.`, text);
+      await page.waitForFunction((wanted) => document.querySelector('.side .note')?.textContent === `${wanted} is copied.`, text);
       assert.equal(await pasted(page), text);
     }
     await page.fill('#find-greatest', 'wide');
     await page.click('.finder button[type="submit"]');
-    await page.waitForFunction(() => /Type two numbers/.test(document.querySelector('.found-note').textContent));
+    await page.waitForFunction(() => /Type two numbers/.test(document.querySelector('.found-note')?.textContent));
     await picture(page, 'fit-found', { fullPage: true });
   });
 
@@ -56,7 +56,7 @@ describe('the fit', () => {
     await page.waitForSelector('.limits');
     await page.fill('.fit .designation', '25 H7/');
     await page.press('.fit .designation', 'Enter');
-    await page.waitForFunction(() => document.querySelector('.fit .note').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.fit .note')?.textContent ?? '') !== '');
     assert.equal(await page.$('.fit .limits'), null);
     assert.equal(await page.$('.fit .zones'), null);
     assert.equal(await page.$('.fit .headline'), null);
@@ -98,7 +98,7 @@ describe('the tables', () => {
     await page.waitForSelector('.grid td');
     assert.deepEqual(await page.$$eval('.grid tbody tr', (rows) => rows.map((row) => row.textContent)), ['2430+210']);
     await page.click('text=Copy as CSV');
-    await page.waitForFunction(() => document.querySelector('.tables .note').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.tables .note')?.textContent ?? '') !== '');
     assert.equal(await pasted(page), 'over_mm,up_to_mm,H7_upper_um,H7_lower_um\n24,30,21,0\n');
     await page.fill('#find', 'JS');
     await page.waitForFunction(() => document.querySelectorAll('.grid thead th').length === 22);
@@ -109,7 +109,7 @@ describe('the tables', () => {
 
   it('keep the case of a class: g6 is no hole', async () => {
     page = await open(browser, daemon, '#/tables/hole?find=25g6');
-    await page.waitForFunction(() => /g6 is a shaft class/.test(document.querySelector('.tables .note').textContent));
+    await page.waitForFunction(() => /g6 is a shaft class/.test(document.querySelector('.tables .note')?.textContent));
     assert.equal(await page.$('.grid'), null);
     await page.click('text=Shafts');
     await page.waitForSelector('.grid td');
@@ -131,7 +131,7 @@ describe('the tables', () => {
     await page.waitForSelector('.grid .own-column');
     assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'custom');
     await page.click('.own-list [aria-label]');
-    await page.waitForFunction(() => !/H8/.test(document.querySelector('.own-list').textContent));
+    await page.waitForFunction(() => document.querySelector('.own-list') && !/H8/.test(document.querySelector('.own-list').textContent));
     assert.equal((await daemon.json('/v1/limits/25H8')).basis, 'iso286');
   });
 
@@ -162,7 +162,7 @@ describe('the tables', () => {
     await page.fill('.own input', 'press1');
     await page.fill('.own textarea', '18; 30; -3,5; -10\n30; 50; oops; 1');
     await page.click('.own button[type="submit"]');
-    await page.waitForFunction(() => /oops/.test(document.querySelector('.own .note').textContent));
+    await page.waitForFunction(() => /oops/.test(document.querySelector('.own .note')?.textContent));
     await page.fill('.own textarea', '18; 30; -3,5; -10\n30\t50\t-4\t-12');
     await page.click('.own button[type="submit"]');
     await page.waitForSelector('.own-list >> text=press1');
@@ -172,7 +172,7 @@ describe('the tables', () => {
     const limits = await daemon.json('/v1/limits/25press1');
     assert.deepEqual([limits.upper_deviation_um, limits.lower_deviation_um, limits.basis], [-3.5, -10, 'custom']);
     await page.click('.own-list [aria-label]');
-    await page.waitForFunction(() => !/press1/.test(document.querySelector('.own-list').textContent));
+    await page.waitForFunction(() => document.querySelector('.own-list') && !/press1/.test(document.querySelector('.own-list').textContent));
     assert.equal((await fetch(`${daemon.url}/v1/limits/25press1`)).status, 404);
   });
 });

@@ -56,7 +56,7 @@ describe('the gauging station', () => {
     const answer = await hold(page, '**/v1/measurements');
     await typeValue('25.0215');
     await page.waitForSelector('.verdict[data-verdict="reject"][data-provisional="storing"]');
-    await page.waitForFunction(() => /25\.0215 mm.*The service is storing the value/.test(document.querySelector('.verdict').textContent));
+    await page.waitForFunction(() => /25\.0215 mm.*The service is storing the value/.test(document.querySelector('.verdict')?.textContent));
     assert.equal(await page.getAttribute('.verdict', 'aria-busy'), 'true');
     assert.equal(await page.textContent('.recent .waiting .mark-of'), 'RejectWaiting');
     assert.equal((await storedSince()).length, 0);

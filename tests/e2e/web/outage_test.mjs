@@ -38,7 +38,7 @@ describe('while the service is away', () => {
     assert.equal(await again.textContent('.unkept'), '');
     await picture(again, 'outage');
     await daemon.start();
-    await again.waitForFunction(() => /1 Ausschuss/.test(document.querySelector('.arrived').textContent));
+    await again.waitForFunction(() => /1 Ausschuss/.test(document.querySelector('.arrived')?.textContent));
     assert.deepEqual((await daemon.stored()).map((record) => record.measured_mm), [25.03]);
     // Nothing of the interface is kept: what is shown is what the service says.
     assert.deepEqual(await again.evaluate(async () => (await (await caches.open('page')).keys()).map(({ url }) => new URL(url).pathname).filter((path) => path.startsWith('/v1'))), []);
@@ -48,9 +48,9 @@ describe('while the service is away', () => {
     page = await open(browser, daemon, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
     await daemon.kill();
-    await page.waitForFunction(() => /Do not close or reload/.test(document.querySelector('.unkept').textContent));
+    await page.waitForFunction(() => /Do not close or reload/.test(document.querySelector('.unkept')?.textContent));
     await daemon.start();
-    await page.waitForFunction(() => document.querySelector('.unkept').textContent === '');
+    await page.waitForFunction(() => document.querySelector('.unkept')?.textContent === '');
   });
 
   it('a new build replaces what was kept', async () => {
@@ -72,7 +72,7 @@ describe('while the service is away', () => {
     await daemon.start();
     for (const tab of tabs) {
       await tab.waitForSelector('.link[data-state="up"]');
-      await tab.waitForFunction(() => /^40 stored after the outage: 40 reject/.test(document.querySelector('.arrived').textContent));
+      await tab.waitForFunction(() => /^40 stored after the outage: 40 reject/.test(document.querySelector('.arrived')?.textContent));
       assert.equal(await tab.$$eval('.arrived li', (items) => items.length), 40);
       assert.deepEqual(tab.errors, []);
     }

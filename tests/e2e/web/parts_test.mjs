@@ -62,7 +62,7 @@ describe('the parts', () => {
   it('are corrected, value or part, with the reason, and not by mistake', async () => {
     await daemon.send('POST', '/v1/measurements', ['25.01', '25.012'].map((text) => ({ designation: '25 H7', measured_mm: text, part_id: 'SN-C', order: 'WO-C' })));
     page = await open(browser, daemon, '#/parts?order=WO-C');
-    const said = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('dialog .note').textContent), text);
+    const said = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('dialog .note')?.textContent), text);
     await page.getByRole('button', { name: 'Correct 25.010 mm of SN-C' }).click();
     await page.click('dialog .primary');
     await said('as they were');
@@ -110,11 +110,11 @@ describe('the parts', () => {
     await page.$eval('dialog button[type="button"]', (cancel) => cancel.click());
     assert.ok(await page.isVisible('dialog'), 'nobody gives up what is stored perhaps');
     go();
-    await page.waitForFunction(() => document.querySelector('dialog .note')?.textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('dialog .note')?.textContent ?? '') !== '');
     lost = false;
     await press();
     await page.waitForSelector('dialog', { state: 'detached' });
-    await page.waitForFunction(() => /looked at/.test(document.querySelector('.records tbody tr').textContent));
+    await page.waitForFunction(() => /looked at/.test(document.querySelector('.records tbody tr')?.textContent));
     await page.click('.records tbody tr >> text=Correct');
     await page.locator('dialog').getByLabel('Part').fill('SN-P');
     await page.getByLabel('Reason').fill('misread');
@@ -190,7 +190,7 @@ describe('what is saved as a file', () => {
     await page.route('**/v1/measurements?*format=xlsx*', (route) => route.fulfill({
       status: 400, contentType: 'application/problem+json', body: '{"code":"export.too_many","detail":"a file has at most 100,000 measurements"}' }));
     await page.getByText('All of it as Excel').click();
-    await page.waitForFunction(() => /100,000/.test(document.querySelector('.parts .note').textContent));
+    await page.waitForFunction(() => /100,000/.test(document.querySelector('.parts .note')?.textContent));
     await isSaved('CSV', 'measurements.csv', 'id,'); // a link alone, after which the driver of Firefox waits for a page
   });
 

@@ -276,7 +276,7 @@ describe('a gauge in use', () => {
 
   it('is offered, says until when it is calibrated, and gives a guard band its uncertainty', async () => {
     const page = await open(browser, daemon, '#/gauge/25H7?gauge=G-07&rule=guard_band');
-    const says = (text) => page.waitForFunction((wanted) => document.querySelector('.gauge-note').textContent === wanted, text);
+    const says = (text) => page.waitForFunction((wanted) => document.querySelector('.gauge-note')?.textContent === wanted, text);
     await says('G-07 calibrated until 31 Mar 2099 · u = 0.5 µm');
     assert.equal(await page.inputValue('[name="uncertainty_um"]'), '0.5');
     await page.waitForSelector('.echo .figures');
@@ -292,7 +292,7 @@ describe('a gauge in use', () => {
     assert.equal(await page.inputValue('[name="uncertainty_um"]'), '', 'that of G-07 is none of G-08');
     await page.focus('#value');
     await page.keyboard.type('25.0131\n');
-    await page.waitForFunction(() => /uncertainty/.test(document.querySelector('#entry-note').textContent));
+    await page.waitForFunction(() => /uncertainty/.test(document.querySelector('#entry-note')?.textContent));
     await page.keyboard.press('Escape');
     await page.click('.more summary');
     await page.fill('[name="gauge"]', 'some other');
@@ -320,7 +320,7 @@ describe('a gauge in use', () => {
     await page.press('dialog input', 'Enter');
     await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
     await page.waitForSelector('.plan select:visible');
-    await page.waitForFunction(() => /G-09 calibrated/.test(document.querySelector('.gauge-note').textContent));
+    await page.waitForFunction(() => /G-09 calibrated/.test(document.querySelector('.gauge-note')?.textContent));
     await page.click('.more summary');
     for (const [name, value] of [['gauge', 'G-09'], ['machine', 'M3'], ['operator', 'Ada']]) await page.waitForSelector(`#offered-${name} option[value="${value}"]`, { state: 'attached' });
     page.errors.length = 0;

@@ -52,7 +52,7 @@ describe('the programs', () => {
     const stored = await (await fetch(`${daemon.url}/v1/files/${PROGRAM}`)).text();
     assert.equal(stored, fs.readFileSync(`${EXAMPLE}/8255.h`, 'utf8'));
     await page.click('.program .actions button:has-text("Check")');
-    await page.waitForFunction(() => document.querySelector('.program .note').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.program .note')?.textContent ?? '') !== '');
     assert.equal((await page.$$('.finding')).length, 0);
     await page.selectOption('.run select', 'hole-good');
     await page.fill('.run .pair textarea', 'Q1 = 25\nQS1 = H7');
@@ -105,7 +105,7 @@ describe('the programs', () => {
     await page.click('dialog button:has-text("Delete")');
     await page.waitForSelector('.empty:not([hidden])');
     await page.setInputFiles('.upload input[type="file"]', { name: 'big.h', mimeType: 'text/plain', buffer: Buffer.alloc(8 * 1024 * 1024 + 1, 32) });
-    await page.waitForFunction(() => document.querySelector('.program .note').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.program .note')?.textContent ?? '') !== '');
     assert.ok(await page.isVisible('.program .note'));
   });
 
@@ -117,9 +117,9 @@ describe('the programs', () => {
     assert.deepEqual(await found(), ['1 CALL LBL 7', '2 FOO']);
     assert.equal(await page.textContent('.cm-place >> nth=1'), 'FOO');
     await page.click('.run button[type="submit"]'); // a run is refused for the same reasons
-    await page.waitForFunction(() => document.querySelector('.run .note').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.run .note')?.textContent ?? '') !== '');
     await page.click('.program .actions button:has-text("Check")');
-    await page.waitForFunction(() => /2/.test(document.querySelector('.program .note').textContent));
+    await page.waitForFunction(() => /2/.test(document.querySelector('.program .note')?.textContent));
     assert.deepEqual(await found(), ['1 CALL LBL 7', '2 FOO']);
     await page.click('.findings button >> nth=1');
     assert.equal(await page.textContent('.cm-activeLine'), '2 FOO');
@@ -147,17 +147,17 @@ describe('the programs', () => {
     await page.waitForSelector('.cm-line.cm-error');
     await page.click('.cm-line >> nth=2');
     await page.keyboard.press('Control+s');
-    await page.waitForFunction(() => !document.querySelector('.title .aside').textContent);
+    await page.waitForFunction(() => document.querySelector('.title .aside')?.textContent === '');
     assert.equal(await there(), 'BEGIN PGM ED MM\r\nTOOL CALL 30 Z\r\nCALL LBL 9 ; nowhere\r\nEND PGM ED MM\r\n');
     // What somebody else has stored meanwhile is not overwritten.
     await daemon.send('PUT', '/v1/files/nc_prog/ed.h', text, 'text/plain');
     await page.keyboard.type('x');
     await page.click('.program .actions button:has-text("Store")');
-    await page.waitForFunction(() => document.querySelector('.program > .note').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.program > .note')?.textContent ?? '') !== '');
     assert.equal(await there(), text);
     await page.click('button:has-text("Discard changes")');
     await page.click('dialog button:has-text("Discard changes")');
-    await page.waitForFunction(() => !document.querySelector('.title .aside').textContent);
+    await page.waitForFunction(() => document.querySelector('.title .aside')?.textContent === '');
     assert.equal((await page.$$('.cm-line')).length, 4); // a line after the last line end
     // A line of a run's move: by the keyboard too. What is run is stored first.
     await page.click('.cm-line >> nth=1');
@@ -201,7 +201,7 @@ describe('the programs', () => {
     await page.click('.cm-line >> nth=0');
     await page.keyboard.press('Control+s');
     await page.keyboard.press('Control+s');
-    await page.waitForFunction(() => !document.querySelector('.title .aside').textContent);
+    await page.waitForFunction(() => document.querySelector('.title .aside')?.textContent === '');
     assert.equal(await page.textContent('.program > .note'), '');
     assert.deepEqual([await there('one'), await there('two')], [texts.one.replace('MM\n', 'MM ; of one\n'), texts.two]);
     await eventually(async () => assert.equal((await daemon.json('/v1/runs?program=TNC:%5Cnc_prog%5Cone.h')).runs.length, 1));

@@ -141,7 +141,7 @@ describe('the reach of the page', () => {
     for (const [view, title] of [['fit', 'Fit'], ['tables', 'Tables'], ['overview', 'Overview'], ['parts', 'Parts'], ['programs', 'Programs'], ['trend', 'Trend']]) {
       await page.focus(`#views a[href^="#/${view}"]`);
       await page.keyboard.press('Enter');
-      await page.waitForFunction((name) => document.querySelector('main h1').textContent === name, title);
+      await page.waitForFunction((name) => document.querySelector('main h1')?.textContent === name, title);
       assert.deepEqual([await focused(), await page.evaluate(() => document.activeElement.tagName)], [title, 'H1']);
     }
     await page.goto(`${daemon.url}/${VIEWS.fit}`);
@@ -160,7 +160,7 @@ describe('the reach of the page', () => {
     await page.waitForSelector(READY.programs);
     await page.focus('.files button:has-text("82551.h")');
     await page.keyboard.press('Enter');
-    await page.waitForFunction(() => document.querySelector('.title').textContent === '82551.h');
+    await page.waitForFunction(() => document.querySelector('.title')?.textContent === '82551.h');
     assert.equal(await focused(), '82551.h');
     await close(page);
   });

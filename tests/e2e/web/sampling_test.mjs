@@ -218,7 +218,7 @@ describe('a sample', () => {
     await measured('SN-2', '25.003');
     await progress(page, '2 of 2 · value 2 of 3');
     await scan(page, 'SN-3'); // changed in the middle
-    await page.waitForFunction(() => document.querySelector('.of-plan').textContent === 'Not measured at SN-2: PARTS-sampled.');
+    await page.waitForFunction(() => document.querySelector('.of-plan')?.textContent === 'Not measured at SN-2: PARTS-sampled.');
     await measure(page, daemon, '25.004', '25.005');
     const again = await openIn(page.context(), daemon, '#/gauge?plan=PARTS&part_id=SN-3'); // another tab
     pages.push(again);

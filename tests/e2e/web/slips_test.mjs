@@ -106,7 +106,7 @@ describe('a key at the wrong moment', () => {
     page = await open(browser, locked, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
     await scan(first);
-    await page.waitForFunction(() => /in use/.test(document.querySelector('.badge').textContent));
+    await page.waitForFunction(() => /in use/.test(document.querySelector('.badge')?.textContent));
     await scan('SN-1');
     await slow('25.011');
     await verdict('good');
@@ -116,7 +116,7 @@ describe('a key at the wrong moment', () => {
     await slow('25.0112');
     await page.waitForSelector('dialog[open]');
     await scan('SN-2');
-    await page.waitForFunction(() => /begins with fg_/.test(document.querySelector('dialog .note').textContent));
+    await page.waitForFunction(() => /begins with fg_/.test(document.querySelector('dialog .note')?.textContent));
     assert.equal(await page.inputValue('[name="part_id"]'), 'SN-2');
     await scan('25.012');
     await page.keyboard.type(`${second}\n`);
@@ -364,7 +364,7 @@ describe('a plan left in the middle', () => {
     await slow('25.004');
     await progress('2 of 3');
     await scan('SN-3');
-    await page.waitForFunction(() => document.querySelector('.of-plan').textContent === 'Not measured at SN-2: bore-2, bore-3.');
+    await page.waitForFunction(() => document.querySelector('.of-plan')?.textContent === 'Not measured at SN-2: bore-2, bore-3.');
     assert.deepEqual(await findings(page), []);
     await slow('25.005');
     await progress('2 of 3');
@@ -383,7 +383,7 @@ describe('a plan left in the middle', () => {
     await verdict('rework');
     await daemon.send('DELETE', '/v1/plans/NEW');
     await scan('SN-3');
-    await page.waitForFunction(() => /no plan NEW/.test(document.querySelector('.of-plan').textContent));
+    await page.waitForFunction(() => /no plan NEW/.test(document.querySelector('.of-plan')?.textContent));
     assert.ok(await page.isVisible('.of-plan'));
   });
 });
@@ -407,7 +407,7 @@ describe('an outage', () => {
     assert.equal(await page.getAttribute('#link', 'data-state'), 'away');
     assert.ok(changes <= 2, `it went and came ${changes} times`);
     await own.start();
-    await page.waitForFunction(() => /1 stored after the outage: 1 reject/.test(document.querySelector('.arrived').textContent));
+    await page.waitForFunction(() => /1 stored after the outage: 1 reject/.test(document.querySelector('.arrived')?.textContent));
     gate.close();
     await own.cleanup();
   });
@@ -418,9 +418,9 @@ describe('an outage', () => {
     await page.evaluate(() => { Storage.prototype.setItem = () => { throw new DOMException('full', 'QuotaExceededError'); }; });
     await page.route(/\/(v1|livez)/, (route) => route.abort());
     await slow('25.01');
-    await page.waitForFunction(() => /no room to keep what waits/.test(document.querySelector('.unkept').textContent));
+    await page.waitForFunction(() => /no room to keep what waits/.test(document.querySelector('.unkept')?.textContent));
     await page.unroute(/\/(v1|livez)/);
-    await page.waitForFunction(() => document.querySelector('.unkept').textContent === '');
+    await page.waitForFunction(() => document.querySelector('.unkept')?.textContent === '');
     assert.equal((await stored('W-FULL')).length, 1);
   });
 });

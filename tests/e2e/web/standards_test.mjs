@@ -16,7 +16,7 @@ afterEach(() => close(page));
 const scan = (text) => scanInto(page, text);
 const measure = (text) => typeSlowly(page, text);
 const verdict = (word) => page.waitForSelector(`.verdict[data-verdict="${word}"]:not([data-provisional])`);
-const echo = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.echo').textContent), pattern);
+const echo = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.echo')?.textContent), pattern);
 const stored = async (part) => (await daemon.stored(`part_id=${part}`)).map(({ designation, feature, measured_mm, verdict: word }) => [designation, feature, measured_mm, word]);
 
 describe('other standards at the station', () => {
@@ -41,7 +41,7 @@ describe('other standards at the station', () => {
     await scan('M12-3A'); // no class of this standard: the number of a part
     assert.equal(await page.inputValue('[name="part_id"]'), 'M12-3A');
     await typeSlowly(page, 'M10-9H'); // typed, it is nothing
-    await page.waitForFunction(() => /Nothing is stored/.test(document.querySelector('#entry-note').textContent));
+    await page.waitForFunction(() => /Nothing is stored/.test(document.querySelector('#entry-note')?.textContent));
   });
 
   it('say whether a general tolerance is of an outside or an inside dimension', async () => {
@@ -139,7 +139,7 @@ describe('the numbers of other standards', () => {
     assert.deepEqual(await texts('Bores, mean diameter'), ['18', '30', '0−10', '0−8', '0−6']);
     assert.deepEqual(await texts('Outer rings, mean diameter'), ['18', '30', '0−9', '0−8', '0−6']);
     await page.fill('#find', '700');
-    await page.waitForFunction(() => document.querySelector('.note').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.note')?.textContent ?? '') !== '');
     await page.selectOption('#standard', 'hole');
     await page.waitForSelector('.grid td');
   });

@@ -127,7 +127,7 @@ describe('a station with a scanner', () => {
     await page.waitForSelector('.verdict[data-provisional="away"]');
     await daemon.start();
     const text = /20 stored after the outage: 17 good, 3 reject/;
-    await page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.arrived').textContent), text.source);
+    await page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.arrived')?.textContent), text.source);
     assert.deepEqual(await page.$$eval('.arrived .figure', (figures) => figures.map((each) => each.textContent)),
       ['25.032 mm', '25.035 mm', '25.036 mm']);
     await verdict('idle');

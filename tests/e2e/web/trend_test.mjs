@@ -136,7 +136,7 @@ describe('the trend', () => {
     assert.equal((await marksOf(page, 'rework')).length, 1);
     const [corrected] = (await daemon.json('/v1/measurements?characteristic=bore-A&verdict=rework')).measurements;
     await daemon.send('POST', `/v1/measurements/${corrected.id}/corrections`, { measured_mm: '25.01', reason: 'test' });
-    await page.waitForFunction(() => document.querySelector('.tiles dd').textContent === '22');
+    await page.waitForFunction(() => document.querySelector('.tiles dd')?.textContent === '22');
     assert.deepEqual(await counts(), [22, 0, 9]);
     await picture(page, 'trend', { fullPage: true });
   });
@@ -192,10 +192,10 @@ describe('the trend', () => {
     await page.waitForSelector('#trend-characteristic option[value="first-time"]', { state: 'attached' });
     await page.route('**/v1/measurements?*', (route) => route.abort());
     await page.selectOption('#trend-count', '200');
-    await page.waitForFunction(() => document.querySelector('.trend .note').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.trend .note')?.textContent ?? '') !== '');
     await page.unroute('**/v1/measurements?*');
     await daemon.send('POST', '/v1/measurements', groove('12.015', 30));
-    await page.waitForFunction(() => document.querySelector('.trend .note').textContent === '');
+    await page.waitForFunction(() => document.querySelector('.trend .note')?.textContent === '');
     page.errors.length = 0;
   });
 
@@ -220,7 +220,7 @@ describe('the trend', () => {
     await page.click('.rules button');
     await page.waitForFunction(() => /centre=33\.5/.test(location.hash));
     await daemon.send('POST', '/v1/measurements', { nominal_mm: 33, feature: 'hole', upper_um: 36, lower_um: 31, measured_mm: '33.0358', characteristic: 'paint', part_id: 'P-16' });
-    await page.waitForFunction(() => /1$/.test(document.querySelector('.in-figures summary').textContent));
+    await page.waitForFunction(() => /1$/.test(document.querySelector('.in-figures summary')?.textContent));
     assert.ok((await lettering(page)).includes('1'), 'the rule stands at the point');
     assert.match(await page.textContent('.stability.doubt'), /Not stable: rule 1 at P-16/);
     assert.ok(near(await lettering(page), 33.52), 'frozen limits stay');
@@ -237,7 +237,7 @@ describe('the trend', () => {
     await page.click('.in-figures button');
     assert.match(await page.textContent('.detail'), /P-16.*breaks rule 1/);
     await page.uncheck('.rules input[value="1"]');
-    await page.waitForFunction(() => /0$/.test(document.querySelector('.in-figures summary').textContent));
+    await page.waitForFunction(() => /0$/.test(document.querySelector('.in-figures summary')?.textContent));
     assert.ok(!(await lettering(page)).includes('1'));
     await picture(page, 'trend-control', { fullPage: true });
   });
@@ -267,10 +267,10 @@ describe('the trend', () => {
     assert.ok(of === 10_000 && from < 9001 && to > 9001 && to - from < 500, `${from} ${to}`);
     const [point] = await marksOf(page, 'reject');
     await page.mouse.click(point.x, point.y);
-    await page.waitForFunction(() => /T-9000/.test(document.querySelector('.detail').textContent));
+    await page.waitForFunction(() => /T-9000/.test(document.querySelector('.detail')?.textContent));
     assert.match(await page.textContent('.detail'), /Reject25\.03\d* mm/);
     await page.$eval('.stretch input', (slider) => { slider.value = 0; slider.dispatchEvent(new Event('input')); });
-    await page.waitForFunction(() => /^1 to/.test(document.querySelector('.stretch span').textContent));
+    await page.waitForFunction(() => /^1 to/.test(document.querySelector('.stretch span')?.textContent));
     assert.deepEqual(await findings(page), []);
     await picture(page, 'trend-stretch', { fullPage: true });
     await page.getByRole('button', { name: 'Show all' }).click();
@@ -356,7 +356,7 @@ describe('the trend', () => {
     assert.ok((await lettering(page)).includes('R'));
     await page.focus('.trend figure');
     await page.keyboard.press('ArrowLeft');
-    await page.waitForFunction(() => /S-25.*74\.013/.test(document.querySelector('.detail').textContent));
+    await page.waitForFunction(() => /S-25.*74\.013/.test(document.querySelector('.detail')?.textContent));
     await picture(page, 'trend-means', { fullPage: true });
     await page.selectOption('#trend-kind', 'xbar_s');
     for (const label of [1.18, 14.36, -12.01, 9.24, 19.3]) await near(label);
@@ -383,7 +383,7 @@ describe('the overview', () => {
     assert.ok(await page.$('.overview tbody tr:last-child .index.in-doubt'), 'five values are no index');
     await picture(page, 'overview', { fullPage: true });
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 5 }, () => ({ designation: '25 H7', measured_mm: '25.09', characteristic: 'ov-fine', machine: 'OV-1' })));
-    await page.waitForFunction(() => /ov-fine45/.test(document.querySelector('.overview tbody tr').textContent));
+    await page.waitForFunction(() => /ov-fine45/.test(document.querySelector('.overview tbody tr')?.textContent));
     assert.match(await page.textContent('.overview tbody tr'), /Not stable/);
     await page.selectOption('#overview-plan', 'OV-PLAN');
     await order(['ov-fine', 'ov-new']);

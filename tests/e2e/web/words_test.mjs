@@ -81,7 +81,7 @@ describe('the words', () => {
       await page.keyboard.type('25.0131\n');
       await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
       await page.keyboard.type('gibberish?\n');
-      await page.waitForFunction(() => document.querySelector('#entry-note').textContent !== '');
+      await page.waitForFunction(() => (document.querySelector('#entry-note')?.textContent ?? '') !== '');
     }],
     'a class that is none': ['#/gauge/25H77', (page) => page.waitForSelector('.echo.wrong')],
     'the fit': ['#/fit/25H7/k6?hole=25.013', (page) => page.waitForSelector('.class-zones :checked')],
