@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
+#include <chrono>
 #include <fstream>
 #include <memory>
 
@@ -16,6 +17,8 @@ namespace {
 
 constexpr std::string_view kRequest =
     "GET /readyz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+
+constexpr std::chrono::seconds kPatience{3};
 
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free_all)>;
 using SslContext = std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>;
@@ -37,9 +40,20 @@ Result<std::string> address_of(const Config& config) {
 
 void limit_waiting(BIO* connection) {
   const int socket = static_cast<int>(BIO_get_fd(connection, nullptr));
-  const timeval limit{.tv_sec = 3, .tv_usec = 0};
+  const timeval limit{.tv_sec = kPatience.count(), .tv_usec = 0};
   setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
   setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+}
+
+/// Calls again what a stop of this process has interrupted, as long as it may wait.
+template <class Call>
+int uninterrupted(BIO* connection, const Call& call) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  int result = call();
+  while (result <= 0 && BIO_should_retry(connection) && std::chrono::steady_clock::now() < end) {
+    result = call();
+  }
+  return result;
 }
 
 }  // namespace
@@ -64,11 +78,14 @@ Result<void> healthcheck(const Config& config) {
     return failed("nothing listens on " + address);
   }
   limit_waiting(connection.get());
-  if (BIO_write(connection.get(), kRequest.data(), static_cast<int>(kRequest.size())) <= 0) {
+  BIO* const io = connection.get();
+  if (uninterrupted(io, [io] {
+        return BIO_write(io, kRequest.data(), static_cast<int>(kRequest.size()));
+      }) <= 0) {
     return failed("cannot write to " + address);
   }
   char answer[64] = {};
-  const int length = BIO_read(connection.get(), answer, sizeof answer);
+  const int length = uninterrupted(io, [&] { return BIO_read(io, answer, sizeof answer); });
   const std::string_view text(answer, length > 0 ? static_cast<std::size_t>(length) : 0);
   const std::string_view line = text.substr(0, text.find('\r'));
   if (!line.starts_with("HTTP/1.1 200")) {
