@@ -38,7 +38,7 @@ class ReorderedWrites(unittest.TestCase):
         daemon = Daemon("--log-level", "error", data=folder / "data", environment={**TRACEABLE, **environment},
                         wrapper=strace(folder / "calls"))
         self.addCleanup(daemon.cleanup)
-        daemon.start(120)
+        daemon.start()
         answers = []
         connection = daemon.connect()
         for number in range(60):
@@ -49,7 +49,7 @@ class ReorderedWrites(unittest.TestCase):
             self.assertEqual(answer.status, 201, answer)
             answers.append({part: record["id"] for part, record in zip(parts, answer.json["measurements"])})
         connection.close()
-        self.assertEqual(daemon.stop(120), 0)
+        self.assertEqual(daemon.stop(), 0)
         record = Record(folder / "calls", folder / "data")
         self.assertEqual(len(record.answers), len(answers), "the record has every answer")
         return record, answers
