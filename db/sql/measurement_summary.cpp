@@ -109,10 +109,9 @@ void MeasurementSummary::add_nodes() {
 }
 
 void MeasurementSummary::add_node(const IndexNode& node) {
-  using Times = IndexNodes::Times;
   const auto found = nodes_.find(node, *filter_).value_or(IndexNodes::Found());
-  if (found.times == Times::Outside) return;
-  if (found.times == Times::Inside &&
+  if (found.times == IndexNodes::Times::Outside) return;
+  if (found.times == IndexNodes::Times::Inside &&
       (others_.empty() ? found.has_aggregates && add_aggregates(node)
                        : found.has_pairs && add_by_others(node))) {
     aggregated_.push_back(node.ids());
