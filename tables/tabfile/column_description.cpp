@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "base/text.hpp"
-#include "tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {
 namespace {
@@ -101,11 +100,11 @@ ColumnDescriptions read_table_description(std::string_view text) {
 
 namespace {
 
-/// Whether a column has what its name and its place in the line do not tell.
+/// Whether a column has what its name and its place in the line do not tell: how wide the last one
+/// is they never do.
 bool is_described(const TabTable& table, const TabColumn& column) {
   const bool is_last = &column == &table.columns().back();
-  return !column.type.empty() || column.decimals ||
-         (is_last && column.width > count_characters(column.name));
+  return !column.type.empty() || column.decimals || is_last;
 }
 
 }  // namespace
