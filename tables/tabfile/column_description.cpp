@@ -31,7 +31,7 @@ std::size_t value_end(std::string_view text) {
     const std::size_t quote = text.find('"', 1);
     return quote == std::string_view::npos ? text.size() : quote + 1;
   }
-  return std::min(text.find_first_of(",)]\n"), text.size());
+  return std::min(text.find_first_of(",)]\r\n"), text.size());
 }
 
 /// The word that ends before `end`.

@@ -38,7 +38,9 @@ bool is_control_character(char c) { return static_cast<unsigned char>(c) < ' ' &
 bool is_end(std::string_view line) { return ascii_iequals(trim(line), "[END]"); }
 
 /// Of a name or type: what would end it in a description.
-bool ends_a_word(char c) { return c == '"' || c == '(' || c == ')' || c == ','; }
+bool ends_a_word(char c) {
+  return c == '"' || c == '(' || c == ')' || c == ',' || static_cast<unsigned char>(c) < ' ';
+}
 
 /// The next word of `text`, which is shortened by it.
 std::string_view take_word(std::string_view& text) {
