@@ -189,7 +189,8 @@ class Reader {
       columns[i].width = places_[i].width - 1;
     }
     std::size_t& last = columns.back().width;
-    last = last == 0 ? kWidestCell : std::max(last, count_characters(columns.back().name));
+    if (last == 0) last = kWidestCell;
+    last = std::max(last, count_characters(columns.back().name));
     ++next_;
     return columns;
   }
