@@ -227,10 +227,16 @@ class Upload {
     return Failure{
         failure.exit_code,
         fmt::format("{}{}; lines {} to {} are not stored, {} rows before them are: correct the "
-                    "lines and run it again",
+                    "lines and run it again{}",
                     problem->title, explained ? "" : ": " + problem->detail, first_line(chunk),
-                    last_line(chunk), grouped(state_.counts.sum()))};
+                    last_line(chunk), grouped(state_.counts.sum()),
+                    may_be_table()
+                        ? ", or with --encoding auto if a gauge or a spreadsheet wrote it"
+                        : "")};
   }
+
+  /// Whether it was sent as it is, and might be taken as RowInput reads it.
+  bool may_be_table() const { return !RowInput::is_one(options_) && state_.counts.sum() == 0; }
 
   /// Of a line of the text that is sent.
   std::uint64_t line_in_file(std::uint64_t line) const {

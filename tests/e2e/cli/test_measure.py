@@ -83,6 +83,18 @@ class Measure(ClientTest):
         self.assert_runs(0, "measure", "e.csv")
         self.assertEqual(self.stored_parts("E-"), [f"E-{i}" for i in range(10)])
 
+    def test_what_is_refused_as_it_is_says_how_a_table_is_read(self):
+        for name, text in (("sep.csv", b"sep=;\nMeasured_MM;Designation;Part_ID;\n25,013;25 H7;T-0;\n;;;\n"),
+                           ("utf16.csv", "Measured_MM;Designation;Part_ID\n25,013;25 H7;T-1\n".encode("utf-16")),
+                           ("old.csv", "designation;measured_mm;part_id\nØ25 H7;25,013;T-2\n".encode("windows-1252"))):
+            with self.subTest(name):
+                (self.client.folder / name).write_bytes(text)
+                done = self.client.run("measure", name)
+                self.assertEqual(done.returncode, 7)
+                self.assertIn("run it again, or with --encoding auto if", done.stderr_text)
+                self.assert_runs(0, "measure", name, "--encoding", "auto")
+        self.assertEqual(self.stored_parts("T-"), ["T-0", "T-1", "T-2"])
+
     def test_a_file_that_was_changed_halfway_is_refused(self):
         self.client.write("f.csv", HEADER + rows(4, "F-") + "25;H7;;F-x\n")
         self.assertEqual(self.client.run("measure", "f.csv", "--chunk", "2").returncode, 7)
