@@ -161,6 +161,28 @@ TEST_CASE("the percentile method of a skewed sample, from its own quantiles") {
   CHECK_FALSE(c.stable);
 }
 
+TEST_CASE("a target in another unit has its cpm and the interval of it") {
+  SpecificationLimits wrong = limits("73.95", "74.05");
+  wrong.target = parse_exact("74000").value().exact();  // micrometres
+  const Capability c = assess_capability(piston_rings(), wrong, 0.95L).value();
+  CHECK(value(c.cpm) == Approx(0.1 / (6 * (74000 - 74.001176))).epsilon(1e-9));
+  // With that many degrees of freedom, n xi^2 / 2, the interval is that of a normal value.
+  const double half = 1.959963984540054 / std::sqrt(125.0) * static_cast<double>(c.overall) / 73926;
+  CHECK(static_cast<double>(c.cpm->upper / c.cpm->value) == Approx(1 + half).epsilon(1e-12));
+  CHECK(static_cast<double>(c.cpm->lower / c.cpm->value) == Approx(1 - half).epsilon(1e-12));
+}
+
+TEST_CASE("chi-square has quantiles for any number of degrees of freedom") {
+  // By Boost, which has them so far.
+  CHECK(static_cast<double>(chi_squared_quantile(0.025L, 1.00001e7L)) ==
+        Approx(9991336.6252278765305).epsilon(1e-15));
+  CHECK(static_cast<double>(chi_squared_quantile(5e-7L, 1e8L)) ==
+        Approx(99930837.070021714753).epsilon(1e-15));
+  CHECK(static_cast<double>(chi_squared_quantile(1 - 5e-7L, 1e10L)) ==
+        Approx(10000691797.432938941).epsilon(1e-15));
+  CHECK(static_cast<double>(chi_squared_quantile(0.975L, 1e30L)) == Approx(1e30).epsilon(1e-14));
+}
+
 TEST_CASE("distributions give the values of the tables") {
   CHECK(static_cast<double>(normal_quantile(0.975L)) == Approx(1.959963984540054).epsilon(1e-15));
   CHECK(static_cast<double>(t_quantile(0.975L, 16)) == Approx(2.1199052992).epsilon(1e-10));
