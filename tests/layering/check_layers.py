@@ -3,7 +3,7 @@
 with the folders.
 
 Fails on an edge that is not listed, on a cycle between files, on a library below or above its
-border (SQLite, Beast, JSON), on a thread that an exception would end, on a name of the tree that is not there
+border (SQLite, Beast, JSON), on a thread that an exception would end, on an error code that nothing makes, on a name of the tree that is not there
 and a room the tree lacks, and when it finds nothing to check.
 """
 
@@ -91,6 +91,7 @@ def main(root: Path) -> int:
     allowed = allowed_edges(architecture)
     findings = tree_findings(architecture, root)
     edges: dict[str, set[str]] = {}
+    made: set[str] = set()
     seen = 0
     for layer, folder in FOLDERS.items():
         for file in sorted((root / folder).rglob("*")):
@@ -99,6 +100,8 @@ def main(root: Path) -> int:
             seen += 1
             name = f"{layer}/{file.relative_to(root / folder)}"
             text = file.read_text(encoding="utf-8")
+            if name != "api/wire/problem.cpp":  # which gives each its status
+                made.update(re.findall(r"ErrorCode::(\w+)", text))
             if layer != "clients" and name != "base/thread.hpp":
                 findings += [f"{folder}/{file.name}: {raw[0]} is a thread that an exception ends: take base/thread.hpp" for raw in RAW_THREAD.finditer(text)]
             for quoted, angled in INCLUDE.findall(text):
@@ -112,6 +115,8 @@ def main(root: Path) -> int:
                     if re.match(pattern, include) and layer not in layers:
                         findings.append(f"{folder}/{file.name}: {include} is not for {layer}")
     findings += cycles(edges)
+    codes = re.findall(r"^FITGAUGE_ERROR\((\w+)", (root / "tables/base/error_codes.inc").read_text(encoding="utf-8"), re.MULTILINE)
+    findings += [f"tables/base/error_codes.inc: nothing makes {code}" for code in codes if code not in made]
     for finding in findings:
         print(finding)
     print(f"{seen} files, {len(findings)} findings")

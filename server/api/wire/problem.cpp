@@ -58,7 +58,6 @@ int status_of(ErrorCode code) {
     case ErrorCode::TargetTooLong: return 414;
     case ErrorCode::MediaTypeUnsupported:
     case ErrorCode::EncodingUnsupported: return 415;
-    case ErrorCode::RangeInvalid: return 416;
     case ErrorCode::ExpectationFailed: return 417;
     case ErrorCode::HeaderTooLarge: return 431;
     case ErrorCode::VersionUnsupported: return 505;
