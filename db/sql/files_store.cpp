@@ -13,9 +13,8 @@ using sql::Blob;
 using sql::Rows;
 
 constexpr std::string_view kEntry =
-    "r.path, r.revision, coalesce(length(r.content), 0), r.modified_at, r.caller, "
-    "r.content IS NULL";
-constexpr int kContent = 6;  ///< the column after an entry's
+    "r.path, r.revision, coalesce(length(r.content), 0), r.modified_at, r.caller";
+constexpr int kContent = 5;  ///< the column after an entry's
 /// Of each file, its deletions among them. Older ones go with the next change.
 constexpr int kKeptRevisions = 20;
 
@@ -24,8 +23,7 @@ FileEntry read_entry(const Rows& rows) {
           .revision = rows.get<std::int64_t>(1),
           .size = rows.get<std::int64_t>(2),
           .modified_at_ns = rows.get<std::int64_t>(3),
-          .caller = rows.get<std::optional<std::string>>(4),
-          .deleted = rows.get<bool>(5)};
+          .caller = rows.get<std::optional<std::string>>(4)};
 }
 
 std::optional<FileContent> read_file(Rows rows) {
@@ -50,16 +48,10 @@ struct FilesStore::Statements {
         find(c, fmt::format("SELECT {}, r.content, {} FROM files f JOIN file_revisions r "
                             "USING (revision) WHERE f.path_key = ?",
                             kEntry, kFileRevisions.is_sound(c, "r"))),
-        find_revision(c, fmt::format("SELECT {}, r.content, {} FROM file_revisions r "
-                                     "WHERE r.revision = ? AND r.content IS NOT NULL",
-                                     kEntry, kFileRevisions.is_sound(c, "r"))),
         list(c, fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
                             "WHERE f.path_key >= ?1 AND substr(f.path_key, 1, length(?1)) = ?1 "
                             "ORDER BY f.path_key",
                             kEntry)),
-        history(c, fmt::format("SELECT {} FROM file_revisions r WHERE r.path_key = ? "
-                               "ORDER BY r.revision DESC",
-                               kEntry)),
         insert(c, kFileRevisions.insert(c) + " RETURNING revision"),
         point(
             c,
@@ -73,9 +65,7 @@ struct FilesStore::Statements {
 
   sql::Statement stat;
   sql::Statement find;
-  sql::Statement find_revision;
   sql::Statement list;
-  sql::Statement history;
   sql::Statement insert;
   sql::Statement point;
   sql::Statement unpoint;
@@ -122,18 +112,9 @@ std::optional<FileContent> FilesStore::find(std::string_view path) const {
   return read_file(statements_->find.query(key));
 }
 
-std::optional<FileContent> FilesStore::find_revision(std::int64_t revision) const {
-  return read_file(statements_->find_revision.query(revision));
-}
-
 std::vector<FileEntry> FilesStore::list(std::string_view prefix) const {
   const std::string key = ascii_upper(prefix);
   return read_entries(statements_->list.query(key));
-}
-
-std::vector<FileEntry> FilesStore::history(std::string_view path) const {
-  const std::string key = ascii_upper(path);
-  return read_entries(statements_->history.query(key));
 }
 
 }  // namespace fitgauge::store

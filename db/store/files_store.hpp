@@ -20,7 +20,6 @@ struct FileEntry {
   std::int64_t size = 0;      ///< bytes
   std::int64_t modified_at_ns = 0;
   std::optional<std::string> caller{};
-  bool deleted = false;  ///< in a history: the file was deleted here
 };
 
 struct FileContent {
@@ -36,7 +35,8 @@ struct FileWrite {
   std::optional<std::string_view> caller{};
 };
 
-/// The files of the control's disk, each with its 20 newest revisions. Paths are opaque texts that
+/// The files of the control's disk. Of each the 20 newest revisions stay in the table
+/// `file_revisions`, deletions among them. Paths are opaque texts that
 /// compare without regard to ASCII case, as on the control.
 class FilesStore {
  public:
@@ -54,10 +54,7 @@ class FilesStore {
 
   std::optional<FileEntry> stat(std::string_view path) const;
   std::optional<FileContent> find(std::string_view path) const;
-  std::optional<FileContent> find_revision(std::int64_t revision) const;
-
-  std::vector<FileEntry> list(std::string_view prefix) const;   ///< by path
-  std::vector<FileEntry> history(std::string_view path) const;  ///< newest first
+  std::vector<FileEntry> list(std::string_view prefix) const;  ///< by path
 
  private:
   struct Statements;

@@ -62,7 +62,8 @@ TEST_CASE("API keys are created, found by token, listed and revoked") {
 
 TEST_CASE("control files keep their case, compare without it, and keep what they replace") {
   Fixture fixture;
-  with_stores(fixture, [](Stores& stores) {
+  std::int64_t replaced = 0;
+  with_stores(fixture, [&replaced](Stores& stores) {
     FilesStore& files = stores.files;
     const std::string binary("\0\xFF\r\n", 4);
     const auto first = files.put({.path = "nc_prog\\8255\\8255.h",
@@ -70,6 +71,7 @@ TEST_CASE("control files keep their case, compare without it, and keep what they
                                   .modified_at_ns = 1,
                                   .caller = "admin"});
     CHECK(first.created);
+    replaced = first.revision;
     const auto second = files.put({.path = "NC_PROG\\8255\\8255.H", .content = binary});
     CHECK_FALSE(second.created);
     CHECK(files.put({.path = "nc_prog\\empty.h", .content = ""}).created);
@@ -79,8 +81,6 @@ TEST_CASE("control files keep their case, compare without it, and keep what they
     REQUIRE(found.has_value());
     CHECK(found->content == binary);
     CHECK(found->entry.path == "NC_PROG\\8255\\8255.H");
-    CHECK(files.find_revision(first.revision)->content == "0 BEGIN PGM");
-    CHECK(files.find_revision(first.revision)->entry.caller == "admin");
     CHECK(files.find("nc_prog\\empty.h")->content.empty());
     CHECK_FALSE(files.find("nc_prog").has_value());
 
@@ -92,27 +92,30 @@ TEST_CASE("control files keep their case, compare without it, and keep what they
     CHECK(files.remove("nc_prog\\8255\\8255.h", 7, std::nullopt));
     CHECK_FALSE(files.remove("nc_prog\\8255\\8255.h", 7, std::nullopt));
     CHECK_FALSE(files.stat("nc_prog\\8255\\8255.h").has_value());
-    const auto history = files.history("nc_prog\\8255\\8255.h");
-    REQUIRE(history.size() == 3);
-    CHECK(history[0].deleted);
-    CHECK(history[0].modified_at_ns == 7);
-    CHECK(history[2].revision == first.revision);
   });
+  const std::string revisions =
+      "SELECT count(*) FROM file_revisions WHERE path_key LIKE '%8255.H' ";
+  CHECK(fixture.query_integer(revisions) == 3);
+  CHECK(fixture.query_integer(revisions + "AND content IS NULL AND modified_at = 7") == 1);
+  CHECK(fixture.query_integer(revisions + "AND length(content) = 11 AND caller = 'admin' " +
+                              "AND revision = " + std::to_string(replaced)) == 1);
 }
 
 TEST_CASE("of a file that is written over and over the newest revisions are kept") {
   Fixture fixture;
-  with_stores(fixture, [](Stores& stores) {
-    FilesStore& files = stores.files;
-    files.put({.path = "other.h", .content = "x"});
-    std::int64_t newest = 0;
-    for (int i = 0; i < 30; ++i) newest = files.put({.path = "a.h", .content = "x"}).revision;
-    REQUIRE(files.history("a.h").size() == 20);
-    CHECK(files.history("a.h")[0].revision == newest);
-    CHECK(files.remove("a.h", 1, std::nullopt));
-    CHECK(files.history("a.h").size() == 20);
-    CHECK(files.history("other.h").size() == 1);
+  const std::string revisions = "SELECT count(*) FROM file_revisions WHERE path_key = ";
+  std::int64_t newest = 0;
+  with_stores(fixture, [&newest](Stores& stores) {
+    stores.files.put({.path = "other.h", .content = "x"});
+    for (int i = 0; i < 30; ++i)
+      newest = stores.files.put({.path = "a.h", .content = "x"}).revision;
   });
+  CHECK(fixture.query_integer(revisions + "'A.H'") == 20);
+  CHECK(fixture.query_integer(revisions + "'A.H' AND revision > " + std::to_string(newest - 20)) ==
+        20);
+  with_stores(fixture, [](Stores& stores) { CHECK(stores.files.remove("a.h", 1, std::nullopt)); });
+  CHECK(fixture.query_integer(revisions + "'A.H'") == 20);
+  CHECK(fixture.query_integer(revisions + "'OTHER.H'") == 1);
 }
 
 TEST_CASE("documents are stored by kind and name") {
