@@ -23,10 +23,11 @@ void ReadPool::Engine::stop() {
 
 void ReadPool::Engine::run() {
   std::unique_ptr<sql::Session> session;
-  while (const std::unique_ptr<ReadJob> job = queue_.take_one()) {
+  while (const auto taken = queue_.take_one()) {
+    ReadJob& job = **taken;
     std::optional<Error> error;
     try {
-      read(session, *job);
+      read(session, job);
     } catch (const StorageFailure& failure) {
       error = failure.error();
     } catch (const std::exception& bug) {
@@ -37,7 +38,7 @@ void ReadPool::Engine::run() {
       session.reset();
       if (error->code == ErrorCode::StorageCorrupt) health_.damaged(error->message);
     }
-    tell(*job, std::move(error));
+    tell(job, std::move(error));
   }
 }
 

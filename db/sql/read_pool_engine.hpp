@@ -22,7 +22,7 @@ class ReadPool::Engine {
   Engine& operator=(const Engine&) = delete;
   ~Engine();
 
-  void enqueue(std::unique_ptr<ReadJob> job) { queue_.push(std::move(job)); }
+  void enqueue(std::unique_ptr<ReadJob> job) { enqueue_or_refuse(queue_, std::move(job)); }
 
   std::size_t queued() const { return queue_.size(); }
 

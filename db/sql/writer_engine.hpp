@@ -33,7 +33,7 @@ class Writer::Engine {
   Engine& operator=(const Engine&) = delete;
   ~Engine();
 
-  void enqueue(std::unique_ptr<WriteJob> job) { queue_.push(std::move(job)); }
+  void enqueue(std::unique_ptr<WriteJob> job) { enqueue_or_refuse(queue_, std::move(job)); }
 
   const WriterCounters& counters() const { return counters_; }
   std::size_t queued() const { return queue_.size(); }
@@ -46,7 +46,7 @@ class Writer::Engine {
   void end(const IdempotentRequest& request);
 
  private:
-  using Jobs = JobQueue<WriteJob>::Jobs;
+  using Jobs = JobQueue<WriteJob>::Items;
   using RequestKey = std::tuple<std::string, std::string, std::string, std::string>;
 
   void run();

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/guarded.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::connections {
@@ -24,7 +23,8 @@ Error read_only(std::string_view name) {
 
 }  // namespace
 
-Connections::Connections(Surroundings around) : around_(std::move(around)) {}
+Connections::Connections(Surroundings around)
+    : around_(std::move(around)), changes_("connections", 1, kMostWaiting) {}
 
 Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> configured,
                                                         Surroundings around) {
@@ -50,12 +50,12 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
       not_started(error.details.empty() ? error.message : error.details.front().message);
     }
   }
-  all->thread_ = Thread("connections", [self = all.get()](const auto& stop) { self->run(stop); });
   return all;
 }
 
 Connections::~Connections() {
-  thread_.stop();
+  stopping_.request_stop();
+  changes_.stop();
   for (const auto& [key, entry] : entries_) entry.worker->request_stop();
 }
 
@@ -99,7 +99,10 @@ std::vector<app::ConnectionState> Connections::states() const {
 }
 
 app::ConnectionCalls Connections::calls() {
-  return {.run = [this](std::function<void()> work) { return submit(std::move(work)); },
+  return {.run =
+              [this](std::function<void()> work) {
+                return changes_.submit(std::move(work)).has_value();
+              },
           .states = [this] { return states(); },
           .state = [this](std::string_view name) -> std::optional<app::ConnectionState> {
             const std::lock_guard lock(mutex_);
@@ -111,25 +114,6 @@ app::ConnectionCalls Connections::calls() {
           .put = [this](const app::ConnectionCalls::Put& order) { return put(order); },
           .remove = [this](const std::string& name) { return remove(name); },
           .test = [this](const std::string& name) { return test(name); }};
-}
-
-bool Connections::submit(std::function<void()> work) {
-  const std::lock_guard lock(mutex_);
-  if (work_.size() == kMostWaiting) return false;
-  work_.push_back(std::move(work));
-  wake_.notify_one();
-  return true;
-}
-
-void Connections::run(const std::stop_token& stop) {
-  std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [this] { return !work_.empty(); })) {
-    const std::function<void()> work = std::move(work_.front());
-    work_.pop_front();
-    lock.unlock();
-    guarded("connections", work);
-    lock.lock();
-  }
 }
 
 Result<bool> Connections::put(const app::ConnectionCalls::Put& order) {
@@ -182,7 +166,7 @@ Result<void> Connections::remove(const std::string& name) {
 Result<app::ConnectionTest> Connections::test(const std::string& name) {
   const auto found = find(name);
   if (!found || found->definition.name != name) return unknown(name);
-  return test_connection(found->definition, around_, thread_.stop_token());
+  return test_connection(found->definition, around_, stopping_.get_token());
 }
 
 }  // namespace fitgauge::connections

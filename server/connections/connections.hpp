@@ -1,18 +1,16 @@
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
-#include <deque>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/thread.hpp"
+#include "base/worker_pool.hpp"
 #include "connections/definition.hpp"
 #include "connections/workers.hpp"
 
@@ -56,8 +54,6 @@ class Connections {
   void end(const std::string& key);
   std::optional<Known> find(std::string_view name) const;
   static app::ConnectionState state_of(const Entry& entry);
-  bool submit(std::function<void()> work);
-  void run(const std::stop_token& stop);
 
   // On the thread.
   Result<bool> put(const app::ConnectionCalls::Put& order);
@@ -67,9 +63,8 @@ class Connections {
   const Surroundings around_;
   mutable std::mutex mutex_;
   std::map<std::string, Entry> entries_;  ///< by name in lower case
-  std::condition_variable_any wake_;
-  std::deque<std::function<void()>> work_;
-  Thread thread_;
+  std::stop_source stopping_;
+  WorkerPool changes_;  // last: it uses all above
 };
 
 }  // namespace fitgauge::connections

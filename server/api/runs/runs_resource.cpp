@@ -36,9 +36,8 @@ void with_run_json(const Services& services, const http::Request& request,
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   if (const auto active = services.runs.active(*id)) {
-    const auto end = active->news(0).end;
-    if (!end) return answer(responder, answer_of(unfinished_run_json(*active)));
-    if (*end) return answer(responder, answer_of((*end)->report));
+    const std::string json = unfinished_run_json(*active);
+    if (!active->is_being_stored()) return answer(responder, answer_of(json));
   }
   services.runs.find(
       *id, [answer_of, shared = share(std::move(responder))](Result<app::StoredRun> run) {

@@ -9,7 +9,7 @@
 #include "app/measurements/measurement_queue.hpp"
 #include "app/measurements/measurement_service.hpp"
 #include "app/measurements/measurement_storage.hpp"
-#include "app/runs/worker_pool.hpp"
+#include "base/worker_pool.hpp"
 #include "store/database.hpp"
 
 // How measurements get into the store; how they are read stands in measurement_service.cpp.
@@ -49,7 +49,8 @@ MeasurementService::MeasurementService(store::Database& database, const TableCat
       origins_(origins),
       queue_(std::make_shared<MeasurementQueue>(database, origins.own(), options.most_waiting,
                                                 options.commit_each)),
-      long_requests_(std::make_unique<WorkerPool>(kLongRequests, options.most_waiting)) {}
+      long_requests_(
+          std::make_unique<WorkerPool>("a long request", kLongRequests, options.most_waiting)) {}
 MeasurementService::~MeasurementService() = default;
 
 void MeasurementService::find_answer(const IdempotencyScope& scope,

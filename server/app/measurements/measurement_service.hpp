@@ -18,12 +18,15 @@ namespace fitgauge::store {
 class Database;
 }
 
+namespace fitgauge {
+class WorkerPool;
+}
+
 namespace fitgauge::app {
 
 class MeasurementQueue;
 class Origins;
 class TableCatalog;
-class WorkerPool;
 
 /// An answer that can be kept under an idempotency key and given again.
 struct Answer {

@@ -43,6 +43,8 @@ class ActiveRun {
   const std::string& program() const { return order_->program.text(); }
   Timestamp created_at() const { return created_at_; }
   RunState state() const;
+  /// Its end is being stored: from now on the store knows more than this.
+  bool is_being_stored() const { return being_stored_; }
 
   /// Seen within a few thousand blocks; a run that is over does not mind.
   void cancel() { stop_.request_stop(); }
@@ -83,6 +85,7 @@ class ActiveRun {
   void started();
   void progressed(std::uint64_t blocks);
   void printed(std::string_view line);
+  void being_stored() { being_stored_ = true; }
   void finished(Result<FinishedRun> end);
 
  private:
@@ -94,6 +97,7 @@ class ActiveRun {
   const std::shared_ptr<const RunOrder> order_;
   const Timestamp created_at_;
   std::stop_source stop_;
+  std::atomic<bool> being_stored_{false};
 
   mutable std::mutex mutex_;
   std::uint64_t version_ = 1;

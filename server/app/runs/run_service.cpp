@@ -30,9 +30,9 @@ RunService::RunService(store::Database& database, const TableCatalog& tables, co
       stored_(database),
       control_tables_(stored_),
       meshes_(stored_),
-      preparing_(1, kPreparing),
+      preparing_("a run's preparation", 1, kPreparing),
       // What may be queued is limited where runs are started.
-      running_(options.workers, options.workers + options.queue) {}
+      running_("a run", options.workers, options.workers + options.queue) {}
 
 RunService::~RunService() { stop(); }
 
@@ -148,6 +148,7 @@ void RunService::end(ActiveRun& active, ExecutedRun executed) {
                          .subject = active.order().subject,
                          .created_at = active.created_at(),
                          .finished_at = clock_.now()};
+  active.being_stored();
   Result<FinishedRun> kept = Error{ErrorCode::Internal, "the end of the run could not be stored"};
   guarded("the end of a run", [&] { kept = keep(report, executed.trace, active.order().caller); });
   guarded("the end of a run", [&] { active.finished(std::move(kept)); });
@@ -204,6 +205,11 @@ std::shared_ptr<ActiveRun> RunService::newest() const {
 }
 
 std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {
+  auto run = own(id);
+  return run && !run->is_being_stored() ? run : nullptr;
+}
+
+std::shared_ptr<ActiveRun> RunService::own(std::int64_t id) const {
   const std::lock_guard lock(mutex_);
   const auto found = active_.find(id);
   return found == active_.end() ? nullptr : found->second.run;

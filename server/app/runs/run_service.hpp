@@ -20,9 +20,9 @@
 #include "app/runs/run_trace.hpp"
 #include "app/runs/shared_runs.hpp"
 #include "app/runs/stored_run.hpp"
-#include "app/runs/worker_pool.hpp"
 #include "app/tables/live_tables.hpp"
 #include "base/thread.hpp"
+#include "base/worker_pool.hpp"
 #include "klartext/diagnostic.hpp"
 
 namespace fitgauge::app {
@@ -107,7 +107,8 @@ class RunService {
   /// @errors RunUnknown.
   Result<std::int64_t> parse_id(std::string_view text) const { return parse_run_id(text, origin_); }
 
-  /// The run while it is queued or under way, else null.
+  /// The run while it is queued or under way; null from when its end is being stored, as the store
+  /// then knows more.
   std::shared_ptr<ActiveRun> active(std::int64_t id) const;
 
   /// The run that began last, under way or over; null before the first. It is kept only where
@@ -155,6 +156,8 @@ class RunService {
                                         Allowance&);
   Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path,
                                  std::optional<std::string> draft = std::nullopt);
+  /// Of any state, until it is forgotten.
+  std::shared_ptr<ActiveRun> own(std::int64_t id) const;
   void run(const std::shared_ptr<ActiveRun>& run);
   bool withdraw(std::int64_t id);
   void end(ActiveRun& active, ExecutedRun executed);

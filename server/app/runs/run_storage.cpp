@@ -173,12 +173,12 @@ void RunService::find(std::int64_t id, Done<StoredRun> done) {
 }
 
 void RunService::follow(std::int64_t id, Done<Followed> done) {
-  if (auto own = active(id)) return done(Followed{std::move(own), {}});
-  find(id, [this, id, done = std::move(done)](Result<StoredRun> run) {
+  if (auto run = active(id)) return done(Followed{std::move(run), {}});
+  find(id, [this, id, own = own(id), done = std::move(done)](Result<StoredRun> run) {
     if (!run) return done(run.error());
     if (!run->report.empty()) return done(Followed{nullptr, *std::move(run)});
     // Between its row and its place in the queue a run is nobody's for a moment.
-    auto followed = shared_ ? shared_->follow(*run) : active(id);
+    auto followed = own ? own : shared_ ? shared_->follow(*run) : this->own(id);
     if (followed) return done(Followed{std::move(followed), {}});
     done(Error{ErrorCode::StorageBusy, "run '" + run->id_text() + "' is being queued; try again"});
   });
@@ -189,9 +189,9 @@ void RunService::cancel(std::int64_t id, Done<void> done) {
     if (!end) return done(end.error());
     done(end->state == RunState::Cancelled ? Result<void>() : too_late(id_text));
   };
-  if (const auto own = active(id); own && !own->news(0).end) {
-    own->on_end(at_end);
-    return cancel(own);
+  if (const auto run = active(id)) {
+    run->on_end(at_end);
+    return cancel(run);
   }
   follow(id, [this, id, at_end, done](Result<Followed> run) {
     if (!run) return done(run.error());

@@ -201,6 +201,24 @@ TEST_CASE("a report that cannot be made ends the run, and the service goes on") 
   CHECK(service.start(Service::order()).has_value());
 }
 
+TEST_CASE("a run whose end is stored is over for everybody, at once") {
+  Service service;
+  service.program("Q1 = 1");
+  for (int i = 0; i < 100; ++i) {
+    const auto run = service.start(Service::order()).value();
+    const auto is_stored = [&] {
+      return !wait_for<StoredRun>([&](auto done) {
+                service->runs().find(run->id(), std::move(done));
+              })->report.empty();
+    };
+    while (!is_stored()) std::this_thread::yield();
+    REQUIRE(service->runs().active(run->id()) == nullptr);
+    const auto followed = wait_for<RunService::Followed>(
+        [&](auto done) { service->runs().follow(run->id(), std::move(done)); });
+    REQUIRE(followed->active == nullptr);
+  }
+}
+
 TEST_CASE("a program that is gone when its turn comes fails with a message") {
   Service service;
   const RunReport report = service.run(Service::order("TNC:\\gone.h"));

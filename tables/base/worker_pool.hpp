@@ -1,17 +1,17 @@
 #pragma once
 
-#include <condition_variable>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
-#include <mutex>
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include "base/bounded_queue.hpp"
 #include "base/thread.hpp"
 
-namespace fitgauge::app {
+namespace fitgauge {
 
 /// A few threads that work off one bounded queue, for what may take long. Owns its threads.
 /// Thread-safe. What a job throws is a bug: it is reported and ends that job alone.
@@ -20,8 +20,9 @@ class WorkerPool {
   using Job = std::function<void()>;
   using Ticket = std::uint64_t;
 
+  /// @param place names the threads in reports of bugs: a literal.
   /// @param queue most jobs that wait; those being run do not count.
-  WorkerPool(unsigned threads, std::size_t queue);
+  WorkerPool(std::string_view place, unsigned threads, std::size_t queue);
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
   ~WorkerPool();
@@ -44,13 +45,10 @@ class WorkerPool {
 
   void run();
 
-  const std::size_t capacity_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Queued> jobs_;
-  Ticket next_ticket_ = 1;
-  bool stopping_ = false;
+  const std::string_view place_;
+  std::atomic<Ticket> last_ticket_{0};
+  BoundedQueue<Queued> queue_;
   std::vector<Thread> threads_;
 };
 
-}  // namespace fitgauge::app
+}  // namespace fitgauge

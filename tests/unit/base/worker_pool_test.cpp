@@ -1,4 +1,4 @@
-#include "app/runs/worker_pool.hpp"
+#include "base/worker_pool.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <future>
 #include <stdexcept>
 
-namespace fitgauge::app {
+namespace fitgauge {
 namespace {
 
 TEST_CASE("a pool refuses what its queue has no room for and finishes what it took") {
@@ -14,7 +14,7 @@ TEST_CASE("a pool refuses what its queue has no room for and finishes what it to
   const auto opened = gate.get_future().share();
   std::promise<void> begun;
   std::atomic<int> done{0};
-  WorkerPool pool(1, 2);
+  WorkerPool pool("a test", 1, 2);
   REQUIRE(pool.submit([&] {
     begun.set_value();
     opened.wait();
@@ -35,7 +35,7 @@ TEST_CASE("a job that waits can be taken back, once, and makes room") {
   const auto opened = gate.get_future().share();
   std::promise<void> begun;
   std::atomic<int> done{0};
-  WorkerPool pool(1, 1);
+  WorkerPool pool("a test", 1, 1);
   const auto running = pool.submit([&] {
     begun.set_value();
     opened.wait();
@@ -54,7 +54,7 @@ TEST_CASE("a job that waits can be taken back, once, and makes room") {
 
 TEST_CASE("a job that throws ends neither its thread nor the jobs behind it") {
   std::atomic<int> done{0};
-  WorkerPool pool(1, 2);
+  WorkerPool pool("a test", 1, 2);
   CHECK(pool.submit([] { throw std::runtime_error("a bug"); }));
   CHECK(pool.submit([&] { ++done; }));
   pool.stop();
@@ -62,4 +62,4 @@ TEST_CASE("a job that throws ends neither its thread nor the jobs behind it") {
 }
 
 }  // namespace
-}  // namespace fitgauge::app
+}  // namespace fitgauge
