@@ -5,10 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/spelling_hint.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/commands.hpp"
@@ -97,34 +98,25 @@ int complain(const Failure& failure, bool json) {
   return end_with(failure.exit_code);
 }
 
-/// How many letters two words differ by (Levenshtein).
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-    }
+/// The words that stand there and are neither a command nor an option.
+std::optional<std::string> what_is_unknown(const CLI::App& command,
+                                           const std::vector<std::string>& words) {
+  const auto option = std::find_if(words.begin(), words.end(),
+                                   [](const auto& word) { return word.starts_with("--"); });
+  const bool wants_command = command.get_require_subcommand_min() > 0;
+  const bool is_option = option != words.end() && (!wants_command || option == words.begin());
+  if (words.empty() || (!is_option && !wants_command)) return std::nullopt;
+  const std::string word = is_option ? option->substr(0, option->find('=')) : words.front();
+  SpellingHint hint(word);
+  for (const CLI::App* app = &command; app != nullptr && is_option; app = app->get_parent()) {
+    for (const CLI::Option* known : app->get_options()) hint.consider(known->get_name());
   }
-  return row.back();
-}
-
-/// The command that a word was meant to be, if there is one like it.
-std::string nearest_command(const CLI::App& app, std::string_view word) {
-  constexpr std::size_t kMostTypos = 2;
-  std::string nearest;
-  std::size_t least = std::min(kMostTypos, word.size() / 2) + 1;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    const std::size_t typos = distance(word, command->get_name());
-    if (typos < least) {
-      least = typos;
-      nearest = command->get_name();
-    }
+  if (!is_option) {
+    for (const CLI::App* known : command.get_subcommands({})) hint.consider(known->get_name());
   }
-  return nearest;
+  std::string text = fmt::format("there is no {} '{}'", is_option ? "option" : "command", word);
+  if (!hint.word().empty()) text += fmt::format("; did you mean '{}'?", hint.word());
+  return text;
 }
 
 /// What cannot be read, and where to read on: at the command as far as it was understood.
@@ -135,14 +127,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
     command = command->get_subcommands().front();
     name += ' ' + command->get_name();
   }
-  std::string what = error.what();
-  const auto words = app.remaining(true);
-  const bool wants_command = command->get_require_subcommand_min() > 0;
-  if (wants_command && !words.empty() && !words.front().starts_with('-')) {
-    const std::string nearest = nearest_command(*command, words.front());
-    what = fmt::format("there is no command '{}'", words.front());
-    if (!nearest.empty()) what += fmt::format("; did you mean '{}'?", nearest);
-  }
+  const std::string what = what_is_unknown(*command, app.remaining(true)).value_or(error.what());
   return fmt::format("{}{} see {} --help", what, what.ends_with('?') ? "" : ";", name);
 }
 

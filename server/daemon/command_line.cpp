@@ -8,6 +8,7 @@
 #include <map>
 
 #include "api/service/version.hpp"
+#include "base/spelling_hint.hpp"
 #include "daemon/commands.hpp"
 #include "daemon/config.hpp"
 #include "daemon/forward_all.hpp"
@@ -43,6 +44,17 @@ std::vector<std::string> environment() {
     variables.emplace_back(*variable);
   }
   return variables;
+}
+
+/// Of the first option that there is not.
+std::string spelling_hint(const CLI::App& app) {
+  for (const std::string& word : app.remaining(true)) {
+    if (!word.starts_with("--")) continue;
+    SpellingHint hint(word.substr(0, word.find('=')));
+    for (const CLI::Option* known : app.get_options()) hint.consider(known->get_name());
+    return hint.text();
+  }
+  return {};
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {
@@ -178,7 +190,9 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "fitgauged: " << error.what() << "; see fitgauged --help\n";
+    const std::string hint = spelling_hint(app);
+    std::cerr << "fitgauged: " << error.what() << (hint.empty() ? ";" : hint)
+              << " see fitgauged --help\n";
     return kUsage;
   }
   try {

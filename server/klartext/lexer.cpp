@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "klartext/spelling_hint.hpp"
+#include "base/spelling_hint.hpp"
 
 namespace fitgauge::klartext {
 namespace {

@@ -5,7 +5,7 @@
 #include "base/text.hpp"
 #include "klartext/parser.hpp"
 #include "klartext/parser_rules.hpp"
-#include "klartext/spelling_hint.hpp"
+#include "base/spelling_hint.hpp"
 
 namespace fitgauge::klartext {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/spelling_hint.hpp"
 #include "klartext/parser.hpp"
-#include "klartext/spelling_hint.hpp"
 #include "program/bound_cycle.hpp"
 #include "program/builder_hint.hpp"
 #include "program/cycle_arguments.hpp"
@@ -107,7 +107,7 @@ class BlockCheck {
 
   void report_unknown(const klartext::CycleParameter& written,
                       const probing::CycleDescriptor& cycle) {
-    klartext::SpellingHint hint(name(written.parameter));
+    SpellingHint hint(name(written.parameter));
     for (const auto& parameter : cycle.parameters) hint.consider(name(parameter));
     report(Severity::Error, DiagnosticCode::CycleParameterUnknown, written.written,
            fmt::format("cycle {} has no parameter {}{}", cycle.number, name(written.parameter),

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/spelling_hint.hpp"
 #include "base/text.hpp"
-#include "klartext/spelling_hint.hpp"
 #include "program/arithmetic.hpp"
 #include "program/diagnose.hpp"
 #include "program/link_check.hpp"
@@ -144,7 +144,7 @@ class Linker {
   std::string similar_label(const Label& label) const {
     const auto* name = std::get_if<Text>(&label);
     if (name == nullptr) return {};
-    klartext::SpellingHint hint(program_.text(*name));
+    SpellingHint hint(program_.text(*name));
     constexpr std::size_t kMostCompared = 1000;
     std::size_t compared = 0;
     for (const auto& [known, at] : parts_.named_labels) {

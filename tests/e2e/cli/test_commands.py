@@ -325,6 +325,11 @@ class Records(ClientTest):
                       self.assert_fails(4, "limit", "25H7"))
         self.assertIn("there is no command 'bogus'; see fitgauge --help", self.assert_fails(4, "bogus"))
         self.assertIn("did you mean 'check'? see fitgauge nc --help", self.assert_fails(4, "nc", "chek", "x"))
+        self.assertIn("there is no option '--machin'; did you mean '--machine'? see fitgauge list --help",
+                      self.assert_fails(4, "list", "--machin", "M7"))
+        self.assertIn("there is no option '--srever'; did you mean '--server'? see fitgauge limits --help",
+                      self.assert_fails(4, "limits", "--srever=x", "25H7"))
+        self.assertIn("there is no option '--bogus'; see fitgauge limits --help", self.assert_fails(4, "--bogus", "limits", "25H7"))
         self.assertIn("see fitgauge gauge --help", self.assert_fails(4, "gauge", "25H7"))
 
     def test_states_of_old_inputs_go(self):

@@ -1,11 +1,11 @@
-#include "klartext/spelling_hint.hpp"
+#include "base/spelling_hint.hpp"
 
 #include <algorithm>
 #include <vector>
 
 #include "base/text.hpp"
 
-namespace fitgauge::klartext {
+namespace fitgauge {
 namespace {
 
 /// Longer words are not compared.
@@ -49,4 +49,4 @@ std::string SpellingHint::text() const {
   return best_.empty() ? std::string() : "; did you mean " + best_ + "?";
 }
 
-}  // namespace fitgauge::klartext
+}  // namespace fitgauge
