@@ -5,7 +5,7 @@ import { connection } from '../connection.js';
 import { h, refill } from '../dom.js';
 import { designationText } from '../designation.js';
 import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
-import { number, signed, t, timeOfDay } from '../i18n.js';
+import { explain, number, signed, t, timeOfDay } from '../i18n.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, verdictShape } from '../verdict.js';
 import { held } from './held.js';
@@ -41,8 +41,16 @@ export function ownLimits(one) {
   };
 }
 
-/** The plan of a part number; undefined where there is none. */
-const planOf = (part) => held(['plans', part]).catch(() => undefined);
+/** {plan} of a part number; {refused} says why there is none. */
+async function planOf(part) {
+  const gone = t('plan.gone', { part });
+  try {
+    const plan = await held(['plans', part]);
+    return plan ? { plan } : { refused: gone };
+  } catch (problem) {
+    return { refused: problem.status === 404 ? gone : explain(problem) };
+  }
+}
 
 export class Plan {
   /**
@@ -118,7 +126,7 @@ export class Plan {
     const asked = { part };
     this.asked = asked;
     this.element.setAttribute('aria-busy', true);
-    const plan = part ? await planOf(part) : undefined;
+    const { plan, refused } = part ? await planOf(part) : {};
     if (this.asked !== asked) return false;
     const { missing } = this;
     // The same plan at another part: the stream has told of its values.
@@ -129,7 +137,7 @@ export class Plan {
     this.plan = this.samples.plan;
     if (again && plan && this.#resume()) return true;
     this.begin(missing);
-    if (part && !plan) this.note.textContent = t('plan.gone', { part });
+    if (refused) this.note.textContent = refused;
     return true;
   }
 

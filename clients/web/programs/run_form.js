@@ -62,16 +62,26 @@ export class RunForm {
     this.slider?.toLine(this.program, line);
   }
 
-  /** Gives up the figure of a run. */
-  forget() {
-    this.figure?.destroy();
-    this.slider = null;
-    this.figure = null;
+  /** Another program is opened: what comes of a run of the one before is not shown below it. */
+  open(program) {
+    this.program = program;
+    this.wanted = undefined;
+    this.#forget();
+    for (const text of [this.note, this.state]) text.textContent = '';
+    this.report.replaceChildren();
   }
 
   leave() {
-    this.left = true;
-    this.forget();
+    this.wanted = undefined;
+    this.#forget();
+  }
+
+  /** Gives up the figure of a run. */
+  #forget() {
+    this.shown = undefined;
+    this.figure?.destroy();
+    this.slider = null;
+    this.figure = null;
   }
 
   async #listEarlier() {
@@ -86,20 +96,25 @@ export class RunForm {
     await this.showRun(id);
   }
 
+  /** Shows a run, unless another, or another program, is asked for before it is here. */
   async showRun(id) {
+    this.wanted = id;
     await this.#show(await (await request('GET', url(['runs', id]))).json());
   }
 
   async #show(run) {
+    if (this.wanted !== run.id) return;
+    this.#forget();
     this.state.textContent = [t(`run.${run.status}`), run.verdict && t(`verdict.${run.verdict}`)].filter(Boolean).join(', ');
     this.shown = run.id;
-    this.forget();
     const onMoves = (slider, figure) => {
-      if (this.shown !== run.id || this.left) return figure.destroy();
+      if (this.shown !== run.id) return figure.destroy();
       Object.assign(this, { slider, figure });
       return null;
     };
-    this.report.replaceChildren(...await runReport(run, { onMoves, onMove: this.onMove }));
+    const report = await runReport(run, { onMoves, onMove: this.onMove });
+    if (this.shown !== run.id) return;
+    this.report.replaceChildren(...report);
     await this.#listEarlier();
   }
 
@@ -153,8 +168,10 @@ export class RunForm {
   async run() {
     if (this.isRunning) return;
     this.isRunning = true;
+    const { program } = this;
     await this.#try(async () => {
       await this.beforeRun();
+      if (this.program !== program) return;
       const response = await request('POST', url(['runs']), {
         body: this.#order(), headers: { 'Content-Type': 'application/json', Prefer: 'respond-async' },
       });
@@ -162,7 +179,10 @@ export class RunForm {
       this.running = run.id;
       this.cancel.hidden = false;
       this.start.disabled = true;
-      this.onRun(run.id, this.setup.value);
+      if (this.program === program) {
+        this.wanted = run.id;
+        this.onRun(run.id, this.setup.value);
+      }
       await this.#followRun(run.id);
     });
     this.isRunning = false;
@@ -178,9 +198,9 @@ export class RunForm {
       if (event.type === 'output') lines.push(data.line);
       if (event.type === 'progress') state.textContent = t(`run.${data.status}`);
       if (event.type === 'end') return this.#show(data);
-      this.report.replaceChildren(state, screenOf(lines));
+      if (this.wanted === id) this.report.replaceChildren(state, screenOf(lines));
     }
-    return this.showRun(id);
+    return this.wanted === id ? this.showRun(id) : undefined;
   }
 
   #cancel() {

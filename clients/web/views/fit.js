@@ -61,7 +61,10 @@ export function mount(main, route) {
     drawn = () => {};
     figure.replaceChildren();
     result.replaceChildren();
+    answered();
   }
+
+  const answered = () => [figure, result].forEach((now) => now.removeAttribute('aria-busy'));
 
   function pick(change) {
     Object.assign(state, change);
@@ -82,6 +85,7 @@ export function mount(main, route) {
     const designation = `${number(state.size)} ${state.hole}/${state.shaft}`;
     typed.value = designation;
     remembered();
+    for (const old of [figure, result]) old.setAttribute('aria-busy', true);
     refill(preferred, preferredFits(state, pick));
     ask();
   }
@@ -109,6 +113,7 @@ export function mount(main, route) {
     drawn = () => figure.replaceChildren(zoneFigure(fit, sizes, figure.clientWidth), clearanceBar(fit, actual, figure.clientWidth));
     drawn();
     result.replaceChildren(...summary(fit, actual), limitsTable(fit, judged, copy));
+    answered();
   }
 
   const verdicts = async (fit, sizes, signal) => Object.fromEntries(await Promise.all(FEATURES

@@ -92,8 +92,7 @@ export function mount(main, route) {
 
   const pick = (path) => attempt(async () => {
     current = path;
-    form.forget();
-    form.report.replaceChildren();
+    form.open(path);
     remember();
     await list();
     await open();
@@ -120,6 +119,7 @@ export function mount(main, route) {
   async function tryOut(one) {
     const { path, setup } = await bringExample(one);
     current = path;
+    form.open(path);
     remember({ setup });
     await list();
     await open({ setup });

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';
 
 import { close, hashOf, open, pasted, picture } from './support/browser.mjs';
+import { hold } from './support/hold.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 let page;
@@ -60,6 +61,19 @@ describe('the fit', () => {
     assert.equal(await page.$('.fit .limits'), null);
     assert.equal(await page.$('.fit .zones'), null);
     assert.equal(await page.$('.fit .headline'), null);
+  });
+
+  it('shows nothing of the last fit while the next one is on its way', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.limits');
+    const go = await hold(page, '**/v1/fits/25H7/s6');
+    await page.click('.preferred button:has-text("H7/s6")');
+    await page.waitForSelector('.limits', { state: 'hidden' });
+    assert.equal(await page.isVisible('.zones'), false);
+    assert.equal(await page.inputValue('.fit .designation'), '25 H7/s6');
+    await go();
+    await page.waitForSelector('.limits', { state: 'visible' });
+    assert.equal(await page.textContent('.fit .headline'), 'Interference fit');
   });
 
   it('draws a zone where the deviations say, to scale', async () => {

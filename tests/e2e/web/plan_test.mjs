@@ -147,6 +147,20 @@ describe('a plan', () => {
     await close(page);
   });
 
+  it('is not said to be gone by a service that cannot answer', async () => {
+    page = await open(browser, daemon, '#/gauge/25H7');
+    await page.waitForSelector('.plan select:visible');
+    await page.route('**/v1/plans/4711-A', (route) => route.fulfill({
+      status: 429, contentType: 'application/problem+json', body: JSON.stringify({ status: 429, title: 'Busy', code: 'service.overloaded', detail: 'too much work' }),
+    }));
+    await scanUnasked(page, '4711-A');
+    await page.waitForFunction(() => (document.querySelector('.of-plan')?.textContent ?? '') !== '');
+    assert.doesNotMatch(await page.textContent('.of-plan'), /no plan/);
+    await page.unroute('**/v1/plans/4711-A');
+    await scanUnasked(page, '4711-A');
+    await page.waitForSelector('.tiles-of-plan li');
+  });
+
   it('demands its reaction over a reload and an outage, once for each value', async () => {
     page = await open(browser, daemon, '#/gauge?plan=4711-A');
     await progress('1 of 3');

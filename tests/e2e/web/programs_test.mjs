@@ -194,6 +194,11 @@ describe('the programs', () => {
     go();
     await page.waitForSelector('.cm-line:has-text("END PGM TWO MM")');
     assert.equal(await page.textContent('.title'), 'two.h', 'nothing of it is not stored');
+    // The run of the one is over where its button can be pressed again, and is not shown below the other.
+    await page.waitForFunction(() => document.querySelector('.run button[type="submit"]')?.disabled === false);
+    await eventually(async () => assert.equal((await daemon.json('/v1/runs?program=TNC:%5Cnc_prog%5Cone.h&status=completed')).runs.length, 1));
+    assert.equal(await page.textContent('.run .report'), '');
+    assert.doesNotMatch(hash(), /run=/);
     await page.click('.files button:has-text("one.h")');
     await page.waitForSelector('.cm-line:has-text("; of one")');
     assert.match(await page.textContent('.title'), /^one\.h.*not stored yet/);
