@@ -90,6 +90,13 @@ bool has_json_body(const http::Route& route) {
   return std::find(types.begin(), types.end(), "application/json") != types.end();
 }
 
+/// A length that is too fine or out of range is 422, in a query as in a body.
+bool takes_length(const http::Route& route) {
+  return std::any_of(route.parameters.begin(), route.parameters.end(), [](const auto& parameter) {
+    return std::holds_alternative<http::LengthIn>(parameter.type);
+  });
+}
+
 /// The refusals the route names, and those that every route of its kind has.
 std::set<int> refusals_of(const http::Route& route) {
   std::set<int> found(route.refusals.begin(), route.refusals.end());
@@ -99,7 +106,7 @@ std::set<int> refusals_of(const http::Route& route) {
   if (!route.response_types.empty()) found.insert(406);
   if (takes_body) found.insert({411, 413});
   if (!route.body.media_types.empty()) found.insert(415);
-  if (has_json_body(route)) found.insert(422);
+  if (has_json_body(route) || takes_length(route)) found.insert(422);
   if (route.pattern.starts_with("/v1/") || route.pattern == "/readyz") found.insert(503);
   return found;
 }

@@ -216,6 +216,7 @@ class Answers(ContractTest):
         for standard in self.expect("listStandards", 200).json["standards"]:
             for table in standard["tables"]:
                 self.expect("getStandard", 200, name=standard["name"], table=table)
+        self.expect("getStandard", 422, name="din6885-1", size_mm="25.0000001")
         for name in ("listMtconnectAsset", "listMtconnectAssets"):
             self.expect(name, 200)
         asset = re.search(r'QIFDocumentWrapper assetId="([^"]+)"', self.daemon.get("/mtconnect/assets").text).group(1)
