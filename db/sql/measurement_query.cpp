@@ -142,6 +142,15 @@ bool MeasurementQuery::run(const MeasurementFilter& filter, const IdSpan& ids, L
                      ids);
 }
 
+bool MeasurementQuery::run_each(const MeasurementFilter& filter, std::span<const std::int64_t> ids,
+                                const Visitor& visit) {
+  if (statements_.size() > kMostKept) statements_.clear();
+  Statement& matching = matching_rows(filter, ListOrder::OldestFirst);
+  return std::all_of(ids.begin(), ids.end(), [&](std::int64_t id) {
+    return scan(matching, {.first = id, .last = id}, ListOrder::OldestFirst, visit);
+  });
+}
+
 /// Whether the rows that are asked for are among those that count now, which nodes add up.
 bool MeasurementQuery::asks_for_current(const MeasurementFilter& filter) {
   const bool is_now = !filter.as_of_id || *filter.as_of_id >= connection_.measurements().last_id();

@@ -60,6 +60,10 @@ class MeasurementQuery {
   bool run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
            const Visitor& visit, const BlockReader& read_block = {});
 
+  /// Visits those of these rows that match. @returns false when the visitor ended the query.
+  bool run_each(const MeasurementFilter& filter, std::span<const std::int64_t> ids,
+                const Visitor& visit);
+
  private:
   static std::vector<FieldValue> postings_of(const MeasurementFilter& filter);
   static bool is_source(const FieldValue& posting);

@@ -229,12 +229,6 @@ void MeasurementSummary::add_later(const IdSpan& ids) {
 
 void MeasurementSummary::add_rows(const IdSpan& ids) {
   if (ids.empty()) return;
-  const auto add_row = [&](const Rows& rows) {
-    ExactStatistics one;
-    one.add(rows.get<std::int64_t>(2));
-    add(rows.get<std::optional<std::string_view>>(0), rows.get<Verdict>(1), one);
-    return fits_;
-  };
   MeasurementQuery::BlockReader by_columns;
   // The index knows runs by their numbers, which other folders have too, and rows that are current
   // now.
@@ -243,7 +237,15 @@ void MeasurementSummary::add_rows(const IdSpan& ids) {
       return add_block(block, rows, among);
     };
   }
-  rows_.run(*filter_, ids, ListOrder::OldestFirst, add_row, by_columns);
+  const auto visit = [this](const Rows& rows) { return add_row(rows); };
+  rows_.run(*filter_, ids, ListOrder::OldestFirst, visit, by_columns);
+}
+
+bool MeasurementSummary::add_row(const Rows& rows) {
+  ExactStatistics one;
+  one.add(rows.get<std::int64_t>(2));
+  add(rows.get<std::optional<std::string_view>>(0), rows.get<Verdict>(1), one);
+  return fits_;
 }
 
 MeasurementQuery::BlockRead MeasurementSummary::add_block(std::int64_t block, const RowSet& rows,
@@ -274,13 +276,15 @@ MeasurementQuery::BlockRead MeasurementSummary::add_block(std::int64_t block, co
 
 /// Aggregates are of current rows: a summary of all rows has the corrected ones as well.
 void MeasurementSummary::add_corrected_rows() {
+  std::vector<std::int64_t> ids;
   auto span = aggregated_.begin();
-  for (Rows rows = corrected_.query(); rows.next() && fits_;) {
+  for (Rows rows = corrected_.query(); rows.next();) {
     const auto id = rows.get<std::int64_t>(0);
     while (span != aggregated_.end() && span->last < id) ++span;
-    if (span == aggregated_.end()) return;
-    if (span->first <= id) add_rows({.first = id, .last = id});
+    if (span == aggregated_.end()) break;
+    if (span->first <= id) ids.push_back(id);
   }
+  rows_.run_each(*filter_, ids, [this](const Rows& rows) { return add_row(rows); });
 }
 
 void MeasurementSummary::add(std::optional<std::string_view> value, Verdict verdict,

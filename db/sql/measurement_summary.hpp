@@ -50,6 +50,7 @@ class MeasurementSummary {
   bool add_sums(const IndexNode& node, const TupleColumn& groups);
   void add_later(const IdSpan& ids);
   void add_rows(const IdSpan& ids);
+  bool add_row(const sql::Rows& rows);
   MeasurementQuery::BlockRead add_block(std::int64_t block, const RowSet& rows, const IdSpan& ids);
   void add_corrected_rows();
   void add(std::optional<std::string_view> value, Verdict verdict,
