@@ -22,6 +22,11 @@ Result<void> check_measured(Length measured) {
                                                 format_mm(measured)};
 }
 
+Result<void> check_uncertainty(Length uncertainty) {
+  if (uncertainty >= Length()) return {};
+  return Error{ErrorCode::LengthOutOfRange, "an uncertainty is not negative", "uncertainty_um"};
+}
+
 Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
   using Kind = gauging::DecisionRule::Kind;
   gauging::CoverageFactor factor;

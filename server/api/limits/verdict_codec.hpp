@@ -10,11 +10,13 @@
 
 namespace fitgauge::api {
 
-/// The largest measured value, in mm: 100 m.
+/// The largest measured value: 100 km.
 inline constexpr Length kLargestMeasured = Length::millimetres(100'000'000);
 
 /// @errors LengthOutOfRange unless 0 < measured <= kLargestMeasured.
 Result<void> check_measured(Length measured);
+/// @errors LengthOutOfRange where it is negative.
+Result<void> check_uncertainty(Length uncertainty);
 
 /// A decision rule as it is written, in the query as in a body.
 struct RuleWords {

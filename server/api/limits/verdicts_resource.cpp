@@ -89,6 +89,9 @@ Result<http::Response> verdict(const http::Request& request,
     measured.added_uncertainty = (*correction)->added_uncertainty(*measured.corrected);
   }
   const std::optional<Length> given = request.length("uncertainty_um");
+  if (given) {
+    if (const auto checked = check_uncertainty(*given); !checked) return checked.error();
+  }
   const auto uncertainty = given ? std::optional(gauging::combined_uncertainty(
                                        *given, measured.added_uncertainty.value_or(0)))
                                  : std::nullopt;

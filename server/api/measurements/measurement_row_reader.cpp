@@ -124,9 +124,9 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
       break;
     case RowField::Uncertainty:
       m.standard_uncertainty = length(field, value, true);
-      if (m.standard_uncertainty && *m.standard_uncertainty < Length()) {
-        report(ErrorCode::LengthOutOfRange, kRowFields[field].name,
-               "an uncertainty is not negative");
+      if (!m.standard_uncertainty) break;
+      if (const auto checked = check_uncertainty(*m.standard_uncertainty); !checked) {
+        report(checked.error().code, kRowFields[field].name, checked.error().message);
       }
       break;
     case RowField::Coverage:

@@ -94,6 +94,13 @@ class Limits(DaemonTest):
             self.assertEqual(answer["verdict"], verdict, measured)
         self.assert_problem(self.daemon.get("/v1/verdicts/25H7?measured_mm=25&rule=guard_band"), 422, "rule.invalid")
 
+    def test_a_negative_uncertainty_is_refused_whatever_it_is_added_to(self):
+        warm = "&temperature_c=25&part_material=steel&temperature_uncertainty_c=0.1"
+        for rule in ("", "&rule=simple", "&rule=guard_band", "&rule=conformance"):
+            for correction in ("", warm):
+                query = f"measured_mm=25.01&uncertainty_um=-5{rule}{correction}"
+                self.assert_problem(self.daemon.get(f"/v1/verdicts/25H7?{query}"), 422, "length.out_of_range")
+
     def test_answers_from_the_tables_are_revalidated(self):
         for path in ("/v1/limits/25H7", "/v1/fits/25H7/g6", "/v1/tables", "/v1/tables/hole", "/v1/tables/hole.tab"):
             tag = self.daemon.get(path).headers["etag"]
