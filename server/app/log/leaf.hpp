@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,9 +22,14 @@ class LeafMaker {
   }
   /// The records of the last call, with commas between them; valid until the next.
   std::string_view records() const { return records_; }
+  /// Those of some of its measurements.
+  std::string_view records(std::size_t first, std::size_t count) const {
+    return records().substr(begins_[first], begins_[first + count] - 1 - begins_[first]);
+  }
 
  private:
   std::string records_;
+  std::vector<std::size_t> begins_;  ///< of each record, and of the one that would follow
   std::vector<tlog::Hash> leaves_;
   tlog::TreeHasher hasher_;
 };

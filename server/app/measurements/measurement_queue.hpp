@@ -5,15 +5,18 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "app/log/leaf.hpp"
 #include "app/measurements/measurement_service.hpp"
+#include "app/measurements/measurement_storage.hpp"
 
 namespace fitgauge::app {
 
-/// Where small requests wait for the writer. All that come before its job begins are stored by that
-/// one job: their rows fill the same statements, and one savepoint serves them all. Thread-safe.
+/// Where small requests wait for the writer. All that come before its job begins and have room in
+/// it are stored by that one: their rows fill the same statements, and one savepoint serves them
+/// all. Thread-safe.
 /// Each job owns a reference to the queue, so the queue outlives them; the database drains its jobs
 /// when it closes.
 class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
@@ -28,31 +31,50 @@ class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
         most_waiting_(most_waiting),
         each_apart_(each_apart) {}
 
-  struct Request {
-    std::vector<Measurement> measurements;
-    MeasurementService::Render render;
-    MeasurementService::Done<Answer> done;
-    Answer answer{};
-  };
+  template <class T>
+  using Done = MeasurementService::Done<T>;
+  using Render = MeasurementService::Render;
 
   /// As MeasurementService::record, of measurements that correct none.
-  void record(Request request);
+  void record(std::span<const Measurement> measurements, Render render, Done<Answer> done);
 
  private:
-  /// What one job stores.
-  using Load = std::vector<Request>;
+  struct Request {
+    std::size_t first;  ///< of its measurements in the load
+    std::size_t count;
+    Render render;
+    Done<Answer> done;
+    Answer answer{};
+  };
+  /// What one job stores: kRowsAtATime measurements, and what the last request has beyond.
+  struct Load {
+    Load() { requests.reserve(kRowsAtATime); }
+    void add(std::span<const Measurement> rows, Render render, Done<Answer> done);
+    std::span<Measurement> of(const Request& request) {
+      return std::span(measurements).subspan(request.first, request.count);
+    }
+
+    std::vector<Measurement> measurements;
+    std::vector<Request> requests;
+    bool is_closed = false;
+  };
 
   void submit(const std::shared_ptr<Load>& load);
   void close(const std::shared_ptr<Load>& load);
+  void keep(const std::shared_ptr<Load>& load);
+  Result<bool> store(store::Stores& stores, Load& load);
   void finish(Load& load, const Result<bool>& stored);
 
   store::Database& database_;
   const std::string_view origin_;
   const std::size_t most_waiting_;
   const bool each_apart_;
-  LeafMaker leaves_;  ///< of the writer thread
+  LeafMaker leaves_;                         ///< of the writer thread
+  std::vector<store::MeasurementRow> rows_;  ///< those of one job, of the writer thread
   std::mutex mutex_;
-  std::shared_ptr<Load> open_;  ///< of the job that has not begun; null when there is none
+  std::size_t waiting_ = 0;      ///< requests whose jobs have not begun
+  std::shared_ptr<Load> open_;   ///< the last whose job has not begun; null when there is none
+  std::shared_ptr<Load> spare_;  ///< empty, with the memory of one that was stored
 };
 
 }  // namespace fitgauge::app

@@ -92,9 +92,7 @@ void MeasurementService::record(std::vector<Measurement> measurements,
   number_revisions(measurements, tables_);
   const bool is_small = measurements.size() <= kRowsAtATime;
   if (is_small && !scope && !measurements.front().correction_of) {
-    return queue_->record({.measurements = std::move(measurements),
-                           .render = std::move(render),
-                           .done = std::move(done)});
+    return queue_->record(measurements, std::move(render), std::move(done));
   }
   auto work = [measurements = std::move(measurements), origin = origins_.own(),
                render = std::move(render)](store::Stores& stores) mutable -> Result<Answer> {

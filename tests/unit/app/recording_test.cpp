@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "app/measurements/record.hpp"
 #include "service_fixture.hpp"
 
 using namespace fitgauge;
@@ -250,4 +251,43 @@ TEST_CASE("one request more than may wait is refused at once") {
   release.set_value();
   CHECK(stored(service) == 5);
   CHECK(accepted == 5);
+}
+
+TEST_CASE("requests that wait together get their own records, in more jobs than one") {
+  /// Compares the records with those of its measurements, each written by itself.
+  class Compared final : public Rendering {
+   public:
+    void add(std::span<const Measurement> measurements, std::string_view records) override {
+      std::string apart;
+      for (const Measurement& m : measurements) {
+        if (!apart.empty()) apart += ',';
+        append_record(apart, m);
+      }
+      CHECK(records == apart);
+    }
+    Answer finish() override {
+      return {.status = 201, .content_type = "", .location = "", .body = ""};
+    }
+  };
+  Service service;
+  std::promise<void> release;
+  std::promise<void> held;
+  std::atomic<int> accepted = 0;
+  const auto post = [&](std::int64_t first, std::int64_t count, MeasurementService::Render render) {
+    service->measurements().record(
+        bores(first, count), std::nullopt, std::move(render),
+        [&](const Result<Answer>& answer) { accepted += answer ? 1 : 0; });
+  };
+  post(0, 1, [&] {
+    held.set_value();
+    release.get_future().wait();
+    return std::make_unique<Compared>();
+  });
+  held.get_future().wait();
+  for (std::int64_t count = 1; count <= 40; ++count) {
+    post(100 * count, count, [] { return std::make_unique<Compared>(); });
+  }
+  release.set_value();
+  CHECK(stored(service) == 1 + 40 * 41 / 2);
+  CHECK(accepted == 41);
 }
