@@ -15,7 +15,13 @@ constexpr char kMeasurementPrefix = 'm';
 constexpr char kRunPrefix = 'r';
 
 std::string id_text(char prefix, std::int64_t id, std::string_view origin) {
-  return fmt::format("{}{}-{}", prefix, id, origin);
+  const fmt::format_int digits(id);  // each record has one: a format string to read costs more
+  std::string text;
+  text.reserve(2 + digits.size() + origin.size());
+  text += prefix;
+  text.append(digits.data(), digits.size());
+  text += '-';
+  return text += origin;
 }
 
 std::optional<std::int64_t> parse_number(char prefix, std::string_view text) {
