@@ -73,7 +73,7 @@ void Connection::advance() {
   if (phase_ == Phase::Closed) return;
   if (writing_) return output_.keep();
   switch (phase_) {
-    case Phase::Idle: return close_after_ ? end() : read_more();
+    case Phase::Idle: return close_after_ ? end() : read_next_request();
     case Phase::Head:
     case Phase::ReadingBody:
     case Phase::FillingBody: return read_more();
@@ -212,13 +212,39 @@ void Connection::read_more() {
     case Phase::Lingering: room = input_.room_to_discard(); break;
     case Phase::FillingBody: room = body_.room(); break;
     case Phase::ReadingBody: room = input_.room_for_body(kMaxFraming); break;
-    case Phase::Idle:
-      deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
-      [[fallthrough]];
     default: room = input_.room_for_head(head_);
   }
   reading_ = true;
   read_some(room);
+}
+
+void Connection::read_next_request() {
+  if (reading_) return;
+  deadline_ = thread_.now() + thread_.shared().options.idle_timeout;
+  if (thread_.next_reads().put(*this)) {
+    reading_ = true;
+  } else {
+    read_more();
+  }
+}
+
+bool Connection::read_in_turn() noexcept {
+  reading_ = false;
+  if (phase_ == Phase::Closed) return true;
+  error_code error;
+  std::size_t count = 0;
+  guarded([&] {
+    count = read_now(input_.room_for_head(head_), error);
+    if (error == asio::error::would_block) read_more();
+  });
+  if (error == asio::error::would_block) return false;
+  on_read(error, count);
+  return true;
+}
+
+std::size_t Connection::read_now(std::span<char>, error_code& error) {
+  error = asio::error::would_block;
+  return 0;
 }
 
 void Connection::end() {

@@ -54,6 +54,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::size_t bytes_waited_for() const;
   std::uint64_t request_id() const { return exchange_.request().id(); }
   void retry_budget();
+  /// For NextReads: reads what has come since the last answer, or waits for it.
+  /// @returns false when nothing had come.
+  bool read_in_turn() noexcept;
   /// The server stops: ends now or after the request in flight.
   void drain();
   void close() noexcept;
@@ -70,6 +73,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Peer& peer() { return peer_; }
 
   virtual void read_some(std::span<char> room) = 0;  ///< then on_read
+  /// What has come by now; `error` is would_block when nothing has, or the transport cannot tell.
+  virtual std::size_t read_now(std::span<char> room, error_code& error);
   /// What the socket takes at once; `broken` when it takes nothing any more.
   virtual std::size_t write_now(std::string_view bytes, bool& broken) = 0;
   virtual void write_some(std::string_view bytes) = 0;  ///< then on_write
@@ -123,6 +128,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void answer(Response&& response);
   void finish_request();
   bool send();
+  void read_next_request();
   void end();
 
   void append_piece(std::string_view bytes);
@@ -132,7 +138,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   IoThread& thread_;
   Peer peer_;
   Phase phase_ = Phase::Opening;
-  bool reading_ = false;
+  bool reading_ = false;  ///< also while it waits for its turn to
   bool writing_ = false;
   bool close_after_ = false;  ///< no further request on this connection
   bool lingers_ = false;      ///< the client may still be sending what is not read any more

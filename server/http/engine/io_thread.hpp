@@ -15,6 +15,7 @@
 #include "http/engine/byte_budget.hpp"
 #include "http/engine/gate.hpp"
 #include "http/engine/http_date.hpp"
+#include "http/engine/next_reads.hpp"
 #include "http/route.hpp"
 #include "http/server.hpp"
 
@@ -67,6 +68,7 @@ class IoThread {
   const HttpDate& date() const { return date_; }
   /// Where the connections write their answers before these leave; see OutputQueue.
   std::string& output() { return output_; }
+  NextReads& next_reads() { return next_reads_; }
   std::uint64_t next_request_id() { return next_request_id_++; }
 
   /// Keeps the connection until it is removed.
@@ -96,6 +98,7 @@ class IoThread {
   /// have theirs.
   asio::io_context context_{BOOST_ASIO_CONCURRENCY_HINT_UNSAFE_IO};
   Timer timer_{context_.get_executor()};
+  NextReads next_reads_{context_};
   const std::chrono::milliseconds interval_;
   Tick now_ = std::chrono::steady_clock::now();
   std::int64_t date_second_ = 0;

@@ -10,6 +10,10 @@ void PlainConnection::read_some(std::span<char> room) {
       });
 }
 
+std::size_t PlainConnection::read_now(std::span<char> room, error_code& error) {
+  return socket_.read_some(asio::buffer(room.data(), room.size()), error);
+}
+
 std::size_t PlainConnection::write_now(std::string_view bytes, bool& broken) {
   error_code error;
   const std::size_t count = socket_.write_some(asio::buffer(bytes.data(), bytes.size()), error);

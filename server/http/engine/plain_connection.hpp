@@ -15,6 +15,7 @@ class PlainConnection final : public Connection {
 
  private:
   void read_some(std::span<char> room) override;
+  std::size_t read_now(std::span<char> room, error_code& error) override;
   std::size_t write_now(std::string_view bytes, bool& broken) override;
   void write_some(std::string_view bytes) override;
   void end_gracefully() override;
