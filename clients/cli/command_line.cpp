@@ -98,7 +98,8 @@ int complain(const Failure& failure, bool json) {
   return end_with(failure.exit_code);
 }
 
-/// The words that stand there and are neither a command nor an option.
+/// Names the first word that is neither a command nor an option, and the one that was meant.
+/// @returns none where all are known, and something else is wrong.
 std::optional<std::string> what_is_unknown(const CLI::App& command,
                                            const std::vector<std::string>& words) {
   const auto option = std::find_if(words.begin(), words.end(),

@@ -36,8 +36,8 @@ struct FileWrite {
 };
 
 /// The files of the control's disk. Of each the 20 newest revisions stay in the table
-/// `file_revisions`, deletions among them. Paths are opaque texts that
-/// compare without regard to ASCII case, as on the control.
+/// `file_revisions`, deletions among them. Paths are opaque texts that compare without regard to
+/// ASCII case, as on the control.
 class FilesStore {
  public:
   explicit FilesStore(sql::Connection& connection);

@@ -53,7 +53,7 @@ void MeasurementQueue::close(const std::shared_ptr<Load>& load) {
   if (open_ == load) open_ = nullptr;
 }
 
-/// For the next job: what one thread takes and another gives back is dear.
+/// For the next job: memory that one thread takes and another gives back costs the allocator most.
 void MeasurementQueue::keep(const std::shared_ptr<Load>& load) {
   load->measurements.clear();
   load->requests.clear();

@@ -85,6 +85,7 @@ class ActiveRun {
   void started();
   void progressed(std::uint64_t blocks);
   void printed(std::string_view line);
+  /// Before its end is stored.
   void being_stored() { being_stored_ = true; }
   void finished(Result<FinishedRun> end);
 

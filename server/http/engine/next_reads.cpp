@@ -17,7 +17,7 @@ bool NextReads::put(Connection& connection) {
     --until_retry_;
     return false;
   }
-  // Posted first: without memory for it, nothing must wait for a turn that does not come.
+  // Posted first: where memory for it is lacking, nothing waits for a turn that does not come.
   if (waiting_.empty()) asio::post(context_, [this] { read(); });
   waiting_.push_back(connection.shared_from_this());
   return true;

@@ -9,45 +9,48 @@
 namespace fitgauge {
 namespace {
 
-TEST_CASE("a pool refuses what its queue has no room for and finishes what it took") {
-  std::promise<void> gate;
-  const auto opened = gate.get_future().share();
+/// A job that goes on until it is let go.
+struct LongJob {
+  void operator()() {
+    begun.set_value();
+    let_go.get_future().wait();
+  }
+
   std::promise<void> begun;
+  std::promise<void> let_go;
+};
+
+TEST_CASE("a pool refuses what its queue has no room for and finishes what it took") {
+  LongJob job;
   std::atomic<int> done{0};
   WorkerPool pool("a test", 1, 2);
   REQUIRE(pool.submit([&] {
-    begun.set_value();
-    opened.wait();
+    job();
     ++done;
   }));
-  begun.get_future().wait();
+  job.begun.get_future().wait();
   CHECK(pool.submit([&] { ++done; }));
   CHECK(pool.submit([&] { ++done; }));
   CHECK_FALSE(pool.submit([&] { ++done; }));
-  gate.set_value();
+  job.let_go.set_value();
   pool.stop();
   CHECK(done == 3);
   CHECK_FALSE(pool.submit([&] { ++done; }));
 }
 
 TEST_CASE("a job that waits can be taken back, once, and makes room") {
-  std::promise<void> gate;
-  const auto opened = gate.get_future().share();
-  std::promise<void> begun;
+  LongJob job;
   std::atomic<int> done{0};
   WorkerPool pool("a test", 1, 1);
-  const auto running = pool.submit([&] {
-    begun.set_value();
-    opened.wait();
-  });
-  begun.get_future().wait();
+  const auto running = pool.submit([&] { job(); });
+  job.begun.get_future().wait();
   const auto waiting = pool.submit([&] { done += 1; });
   REQUIRE(waiting);
   CHECK_FALSE(pool.withdraw(*running));
   CHECK(pool.withdraw(*waiting));
   CHECK_FALSE(pool.withdraw(*waiting));
   CHECK(pool.submit([&] { done += 10; }));
-  gate.set_value();
+  job.let_go.set_value();
   pool.stop();
   CHECK(done == 10);
 }
