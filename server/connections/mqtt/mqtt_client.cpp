@@ -77,6 +77,7 @@ class MqttClient::Loop {
   int turn();
   int carry_out_orders();
   int carry_out(const Order& order);
+  void read_the_rest();
   void settle(int mid, int reason);
   void end(std::string why);
   template <class Change>
@@ -229,9 +230,25 @@ int MqttClient::Loop::carry_out_orders() {
   return MOSQ_ERR_SUCCESS;
 }
 
-/// poll and not mosquitto_loop, which selects: that takes no descriptor above 1023.
+/// Where a write fails, what the broker sent before it went still waits to be read:
+/// acknowledgements, whose messages need not come again, and the reason why it goes.
+void MqttClient::Loop::read_the_rest() {
+  constexpr int kMostPackets = 1000;  // a broker that never ends is not heard out
+  pollfd arrived{mosquitto_socket(handle_.get()), POLLIN, 0};
+  for (int read = 0; read < kMostPackets && arrived.fd >= 0 && poll(&arrived, 1, 0) == 1; ++read) {
+    if (mosquitto_loop_read(handle_.get(), 1) != MOSQ_ERR_SUCCESS) return;
+  }
+}
+
+/// poll and not mosquitto_loop, which selects: that takes no descriptor above 1023. It reads before
+/// it writes, as libmosquitto closes a connection on which a write fails.
 int MqttClient::Loop::turn() {
-  if (const int failed = carry_out_orders(); failed != MOSQ_ERR_SUCCESS) return failed;
+  if (const int failed = carry_out_orders(); failed != MOSQ_ERR_SUCCESS) {
+    const int reason = errno;
+    read_the_rest();
+    errno = reason;
+    return failed;
+  }
   const int socket = mosquitto_socket(handle_.get());
   if (socket < 0) return MOSQ_ERR_CONN_LOST;
   const short events = mosquitto_want_write(handle_.get()) ? POLLIN | POLLOUT : POLLIN;
@@ -241,12 +258,12 @@ int MqttClient::Loop::turn() {
     std::uint64_t rings = 0;
     static_cast<void>(!read(client_.event_, &rings, sizeof rings));
   }
-  if ((waits[0].revents & POLLOUT) != 0) {
-    const int failed = mosquitto_loop_write(handle_.get(), 1);
-    if (failed != MOSQ_ERR_SUCCESS) return failed;
-  }
   if ((waits[0].revents & (POLLIN | POLLHUP | POLLERR)) != 0) {
     const int failed = mosquitto_loop_read(handle_.get(), 1);
+    if (failed != MOSQ_ERR_SUCCESS) return failed;
+  }
+  if ((waits[0].revents & POLLOUT) != 0) {
+    const int failed = mosquitto_loop_write(handle_.get(), 1);
     if (failed != MOSQ_ERR_SUCCESS) return failed;
   }
   return mosquitto_loop_misc(handle_.get());

@@ -138,6 +138,8 @@ class Forgetful:
                 connection, _ = self.server.accept()
             except OSError:
                 return
+            # What it acknowledges has arrived when it ends the connection.
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             threading.Thread(target=self.serve, args=(connection,), daemon=True).start()
 
     def serve(self, connection):
