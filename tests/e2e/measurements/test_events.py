@@ -6,6 +6,7 @@ import threading
 import time
 
 from support.daemon import SANITIZED, Daemon, DaemonTest
+from support.waiting import wait_for
 
 PART = {"designation": "25 H7", "measured_mm": 25.013, "part_id": "SN-1"}
 
@@ -196,18 +197,22 @@ class AfterARestart(DaemonTest):
         back.close()
 
     def test_a_stop_is_not_held_up_by_readers(self):
-        took = []
-        for count in (0, 10):
+        def took(count):
             daemon = Daemon()
             self.addCleanup(daemon.cleanup)
             daemon.start()
             readers = [Reader(daemon).begin() for _ in range(count)]
             began = time.monotonic()
             self.assertEqual(daemon.stop(), 0, daemon.log)
-            took.append(time.monotonic() - began)
+            taken = time.monotonic() - began
             for reader in readers:
                 reader.close()
-        self.assertLess(took[1] - took[0], 5)  # the service waits for 7 s for an answer that is under way
+            daemon.cleanup()
+            return taken
+
+        # The service waits for 7 s for an answer that is under way, always; a busy machine takes as long by chance.
+        alone = took(0)
+        wait_for(lambda: took(10) < alone + 5, "a stop as soon as without readers")
 
 
 class SlowReaders(DaemonTest):

@@ -11,6 +11,7 @@ import socket
 import urllib.parse
 
 from support.daemon import DaemonTest
+from support.waiting import PATIENCE
 
 NDJSON = "application/x-ndjson"
 
@@ -180,7 +181,7 @@ class OneState(DaemonTest):
             # A reader that takes little at a time: the end is not read before the list has changed.
             client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
             client.connect(("127.0.0.1", self.daemon.port))
-            client.settimeout(30)
+            client.settimeout(PATIENCE)
             client.sendall(b"GET /v1/measurements HTTP/1.1\r\nHost: localhost\r\n"
                            b"Accept: application/x-ndjson\r\nConnection: close\r\n\r\n")
             text = client.recv(100, socket.MSG_WAITALL)
