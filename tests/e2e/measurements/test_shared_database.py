@@ -17,6 +17,7 @@ import threading
 import time
 import unittest
 
+from support.control import FOREVER
 from support.daemon import SANITIZED, Daemon, command
 from support.ports import lasting_address
 from support.postgres import Cluster, FrontDoor
@@ -321,11 +322,8 @@ class Together(unittest.TestCase):
 
     def endless_run(self, daemon, seconds=60):
         """Starts a run that only a cancellation or so much time ends. @returns its place"""
-        # The most blocks a run may have would be over in half a second, if they did nothing.
-        words = "QS1 = TOCHAR ( DAT+Q1 DECIMALS4 )\n" * 20
-        self.one.request("PUT", "/v1/files/nc_prog/ENDLESS.H",
-                         f"BEGIN PGM ENDLESS MM\nFN 16: F-PRINT BEGUN.A / SCREEN:\nQ1 = 1\nLBL 1\n{words}"
-                         "FN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM ENDLESS MM\n", {"Content-Type": "text/plain"})
+        lines = ("BEGIN PGM ENDLESS MM", "FN 16: F-PRINT BEGUN.A / SCREEN:", *FOREVER, "END PGM ENDLESS MM\n")
+        self.one.request("PUT", "/v1/files/nc_prog/ENDLESS.H", "\n".join(lines), {"Content-Type": "text/plain"})
         self.one.request("PUT", "/v1/files/nc_prog/BEGUN.A", '"BEGUN";\n', {"Content-Type": "text/plain"})
         order = {"program": "TNC:\\nc_prog\\ENDLESS.H", "limits": {"blocks": 100_000_000, "seconds": seconds}}
         begun = daemon.post("/v1/runs", order, {"Prefer": "respond-async"})

@@ -2,11 +2,9 @@
 
 import unittest
 
-from support.control import ControlTest
+from support.control import FOREVER, ControlTest
 from support.daemon import Daemon
 
-# Slow enough for the time to run out before the blocks do.
-FOREVER = ("LBL 1", f'QS1 = "{"x" * 200}"', "FN 9: IF +1 EQU +1 GOTO LBL 1")
 LONG = {"blocks": 100_000_000, "seconds": 60}
 
 

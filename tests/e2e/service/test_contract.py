@@ -10,6 +10,7 @@ import urllib.parse
 import jsonschema
 
 from support.contract import Contract, Drawing, refuse_others, spoil
+from support.control import FOREVER
 from support.daemon import ROOT, Answer, DaemonTest
 
 PROGRAM = b"""BEGIN PGM HOLE MM
@@ -301,7 +302,7 @@ class Answers(ContractTest):
         self.expect("deletePlan", 204, part="4711-A")
         self.connections()
         order = {"program": "TNC:\\nc_prog\\hole.h", "setup": SETUP, "parameters": {"Q1": 25, "QS1": "H7"},
-                 "limits": {"blocks": 1000, "seconds": 5}, "on_stop": "end", "unreadable": "refuse",
+                 "limits": {"blocks": 1000, "seconds": 60}, "on_stop": "end", "unreadable": "refuse",
                  "part_id": "SN-17", "order": "WO-9"}
         run = self.expect("postRun", 201, order).json
         self.assertEqual(run["status"], "completed", run)
@@ -317,7 +318,8 @@ class Answers(ContractTest):
         self.expect("getRunFile", 200, id=run["id"], name="TCHPR421.TXT")
         self.expect("followRun", 200, id=run["id"])
         self.expect("cancelRun", 409, id=run["id"])
-        self.expect("putFile", 201, b"BEGIN PGM L MM\nLBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\nEND PGM L MM\n", path="endless.h")
+        lines = ("BEGIN PGM L MM", *FOREVER, "END PGM L MM\n")
+        self.expect("putFile", 201, "\n".join(lines).encode(), path="endless.h")
         endless = {"program": "endless.h", "limits": {"blocks": 100_000_000, "seconds": 60}}
         self.expect("cancelRun", 204, id=self.expect("postRun", 202, endless, {"Prefer": "respond-async"}).json["id"])
         self.expect("listRuns", 200)

@@ -6,6 +6,8 @@ import pathlib
 from support.daemon import DaemonTest
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[3] / "clients" / "nc"
+# Without an end: the time of a run is over before the most blocks that it may have, on the fastest machine too.
+FOREVER = ("Q1 = 1", "LBL 1", *["QS1 = TOCHAR ( DAT+Q1 DECIMALS4 )"] * 20, "FN 9: IF +1 EQU +1 GOTO LBL 1")
 BLOCK = {"type": "block", "min_mm": [-300, -300, -60], "max_mm": [300, 300, 0]}
 
 
