@@ -91,8 +91,8 @@ describe('the connections', () => {
     await page.click('form.sheet >> text=Test');
     await says('Reached: ');
     fs.writeFileSync(path.join(folders[0], 'a.csv'), 'Teil,Istwert\nSN-1,25.01\nSN-2,25.03\n');
-    await page.waitForFunction(() => /2 measurements/.test(document.querySelector('.records tbody')?.textContent ?? ''), null, { timeout: 30000 });
-    await page.waitForFunction(() => [...document.querySelectorAll('.records tr[data-state="ok"]')].length === 2, null, { timeout: 30000 });
+    await page.waitForFunction(() => /2 measurements/.test(document.querySelector('.records tbody')?.textContent ?? ''));
+    await page.waitForFunction(() => [...document.querySelectorAll('.records tr[data-state="ok"]')].length === 2);
     assert.deepEqual(await findings(page), []);
     await picture(page, 'connections');
     await page.click('.records >> text=machine'); // what is stored can be changed

@@ -22,7 +22,7 @@ describe('the examples', () => {
     it(`${name} is on the control, run and shown by one tap`, async () => {
       page = await open(browser, daemon, '#/programs');
       await page.click(`.empty button:has-text("${name}")`);
-      await page.waitForSelector('.report .headline:has-text("Completed")', { timeout: 60000 });
+      await page.waitForSelector('.report .headline:has-text("Completed")');
       assert.match(await page.textContent('.report'), done);
       assert.match(hash(), new RegExp(`^#/programs/nc_prog/${name}/${name}.h\\?.*run=r`));
       assert.notEqual(await page.inputValue('.run select'), '');

@@ -7,7 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, describe, it } from 'node:test';
 
-const LONGEST_MS = 60000;
+const LONGEST_MS = 200000;
 const FOLDER = fs.mkdtempSync(path.join(os.tmpdir(), 'fitgauge-harness-'));
 const support = (name) => path.resolve(`tests/e2e/web/support/${name}.mjs`);
 const FAILING = `

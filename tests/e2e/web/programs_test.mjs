@@ -351,7 +351,7 @@ describe('the programs', () => {
     await page.route('**/trace', (route) => route.fulfill({ contentType: 'application/json', body }));
     await page.evaluate((address) => { location.hash = address; }, `#/programs/${PROGRAM}?run=${id}&setup=hole-good`);
     await page.reload();
-    await page.waitForSelector('.moves output', { timeout: 60000 });
+    await page.waitForSelector('.moves output');
     if (!await page.$('.scene')) return test.skip('this browser has no WebGL here');
     const times = await page.evaluate(() => {
       const { responseEnd } = performance.getEntriesByType('resource').find(({ name }) => name.endsWith('/trace'));

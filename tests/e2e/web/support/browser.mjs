@@ -19,12 +19,14 @@ export const PATIENCE_MS = 60000;
 
 const BROWSERS = {
   chromium: () => playwright.chromium.launch({
+    timeout: PATIENCE_MS,
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
       '--disable-component-update', '--disable-sync'],
   }),
   // Debian's own Firefox, by WebDriver BiDi, which tells of no downloads: they go into a folder.
   firefox: () => playwright._bidiFirefox.launch({
+    timeout: PATIENCE_MS,
     executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', channel: 'moz-firefox',
     firefoxUserPrefs: { 'browser.download.folderList': 2, 'browser.download.dir': downloads(), 'browser.download.useDownloadDir': true },
   }),
@@ -52,7 +54,7 @@ export async function saved(page, act) {
     const names = fs.readdirSync(downloads());
     const [name] = names;
     // A file that is not whole yet has another beside it.
-    if (names.length === 1 && fs.statSync(path.join(folder, name)).size > 0 && !name.endsWith('.part')) {
+    if (names.length === 1 && !name.endsWith('.part') && fs.statSync(path.join(folder, name)).size > 0) {
       const bytes = fs.readFileSync(path.join(folder, name));
       fs.rmSync(path.join(folder, name));
       return [name, bytes];

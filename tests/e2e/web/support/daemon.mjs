@@ -2,6 +2,7 @@
 
 import { execFileSync, spawn } from 'node:child_process';
 import fs from 'node:fs';
+import net from 'node:net';
 import os from 'node:os';
 import path from 'node:path';
 
@@ -11,6 +12,25 @@ const FITGAUGED = path.resolve(process.env.FITGAUGED ?? 'build/release/bin/fitga
 const LONGEST_START_MS = 120000;
 /** The service refuses what it does not know: FITGAUGE_DEEP is for the tests. */
 const ENVIRONMENT = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('FITGAUGE_')));
+
+const listens = (server, port) => new Promise((resolve) => {
+  server.once('error', () => resolve(false));
+  server.listen(port, '127.0.0.1', () => resolve(true));
+});
+
+/** A port that nobody gets by chance while its service is away: the system gives it to no connection and to no port 0. */
+async function lastingPort() {
+  const [first, last] = fs.readFileSync('/proc/sys/net/ipv4/ip_local_port_range', 'utf8').split(/\s+/).map(Number);
+  // Browsers refuse 10080; where the system gives all, it gives this one.
+  const own = Array.from({ length: 55000 }, (_, i) => 10100 + i).filter((port) => port < first || port > last);
+  for (;;) {
+    const probe = net.createServer();
+    if (!await listens(probe, own.length ? own[Math.floor(Math.random() * own.length)] : 0)) continue;
+    const { port } = probe.address();
+    await new Promise((resolve) => { probe.close(resolve); });
+    return port;
+  }
+}
 
 export const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
@@ -28,6 +48,7 @@ export class Daemon {
 
   /** Starts it; again on the port it had. */
   async start() {
+    this.port ||= await lastingPort();
     const portFile = path.join(this.folder, 'port');
     fs.rmSync(portFile, { force: true });
     this.process = spawn(FITGAUGED, ['--listen', `127.0.0.1:${this.port}`, '--data', path.join(this.folder, 'data'),
@@ -37,7 +58,6 @@ export class Daemon {
     for (const until = Date.now() + LONGEST_START_MS; !fs.existsSync(portFile); await sleep(10)) {
       if (this.process.exitCode !== null || Date.now() > until) throw new Error('fitgauged does not start');
     }
-    this.port = Number(fs.readFileSync(portFile, 'utf8'));
     return this;
   }
 
