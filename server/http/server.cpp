@@ -115,14 +115,16 @@ void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
     refused_.fetch_add(1, std::memory_order_relaxed);
     return turn_away(std::move(socket), peer);
   }
+  // From here on: its thread may be busy, and others come meanwhile.
+  Place place(shared_.connections);
   TlsContext tls;
   if (shared_.options.tls && !peer.health_only) {
     peer.tls = true;
     const std::lock_guard lock(tls_mutex_);
     tls = tls_;
   }
-  thread.post([&thread, transit = SocketInTransit(std::move(socket)), peer = std::move(peer),
-               tls = std::move(tls)]() mutable {
+  thread.post([&thread, place = std::move(place), transit = SocketInTransit(std::move(socket)),
+               peer = std::move(peer), tls = std::move(tls)]() mutable {
     if (thread.shared().stopping) return;
     Socket arrived = transit.arrive(thread.context());
     std::shared_ptr<Connection> connection;
@@ -132,7 +134,7 @@ void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
     } else {
       connection = std::make_shared<PlainConnection>(thread, std::move(peer), std::move(arrived));
     }
-    thread.add(connection);
+    thread.add(connection, std::move(place));
     connection->start();
   });
 }

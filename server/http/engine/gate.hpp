@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <utility>
 
 namespace fitgauge::http {
 
@@ -34,6 +35,23 @@ class Gate {
   mutable std::mutex mutex_;
   std::condition_variable empty_;
   std::uint64_t inside_ = 0;
+};
+
+/// Holds one inside a gate, which outlives it, until it ends or another takes it over.
+class Place {
+ public:
+  explicit Place(Gate& gate) : gate_(&gate) { gate_->enter(); }
+  Place(Place&& other) noexcept : gate_(std::exchange(other.gate_, nullptr)) {}
+  Place& operator=(Place&&) = delete;
+  ~Place() {
+    if (gate_) gate_->leave();
+  }
+
+  /// From here on it is left by Gate::leave().
+  void stay() { gate_ = nullptr; }
+
+ private:
+  Gate* gate_;
 };
 
 }  // namespace fitgauge::http

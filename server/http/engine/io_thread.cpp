@@ -41,10 +41,10 @@ void IoThread::join() {
   close_all();  // on this thread: the other one has ended
 }
 
-void IoThread::add(std::shared_ptr<Connection> connection) {
+void IoThread::add(std::shared_ptr<Connection> connection, Place place) {
   connection->index = connections_.size();
   connections_.push_back(std::move(connection));
-  shared_.connections.enter();
+  place.stay();
 }
 
 void IoThread::remove(Connection& connection) {

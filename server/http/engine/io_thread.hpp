@@ -71,8 +71,8 @@ class IoThread {
   NextReads& next_reads() { return next_reads_; }
   std::uint64_t next_request_id() { return next_request_id_++; }
 
-  /// Keeps the connection until it is removed.
-  void add(std::shared_ptr<Connection> connection);
+  /// Keeps the connection and its place until it is removed.
+  void add(std::shared_ptr<Connection> connection, Place place);
   void remove(Connection& connection);
 
   void count_request() {  // one writer: no locked instruction

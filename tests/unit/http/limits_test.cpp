@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <latch>
 #include <thread>
 
 #include "support/comes_true.hpp"
@@ -130,6 +131,38 @@ TEST_CASE("connections beyond the cap are answered 503 and closed") {
   CHECK(third.is_closed_by_server());
   CHECK(server.server().counters().connections_refused == 1);
   CHECK(first.ask(get("/a"))->status == 200);
+}
+
+TEST_CASE("a connection counts from its acceptance on, however late its I/O thread comes to it") {
+  std::latch is_held(1);
+  std::latch goes_on(1);
+  std::vector<Route> routes = limited_routes();
+  routes.push_back({.pattern = "/hold",
+                    .handler = [&](const Request&) -> Result<Response> {
+                      is_held.count_down();
+                      goes_on.wait();
+                      return Response(200, "text/plain", "held");
+                    },
+                    .response_types = {}});
+  ServerOptions options;
+  options.io_threads = 2;  // which get the connections in turn
+  options.max_connections = 4;
+  TestServer server(std::move(routes), options);
+  Client first = server.connect();
+  CHECK(first.ask(get("/a"))->status == 200);
+  Client second = server.connect();
+  second.send(get("/hold"));
+  is_held.wait();
+  std::vector<Client> more;
+  for (int i = 0; i < 4; ++i) more.push_back(server.connect());
+  CHECK(comes_true([&] { return server.server().counters().connections_refused == 2; }));
+  goes_on.count_down();
+  CHECK(second.read()->body == "held");
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    const auto answer = i < 2 ? more[i].ask(get("/a")) : more[i].read();
+    REQUIRE(answer);
+    CHECK(answer->status == (i < 2 ? 200 : 503));
+  }
 }
 
 TEST_CASE("half-sent large bodies hold no more than the budget, and others are served meanwhile") {
