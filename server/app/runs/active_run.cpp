@@ -65,18 +65,26 @@ void ActiveRun::change(const Change& change) {
 LiveState ActiveRun::look(Look what, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
   if (!end_) {
-    const std::uint64_t seen = shows_;
+    const std::uint64_t& shows = what == Look::StateAndFiles ? shows_of_files_ : shows_;
+    const std::uint64_t seen = shows;
     if (what > wanted()) wanted_.store(what, std::memory_order_relaxed);
-    shown_.wait_for(lock, patience, [&] { return shows_ != seen || end_; });
+    shown_.wait_for(lock, patience, [&] { return shows != seen || end_; });
   }
   return live_;
 }
 
 void ActiveRun::show(LiveState state) {
   const std::lock_guard lock(mutex_);
-  wanted_.store(Look::Nothing, std::memory_order_relaxed);
-  live_ = std::move(state);
   ++shows_;
+  if (state.files != nullptr) {
+    ++shows_of_files_;
+    wanted_.store(Look::Nothing, std::memory_order_relaxed);
+  } else {
+    // Who has asked for the files meanwhile gets them with the next state.
+    if (wanted() == Look::State) wanted_.store(Look::Nothing, std::memory_order_relaxed);
+    state.files = std::move(live_.files);
+  }
+  live_ = std::move(state);
   shown_.notify_all();
 }
 

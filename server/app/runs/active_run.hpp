@@ -73,7 +73,8 @@ class ActiveRun {
   void on_end(std::function<void(const Result<FinishedRun>&)> done);
 
   /// The state of the machine now, as far as the run tells it within `patience`; else the last one
-  /// it told. A run that is over has told its last. Waits.
+  /// it told, as are the files where they are not asked for. A run that is over has told its last.
+  /// Waits.
   LiveState look(Look what, std::chrono::milliseconds patience);
 
   // For the thread that runs or ends it.
@@ -112,7 +113,8 @@ class ActiveRun {
 
   std::atomic<Look> wanted_{Look::Nothing};
   std::condition_variable shown_;
-  std::uint64_t shows_ = 0;  ///< counts the states shown
+  std::uint64_t shows_ = 0;           ///< counts the states shown
+  std::uint64_t shows_of_files_ = 0;  ///< of them those with files
   LiveState live_;
 };
 

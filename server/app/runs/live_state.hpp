@@ -22,7 +22,7 @@ struct LiveState {
   double tool_length = 0;  ///< mm
   double tool_radius = 0;
   std::vector<interpreter::RunMessage> errors{};
-  /// Written until now; null where they were not asked for.
+  /// Written until now; null as long as nobody has asked for them.
   std::shared_ptr<const std::vector<interpreter::WrittenFile>> files{};
 };
 

@@ -53,6 +53,27 @@ TEST_CASE("a run is asked to stop") {
   CHECK(run.stop_token().stop_requested());
 }
 
+TEST_CASE(
+    "what a run has written stays in sight when it tells where it is, and is told when asked") {
+  using namespace std::chrono_literals;
+  ActiveRun run(1, "5f0c9a3e77d21b40", order(), {});
+  const auto files = std::make_shared<const std::vector<interpreter::WrittenFile>>();
+  const auto newer = std::make_shared<const std::vector<interpreter::WrittenFile>>();
+  CHECK(run.look(Look::StateAndFiles, 0ms).files == nullptr);  // a busy machine: it comes later
+  run.show({.block = 1, .files = files});
+  CHECK(run.wanted() == Look::Nothing);
+  // The files are asked for while the run, asked for its state alone, is about to tell that.
+  CHECK(run.look(Look::State, 0ms).block == 1);
+  CHECK(run.look(Look::StateAndFiles, 0ms).files == files);
+  run.show({.block = 2});
+  CHECK(run.wanted() == Look::StateAndFiles);
+  CHECK(run.look(Look::State, 0ms).block == 2);
+  CHECK(run.look(Look::StateAndFiles, 0ms).files == files);
+  run.show({.block = 3, .files = newer});
+  CHECK(run.wanted() == Look::Nothing);
+  CHECK(run.look(Look::StateAndFiles, 0ms).files == newer);
+}
+
 TEST_CASE("the words of a state are read back") {
   for (const RunState state :
        {RunState::Queued, RunState::Running, RunState::Completed, RunState::Stopped,
