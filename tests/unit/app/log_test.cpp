@@ -17,10 +17,10 @@ using namespace fitgauge::app;
 
 TEST_CASE("who waits for a proof until the end hears so, whatever others do with their answer") {
   // A checkpoint covers a record a second after the last one: a busy machine may be too late for
-  // it.
+  // it, and for what it waits.
   constexpr int kTries = 10;
   auto code = ErrorCode::Internal;
-  for (int i = 0; i < kTries && code == ErrorCode::Internal; ++i) {
+  for (int i = 0; i < kTries && code != ErrorCode::ShuttingDown; ++i) {
     Service service;
     service.record(1);
     while (service->log().head()->checkpoint.size < 1) std::this_thread::yield();
