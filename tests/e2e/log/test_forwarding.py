@@ -116,10 +116,10 @@ class Forwarding(unittest.TestCase):
         self.wait_for_rows(20)
         self.wait_until_drained(station)
         station.stop()
+        self.centre.stop()
         backup = self.centre.folder / "backup"
         shutil.copytree(self.centre.data, backup)
         other = self.made("--origin-name", "centre")
-        self.centre.stop()
         # The centre lost what came after its copy was made: the station's log fills it up again.
         station.start()
         station.measure([PART] * 10)

@@ -113,6 +113,7 @@ class Intake(unittest.TestCase):
         groups = self.daemon.get("/v1/measurements/summary?group_by=tolerance_class").json["groups"]
         self.assertEqual(sum(group["count"] for group in groups), len(listed) - 1)
         # The proof is the station's, and the centre signs beside it.
+        wait_for_size(self.daemon, 4)
         for line in [*records[:8], *listed[-3:]]:
             record = json.loads(line)
             proof = self.daemon.get(f"/v1/measurements/{record['id']}/proof").json

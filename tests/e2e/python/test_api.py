@@ -7,13 +7,13 @@ import typing
 from datetime import datetime, timedelta, timezone
 from decimal import Decimal
 
-from support.control import ControlTest, setup
+from support.control import FOREVER, ControlTest, setup
 from support.daemon import fitgauge
 
 PART = {"designation": "25 H7", "measured_mm": "25.0215", "part_id": "SN-1", "characteristic": "bore-A"}
 COLUMN = [{"over_mm": 18, "up_to_mm": 30, "upper_um": Decimal("15.5"), "lower_um": -3}]
 PROGRAM = "TNC:\\nc_prog\\8255\\8255.h"
-FOREVER = b"0 BEGIN PGM loop MM\n1 LBL 1\n2 FN 9: IF +1 EQU +1 GOTO LBL 1\n3 END PGM loop MM\n"
+ENDLESS = "\n".join(["BEGIN PGM loop MM", *FOREVER, "END PGM loop MM", ""]).encode()
 # The page with its parts, and the same fit in two segments.
 NOT_THE_CLIENTS = {("GET", "/"), ("GET", "/web/{path}"), ("GET", "/v1/fits/{hole}/{shaft}"), ("GET", "/v1/log/revisions")}
 
@@ -143,10 +143,10 @@ class EveryRoute(ControlTest):
 
     def call_control(self, client):
         self.upload_examples()
-        self.assertTrue(client.put_file("some/File 1.h", FOREVER))
-        self.assertFalse(client.put_file("TNC:\\SOME\\file 1.h", FOREVER))
-        self.assertEqual(client.file("some/file 1.h"), FOREVER)
-        self.assertEqual([file["size"] for file in client.files("some/")], [len(FOREVER)])
+        self.assertTrue(client.put_file("some/File 1.h", ENDLESS))
+        self.assertFalse(client.put_file("TNC:\\SOME\\file 1.h", ENDLESS))
+        self.assertEqual(client.file("some/file 1.h"), ENDLESS)
+        self.assertEqual([file["size"] for file in client.files("some/")], [len(ENDLESS)])
         self.assertEqual(client.check(PROGRAM), [])
 
         self.assertTrue(client.put_setup("hole-good", setup("8255/hole-good", fitgauge.loads)))

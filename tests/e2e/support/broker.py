@@ -103,13 +103,13 @@ class Subscriber:
 
     def __init__(self, broker, topic, options=()):
         self.messages = []
-        seen = broker.log.count("\n") if (broker.folder / "log").exists() else 0
+        name = f"test-{len(broker.subscribers)}"
         self.process = subprocess.Popen(
-            ["stdbuf", "-oL", "mosquitto_sub", "-p", str(broker.port), "-c", "-i", f"test-{len(broker.subscribers)}", "-q", "1",
+            ["stdbuf", "-oL", "mosquitto_sub", "-p", str(broker.port), "-c", "-i", name, "-q", "1",
              "-t", topic, "-F", "%t\t%r\t%q\t%x", *options], stdout=subprocess.PIPE, text=True)
         self.thread = threading.Thread(target=self.read, daemon=True)
         self.thread.start()
-        wait_for(lambda: any("Sending SUBACK" in line for line in broker.log.split("\n")[seen:]), lambda: broker.log)
+        wait_for(lambda: f"Sending SUBACK to {name}\n" in broker.log, lambda: broker.log)
 
     def read(self):
         for line in self.process.stdout:

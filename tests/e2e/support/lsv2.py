@@ -9,7 +9,7 @@ from support.waiting import PATIENCE, wait_for
 
 def control_port(daemon, starts=1):
     """Of its last start; the log is written a moment after it."""
-    listening = r'"event":"control_listening","detail":"[^"]* on port (\d+)'
+    listening = r'"event":"control_listening","detail":"[^"]* on port (\d+),'
     return int(wait_for(lambda: re.findall(listening, daemon.log)[starts - 1:])[0])
 
 
@@ -23,6 +23,15 @@ def served(port, *logins):
             client.close()
             return None
     return wait_for(logged_in, "a place at the control")
+
+
+def turned_away(port, count):
+    """What so many clients read that come to a control which has as many as it takes; a hundred come together."""
+    for _ in range(0, count, 100):
+        clients = [Client(port) for _ in range(100)]
+        for client in clients:
+            with client:
+                yield client.read()
 
 
 class Refused(Exception):

@@ -7,8 +7,20 @@ import socket
 RANGE = pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range")
 
 
+def claim(port):
+    """Whether no other test has it: a name that the system keeps as long as this process lives."""
+    with socket.socket(socket.AF_UNIX) as name:
+        try:
+            name.bind(f"\0fitgauge-test-port-{port}")
+        except OSError:
+            return False
+        name.detach()
+        return True
+
+
 def free_port():
-    """One that nobody gets by chance while its service is away: the system gives it to no connection and to no port 0."""
+    """One that nobody gets by chance while its service is away: the system gives it to no connection and to no port 0,
+    and no test chooses it again."""
     first, last = map(int, RANGE.read_text().split())
     lasting = [*range(10_000, first), *range(last + 1, 65_536)] or range(10_000, 65_536)
     while True:
@@ -19,7 +31,8 @@ def free_port():
                 probe.bind(("127.0.0.1", port))
             except OSError:
                 continue
-        return port
+        if claim(port):
+            return port
 
 
 def lasting_address():
