@@ -10,7 +10,7 @@ import unittest
 from support.cli import FITGAUGE, Client, ClientTest
 from support.control import EXAMPLES
 from support.daemon import Daemon
-from support.waiting import wait_for
+from support.waiting import PATIENCE, wait_for
 
 
 class Tables(ClientTest):
@@ -121,7 +121,7 @@ class Refusals(ClientTest):
                 process = subprocess.Popen([FITGAUGE, "gauge", "25H7", "25.013"], stdout=follower,
                                            env={**self.client.environment, "TERM": "xterm",
                                                 **environment})
-                process.wait(30)
+                process.wait(PATIENCE)
                 os.close(follower)
                 self.assertEqual(b"\x1b[32mGOOD" in os.read(leader, 4096), coloured)
                 os.close(leader)
