@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kBatch = std::size_t{64} << 10;
 /// A sender of a body that is silent for longer gives way when others wait for memory.
 constexpr auto kStalled = std::chrono::seconds(1);
+/// A sender that was refused is waited for until it is silent for so long.
 constexpr auto kLinger = std::chrono::seconds(2);
 
 const Refusal kTimedOut{408, ErrorCode::RequestTimeout, "The request took too long to arrive."};
@@ -39,7 +40,10 @@ void Connection::on_read(const error_code& error, std::size_t count) noexcept {
   if (phase_ == Phase::Closed) return;
   if (error) return close();
   guarded([&] {
-    if (phase_ == Phase::Lingering) return read_more();
+    if (phase_ == Phase::Lingering) {
+      if (!thread_.shared().stopping) linger();
+      return read_more();
+    }
     if (phase_ == Phase::Idle && close_after_) return;  // refused while it was being read
     last_body_byte_ = thread_.now();
     if (phase_ == Phase::FillingBody) {
@@ -250,9 +254,12 @@ std::size_t Connection::read_now(std::span<char>, error_code& error) {
 void Connection::end() {
   if (reading_ || (!lingers_ && !peer_.tls)) return close();
   phase_ = Phase::Lingering;
-  deadline_ = thread_.now() + kLinger;
+  request_deadline_ = thread_.now() + thread_.shared().options.request_timeout;
+  linger();
   end_gracefully();
 }
+
+void Connection::linger() { deadline_ = std::min(thread_.now() + kLinger, request_deadline_); }
 
 void Connection::close() noexcept {
   if (phase_ == Phase::Closed) return;

@@ -130,6 +130,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool send();
   void read_next_request();
   void end();
+  void linger();
 
   void append_piece(std::string_view bytes);
   void take_piece(std::string_view bytes, bool is_last);

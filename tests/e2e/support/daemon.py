@@ -1,5 +1,6 @@
 """A fitgauged of one's own: the binary of $FITGAUGED on a free port, its data in a new folder."""
 
+import contextlib
 import http.client
 import json
 import os
@@ -161,7 +162,8 @@ class Daemon:
             body = body.encode()
         own = connection or self.connect()
         try:
-            own.request(method, path, body, headers)
+            with contextlib.suppress(BrokenPipeError):  # refused before it had all: the answer is there
+                own.request(method, path, body, headers)
             return Answer(own.getresponse())
         finally:
             if connection is None:

@@ -165,6 +165,22 @@ TEST_CASE("a connection counts from its acceptance on, however late its I/O thre
   }
 }
 
+TEST_CASE("a sender who was refused reads the answer at its own pace, as long as it sends") {
+  TestServer server(limited_routes());
+  // A machine that stands still makes it silent by chance.
+  const auto is_heard_out = [&] {
+    Client client = server.connect();
+    bool goes_on = client.send(post_head(kLimit + 1));
+    for (int i = 0; i < 40 && goes_on; ++i) {
+      std::this_thread::sleep_for(100ms);
+      goes_on = client.send("x");
+    }
+    const auto answer = client.read();
+    return goes_on && answer && answer->status == 413;
+  };
+  CHECK(comes_true(is_heard_out));
+}
+
 TEST_CASE("half-sent large bodies hold no more than the budget, and others are served meanwhile") {
   ServerOptions options;
   options.body_budget = 2'500'000;  // two bodies and a half
