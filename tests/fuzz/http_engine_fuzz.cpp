@@ -151,7 +151,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   IoThread thread(shared, 1);
   const auto connection =
       std::make_shared<MemoryConnection>(thread, Peer{.address = "127.0.0.1", .loopback = true});
-  thread.add(connection);
+  thread.add(connection, Place(shared.connections));
   connection->start();
   // Every step takes bytes or sends some: there are no more of them than bytes and answers.
   while (connection->step(unsent, most) || thread.context().poll() > 0) thread.context().restart();
