@@ -104,7 +104,9 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
   std::deque<Ahead> ahead;
   std::size_t sent = 0;
   while (true) {
-    const bool sends_more = std::chrono::steady_clock::now() < until && !stop.stop_requested();
+    // Also where the thread stood still meanwhile: what sends nothing tells nothing of the broker.
+    const bool is_in_time = sent == 0 || std::chrono::steady_clock::now() < until;
+    const bool sends_more = is_in_time && !stop.stop_requested();
     while (sends_more && sent < items.size() && ahead.size() < kMostAhead) {
       Published published = compose(items[sent++]);
       ahead.push_back(
