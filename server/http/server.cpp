@@ -183,16 +183,12 @@ ServerCounters Server::Impl::counters() const {
 /// When it returns, no I/O thread calls a handler, a hook or a stream any more.
 void Server::Impl::stop() {
   if (shared_.stopping.exchange(true) || threads_.empty()) return;
-  // Each thread is inside the gate until it has told its connections.
-  for (std::size_t i = 0; i < threads_.size(); ++i) shared_.connections.enter();
-  threads_.front()->post([this] {
+  // Each thread has a place until it has told its connections, the first until all have one.
+  threads_.front()->post([this, first = Place(shared_.connections)] {
     for (const auto& listener : listeners_) listener->close();
     // Sockets accepted before are dealt already: what is posted now comes after them.
     for (const auto& thread : threads_) {
-      thread->post([&each = *thread] {
-        each.drain();
-        each.shared().connections.leave();
-      });
+      thread->post([&each = *thread, place = Place(shared_.connections)] { each.drain(); });
     }
   });
   shared_.connections.wait_until_empty(shared_.options.drain_timeout);

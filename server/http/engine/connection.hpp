@@ -61,7 +61,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void drain();
   void close() noexcept;
 
-  std::size_t index = 0;  ///< its place in the thread's list
+  std::size_t index = 0;         ///< in the thread's list
+  std::optional<Place> place{};  ///< among all that are open, while it is in that list
 
  protected:
   void begin();  ///< the transport is ready for requests

@@ -8,18 +8,9 @@
 
 namespace fitgauge::http {
 
-/// Counts who is inside, and lets one wait until all have left. Thread-safe.
+/// Counts who has a Place inside, and lets one wait until all have left. Thread-safe.
 class Gate {
  public:
-  void enter() {
-    const std::lock_guard lock(mutex_);
-    ++inside_;
-  }
-  void leave() {
-    const std::lock_guard lock(mutex_);
-    if (--inside_ == 0) empty_.notify_all();
-  }
-
   std::uint64_t inside() const {
     const std::lock_guard lock(mutex_);
     return inside_;
@@ -32,12 +23,22 @@ class Gate {
   }
 
  private:
+  friend class Place;
+  void enter() {
+    const std::lock_guard lock(mutex_);
+    ++inside_;
+  }
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    if (--inside_ == 0) empty_.notify_all();
+  }
+
   mutable std::mutex mutex_;
   std::condition_variable empty_;
   std::uint64_t inside_ = 0;
 };
 
-/// Holds one inside a gate, which outlives it, until it ends or another takes it over.
+/// Whoever has it is inside the gate, which outlives it.
 class Place {
  public:
   explicit Place(Gate& gate) : gate_(&gate) { gate_->enter(); }
@@ -46,9 +47,6 @@ class Place {
   ~Place() {
     if (gate_) gate_->leave();
   }
-
-  /// From here on it is left by Gate::leave().
-  void stay() { gate_ = nullptr; }
 
  private:
   Gate* gate_;

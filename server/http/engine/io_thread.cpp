@@ -43,15 +43,15 @@ void IoThread::join() {
 
 void IoThread::add(std::shared_ptr<Connection> connection, Place place) {
   connection->index = connections_.size();
+  connection->place.emplace(std::move(place));
   connections_.push_back(std::move(connection));
-  place.stay();
 }
 
 void IoThread::remove(Connection& connection) {
   connections_.back()->index = connection.index;
   std::swap(connections_[connection.index], connections_.back());
+  connection.place.reset();
   connections_.pop_back();
-  shared_.connections.leave();
 }
 
 template <class Function>
