@@ -9,8 +9,8 @@
 #include "cli/address.hpp"
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
-#include "control_link/link_client.hpp"
-#include "control_link/virtual_names.hpp"
+#include "plant/lsv2/link/link_client.hpp"
+#include "plant/lsv2/link/virtual_names.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/address.hpp"
-#include "http_client/curl_handle.hpp"
+#include "http/client/curl_handle.hpp"
 
 namespace fitgauge::cli {
 namespace {

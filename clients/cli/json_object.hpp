@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
 
 namespace fitgauge::cli {
 

@@ -10,7 +10,7 @@
 #include "cli/progress.hpp"
 #include "cli/retry.hpp"
 #include "cli/row_input.hpp"
-#include "sheet/exported_record.hpp"
+#include "formats/sheet/exported_record.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sheet/shop_csv.hpp"
+#include "formats/sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
 namespace {

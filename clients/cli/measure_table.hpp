@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/measure_command.hpp"
-#include "sheet/shop_csv.hpp"
+#include "formats/sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
 

@@ -11,7 +11,7 @@
 #include "cli/json_object.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
-#include "log_reader/measuring_log.hpp"
+#include "formats/measuring_log/measuring_log.hpp"
 
 namespace fitgauge::cli {
 namespace {

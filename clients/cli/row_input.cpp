@@ -7,19 +7,19 @@
 #include <variant>
 #include <vector>
 
-#include "aqdef/measurement_csv.hpp"
 #include "base/length.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/input_file.hpp"
 #include "cli/measure_table.hpp"
 #include "cli/problem.hpp"
-#include "qif/qif_csv.hpp"
-#include "sheet/append_next.hpp"
-#include "sheet/exported_record.hpp"
-#include "sheet/measurement_fields.hpp"
-#include "sheet/ndjson_rows.hpp"
-#include "sheet/shop_csv.hpp"
+#include "formats/dfq/measurement_csv.hpp"
+#include "formats/qif/qif_csv.hpp"
+#include "formats/sheet/append_next.hpp"
+#include "formats/sheet/exported_record.hpp"
+#include "formats/sheet/measurement_fields.hpp"
+#include "formats/sheet/ndjson_rows.hpp"
+#include "formats/sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
 namespace {

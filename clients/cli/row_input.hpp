@@ -8,7 +8,7 @@
 #include "cli/context.hpp"
 #include "cli/measure_command.hpp"
 #include "cli/outcome.hpp"
-#include "sheet/shop_csv.hpp"
+#include "formats/sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
 

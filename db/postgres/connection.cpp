@@ -1,15 +1,15 @@
-#include "postgres/connection.hpp"
+#include "db/postgres/connection.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <stdexcept>
 
-#include "postgres/failure.hpp"
-#include "postgres/measurement_table.hpp"
-#include "postgres/prepared.hpp"
-#include "postgres/wire.hpp"
-#include "store/storage_failure.hpp"
+#include "db/postgres/failure.hpp"
+#include "db/postgres/measurement_table.hpp"
+#include "db/postgres/prepared.hpp"
+#include "db/postgres/wire.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

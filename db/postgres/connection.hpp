@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "sql/connection.hpp"
+#include "db/sql/connection.hpp"
 
 namespace fitgauge::store::postgres {
 

@@ -1,16 +1,16 @@
-#include "postgres/database.hpp"
+#include "db/postgres/database.hpp"
 
 #include <fmt/format.h>
 
 #include <mutex>
 #include <optional>
 
-#include "postgres/listener.hpp"
-#include "postgres/migrator.hpp"
-#include "postgres/session.hpp"
-#include "sql/read_pool_engine.hpp"
-#include "sql/writer_engine.hpp"
-#include "store/storage_failure.hpp"
+#include "db/postgres/listener.hpp"
+#include "db/postgres/migrator.hpp"
+#include "db/postgres/session.hpp"
+#include "db/sql/read_pool_engine.hpp"
+#include "db/sql/writer_engine.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

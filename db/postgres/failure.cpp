@@ -1,4 +1,4 @@
-#include "postgres/failure.hpp"
+#include "db/postgres/failure.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "store/storage_failure.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

@@ -1,4 +1,4 @@
-#include "postgres/listener.hpp"
+#include "db/postgres/listener.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -10,8 +10,8 @@
 #include <exception>
 #include <string_view>
 
-#include "sql/statement.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

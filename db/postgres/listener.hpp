@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/thread.hpp"
-#include "postgres/connection.hpp"
-#include "postgres/notifications.hpp"
-#include "store/server_figures.hpp"
+#include "db/postgres/connection.hpp"
+#include "db/postgres/notifications.hpp"
+#include "db/store/server_figures.hpp"
 
 namespace fitgauge::store::postgres {
 

@@ -1,4 +1,4 @@
-#include "postgres/measurement_table.hpp"
+#include "db/postgres/measurement_table.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <string>
 #include <type_traits>
 
-#include "postgres/wire.hpp"
-#include "store/measurement_fields.hpp"
+#include "db/postgres/wire.hpp"
+#include "db/store/measurement_fields.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

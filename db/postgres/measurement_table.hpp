@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "postgres/connection.hpp"
-#include "sql/measurement_table.hpp"
-#include "sql/statement.hpp"
+#include "db/postgres/connection.hpp"
+#include "db/sql/measurement_table.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store::postgres {
 

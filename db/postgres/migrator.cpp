@@ -1,10 +1,10 @@
-#include "postgres/migrator.hpp"
+#include "db/postgres/migrator.hpp"
 
 #include <fmt/format.h>
 
-#include "postgres/database.hpp"
-#include "sql/statement.hpp"
-#include "store/storage_failure.hpp"
+#include "db/postgres/database.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

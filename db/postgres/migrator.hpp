@@ -4,8 +4,8 @@
 #include <span>
 
 #include "base/result.hpp"
-#include "postgres/connection.hpp"
-#include "sql/migration.hpp"
+#include "db/postgres/connection.hpp"
+#include "db/sql/migration.hpp"
 
 namespace fitgauge::store::postgres {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <mutex>
 
-#include "store/stores.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store::postgres {
 

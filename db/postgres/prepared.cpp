@@ -1,8 +1,8 @@
-#include "postgres/prepared.hpp"
+#include "db/postgres/prepared.hpp"
 
 #include <stdexcept>
 
-#include "postgres/wire.hpp"
+#include "db/postgres/wire.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "postgres/connection.hpp"
-#include "sql/prepared.hpp"
+#include "db/postgres/connection.hpp"
+#include "db/sql/prepared.hpp"
 
 namespace fitgauge::store::postgres {
 

@@ -1,11 +1,11 @@
-#include "postgres/session.hpp"
+#include "db/postgres/session.hpp"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 #include <string_view>
 
-#include "store/storage_failure.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "postgres/connection.hpp"
-#include "postgres/names.hpp"
-#include "postgres/notifications.hpp"
-#include "sql/session.hpp"
-#include "sql/statement.hpp"
-#include "store/open_options.hpp"
+#include "db/postgres/connection.hpp"
+#include "db/postgres/names.hpp"
+#include "db/postgres/notifications.hpp"
+#include "db/sql/session.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store::postgres {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "sql/measurement_table.hpp"
-#include "sql/prepared.hpp"
+#include "db/sql/measurement_table.hpp"
+#include "db/sql/prepared.hpp"
 
 namespace fitgauge::store::sql {
 

@@ -1,9 +1,9 @@
-#include "store/documents_store.hpp"
+#include "db/store/documents_store.hpp"
 
 #include <fmt/format.h>
 
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -1,7 +1,7 @@
-#include "store/events_store.hpp"
+#include "db/store/events_store.hpp"
 
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store {
 

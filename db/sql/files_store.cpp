@@ -1,10 +1,10 @@
-#include "store/files_store.hpp"
+#include "db/store/files_store.hpp"
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -1,4 +1,4 @@
-#include "sql/health_monitor.hpp"
+#include "db/sql/health_monitor.hpp"
 
 #include <utility>
 

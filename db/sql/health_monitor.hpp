@@ -4,7 +4,7 @@
 #include <mutex>
 #include <string>
 
-#include "store/health.hpp"
+#include "db/store/health.hpp"
 
 namespace fitgauge::store {
 

@@ -1,11 +1,11 @@
-#include "store/idempotency_store.hpp"
+#include "db/store/idempotency_store.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
 
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store {
 

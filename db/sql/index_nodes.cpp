@@ -1,11 +1,11 @@
-#include "sql/index_nodes.hpp"
+#include "db/sql/index_nodes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "sql/measurement_query.hpp"
-#include "sql/pair_index.hpp"
+#include "db/sql/measurement_query.hpp"
+#include "db/sql/pair_index.hpp"
 
 namespace fitgauge::store {
 namespace {

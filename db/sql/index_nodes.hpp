@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "sql/statement.hpp"
-#include "store/measurement_filter.hpp"
-#include "store/measurement_index.hpp"
-#include "store/tuple_statistics.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/measurement_filter.hpp"
+#include "db/store/measurement_index.hpp"
+#include "db/store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 

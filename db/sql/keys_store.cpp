@@ -1,4 +1,4 @@
-#include "store/keys_store.hpp"
+#include "db/store/keys_store.hpp"
 
 #include <fmt/format.h>
 #include <openssl/rand.h>
@@ -6,8 +6,8 @@
 #include <array>
 #include <stdexcept>
 
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store {
 namespace {

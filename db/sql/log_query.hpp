@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "sql/statement.hpp"
-#include "store/measurement_index.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/measurement_index.hpp"
 
 namespace fitgauge::store {
 

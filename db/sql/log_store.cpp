@@ -1,12 +1,12 @@
-#include "store/log_store.hpp"
+#include "db/store/log_store.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store {
 

@@ -1,4 +1,4 @@
-#include "sql/maintenance.hpp"
+#include "db/sql/maintenance.hpp"
 
 #include <algorithm>
 

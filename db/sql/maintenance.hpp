@@ -3,8 +3,8 @@
 #include <chrono>
 
 #include "base/clock.hpp"
-#include "sql/session.hpp"
-#include "store/open_options.hpp"
+#include "db/sql/session.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
 

@@ -1,4 +1,4 @@
-#include "sql/measurement_indexer.hpp"
+#include "db/sql/measurement_indexer.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "sql/connection.hpp"
-#include "sql/measurement_query.hpp"
-#include "store/block_columns.hpp"
-#include "store/value_block.hpp"
+#include "db/sql/connection.hpp"
+#include "db/sql/measurement_query.hpp"
+#include "db/store/block_columns.hpp"
+#include "db/store/value_block.hpp"
 
 namespace fitgauge::store {
 namespace {

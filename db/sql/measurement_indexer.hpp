@@ -10,11 +10,11 @@
 #include <tuple>
 #include <utility>
 
-#include "sql/pair_index.hpp"
-#include "sql/rows_insert.hpp"
-#include "sql/statement.hpp"
-#include "store/measurement_index.hpp"
-#include "store/measurement_statistics.hpp"
+#include "db/sql/pair_index.hpp"
+#include "db/sql/rows_insert.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/measurement_index.hpp"
+#include "db/store/measurement_statistics.hpp"
 
 namespace fitgauge::store {
 

@@ -1,4 +1,4 @@
-#include "sql/measurement_query.hpp"
+#include "db/sql/measurement_query.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "sql/connection.hpp"
+#include "db/sql/connection.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "sql/index_nodes.hpp"
-#include "sql/statement.hpp"
-#include "store/measurement_filter.hpp"
-#include "store/measurement_index.hpp"
+#include "db/sql/index_nodes.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/measurement_filter.hpp"
+#include "db/store/measurement_index.hpp"
 
 namespace fitgauge::store {
 

@@ -1,12 +1,12 @@
-#include "sql/measurement_summary.hpp"
+#include "db/sql/measurement_summary.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "sql/pair_index.hpp"
-#include "store/pair_statistics.hpp"
+#include "db/sql/pair_index.hpp"
+#include "db/store/pair_statistics.hpp"
 
 namespace fitgauge::store {
 namespace {

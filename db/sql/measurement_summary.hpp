@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "sql/index_nodes.hpp"
-#include "sql/measurement_query.hpp"
-#include "sql/statement.hpp"
-#include "store/block_columns.hpp"
-#include "store/measurement_filter.hpp"
-#include "store/measurement_index.hpp"
-#include "store/measurement_statistics.hpp"
-#include "store/measurement_summary.hpp"
-#include "store/tuple_statistics.hpp"
+#include "db/sql/index_nodes.hpp"
+#include "db/sql/measurement_query.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/block_columns.hpp"
+#include "db/store/measurement_filter.hpp"
+#include "db/store/measurement_index.hpp"
+#include "db/store/measurement_statistics.hpp"
+#include "db/store/measurement_summary.hpp"
+#include "db/store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "store/measurement_row.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store::sql {
 

@@ -1,18 +1,18 @@
-#include "store/measurements_store.hpp"
+#include "db/store/measurements_store.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <stdexcept>
 
-#include "sql/connection.hpp"
-#include "sql/log_query.hpp"
-#include "sql/measurement_indexer.hpp"
-#include "sql/measurement_query.hpp"
-#include "sql/measurement_summary.hpp"
-#include "sql/statement.hpp"
-#include "store/measurement_fields.hpp"
-#include "store/value_block.hpp"
+#include "db/sql/connection.hpp"
+#include "db/sql/log_query.hpp"
+#include "db/sql/measurement_indexer.hpp"
+#include "db/sql/measurement_query.hpp"
+#include "db/sql/measurement_summary.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/measurement_fields.hpp"
+#include "db/store/value_block.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -1,8 +1,8 @@
-#include "sql/migration.hpp"
+#include "db/sql/migration.hpp"
 
 #include <fmt/format.h>
 
-#include "sql/statement.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store::sql {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
-#include "sql/connection.hpp"
+#include "db/sql/connection.hpp"
 
 namespace fitgauge::store::sql {
 

@@ -1,13 +1,13 @@
-#include "sql/pair_index.hpp"
+#include "db/sql/pair_index.hpp"
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
-#include "store/block_columns.hpp"
-#include "store/pair_counter.hpp"
-#include "store/pair_statistics.hpp"
-#include "store/tuple_statistics.hpp"
+#include "db/store/block_columns.hpp"
+#include "db/store/pair_counter.hpp"
+#include "db/store/pair_statistics.hpp"
+#include "db/store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 namespace {

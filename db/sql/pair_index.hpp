@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "sql/statement.hpp"
-#include "store/measurement_index.hpp"
-#include "store/tuple_statistics.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/measurement_index.hpp"
+#include "db/store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 

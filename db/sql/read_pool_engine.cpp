@@ -1,9 +1,9 @@
-#include "sql/read_pool_engine.hpp"
+#include "db/sql/read_pool_engine.hpp"
 
 #include <exception>
 #include <optional>
 
-#include "store/storage_failure.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store {
 

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "base/thread.hpp"
-#include "sql/health_monitor.hpp"
-#include "sql/session.hpp"
-#include "store/job_queue.hpp"
-#include "store/open_options.hpp"
-#include "store/read_pool.hpp"
+#include "db/sql/health_monitor.hpp"
+#include "db/sql/session.hpp"
+#include "db/store/job_queue.hpp"
+#include "db/store/open_options.hpp"
+#include "db/store/read_pool.hpp"
 
 namespace fitgauge::store {
 

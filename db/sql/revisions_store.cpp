@@ -1,11 +1,11 @@
-#include "store/revisions_store.hpp"
+#include "db/store/revisions_store.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "sql/connection.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/connection.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store::sql {
 

@@ -1,13 +1,13 @@
-#include "store/runs_store.hpp"
+#include "db/store/runs_store.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
 
 #include "base/text.hpp"
-#include "sql/connection.hpp"
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/connection.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store {
 namespace {

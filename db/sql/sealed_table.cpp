@@ -1,4 +1,4 @@
-#include "sql/sealed_table.hpp"
+#include "db/sql/sealed_table.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "store/storage_failure.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "sql/connection.hpp"
-#include "sql/statement.hpp"
+#include "db/sql/connection.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store {
 

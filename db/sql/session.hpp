@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
-#include "store/stores.hpp"
-#include "store/writer_counters.hpp"
+#include "db/store/stores.hpp"
+#include "db/store/writer_counters.hpp"
 
 namespace fitgauge::store::sql {
 

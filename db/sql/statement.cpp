@@ -1,9 +1,9 @@
-#include "sql/statement.hpp"
+#include "db/sql/statement.hpp"
 
 #include <fmt/format.h>
 
-#include "sql/connection.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sql/connection.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::sql {
 

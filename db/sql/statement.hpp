@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/digest.hpp"
-#include "sql/prepared.hpp"
+#include "db/sql/prepared.hpp"
 
 namespace fitgauge::store::sql {
 

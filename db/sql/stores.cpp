@@ -1,4 +1,4 @@
-#include "store/stores.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store {
 

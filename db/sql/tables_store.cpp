@@ -1,13 +1,13 @@
-#include "store/tables_store.hpp"
+#include "db/store/tables_store.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "sql/sealed_table.hpp"
-#include "sql/statement.hpp"
-#include "store/canonical_digest.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sql/statement.hpp"
+#include "db/store/canonical_digest.hpp"
 
 namespace fitgauge::store {
 namespace {

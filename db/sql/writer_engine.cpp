@@ -1,9 +1,9 @@
-#include "sql/writer_engine.hpp"
+#include "db/sql/writer_engine.hpp"
 
 #include <exception>
 #include <iterator>
 
-#include "store/storage_failure.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store {
 namespace {

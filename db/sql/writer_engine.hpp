@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "base/thread.hpp"
-#include "sql/health_monitor.hpp"
-#include "sql/maintenance.hpp"
-#include "sql/session.hpp"
-#include "store/job_queue.hpp"
-#include "store/open_options.hpp"
-#include "store/writer.hpp"
-#include "store/writer_counters.hpp"
+#include "db/sql/health_monitor.hpp"
+#include "db/sql/maintenance.hpp"
+#include "db/sql/session.hpp"
+#include "db/store/job_queue.hpp"
+#include "db/store/open_options.hpp"
+#include "db/store/writer.hpp"
+#include "db/store/writer_counters.hpp"
 
 namespace fitgauge::store {
 

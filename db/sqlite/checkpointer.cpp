@@ -1,10 +1,10 @@
-#include "sqlite/checkpointer.hpp"
+#include "db/sqlite/checkpointer.hpp"
 
 #include <sqlite3.h>
 
 #include <exception>
 
-#include "sqlite/session.hpp"
+#include "db/sqlite/session.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -5,8 +5,8 @@
 #include <mutex>
 
 #include "base/thread.hpp"
-#include "sqlite/session.hpp"
-#include "store/open_options.hpp"
+#include "db/sqlite/session.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
 

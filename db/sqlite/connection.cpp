@@ -1,12 +1,12 @@
-#include "sqlite/connection.hpp"
+#include "db/sqlite/connection.hpp"
 
 #include <fmt/format.h>
 
-#include "sql/statement.hpp"
-#include "sqlite/measurement_table.hpp"
-#include "sqlite/prepared.hpp"
-#include "sqlite/row_digest.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sql/statement.hpp"
+#include "db/sqlite/measurement_table.hpp"
+#include "db/sqlite/prepared.hpp"
+#include "db/sqlite/row_digest.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "sql/connection.hpp"
-#include "sqlite/failure.hpp"
-#include "store/open_options.hpp"
+#include "db/sql/connection.hpp"
+#include "db/sqlite/failure.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store::sqlite {
 

@@ -1,4 +1,4 @@
-#include "sqlite/data_directory.hpp"
+#include "db/sqlite/data_directory.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "sqlite/migrator.hpp"
+#include "db/sqlite/migrator.hpp"
 
 namespace fitgauge::store {
 namespace {

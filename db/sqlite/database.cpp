@@ -1,16 +1,16 @@
-#include "sqlite/database.hpp"
+#include "db/sqlite/database.hpp"
 
 #include <filesystem>
 #include <optional>
 
-#include "sql/read_pool_engine.hpp"
-#include "sql/writer_engine.hpp"
-#include "sqlite/data_directory.hpp"
-#include "sqlite/database_file.hpp"
-#include "sqlite/scrub.hpp"
-#include "sqlite/verifier.hpp"
-#include "sqlite/writer_session.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sql/read_pool_engine.hpp"
+#include "db/sql/writer_engine.hpp"
+#include "db/sqlite/data_directory.hpp"
+#include "db/sqlite/database_file.hpp"
+#include "db/sqlite/scrub.hpp"
+#include "db/sqlite/verifier.hpp"
+#include "db/sqlite/writer_session.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
-#include "store/database.hpp"
-#include "store/open_options.hpp"
+#include "db/store/database.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store::sqlite {
 

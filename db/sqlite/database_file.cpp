@@ -1,4 +1,4 @@
-#include "sqlite/database_file.hpp"
+#include "db/sqlite/database_file.hpp"
 
 #include <SQLiteCpp/Backup.h>
 #include <fmt/format.h>
@@ -7,10 +7,10 @@
 #include <system_error>
 #include <utility>
 
-#include "sqlite/data_directory.hpp"
-#include "sqlite/file_check.hpp"
-#include "sqlite/session.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sqlite/data_directory.hpp"
+#include "db/sqlite/file_check.hpp"
+#include "db/sqlite/session.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "base/result.hpp"
-#include "sqlite/migrator.hpp"
-#include "store/open_options.hpp"
+#include "db/sqlite/migrator.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
 

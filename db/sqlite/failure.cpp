@@ -1,4 +1,4 @@
-#include "sqlite/failure.hpp"
+#include "db/sqlite/failure.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "store/storage_failure.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {

@@ -1,12 +1,12 @@
-#include "sqlite/file_check.hpp"
+#include "db/sqlite/file_check.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 
-#include "sqlite/connection.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sqlite/connection.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -1,4 +1,4 @@
-#include "sqlite/measurement_table.hpp"
+#include "db/sqlite/measurement_table.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <bit>
 #include <stdexcept>
 
-#include "sql/statement.hpp"
-#include "sqlite/connection.hpp"
-#include "store/measurement_fields.hpp"
+#include "db/sql/statement.hpp"
+#include "db/sqlite/connection.hpp"
+#include "db/store/measurement_fields.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "sql/measurement_table.hpp"
-#include "sql/statement.hpp"
-#include "sqlite/prepared.hpp"
-#include "store/measurement_row.hpp"
+#include "db/sql/measurement_table.hpp"
+#include "db/sql/statement.hpp"
+#include "db/sqlite/prepared.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store::sqlite {
 

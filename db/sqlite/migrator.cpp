@@ -1,4 +1,4 @@
-#include "sqlite/migrator.hpp"
+#include "db/sqlite/migrator.hpp"
 
 #include <fmt/format.h>
 

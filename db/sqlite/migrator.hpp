@@ -4,8 +4,8 @@
 #include <span>
 
 #include "base/result.hpp"
-#include "sql/migration.hpp"
-#include "sqlite/connection.hpp"
+#include "db/sql/migration.hpp"
+#include "db/sqlite/connection.hpp"
 
 namespace fitgauge::store::sqlite {
 

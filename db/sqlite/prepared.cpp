@@ -1,9 +1,9 @@
-#include "sqlite/prepared.hpp"
+#include "db/sqlite/prepared.hpp"
 
 #include <cerrno>
 #include <utility>
 
-#include "sqlite/connection.hpp"
+#include "db/sqlite/connection.hpp"
 
 namespace fitgauge::store::sqlite {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "sql/prepared.hpp"
+#include "db/sql/prepared.hpp"
 
 namespace fitgauge::store::sqlite {
 

@@ -1,11 +1,11 @@
-#include "sqlite/row_digest.hpp"
+#include "db/sqlite/row_digest.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <memory>
 
-#include "sqlite/failure.hpp"
-#include "store/canonical_digest.hpp"
+#include "db/sqlite/failure.hpp"
+#include "db/store/canonical_digest.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {

@@ -1,11 +1,11 @@
-#include "sqlite/scrub.hpp"
+#include "db/sqlite/scrub.hpp"
 
 #include <fmt/format.h>
 
-#include "sqlite/file_check.hpp"
-#include "sqlite/session.hpp"
-#include "sqlite/verifier.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sqlite/file_check.hpp"
+#include "db/sqlite/session.hpp"
+#include "db/sqlite/verifier.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/clock.hpp"
 #include "base/thread.hpp"
-#include "sql/health_monitor.hpp"
-#include "store/open_options.hpp"
+#include "db/sql/health_monitor.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
 

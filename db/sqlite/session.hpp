@@ -3,10 +3,10 @@
 #include <string_view>
 
 #include "base/clock.hpp"
-#include "sql/session.hpp"
-#include "sql/statement.hpp"
-#include "sqlite/connection.hpp"
-#include "store/open_options.hpp"
+#include "db/sql/session.hpp"
+#include "db/sql/statement.hpp"
+#include "db/sqlite/connection.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
 

@@ -1,4 +1,4 @@
-#include "sqlite/verifier.hpp"
+#include "db/sqlite/verifier.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "sqlite/migrator.hpp"
-#include "store/storage_failure.hpp"
+#include "db/sqlite/migrator.hpp"
+#include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "sql/sealed_table.hpp"
-#include "sqlite/session.hpp"
-#include "store/verify.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sqlite/session.hpp"
+#include "db/store/verify.hpp"
 
 namespace fitgauge::store {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sqlite/checkpointer.hpp"
-#include "sqlite/session.hpp"
+#include "db/sqlite/checkpointer.hpp"
+#include "db/sqlite/session.hpp"
 
 namespace fitgauge::store::sqlite {
 

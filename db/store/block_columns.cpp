@@ -1,4 +1,4 @@
-#include "store/block_columns.hpp"
+#include "db/store/block_columns.hpp"
 
 #include <algorithm>
 #include <bit>

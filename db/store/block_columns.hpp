@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "store/measurement_filter.hpp"
-#include "store/measurement_index.hpp"
-#include "store/packed_numbers.hpp"
+#include "db/store/measurement_filter.hpp"
+#include "db/store/measurement_index.hpp"
+#include "db/store/packed_numbers.hpp"
 
 namespace fitgauge::store {
 

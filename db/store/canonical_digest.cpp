@@ -1,4 +1,4 @@
-#include "store/canonical_digest.hpp"
+#include "db/store/canonical_digest.hpp"
 
 namespace fitgauge::store {
 

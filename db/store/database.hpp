@@ -6,12 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "store/health.hpp"
-#include "store/read_pool.hpp"
-#include "store/server_figures.hpp"
-#include "store/verify.hpp"
-#include "store/writer.hpp"
-#include "store/writer_counters.hpp"
+#include "db/store/health.hpp"
+#include "db/store/read_pool.hpp"
+#include "db/store/server_figures.hpp"
+#include "db/store/verify.hpp"
+#include "db/store/writer.hpp"
+#include "db/store/writer_counters.hpp"
 
 namespace fitgauge::store {
 

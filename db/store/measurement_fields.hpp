@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "store/measurement_row.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
 

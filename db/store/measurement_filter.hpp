@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "store/measurement_row.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
 

@@ -1,4 +1,4 @@
-#include "store/measurement_index.hpp"
+#include "db/store/measurement_index.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "store/measurement_filter.hpp"
+#include "db/store/measurement_filter.hpp"
 
 namespace fitgauge::store {
 

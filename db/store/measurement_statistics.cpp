@@ -1,4 +1,4 @@
-#include "store/measurement_statistics.hpp"
+#include "db/store/measurement_statistics.hpp"
 
 #include <algorithm>
 #include <bit>

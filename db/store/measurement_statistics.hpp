@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "store/packed_numbers.hpp"
+#include "db/store/packed_numbers.hpp"
 
 namespace fitgauge::store {
 

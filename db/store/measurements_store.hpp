@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "store/measured_value.hpp"
-#include "store/measurement_filter.hpp"
-#include "store/measurement_row.hpp"
-#include "store/measurement_summary.hpp"
+#include "db/store/measured_value.hpp"
+#include "db/store/measurement_filter.hpp"
+#include "db/store/measurement_row.hpp"
+#include "db/store/measurement_summary.hpp"
 
 namespace fitgauge::store {
 

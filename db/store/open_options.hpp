@@ -8,8 +8,8 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "store/health.hpp"
-#include "store/verify.hpp"
+#include "db/store/health.hpp"
+#include "db/store/verify.hpp"
 
 namespace fitgauge::store {
 

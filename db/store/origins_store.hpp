@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/digest.hpp"
-#include "store/log_store.hpp"
+#include "db/store/log_store.hpp"
 
 namespace fitgauge::store {
 

@@ -1,4 +1,4 @@
-#include "store/pair_counter.hpp"
+#include "db/store/pair_counter.hpp"
 
 #include <utility>
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "store/block_columns.hpp"
-#include "store/pair_statistics.hpp"
-#include "store/tuple_statistics.hpp"
+#include "db/store/block_columns.hpp"
+#include "db/store/pair_statistics.hpp"
+#include "db/store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 

@@ -1,4 +1,4 @@
-#include "store/pair_statistics.hpp"
+#include "db/store/pair_statistics.hpp"
 
 namespace fitgauge::store {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "store/measurement_statistics.hpp"
-#include "store/packed_numbers.hpp"
+#include "db/store/measurement_statistics.hpp"
+#include "db/store/packed_numbers.hpp"
 
 namespace fitgauge::store {
 

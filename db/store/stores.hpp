@@ -3,18 +3,18 @@
 #include <chrono>
 
 #include "base/clock.hpp"
-#include "store/documents_store.hpp"
-#include "store/events_store.hpp"
-#include "store/files_store.hpp"
-#include "store/idempotency_store.hpp"
-#include "store/keys_store.hpp"
-#include "store/log_store.hpp"
-#include "store/measurements_store.hpp"
-#include "store/notes_store.hpp"
-#include "store/origins_store.hpp"
-#include "store/revisions_store.hpp"
-#include "store/runs_store.hpp"
-#include "store/tables_store.hpp"
+#include "db/store/documents_store.hpp"
+#include "db/store/events_store.hpp"
+#include "db/store/files_store.hpp"
+#include "db/store/idempotency_store.hpp"
+#include "db/store/keys_store.hpp"
+#include "db/store/log_store.hpp"
+#include "db/store/measurements_store.hpp"
+#include "db/store/notes_store.hpp"
+#include "db/store/origins_store.hpp"
+#include "db/store/revisions_store.hpp"
+#include "db/store/runs_store.hpp"
+#include "db/store/tables_store.hpp"
 
 namespace fitgauge::store {
 

@@ -1,4 +1,4 @@
-#include "store/tuple_statistics.hpp"
+#include "db/store/tuple_statistics.hpp"
 
 #include <algorithm>
 #include <array>

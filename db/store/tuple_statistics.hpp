@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "store/block_columns.hpp"
-#include "store/measurement_statistics.hpp"
-#include "store/packed_numbers.hpp"
+#include "db/store/block_columns.hpp"
+#include "db/store/measurement_statistics.hpp"
+#include "db/store/packed_numbers.hpp"
 
 namespace fitgauge::store {
 

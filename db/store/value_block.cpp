@@ -1,6 +1,6 @@
-#include "store/value_block.hpp"
+#include "db/store/value_block.hpp"
 
-#include "store/packed_numbers.hpp"
+#include "db/store/packed_numbers.hpp"
 
 namespace fitgauge::store {
 // First stand the kinds of rows: how many, and of each the lower limit, how far the upper one is

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "store/measured_value.hpp"
-#include "store/measurement_index.hpp"
+#include "db/store/measured_value.hpp"
+#include "db/store/measurement_index.hpp"
 
 namespace fitgauge::store {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "store/measurement_row.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
 

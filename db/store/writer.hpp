@@ -3,8 +3,8 @@
 #include <memory>
 #include <utility>
 
-#include "store/job.hpp"
-#include "store/stores.hpp"
+#include "db/store/job.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store {
 

@@ -16,6 +16,8 @@ if(FITGAUGE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 add_library(fitgauge_options INTERFACE)
+# A room is one library: a program maps what the parts of it need that it uses.
+target_link_options(fitgauge_options INTERFACE -Wl,--as-needed)
 target_compile_options(fitgauge_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Werror
   # Objects and error texts carry no path of the machine that built them.
@@ -74,21 +76,23 @@ endfunction()
 fitgauge_precompile(precompiled HEADERS ${precompiled_headers} LINKS Boost::headers fmt::fmt)
 
 # fitgauge_unity(<target> <folder> [SEPARATE <regex>])
-# Where CMAKE_UNITY_BUILD is on, the target's files in each room of <folder> compile as one group, and
-# those beside the rooms in five, by the first letter of their names: a new file never moves another
-# one. Files that match <regex> stay alone.
+# Where CMAKE_UNITY_BUILD is on, the target's files compile in groups: those of a subfolder's folder as one, those
+# beside folders in five, by the first letter of their names: a new file never moves another one. Files that match
+# <regex> stay alone.
 function(fitgauge_unity target folder)
   cmake_parse_arguments(arg "" "SEPARATE" "" ${ARGN})
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     get_filename_component(name "${source}" NAME)
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${folder}" OUTPUT_VARIABLE path)
-    if(path MATCHES "^([a-z0-9_]+)/")
-      set(group "${CMAKE_MATCH_1}")
+    if(path MATCHES "^([a-z0-9_]+)/([a-z0-9_]+)/")
+      set(group "${CMAKE_MATCH_1}_${CMAKE_MATCH_2}")
     else()
+      string(REGEX MATCH "^[a-z0-9_]+/" group "${path}")
+      string(REPLACE "/" "_" group "${group}")
       foreach(letters a-c d-f g-m n-r s-z)
         if(name MATCHES "^[${letters}]")
-          set(group "${letters}")
+          string(APPEND group "${letters}")
         endif()
       endforeach()
     endif()
@@ -101,8 +105,8 @@ function(fitgauge_unity target folder)
 endfunction()
 
 # fitgauge_library(<name> [PUBLIC <targets>] [PRIVATE <targets>] [SEPARATE <regex>])
-# The layer <name> from every *.cpp of the current folder but main.cpp. Its include root holds this folder alone,
-# so `#include "<layer>/<file>.hpp"` compiles only where that layer is linked.
+# The room <name> from every *.cpp of the current folder but main.cpp. Its include root holds this folder alone,
+# so `#include "<room>/<file>.hpp"` compiles only where that room is linked.
 function(fitgauge_library name)
   cmake_parse_arguments(arg "" "SEPARATE" "PUBLIC;PRIVATE" ${ARGN})
   set(root "${CMAKE_BINARY_DIR}/include/${name}")
@@ -117,17 +121,20 @@ function(fitgauge_library name)
   fitgauge_unity(${name} "${CMAKE_CURRENT_SOURCE_DIR}" SEPARATE "${arg_SEPARATE}")
 endfunction()
 
-# fitgauge_doctest(<kind> <name> [LINKS <targets>])
-# One doctest executable <kind>_<name> from every *.cpp below the folder <name>, and one ctest of the
+# fitgauge_doctest(<kind> <name> [FOLDER <folder>] [LINKS <targets>])
+# One doctest executable <kind>_<name> from every *.cpp below <folder> (default: <name>), and one ctest of the
 # same name, which also fails when the number of cases that ran differs from --count.
 function(fitgauge_doctest kind name)
-  cmake_parse_arguments(arg "" "" "LINKS" ${ARGN})
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
+  cmake_parse_arguments(arg "" "FOLDER" "LINKS" ${ARGN})
+  if(NOT arg_FOLDER)
+    set(arg_FOLDER "${name}")
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${arg_FOLDER}/*.cpp")
   set(target "${kind}_${name}")
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE ${arg_LINKS} test_support fitgauge_options)
   target_precompile_headers(${target} REUSE_FROM precompiled_tests)
-  fitgauge_unity(${target} "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
+  fitgauge_unity(${target} "${CMAKE_CURRENT_SOURCE_DIR}/${arg_FOLDER}")
   # Compiled as the precompiled header is: not as a position-independent executable.
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   add_test(NAME "${kind}.${name}"

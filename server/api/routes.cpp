@@ -1,5 +1,9 @@
 #include "api/routes.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "api/certificates/certificates_resource.hpp"
 #include "api/files/files_resource.hpp"
 #include "api/limits/fits_resource.hpp"
@@ -12,7 +16,6 @@
 #include "api/log/revisions_resource.hpp"
 #include "api/measurements/measurements_resource.hpp"
 #include "api/measurements/notes_resource.hpp"
-#include "api/mtconnect/mtconnect_resource.hpp"
 #include "api/plans/plans_resource.hpp"
 #include "api/runs/runs_resource.hpp"
 #include "api/runs/setups_resource.hpp"
@@ -30,7 +33,7 @@
 
 namespace fitgauge::api {
 
-http::RouteTable make_routes(const Services& services) {
+http::RouteTable make_routes(const Services& services, std::vector<http::Route> of_plant) {
   std::vector<http::Route> routes;
   const auto cache = std::make_shared<ResponseCache>(services.tables);
   add_limits_routes(routes, cache);
@@ -56,7 +59,7 @@ http::RouteTable make_routes(const Services& services) {
   add_runs_routes(routes, services);
   add_cycles_routes(routes);
   add_connections_routes(routes, services);
-  add_mtconnect_routes(routes, services);
+  std::move(of_plant.begin(), of_plant.end(), std::back_inserter(routes));
   add_events_routes(routes, services);
   add_service_routes(routes, services);
   add_page_routes(routes);

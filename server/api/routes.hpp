@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "api/services.hpp"
 #include "http/route.hpp"
 
@@ -7,6 +9,7 @@ namespace fitgauge::api {
 
 /// Every operation of the service. /openapi.json is made from the others.
 /// @param services outlive the routes.
-http::RouteTable make_routes(const Services& services);
+/// @param of_plant the routes of the rooms above
+http::RouteTable make_routes(const Services& services, std::vector<http::Route> of_plant);
 
 }  // namespace fitgauge::api

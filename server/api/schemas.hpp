@@ -1,6 +1,6 @@
 #pragma once
 
-#include "api/wire/schema.hpp"
+#include "base/json/schema.hpp"
 
 namespace fitgauge::api {
 

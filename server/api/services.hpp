@@ -3,9 +3,9 @@
 #include <functional>
 #include <memory>
 
-#include "app/service/connection_state.hpp"
-#include "app/service/readiness.hpp"
 #include "base/clock.hpp"
+#include "service/state/connection_state.hpp"
+#include "service/state/readiness.hpp"
 
 namespace fitgauge::app {
 class TableCatalog;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/service/key_service.hpp"
 #include "base/result.hpp"
 #include "daemon/config.hpp"
+#include "service/documents/key_service.hpp"
 
 namespace fitgauge::daemon {
 

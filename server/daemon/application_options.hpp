@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/application.hpp"
 #include "daemon/config.hpp"
+#include "service/application.hpp"
 
 namespace fitgauge::daemon {
 

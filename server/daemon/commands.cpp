@@ -9,8 +9,8 @@
 #include <map>
 #include <system_error>
 
-#include "app/log/log_keys.hpp"
 #include "daemon/application_options.hpp"
+#include "service/log/log_keys.hpp"
 
 namespace fitgauge::daemon {
 namespace {

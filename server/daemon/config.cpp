@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <charconv>
 
-#include "app/log/log_keys.hpp"
 #include "base/text.hpp"
 #include "daemon/forwarding.hpp"
-#include "virtual_control/control_model.hpp"
+#include "plant/virtual_control/control_model.hpp"
+#include "service/log/log_keys.hpp"
 
 namespace fitgauge::daemon {
 namespace {

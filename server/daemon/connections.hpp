@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/application.hpp"
-#include "connections/connections.hpp"
 #include "daemon/config.hpp"
+#include "plant/connections.hpp"
+#include "service/application.hpp"
 
 namespace fitgauge::daemon {
 

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "api/services.hpp"
-#include "app/application.hpp"
 #include "daemon/config.hpp"
-#include "virtual_control/virtual_control.hpp"
+#include "plant/virtual_control/virtual_control.hpp"
+#include "service/application.hpp"
 
 namespace fitgauge::daemon {
 

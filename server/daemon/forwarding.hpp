@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "api/service/exposition.hpp"
-#include "app/application.hpp"
 #include "base/clock.hpp"
 #include "daemon/config.hpp"
-#include "forwarder/forwarder.hpp"
+#include "plant/centre/forwarder.hpp"
+#include "service/application.hpp"
 
 namespace fitgauge::daemon {
 

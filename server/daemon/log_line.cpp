@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "api/service/caller.hpp"
-#include "base/json_escape.hpp"
+#include "base/json/json_escape.hpp"
 
 namespace fitgauge::daemon {
 namespace {

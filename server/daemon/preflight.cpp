@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/service/database_check.hpp"
 #include "daemon/admin_key.hpp"
 #include "daemon/connections.hpp"
+#include "service/state/database_check.hpp"
 
 namespace fitgauge::daemon {
 namespace {

@@ -9,13 +9,11 @@
 #include <cstdio>
 #include <fstream>
 
-#include "api/mtconnect/mtconnect_resource.hpp"
 #include "api/routes.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/service/guard.hpp"
 #include "api/service/metrics.hpp"
 #include "api/service/verdict_counts.hpp"
-#include "api/statistics/gauges_in_use.hpp"
 #include "api/wire/problem.hpp"
 #include "base/forward_clock.hpp"
 #include "base/guarded.hpp"
@@ -32,6 +30,8 @@
 #include "daemon/service_metrics.hpp"
 #include "daemon/shdr.hpp"
 #include "http/answer_batch.hpp"
+#include "plant/mtconnect/mtconnect_resource.hpp"
+#include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -241,8 +241,11 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .connections = connection_calls(config, outside)};
   // Beyond these a client gets 503 rather than no answer.
   const std::int64_t most_clients = allow_connections(config.max_connections);
+  std::vector<http::Route> of_plant;
+  api::add_mtconnect_routes(of_plant, services);
   auto started = http::Server::start(
-      server_options(config, *addresses, most_clients), api::make_routes(services),
+      server_options(config, *addresses, most_clients),
+      api::make_routes(services, std::move(of_plant)),
       hooks(services,
             api::Guard(app.keys(), mode,
                        [](std::string_view what) { log_warning("proxy_suspected", what); }),

@@ -3,10 +3,10 @@
 #include <filesystem>
 
 #include "api/service/exposition.hpp"
-#include "app/application.hpp"
-#include "app/service/connection_state.hpp"
 #include "base/clock.hpp"
 #include "http/server.hpp"
+#include "service/application.hpp"
+#include "service/state/connection_state.hpp"
 
 namespace fitgauge::daemon {
 

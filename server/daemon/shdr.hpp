@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "app/application.hpp"
 #include "base/clock.hpp"
 #include "daemon/config.hpp"
-#include "shdr/shdr_adapter.hpp"
+#include "plant/mtconnect/shdr_adapter.hpp"
+#include "service/application.hpp"
 
 namespace fitgauge::daemon {
 

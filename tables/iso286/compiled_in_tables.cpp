@@ -1,7 +1,7 @@
 #include <stdexcept>
 
-#include "iso286/compiled_in_csv.hpp"
-#include "iso286/table_data.hpp"
+#include "tables/iso286/compiled_in_csv.hpp"
+#include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::iso286 {
 namespace {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "iso286/table_rules.hpp"
-#include "iso286/tolerance_class.hpp"
+#include "tables/iso286/table_rules.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::iso286 {
 namespace {

@@ -1,4 +1,4 @@
-#include "iso286/derivation.hpp"
+#include "tables/iso286/derivation.hpp"
 
 #include <algorithm>
 #include <array>

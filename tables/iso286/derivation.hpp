@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "iso286/indexed_table.hpp"
-#include "iso286/limit_deviations.hpp"
-#include "iso286/tolerance_class.hpp"
+#include "tables/iso286/indexed_table.hpp"
+#include "tables/iso286/limit_deviations.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::iso286 {
 

@@ -1,10 +1,10 @@
-#include "iso286/designation.hpp"
+#include "tables/iso286/designation.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "base/text.hpp"
-#include "iso286/tolerance_class.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::iso286 {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
-#include "iso286/nominal_size.hpp"
+#include "tables/iso286/nominal_size.hpp"
 
 namespace fitgauge::iso286 {
 

@@ -1,4 +1,4 @@
-#include "iso286/fit.hpp"
+#include "tables/iso286/fit.hpp"
 
 namespace fitgauge::iso286 {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "iso286/limits_of_size.hpp"
+#include "tables/iso286/limits_of_size.hpp"
 
 namespace fitgauge::iso286 {
 

@@ -1,4 +1,4 @@
-#include "iso286/indexed_table.hpp"
+#include "tables/iso286/indexed_table.hpp"
 
 #include <algorithm>
 #include <cassert>

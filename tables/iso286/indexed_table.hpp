@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "iso286/table_data.hpp"
+#include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::iso286 {
 

@@ -1,4 +1,4 @@
-#include "iso286/nominal_size.hpp"
+#include "tables/iso286/nominal_size.hpp"
 
 namespace fitgauge::iso286 {
 namespace {

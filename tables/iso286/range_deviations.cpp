@@ -1,6 +1,6 @@
-#include "iso286/range_deviations.hpp"
+#include "tables/iso286/range_deviations.hpp"
 
-#include "iso286/tolerance_tables.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::iso286 {
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "iso286/limit_deviations.hpp"
-#include "iso286/nominal_size.hpp"
-#include "iso286/tolerance_class.hpp"
+#include "tables/iso286/limit_deviations.hpp"
+#include "tables/iso286/nominal_size.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::iso286 {
 

@@ -1,11 +1,11 @@
-#include "iso286/table_comparison.hpp"
+#include "tables/iso286/table_comparison.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <tuple>
 
-#include "iso286/table_rules.hpp"
+#include "tables/iso286/table_rules.hpp"
 
 namespace fitgauge::iso286 {
 namespace {

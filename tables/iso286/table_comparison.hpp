@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "iso286/table_data.hpp"
+#include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::iso286 {
 

@@ -1,4 +1,4 @@
-#include "iso286/table_data.hpp"
+#include "tables/iso286/table_data.hpp"
 
 #include <fmt/format.h>
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "iso286/feature.hpp"
-#include "iso286/limit_deviations.hpp"
-#include "iso286/nominal_size.hpp"
+#include "tables/iso286/feature.hpp"
+#include "tables/iso286/limit_deviations.hpp"
+#include "tables/iso286/nominal_size.hpp"
 
 namespace fitgauge::iso286 {
 

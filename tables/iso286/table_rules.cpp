@@ -1,4 +1,4 @@
-#include "iso286/table_rules.hpp"
+#include "tables/iso286/table_rules.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <set>
 
 #include "base/text.hpp"
-#include "iso286/derivation.hpp"
-#include "iso286/table_comparison.hpp"
+#include "tables/iso286/derivation.hpp"
+#include "tables/iso286/table_comparison.hpp"
 
 namespace fitgauge::iso286 {
 namespace {

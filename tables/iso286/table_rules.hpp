@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/result.hpp"
-#include "iso286/table_data.hpp"
+#include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::iso286 {
 

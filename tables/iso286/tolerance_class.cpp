@@ -1,4 +1,4 @@
-#include "iso286/tolerance_class.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 #include <algorithm>
 #include <cassert>

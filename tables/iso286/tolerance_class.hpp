@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "iso286/feature.hpp"
+#include "tables/iso286/feature.hpp"
 
 namespace fitgauge::iso286 {
 

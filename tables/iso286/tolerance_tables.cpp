@@ -1,11 +1,11 @@
-#include "iso286/tolerance_tables.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "iso286/derivation.hpp"
-#include "iso286/table_rules.hpp"
+#include "tables/iso286/derivation.hpp"
+#include "tables/iso286/table_rules.hpp"
 
 namespace fitgauge::iso286 {
 namespace {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "iso286/fit.hpp"
-#include "iso286/limits_of_size.hpp"
-#include "iso286/table_data.hpp"
+#include "tables/iso286/fit.hpp"
+#include "tables/iso286/limits_of_size.hpp"
+#include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::iso286 {
 

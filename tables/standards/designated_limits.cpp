@@ -1,8 +1,8 @@
-#include "standards/designated_limits.hpp"
+#include "tables/standards/designated_limits.hpp"
 
 #include "base/text.hpp"
-#include "standards/general_tolerance.hpp"
-#include "standards/thread.hpp"
+#include "tables/standards/general_tolerance.hpp"
+#include "tables/standards/thread.hpp"
 
 namespace fitgauge::standards {
 namespace {

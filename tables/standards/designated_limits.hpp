@@ -6,10 +6,10 @@
 
 #include "base/length.hpp"
 #include "base/result.hpp"
-#include "iso286/feature.hpp"
-#include "iso286/limit_deviations.hpp"
-#include "iso286/nominal_size.hpp"
-#include "standards/standard.hpp"
+#include "tables/iso286/feature.hpp"
+#include "tables/iso286/limit_deviations.hpp"
+#include "tables/iso286/nominal_size.hpp"
+#include "tables/standards/standard.hpp"
 
 namespace fitgauge::standards {
 

@@ -1,4 +1,4 @@
-#include "standards/general_tolerance.hpp"
+#include "tables/standards/general_tolerance.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "standards/designated_limits.hpp"
+#include "tables/standards/designated_limits.hpp"
 
 namespace fitgauge::standards {
 

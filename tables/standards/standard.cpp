@@ -1,4 +1,4 @@
-#include "standards/standard.hpp"
+#include "tables/standards/standard.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/digest.hpp"
-#include "standards/compiled_in_csv.hpp"
+#include "tables/standards/compiled_in_csv.hpp"
 
 namespace fitgauge::standards {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "standards/table.hpp"
+#include "tables/standards/table.hpp"
 
 namespace fitgauge::standards {
 

@@ -1,4 +1,4 @@
-#include "standards/table.hpp"
+#include "tables/standards/table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "standards/thread.hpp"
+#include "tables/standards/thread.hpp"
 
 #include <fmt/format.h>
 

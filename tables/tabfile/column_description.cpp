@@ -1,4 +1,4 @@
-#include "tabfile/column_description.hpp"
+#include "tables/tabfile/column_description.hpp"
 
 #include <fmt/format.h>
 

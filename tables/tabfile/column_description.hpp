@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tabfile/tab_table.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::tabfile {
 

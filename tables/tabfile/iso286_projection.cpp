@@ -1,11 +1,11 @@
-#include "tabfile/iso286_projection.hpp"
+#include "tables/tabfile/iso286_projection.hpp"
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "iso286/range_deviations.hpp"
-#include "tabfile/characters.hpp"
+#include "tables/iso286/range_deviations.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {
 namespace {

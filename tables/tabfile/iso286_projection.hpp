@@ -1,7 +1,7 @@
 #pragma once
 
-#include "iso286/tolerance_tables.hpp"
-#include "tabfile/tab_table.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::tabfile {
 

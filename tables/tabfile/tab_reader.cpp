@@ -1,4 +1,4 @@
-#include "tabfile/tab_reader.hpp"
+#include "tables/tabfile/tab_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 
 #include "base/text.hpp"
-#include "tabfile/characters.hpp"
-#include "tabfile/column_description.hpp"
+#include "tables/tabfile/characters.hpp"
+#include "tables/tabfile/column_description.hpp"
 
 namespace fitgauge::tabfile {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/allowance.hpp"
 #include "base/result.hpp"
-#include "tabfile/tab_table.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::tabfile {
 

@@ -1,4 +1,4 @@
-#include "tabfile/tab_table.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "base/text.hpp"
-#include "tabfile/characters.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {
 namespace {

@@ -1,9 +1,9 @@
-#include "tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_writer.hpp"
 
 #include <algorithm>
 
-#include "tabfile/characters.hpp"
-#include "tabfile/column_description.hpp"
+#include "tables/tabfile/characters.hpp"
+#include "tables/tabfile/column_description.hpp"
 
 namespace fitgauge::tabfile {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tabfile/tab_table.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::tabfile {
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
 
 using namespace fitgauge;
 

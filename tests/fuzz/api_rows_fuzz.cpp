@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "api/measurements/measurement_batch.hpp"
 #include "http/request.hpp"
-#include "iso286/table_data.hpp"
+#include "record/measurement_batch.hpp"
+#include "tables/iso286/table_data.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

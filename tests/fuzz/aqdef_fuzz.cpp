@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "aqdef/dfq_writer.hpp"
-#include "aqdef/measurement_csv.hpp"
+#include "formats/dfq/dfq_writer.hpp"
+#include "formats/dfq/measurement_csv.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::aqdef;

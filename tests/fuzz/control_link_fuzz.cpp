@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "control_link/answers.hpp"
-#include "control_link/requests.hpp"
-#include "control_link/telegram.hpp"
+#include "plant/lsv2/link/answers.hpp"
+#include "plant/lsv2/link/requests.hpp"
+#include "plant/lsv2/link/telegram.hpp"
 
 using namespace fitgauge::control_link;
 

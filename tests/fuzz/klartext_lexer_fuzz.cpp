@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "klartext/lexer.hpp"
+#include "nc/klartext/lexer.hpp"
 
 using namespace fitgauge::klartext;
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "klartext/mask_file.hpp"
+#include "nc/klartext/mask_file.hpp"
 
 using namespace fitgauge::klartext;
 

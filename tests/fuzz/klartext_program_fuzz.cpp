@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "klartext/parser.hpp"
-#include "klartext/printer.hpp"
+#include "nc/klartext/parser.hpp"
+#include "nc/klartext/printer.hpp"
 
 using namespace fitgauge::klartext;
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "log_reader/pattern.hpp"
+#include "formats/measuring_log/pattern.hpp"
 
 using namespace fitgauge::log_reader;
 

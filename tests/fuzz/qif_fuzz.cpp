@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "qif/qif_csv.hpp"
-#include "qif/qif_writer.hpp"
+#include "formats/qif/qif_csv.hpp"
+#include "formats/qif/qif_writer.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::qif;

@@ -11,10 +11,10 @@
 #include "api/runs/run_codec.hpp"
 #include "api/runs/setup_codec.hpp"
 #include "api/runs/trace_codec.hpp"
-#include "api/wire/field_reader.hpp"
-#include "app/runs/run_executor.hpp"
-#include "app/runs/run_trace.hpp"
-#include "base/json_value.hpp"
+#include "base/json/field_reader.hpp"
+#include "base/json/json_value.hpp"
+#include "service/runs/run_executor.hpp"
+#include "service/runs/run_trace.hpp"
 
 using namespace fitgauge;
 

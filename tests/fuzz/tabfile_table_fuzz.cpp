@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tabfile/tab_reader.hpp"
-#include "tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_reader.hpp"
+#include "tables/tabfile/tab_writer.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::tabfile;

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tlog/checkpoint.hpp"
-#include "tlog/tile.hpp"
+#include "proof/checkpoint.hpp"
+#include "proof/tile.hpp"
 
 using namespace fitgauge::tlog;
 

@@ -1,125 +1,108 @@
 #!/usr/bin/env python3
-"""Compares every include of the sources with the edges docs/ARCHITECTURE.md allows, and the tree it prints
+"""Compares every include of the sources with the order of the rooms in docs/ARCHITECTURE.md, and the tree it prints
 with the folders.
 
-Fails on an edge that is not listed, on a cycle between files, on a library below or above its
-border (SQLite, Beast, JSON), on a thread that an exception would end, on an error code that nothing makes, on a name of the tree that is not there
-and a room the tree lacks, and when it finds nothing to check.
+Fails on an include of a room that comes later, on a cycle between files, on a library of others outside its border
+(SQLite, Beast, JSON), on a thread that an exception would end, on an error code that nothing makes, on a folder of the
+tree that does not exist or that the tree lacks, and when it finds nothing to check. `--arrows` prints the rooms with
+their lines, and each pair of rooms of which one includes the other.
 """
 
 import re
 import sys
+from collections import Counter
 from pathlib import Path
 
-FOLDERS = {
-    "base": "tables/base", "iso286": "tables/iso286", "standards": "tables/standards", "tabfile": "tables/tabfile",
-    "store": "db/store", "sql": "db/sql", "sqlite": "db/sqlite", "postgres": "db/postgres", "gauging": "server/gauging", "metrology": "server/metrology", "klartext": "server/klartext",
-    "machine": "server/machine", "probing": "server/probing",
-    "program": "server/interpreter/program", "run": "server/interpreter/run", "app": "server/app", "http": "server/http", "http_client": "server/http_client", "tlog": "server/tlog",
-    "control_link": "server/control_link", "log_reader": "server/log_reader", "certificate": "server/certificate", "sheet": "server/sheet", "aqdef": "server/aqdef", "qif": "server/qif", "workbook": "server/workbook",
-    "api": "server/api", "virtual_control": "server/virtual_control", "collector": "server/collector", "forwarder": "server/forwarder", "connections": "server/connections", "shdr": "server/shdr", "daemon": "server/daemon", "clients": "clients",
-}
-DOMAIN = {"iso286", "standards", "tabfile", "gauging", "metrology", "klartext", "machine", "probing", "program", "run"}
-
-
-def allowed_edges(architecture: str) -> dict[str, set[str]]:
-    """The edges of the paragraph "Allowed edges": `a, b → c, d; …`, everything → base."""
-    paragraph = re.search(r"Allowed edges[^:]*: (.*?)\.\n", architecture, re.DOTALL)
-    if paragraph is None:
-        sys.exit("docs/ARCHITECTURE.md has no paragraph \"Allowed edges\"")
-    edges: dict[str, set[str]] = {layer: {"base"} for layer in FOLDERS}
-    edges["base"] = set()
-    for clause in paragraph.group(1).split(";"):
-        if "→" not in clause:
-            continue
-        sources, targets = (set(re.findall(r"[a-z0-9_]+", side)) for side in clause.split("→"))
-        if "domain" in targets:  # "the domain types it formats"
-            targets |= DOMAIN
-        for source in sources & FOLDERS.keys():
-            edges[source] |= targets & FOLDERS.keys()
-    return edges
-
-
-# A library of others, and the only layers that may include it.
+# A library of others, and the only folders that may include it.
 BORDERS = {
-    r"(sqlite3\.h|SQLiteCpp/)": {"sqlite"},
-    r"postgresql/": {"postgres"},
-    r"boost/beast": {"http", "clients"},
-    r"boost/asio": {"http", "clients", "shdr"},
-    r"nlohmann/": {"base"},
-    r"simdjson": {"api"},
+    r"(sqlite3\.h|SQLiteCpp/)": ("db/sqlite",),
+    r"postgresql/": ("db/postgres",),
+    r"boost/beast": ("server/http", "clients"),
+    r"boost/asio": ("server/http", "server/plant/mtconnect", "clients"),
+    r"nlohmann/": ("server/base",),
+    r"simdjson": ("server/base/json", "server/record"),
 }
-# What starts a thread. All but base/thread.hpp take that one, which guards what the thread does. (The tools of clients end with
-# their command, and std::async hands an exception on.)
+# What starts a thread. All but base/thread.hpp take that one, which guards what the thread does. (The tools of clients
+# end with their command, and std::async hands an exception on.)
 RAW_THREAD = re.compile(r"std::(j?thread|async)\b|pthread_create|boost::thread|asio::thread_pool")
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
+SOURCES = {".hpp", ".cpp", ".inc"}
 
 
-def rooms(folder: Path) -> set[str]:
-    """The folders below it that hold sources."""
-    sources = {".hpp", ".cpp", ".js", ".py"}
-    return {path.name + "/" for path in folder.iterdir()
-            if path.is_dir() and path.name != "__pycache__" and any(file.suffix in sources for file in path.rglob("*"))}
+def rooms_in_order(architecture: str) -> list[str]:
+    """Section 1: the rooms, from the one that includes nothing to the one that nothing includes."""
+    block = re.search(r"## 1\..*?\n```\n(.*?)```", architecture, re.DOTALL)
+    if block is None:
+        sys.exit("docs/ARCHITECTURE.md has no list of rooms in section 1")
+    return block.group(1).split()
 
 
 def tree_findings(architecture: str, root: Path) -> list[str]:
-    """Section 2: `folder  name name room/ -- words`. Every name is there; every room is named."""
-    block = re.search(r"## 2\. The tree\n```\n(.*?)```", architecture, re.DOTALL)
+    """Section 2: `folder  folder/ folder/  -- words`. Every folder exists; every folder with sources is named."""
+    block = re.search(r"## 2\..*?\n```\n(.*?)```", architecture, re.DOTALL)
     if block is None:
         return ["docs/ARCHITECTURE.md has no tree in section 2"]
     found: list[str] = []
-    listed = set()
     for line in block.group(1).splitlines():
         folder, *names = line.split(" -- ")[0].split()
-        listed.add(folder)
         if not (root / folder).is_dir():
             found.append(f"the tree names {folder}, which is no folder")
-        for name in names:
-            there = (root / folder / name).is_dir() if name.endswith("/") else any((root / folder).glob(name + "*"))
-            if not there:
-                found.append(f"the tree names {name} in {folder}, which is not there")
-        if folder.startswith(("server/", "clients/")) and (root / folder).is_dir():
-            found += [f"the tree lacks {room} in {folder}" for room in sorted(rooms(root / folder) - set(names))]
-    for layer in FOLDERS.values():
-        if not any(name == layer or name.startswith(layer + "/") for name in listed):
-            found.append(f"the tree lacks {layer}")
+            continue
+        found += [f"the tree names {name} in {folder}, which is not there" for name in names if not (root / folder / name).is_dir()]
+        if folder.split("/")[0] in {"server", "db", "tables", "clients"}:
+            kinds = SOURCES | {".js", ".py"}
+            there = {path.name + "/" for path in (root / folder).iterdir()
+                     if path.is_dir() and path.name != "__pycache__" and any(file.suffix in kinds for file in path.rglob("*"))}
+            found += [f"the tree lacks {name} in {folder}" for name in sorted(there - set(names))]
     return found
 
 
-def main(root: Path) -> int:
+def main(root: Path, print_arrows: bool) -> int:
     architecture = (root / "docs/ARCHITECTURE.md").read_text(encoding="utf-8")
-    allowed = allowed_edges(architecture)
+    rank = {room: number for number, room in enumerate(rooms_in_order(architecture))}
+    folders = {room: room if room in {"db", "tables"} else f"server/{room}" for room in rank} | {"cli": "clients/cli"}
+    rank["cli"] = len(rank)
     findings = tree_findings(architecture, root)
+    findings += [f"{room.name} is a room that the order lacks" for room in (root / "server").iterdir() if room.is_dir() and room.name not in rank]
     edges: dict[str, set[str]] = {}
+    arrows: Counter[tuple[str, str]] = Counter()
+    lines: Counter[str] = Counter()
     made: set[str] = set()
     seen = 0
-    for layer, folder in FOLDERS.items():
+    for room, folder in folders.items():
         for file in sorted((root / folder).rglob("*")):
-            if file.suffix not in {".hpp", ".cpp", ".inc"}:
+            if file.suffix not in SOURCES:
                 continue
             seen += 1
-            name = f"{layer}/{file.relative_to(root / folder)}"
+            path = file.relative_to(root)
+            name = f"{room}/{file.relative_to(root / folder)}"
             text = file.read_text(encoding="utf-8")
+            lines[room] += text.count("\n")
             if name != "api/wire/problem.cpp":  # which gives each its status
                 made.update(re.findall(r"ErrorCode::(\w+)", text))
-            if layer != "clients" and name != "base/thread.hpp":
-                findings += [f"{folder}/{file.name}: {raw[0]} is a thread that an exception ends: take base/thread.hpp" for raw in RAW_THREAD.finditer(text)]
+            if room != "cli" and name != "base/thread.hpp":
+                findings += [f"{path}: {raw[0]} is a thread that an exception ends: use base/thread.hpp" for raw in RAW_THREAD.finditer(text)]
             for quoted, angled in INCLUDE.findall(text):
-                include = quoted or angled
-                target = include.split("/")[0]
-                if target in FOLDERS and quoted:
-                    edges.setdefault(name, set()).add(include)
-                    if target != layer and target not in allowed[layer]:
-                        findings.append(f"{folder}/{file.name}: {layer} may not include {include}")
-                for pattern, layers in BORDERS.items():
-                    if re.match(pattern, include) and layer not in layers:
-                        findings.append(f"{folder}/{file.name}: {include} is not for {layer}")
+                target = quoted.split("/")[0]
+                if target in rank:
+                    edges.setdefault(name, set()).add(quoted)
+                    if target != room:
+                        arrows[room, target] += 1
+                    if rank[target] > rank[room]:
+                        findings.append(f"{path}: {room} comes before {target} and may not include {quoted}")
+                for pattern, borders in BORDERS.items():
+                    if re.match(pattern, quoted or angled) and not str(path).startswith(borders):
+                        findings.append(f"{path}: {quoted or angled} is only for {' and '.join(borders)}")
     findings += cycles(edges)
-    codes = re.findall(r"^FITGAUGE_ERROR\((\w+)", (root / "tables/base/error_codes.inc").read_text(encoding="utf-8"), re.MULTILINE)
-    findings += [f"tables/base/error_codes.inc: nothing makes {code}" for code in codes if code not in made]
+    codes = re.findall(r"^FITGAUGE_ERROR\((\w+)", (root / "server/base/error_codes.inc").read_text(encoding="utf-8"), re.MULTILINE)
+    findings += [f"server/base/error_codes.inc: nothing makes {code}" for code in codes if code not in made]
+    if print_arrows:
+        for room in folders:
+            print(f"{room:10} {lines[room]:6} lines  includes {' '.join(f'{b}({n})' for (a, b), n in sorted(arrows.items()) if a == room)}")
     for finding in findings:
         print(finding)
-    print(f"{seen} files, {len(findings)} findings")
+    inside = [pair for pair in arrows if "cli" not in pair]
+    print(f"{seen} files, {sum(lines.values())} lines, {len(folders) - 1} rooms, {len(inside)} arrows, {len(findings)} findings")
     return 1 if findings or seen == 0 else 0
 
 
@@ -144,4 +127,4 @@ def cycles(edges: dict[str, set[str]]) -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]), "--arrows" in sys.argv[2:]))

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <set>
 
-#include "iso286/tolerance_tables.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::iso286;

@@ -6,10 +6,10 @@
 
 #include "api/measurements/measurement_codec.hpp"
 #include "api/service/version.hpp"
-#include "api/wire/json_writer.hpp"
-#include "app/measurements/record.hpp"
 #include "base/decimal.hpp"
-#include "standards/designated_limits.hpp"
+#include "base/json/json_writer.hpp"
+#include "record/record.hpp"
+#include "tables/standards/designated_limits.hpp"
 
 namespace fitgauge::api {
 namespace {

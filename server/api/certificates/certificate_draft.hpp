@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "api/statistics/gauges_in_use.hpp"
-#include "app/measurements/measurement.hpp"
-#include "certificate/certificate.hpp"
+#include "formats/certificate/certificate.hpp"
+#include "record/measurement.hpp"
+#include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::api {
 

@@ -7,9 +7,9 @@
 #include "api/certificates/certificate_draft.hpp"
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
-#include "app/log/log_service.hpp"
-#include "app/measurements/measurement_service.hpp"
-#include "app/runs/run_service.hpp"
+#include "service/log/log_service.hpp"
+#include "service/measurements/measurement_service.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
-#include "program/control_path.hpp"
+#include "nc/program/control_path.hpp"
 
 namespace fitgauge::api {
 

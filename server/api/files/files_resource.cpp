@@ -5,11 +5,11 @@
 #include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
-#include "api/wire/json_writer.hpp"
 #include "api/wire/request_facts.hpp"
-#include "app/files/file_service.hpp"
-#include "app/runs/run_service.hpp"
+#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
+#include "service/files/file_service.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

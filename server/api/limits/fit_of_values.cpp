@@ -4,8 +4,8 @@
 
 #include "api/measurements/measurement_listing.hpp"
 #include "api/statistics/value_selection.hpp"
-#include "app/runs/run_service.hpp"
-#include "metrology/fit_analysis.hpp"
+#include "metrology/statistics/fit_analysis.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

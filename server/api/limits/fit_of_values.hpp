@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "api/services.hpp"
-#include "api/wire/json_writer.hpp"
+#include "base/json/json_writer.hpp"
 #include "http/request.hpp"
 #include "http/responder.hpp"
 #include "http/route.hpp"
-#include "iso286/tolerance_tables.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::api {
 

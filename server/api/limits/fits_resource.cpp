@@ -6,9 +6,9 @@
 #include "api/limits/fit_of_values.hpp"
 #include "api/limits/limits_codec.hpp"
 #include "api/wire/formulas.hpp"
-#include "app/tables/table_catalog.hpp"
-#include "iso286/designation.hpp"
-#include "metrology/fit_analysis.hpp"
+#include "metrology/statistics/fit_analysis.hpp"
+#include "service/tables/table_catalog.hpp"
+#include "tables/iso286/designation.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -4,11 +4,11 @@
 
 #include "api/limits/limits_codec.hpp"
 #include "api/statistics/computation.hpp"
-#include "api/wire/field_reader.hpp"
 #include "api/wire/formulas.hpp"
-#include "iso286/designation.hpp"
-#include "metrology/limit_gauge.hpp"
-#include "metrology/press_fit.hpp"
+#include "base/json/field_reader.hpp"
+#include "metrology/statistics/limit_gauge.hpp"
+#include "metrology/statistics/press_fit.hpp"
+#include "tables/iso286/designation.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "iso286/designation.hpp"
+#include "tables/iso286/designation.hpp"
 
 namespace fitgauge::api {
 

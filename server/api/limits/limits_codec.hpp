@@ -2,10 +2,10 @@
 
 #include <string_view>
 
-#include "api/wire/json_writer.hpp"
-#include "app/measurements/measurement_service.hpp"
-#include "iso286/tolerance_tables.hpp"
-#include "standards/designated_limits.hpp"
+#include "base/json/json_writer.hpp"
+#include "service/measurements/measurement_service.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
+#include "tables/standards/designated_limits.hpp"
 
 namespace fitgauge::api {
 

@@ -1,7 +1,7 @@
 #include "api/limits/limits_resource.hpp"
 
 #include "api/limits/limits_codec.hpp"
-#include "iso286/designation.hpp"
+#include "tables/iso286/designation.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "api/limits/limits_codec.hpp"
-#include "api/wire/json_writer.hpp"
+#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
-#include "standards/standard.hpp"
+#include "tables/standards/standard.hpp"
 
 namespace fitgauge::api {
 namespace {

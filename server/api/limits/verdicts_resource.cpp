@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "api/limits/limits_codec.hpp"
-#include "api/limits/thermal_codec.hpp"
-#include "api/limits/verdict_codec.hpp"
-#include "app/tables/table_catalog.hpp"
-#include "iso286/designation.hpp"
+#include "record/thermal_codec.hpp"
+#include "record/verdict_codec.hpp"
+#include "service/tables/table_catalog.hpp"
+#include "tables/iso286/designation.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include "api/handlers.hpp"
-#include "api/log/batch_reader.hpp"
-#include "api/wire/json_writer.hpp"
 #include "api/wire/problem.hpp"
-#include "app/measurements/measurement_service.hpp"
-#include "tlog/base64.hpp"
+#include "base/base64.hpp"
+#include "base/json/json_writer.hpp"
+#include "service/log/batch_reader.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,10 +1,10 @@
 #include "api/log/log_resource.hpp"
 
 #include "api/handlers.hpp"
-#include "api/wire/json_writer.hpp"
-#include "app/log/log_service.hpp"
-#include "app/measurements/measurement_service.hpp"
-#include "tlog/base64.hpp"
+#include "base/base64.hpp"
+#include "base/json/json_writer.hpp"
+#include "service/log/log_service.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,8 +1,8 @@
 #include "api/log/revisions_resource.hpp"
 
 #include "api/handlers.hpp"
-#include "api/wire/json_writer.hpp"
-#include "app/revisions/revision_feed.hpp"
+#include "base/json/json_writer.hpp"
+#include "service/revisions/revision_feed.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "api/wire/request_facts.hpp"
-#include "app/measurements/measurement_service.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 

@@ -2,8 +2,8 @@
 
 #include "api/measurements/measurement_columns.hpp"
 #include "api/wire/formulas.hpp"
+#include "base/csv_cell.hpp"
 #include "base/decimal.hpp"
-#include "sheet/csv_cell.hpp"
 
 namespace fitgauge::api {
 namespace {

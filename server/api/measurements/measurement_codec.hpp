@@ -3,9 +3,9 @@
 #include <span>
 #include <string>
 
-#include "api/wire/json_writer.hpp"
-#include "app/measurements/measurement.hpp"
-#include "app/measurements/measurement_service.hpp"
+#include "base/json/json_writer.hpp"
+#include "record/measurement.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/measurements/measurement.hpp"
-#include "gauging/gauge.hpp"
+#include "metrology/gauging/gauge.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 

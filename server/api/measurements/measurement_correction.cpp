@@ -7,11 +7,12 @@
 #include <memory>
 
 #include "api/measurements/measurement_posting.hpp"
-#include "api/measurements/measurement_row_reader.hpp"
 #include "api/wire/request_facts.hpp"
-#include "app/measurements/measurement_service.hpp"
-#include "app/tables/table_catalog.hpp"
 #include "base/decimal.hpp"
+#include "record/measurement_row_reader.hpp"
+#include "service/measurements/gauges_in_use.hpp"
+#include "service/measurements/measurement_service.hpp"
+#include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "gauging/reference_temperature.hpp"
+#include "metrology/gauging/reference_temperature.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/measurements/measurement.hpp"
-#include "aqdef/dfq_writer.hpp"
+#include "formats/dfq/dfq_writer.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 

@@ -6,8 +6,8 @@
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_file.hpp"
-#include "app/measurements/record.hpp"
-#include "sheet/time_zone.hpp"
+#include "formats/sheet/time_zone.hpp"
+#include "record/record.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "api/services.hpp"
-#include "app/measurements/measurement_service.hpp"
 #include "http/route.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 

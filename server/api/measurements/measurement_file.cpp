@@ -5,7 +5,7 @@
 #include "api/measurements/measurement_columns.hpp"
 #include "api/measurements/measurement_dfq.hpp"
 #include "api/measurements/measurement_qif.hpp"
-#include "workbook/workbook.hpp"
+#include "formats/xlsx/workbook.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "app/measurements/measurement.hpp"
-#include "aqdef/dfq_writer.hpp"
 #include "base/result.hpp"
+#include "formats/dfq/dfq_writer.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 

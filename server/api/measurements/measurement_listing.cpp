@@ -12,9 +12,9 @@
 #include "api/measurements/measurement_download.hpp"
 #include "api/measurements/notes_resource.hpp"
 #include "api/wire/request_facts.hpp"
-#include "app/measurements/record.hpp"
-#include "app/runs/run_service.hpp"
 #include "http/body_stream.hpp"
+#include "record/record.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -4,7 +4,8 @@
 
 #include "api/measurements/measurement_answer.hpp"
 #include "api/wire/request_facts.hpp"
-#include "app/tables/table_catalog.hpp"
+#include "service/measurements/gauges_in_use.hpp"
+#include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "api/measurements/measurement_batch.hpp"
 #include "api/posting.hpp"
+#include "record/measurement_batch.hpp"
 
 namespace fitgauge::api {
 

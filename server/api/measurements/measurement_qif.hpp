@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/measurements/measurement.hpp"
-#include "qif/qif_writer.hpp"
+#include "formats/qif/qif_writer.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 

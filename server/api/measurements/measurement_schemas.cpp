@@ -1,6 +1,6 @@
-#include "api/measurements/measurement_row_fields.hpp"
 #include "api/schemas.hpp"
-#include "app/measurements/measurement_service.hpp"
+#include "record/measurement_row_fields.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {

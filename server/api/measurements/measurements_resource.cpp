@@ -8,8 +8,8 @@
 #include "api/measurements/measurement_download.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/measurements/measurement_posting.hpp"
-#include "app/measurements/measurement_service.hpp"
-#include "app/measurements/record.hpp"
+#include "record/record.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -10,10 +10,10 @@
 #include "api/measurements/measurement_posting.hpp"
 #include "api/measurements/note_limits.hpp"
 #include "api/service/document_routes.hpp"
-#include "api/wire/field_reader.hpp"
-#include "api/wire/json_writer.hpp"
 #include "api/wire/request_facts.hpp"
-#include "app/measurements/measurement_service.hpp"
+#include "base/json/field_reader.hpp"
+#include "base/json/json_writer.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {

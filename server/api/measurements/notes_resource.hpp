@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "api/services.hpp"
-#include "app/measurements/note.hpp"
 #include "http/route.hpp"
+#include "record/note.hpp"
 
 namespace fitgauge::api {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <set>
 
-#include "api/measurements/measurement_row_reader.hpp"
-#include "api/wire/field_reader.hpp"
-#include "api/wire/json_writer.hpp"
+#include "base/json/field_reader.hpp"
+#include "base/json/json_writer.hpp"
+#include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::api {
 namespace {

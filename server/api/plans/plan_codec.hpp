@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "api/measurements/measurement_batch.hpp"
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
+#include "record/measurement_batch.hpp"
 
 // A plan: what is measured at a part, in order.
 

@@ -2,8 +2,8 @@
 
 #include "api/plans/plan_codec.hpp"
 #include "api/service/document_routes.hpp"
-#include "api/statistics/gauges_in_use.hpp"
-#include "app/tables/table_catalog.hpp"
+#include "service/measurements/gauges_in_use.hpp"
+#include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
 namespace {

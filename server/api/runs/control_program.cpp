@@ -3,8 +3,8 @@
 #include <future>
 
 #include "api/runs/run_order_codec.hpp"
-#include "base/json_value.hpp"
-#include "program/check.hpp"
+#include "base/json/json_value.hpp"
+#include "nc/program/check.hpp"
 
 namespace fitgauge::api {
 namespace {

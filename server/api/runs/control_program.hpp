@@ -4,8 +4,8 @@
 #include <string>
 
 #include "api/services.hpp"
-#include "app/runs/run_service.hpp"
-#include "machine/machine_setup.hpp"
+#include "nc/machine/machine_setup.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 

@@ -6,7 +6,7 @@
 
 #include "api/runs/run_order_codec.hpp"
 #include "api/runs/trace_codec.hpp"
-#include "app/measurements/measurement.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "api/wire/json_writer.hpp"
-#include "app/runs/run_service.hpp"
-#include "base/json_value.hpp"
-#include "klartext/diagnostic.hpp"
+#include "base/json/json_value.hpp"
+#include "base/json/json_writer.hpp"
+#include "nc/klartext/diagnostic.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 

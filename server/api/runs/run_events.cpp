@@ -4,9 +4,9 @@
 #include <mutex>
 
 #include "api/wire/event_text.hpp"
-#include "api/wire/json_writer.hpp"
-#include "api/wire/stored_member.hpp"
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
+#include "base/json/json_writer.hpp"
+#include "base/json/stored_member.hpp"
 
 namespace fitgauge::api {
 namespace {

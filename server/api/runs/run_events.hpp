@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "app/runs/active_run.hpp"
 #include "base/result.hpp"
 #include "http/response.hpp"
+#include "service/runs/active_run.hpp"
 
 namespace fitgauge::api {
 

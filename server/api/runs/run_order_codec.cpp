@@ -10,7 +10,7 @@
 #include "api/runs/run_codec.hpp"
 #include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"
-#include "api/wire/field_reader.hpp"
+#include "base/json/field_reader.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "app/runs/control_tables.hpp"
-#include "app/runs/run_report.hpp"
-#include "app/service/document_service.hpp"
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
+#include "service/documents/document_service.hpp"
+#include "service/runs/control_tables.hpp"
+#include "service/runs/run_report.hpp"
 
 namespace fitgauge::api {
 

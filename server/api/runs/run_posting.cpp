@@ -5,9 +5,9 @@
 #include "api/runs/run_order_codec.hpp"
 #include "api/wire/problem.hpp"
 #include "api/wire/request_facts.hpp"
-#include "app/measurements/measurement.hpp"
-#include "app/runs/run_service.hpp"
-#include "program/check.hpp"
+#include "nc/program/check.hpp"
+#include "record/measurement.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -9,11 +9,11 @@
 #include "api/runs/trace_codec.hpp"
 #include "api/wire/event_text.hpp"
 #include "api/wire/request_facts.hpp"
-#include "api/wire/stored_member.hpp"
-#include "app/measurements/measurement.hpp"
-#include "app/runs/run_service.hpp"
+#include "base/json/stored_member.hpp"
 #include "base/text.hpp"
 #include "http/body_stream.hpp"
+#include "record/measurement.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
-#include "api/wire/schema.hpp"
-#include "program/cycle_names.hpp"
-#include "program/known_m_functions.hpp"
+#include "base/json/schema.hpp"
+#include "nc/program/cycle_names.hpp"
+#include "nc/program/known_m_functions.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "api/runs/setup_fields.hpp"
-#include "api/wire/field_reader.hpp"
-#include "run/interpreter.hpp"
+#include "base/json/field_reader.hpp"
+#include "nc/run/interpreter.hpp"
 
 namespace fitgauge::api {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "api/wire/field_reader.hpp"
-#include "app/runs/control_tables.hpp"
+#include "base/json/field_reader.hpp"
+#include "service/runs/control_tables.hpp"
 
 namespace fitgauge::api {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "machine/machine_setup.hpp"
+#include "nc/machine/machine_setup.hpp"
 
 namespace fitgauge::api {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "api/runs/setup_fields.hpp"
-#include "api/wire/field_reader.hpp"
+#include "base/json/field_reader.hpp"
 
 namespace fitgauge::api {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "api/runs/setup_fields.hpp"
-#include "api/wire/schema.hpp"
+#include "base/json/schema.hpp"
 
 namespace fitgauge::api {
 

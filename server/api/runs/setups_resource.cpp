@@ -3,7 +3,7 @@
 #include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"
 #include "api/service/document_routes.hpp"
-#include "app/runs/run_service.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

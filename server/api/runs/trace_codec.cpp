@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "api/wire/json_writer.hpp"
-#include "base/json_value.hpp"
+#include "base/csv_cell.hpp"
+#include "base/json/json_value.hpp"
+#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
-#include "sheet/csv_cell.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/runs/run_report.hpp"
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
+#include "service/runs/run_report.hpp"
 
 namespace fitgauge::api {
 

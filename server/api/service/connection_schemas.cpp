@@ -1,6 +1,6 @@
 #include "api/schemas.hpp"
-#include "app/measurements/measurement_service.hpp"
-#include "app/service/connection_state.hpp"
+#include "service/measurements/measurement_service.hpp"
+#include "service/state/connection_state.hpp"
 
 namespace fitgauge::api {
 namespace {

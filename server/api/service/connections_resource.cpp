@@ -2,8 +2,8 @@
 
 #include "api/handlers.hpp"
 #include "api/service/caller.hpp"
-#include "api/wire/json_writer.hpp"
 #include "api/wire/request_facts.hpp"
+#include "base/json/json_writer.hpp"
 
 namespace fitgauge::api {
 namespace {

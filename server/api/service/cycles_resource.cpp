@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "api/wire/json_writer.hpp"
-#include "probing/cycle_registry.hpp"
-#include "program/machining_cycles.hpp"
+#include "base/json/json_writer.hpp"
+#include "nc/probing/cycle_registry.hpp"
+#include "nc/program/machining_cycles.hpp"
 
 namespace fitgauge::api {
 namespace {

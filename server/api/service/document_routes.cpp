@@ -7,8 +7,8 @@
 #include "api/handlers.hpp"
 #include "api/statistics/exact_reader.hpp"
 #include "api/wire/request_facts.hpp"
-#include "app/runs/run_service.hpp"
 #include "base/clock.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

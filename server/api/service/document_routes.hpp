@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "api/services.hpp"
-#include "api/wire/json_writer.hpp"
-#include "app/service/document_service.hpp"
+#include "base/json/json_writer.hpp"
 #include "base/result.hpp"
 #include "http/route.hpp"
+#include "service/documents/document_service.hpp"
 
 // Whatever is kept as a text under a name has the same four routes, tags and preconditions.
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "api/wire/event_text.hpp"
-#include "app/measurements/record.hpp"
+#include "record/record.hpp"
 
 namespace fitgauge::api {
 namespace {

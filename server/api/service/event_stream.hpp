@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "app/service/event_service.hpp"
 #include "http/body_stream.hpp"
+#include "service/events/event_service.hpp"
 
 namespace fitgauge::api {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "api/service/caller.hpp"
-#include "app/service/key_service.hpp"
 #include "http/server.hpp"
+#include "service/documents/key_service.hpp"
 
 namespace fitgauge::api {
 

@@ -9,8 +9,8 @@
 #include "api/runs/setup_schema.hpp"
 #include "api/schemas.hpp"
 #include "api/service/version.hpp"
-#include "api/wire/json_writer.hpp"
 #include "base/decimal.hpp"
+#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::api {

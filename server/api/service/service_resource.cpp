@@ -4,11 +4,11 @@
 #include "api/service/metrics.hpp"
 #include "api/service/verdict_counts.hpp"
 #include "api/service/version.hpp"
-#include "api/wire/json_writer.hpp"
-#include "app/log/log_service.hpp"
-#include "app/service/readiness.hpp"
-#include "app/tables/table_catalog.hpp"
-#include "tlog/base64.hpp"
+#include "base/base64.hpp"
+#include "base/json/json_writer.hpp"
+#include "service/log/log_service.hpp"
+#include "service/state/readiness.hpp"
+#include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
 namespace {

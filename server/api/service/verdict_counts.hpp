@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "api/service/exposition.hpp"
-#include "app/measurements/measurement_service.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 

@@ -1,7 +1,7 @@
 #include "api/statistics/computation.hpp"
 
 #include "api/handlers.hpp"
-#include "app/runs/run_service.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 

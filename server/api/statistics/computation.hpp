@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "api/services.hpp"
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
 #include "http/route.hpp"
 
 namespace fitgauge::api {

@@ -4,8 +4,9 @@
 
 #include "api/service/document_routes.hpp"
 #include "api/statistics/exact_reader.hpp"
-#include "api/statistics/gauges_in_use.hpp"
 #include "api/statistics/uncertainty_resource.hpp"
+#include "record/gauge_book.hpp"
+#include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::api {
 namespace {

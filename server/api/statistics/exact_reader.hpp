@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "api/wire/field_reader.hpp"
-#include "metrology/control_chart.hpp"
-#include "metrology/decimals.hpp"
+#include "base/json/field_reader.hpp"
+#include "metrology/statistics/control_chart.hpp"
+#include "metrology/statistics/decimals.hpp"
 
 // Decimals of a body, exactly: JSON numbers and strings with one. What cannot be read goes to the
 // FieldErrors with its pointer.

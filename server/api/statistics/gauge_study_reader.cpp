@@ -8,8 +8,8 @@
 
 #include "api/statistics/exact_reader.hpp"
 #include "api/statistics/statistics_codec.hpp"
-#include "api/wire/applicable.hpp"
 #include "api/wire/formulas.hpp"
+#include "base/json/applicable.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::api {

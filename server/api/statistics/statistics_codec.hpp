@@ -5,13 +5,13 @@
 #include <span>
 #include <string_view>
 
-#include "api/wire/applicable.hpp"
-#include "api/wire/json_writer.hpp"
-#include "metrology/anova.hpp"
-#include "metrology/capability.hpp"
-#include "metrology/control_chart.hpp"
-#include "metrology/gauge_study.hpp"
-#include "metrology/summary.hpp"
+#include "base/json/applicable.hpp"
+#include "base/json/json_writer.hpp"
+#include "metrology/statistics/anova.hpp"
+#include "metrology/statistics/capability.hpp"
+#include "metrology/statistics/control_chart.hpp"
+#include "metrology/statistics/gauge_study.hpp"
+#include "metrology/statistics/summary.hpp"
 
 // The answers of /v1/statistics. Figures have 17 significant digits; what is undefined is null.
 

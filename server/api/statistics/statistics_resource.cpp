@@ -10,8 +10,8 @@
 #include "api/statistics/gauge_study_reader.hpp"
 #include "api/statistics/statistics_codec.hpp"
 #include "api/wire/formulas.hpp"
-#include "metrology/pairing.hpp"
-#include "metrology/run_length.hpp"
+#include "metrology/statistics/pairing.hpp"
+#include "metrology/statistics/run_length.hpp"
 
 namespace fitgauge::api {
 namespace {

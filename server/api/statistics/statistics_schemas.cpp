@@ -1,5 +1,5 @@
 #include "api/schemas.hpp"
-#include "metrology/uncertainty.hpp"
+#include "metrology/statistics/uncertainty.hpp"
 
 namespace fitgauge::api {
 

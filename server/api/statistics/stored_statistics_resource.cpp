@@ -7,7 +7,7 @@
 #include "api/statistics/statistics_codec.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
-#include "app/runs/run_service.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {

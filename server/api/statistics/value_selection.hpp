@@ -7,11 +7,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "api/wire/json_writer.hpp"
-#include "app/measurements/measurement_service.hpp"
+#include "base/json/json_writer.hpp"
 #include "http/route.hpp"
-#include "metrology/capability.hpp"
-#include "metrology/control_chart.hpp"
+#include "metrology/statistics/capability.hpp"
+#include "metrology/statistics/control_chart.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "api/wire/field_reader.hpp"
-#include "api/wire/json_writer.hpp"
-#include "iso286/range_deviations.hpp"
+#include "base/json/json_writer.hpp"
+#include "tables/iso286/range_deviations.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -115,32 +114,6 @@ std::string table_index_json(const ToleranceTables& tables) {
   }
   json.end_array().end_object();
   return out;
-}
-
-Result<std::vector<iso286::CustomRow>> decode_custom_rows(const JsonValue& body) {
-  FieldErrors errors;
-  std::vector<iso286::CustomRow> rows;
-  FieldReader fields(body, "", errors);
-  if (const JsonValue* list = fields.array("rows")) {
-    for (std::size_t i = 0; i < list->items.size(); ++i) {
-      FieldReader row(list->items[i], pointer_to("/rows", i), errors);
-      const auto over = row.mm("over_mm");
-      const auto up_to = row.mm("up_to_mm");
-      const auto upper = row.um("upper_um");
-      const auto lower = row.um("lower_um");
-      row.refuse_unknown();
-      if (over && up_to && upper && lower) {
-        rows.push_back({.range = {.over = *over, .up_to = *up_to},
-                        .deviations = {.upper = *upper, .lower = *lower}});
-      }
-    }
-    if (list->items.empty()) {
-      errors.add(ErrorCode::FieldInvalid, "/rows", "a column needs at least one row");
-    }
-  }
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return std::move(*error);
-  return rows;
 }
 
 }  // namespace fitgauge::api

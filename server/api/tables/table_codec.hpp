@@ -4,8 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/json_value.hpp"
-#include "iso286/tolerance_tables.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::api {
 
@@ -24,9 +23,5 @@ std::string table_csv(const std::vector<iso286::ClassId>& classes,
 
 /// The index of /v1/tables.
 std::string table_index_json(const iso286::ToleranceTables& tables);
-
-/// Reads the body of a custom column: `{"rows":[{"over_mm","up_to_mm","upper_um","lower_um"}]}`.
-/// @errors RequestInvalid with every bad field.
-Result<std::vector<iso286::CustomRow>> decode_custom_rows(const JsonValue& body);
 
 }  // namespace fitgauge::api

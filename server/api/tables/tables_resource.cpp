@@ -6,10 +6,11 @@
 #include "api/limits/limits_codec.hpp"
 #include "api/tables/table_codec.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json_value.hpp"
-#include "iso286/tolerance_class.hpp"
-#include "tabfile/iso286_projection.hpp"
-#include "tabfile/tab_writer.hpp"
+#include "base/json/json_value.hpp"
+#include "service/tables/custom_column.hpp"
+#include "tables/iso286/tolerance_class.hpp"
+#include "tables/tabfile/iso286_projection.hpp"
+#include "tables/tabfile/tab_writer.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "api/wire/json_writer.hpp"
+#include "base/json/json_writer.hpp"
 
 namespace fitgauge::api {
 

@@ -1,6 +1,6 @@
 #include "api/wire/problem.hpp"
 
-#include "api/wire/json_writer.hpp"
+#include "base/json/json_writer.hpp"
 
 namespace fitgauge::api {
 namespace {

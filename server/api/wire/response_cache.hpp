@@ -6,8 +6,8 @@
 #include <string>
 #include <unordered_map>
 
-#include "app/tables/table_catalog.hpp"
 #include "http/route.hpp"
+#include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
 

@@ -7,8 +7,8 @@
 
 #include <string_view>
 
-#include "aqdef/measurement_csv.hpp"
-#include "aqdef/reader.hpp"
+#include "formats/dfq/measurement_csv.hpp"
+#include "formats/dfq/reader.hpp"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <ctime>
 #include <string>
 
-#include "machine/machine_setup.hpp"
-#include "machine/simulated_machine.hpp"
-#include "run/interpreter.hpp"
+#include "nc/machine/machine_setup.hpp"
+#include "nc/machine/simulated_machine.hpp"
+#include "nc/run/interpreter.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::interpreter;

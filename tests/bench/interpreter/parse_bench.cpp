@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "klartext/parser.hpp"
+#include "nc/klartext/parser.hpp"
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "machine/simulated_machine.hpp"
-#include "run/interpreter.hpp"
+#include "nc/machine/simulated_machine.hpp"
+#include "nc/run/interpreter.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::interpreter;

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "iso286/tolerance_tables.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::iso286;

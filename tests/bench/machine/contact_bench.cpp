@@ -9,8 +9,8 @@
 #include <ctime>
 #include <vector>
 
-#include "machine/random.hpp"
-#include "machine/workpiece.hpp"
+#include "nc/machine/random.hpp"
+#include "nc/machine/workpiece.hpp"
 
 using namespace fitgauge::machine;
 

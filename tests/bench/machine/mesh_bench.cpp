@@ -9,10 +9,10 @@
 #include <ctime>
 #include <limits>
 
-#include "machine/random.hpp"
-#include "machine/stl_file.hpp"
-#include "machine/workpiece.hpp"
-#include "unit/machine/meshes.hpp"
+#include "nc/machine/random.hpp"
+#include "nc/machine/stl_file.hpp"
+#include "nc/machine/workpiece.hpp"
+#include "unit/nc/machine/meshes.hpp"
 
 using namespace fitgauge::machine;
 

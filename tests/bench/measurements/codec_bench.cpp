@@ -13,10 +13,10 @@
 #include <string>
 
 #include "api/measurements/measurement_answer.hpp"
-#include "api/measurements/measurement_batch.hpp"
-#include "app/measurements/record.hpp"
 #include "http/request.hpp"
-#include "iso286/designation.hpp"
+#include "record/measurement_batch.hpp"
+#include "record/record.hpp"
+#include "tables/iso286/designation.hpp"
 
 using namespace fitgauge;
 using nlohmann::json;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "store/measurement_row.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::bench {
 

@@ -142,7 +142,7 @@ class Documents(DaemonTest):
     def test_alerts_and_dashboard_name_what_there_is(self):
         _, names = self.families()
         codes = set(re.findall(r'FITGAUGE_ERROR\(\w+, "([^"]+)"',
-                               (ROOT / "tables/base/error_codes.inc").read_text()))
+                               (ROOT / "server/base/error_codes.inc").read_text()))
         dashboard = json.loads((ROOT / "docs/deploy/grafana-dashboard.json").read_text())
         texts = {"alerts.yml": (ROOT / "docs/deploy/alerts.yml").read_text(),
                  "dashboard": " ".join(target["expr"].replace('\\"', '"') for panel in dashboard["panels"]

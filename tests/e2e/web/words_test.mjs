@@ -31,8 +31,8 @@ describe('the words', () => {
   });
 
   it('are there for every code the service knows, in every language', async () => {
-    const errors = codesOf('tables/base/error_codes.inc');
-    const findings = codesOf('server/klartext/diagnostic_codes.inc');
+    const errors = codesOf('server/base/error_codes.inc');
+    const findings = codesOf('server/nc/klartext/diagnostic_codes.inc');
     assert.ok(errors.length > 100 && findings.length > 30);
     for (const language of ['de', 'nl', 'it']) {
       const texts = { ...await textsOf(`${language}_codes`), ...await textsOf(language) };

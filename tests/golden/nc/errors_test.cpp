@@ -10,9 +10,9 @@
 
 #include "base/text.hpp"
 #include "golden_setup.hpp"
-#include "machine/simulated_machine.hpp"
-#include "probing/cycle_errors.hpp"
-#include "probing/cycle_registry.hpp"
+#include "nc/machine/simulated_machine.hpp"
+#include "nc/probing/cycle_errors.hpp"
+#include "nc/probing/cycle_registry.hpp"
 
 /// The errors of each cycle, as errors.txt says how to come by them.
 namespace fitgauge::interpreter::golden {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "machine/machine_setup.hpp"
-#include "run/interpreter.hpp"
+#include "nc/machine/machine_setup.hpp"
+#include "nc/run/interpreter.hpp"
 
 namespace fitgauge::interpreter::golden {
 

@@ -9,11 +9,11 @@
 #include <set>
 
 #include "golden_setup.hpp"
-#include "machine/simulated_machine.hpp"
-#include "machine/tracing_machine.hpp"
-#include "program/check.hpp"
-#include "tabfile/iso286_projection.hpp"
-#include "tabfile/tab_writer.hpp"
+#include "nc/machine/simulated_machine.hpp"
+#include "nc/machine/tracing_machine.hpp"
+#include "nc/program/check.hpp"
+#include "tables/tabfile/iso286_projection.hpp"
+#include "tables/tabfile/tab_writer.hpp"
 
 namespace fitgauge::interpreter::golden {
 namespace {

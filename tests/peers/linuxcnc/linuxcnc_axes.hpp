@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "machine/axes.hpp"
+#include "nc/machine/axes.hpp"
 
 namespace fitgauge::peers {
 

@@ -8,10 +8,10 @@
 #include <iterator>
 
 #include "linuxcnc_axes.hpp"
-#include "machine/control.hpp"
-#include "run/interpreter.hpp"
-#include "tabfile/iso286_projection.hpp"
-#include "tabfile/tab_writer.hpp"
+#include "nc/machine/control.hpp"
+#include "nc/run/interpreter.hpp"
+#include "tables/tabfile/iso286_projection.hpp"
+#include "tables/tabfile/tab_writer.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::interpreter;

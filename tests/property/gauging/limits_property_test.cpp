@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <random>
 
-#include "gauging/gauge.hpp"
-#include "iso286/tolerance_tables.hpp"
+#include "metrology/gauging/gauge.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::iso286;

@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
-#include "klartext/parser.hpp"
-#include "klartext/printer.hpp"
+#include "nc/klartext/parser.hpp"
+#include "nc/klartext/printer.hpp"
 #include "program_generator.hpp"
 
 namespace fitgauge::klartext {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/log/leaf.hpp"
-#include "app/measurements/record.hpp"
-#include "base/json_escape.hpp"
+#include "base/json/json_escape.hpp"
+#include "record/record.hpp"
+#include "service/log/leaf.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

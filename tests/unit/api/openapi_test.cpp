@@ -8,7 +8,7 @@
 #include "api/runs/setup_codec.hpp"
 #include "api/runs/setup_schema.hpp"
 #include "api/schemas.hpp"
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

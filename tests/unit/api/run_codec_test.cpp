@@ -6,8 +6,8 @@
 
 #include "api/runs/run_events.hpp"
 #include "api/runs/trace_codec.hpp"
-#include "app/runs/run_trace.hpp"
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
+#include "service/runs/run_trace.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

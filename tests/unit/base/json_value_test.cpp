@@ -1,4 +1,4 @@
-#include "base/json_value.hpp"
+#include "base/json/json_value.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -1,0 +1,152 @@
+#include "base/json/field_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace fitgauge::api {
+
+using Kind = JsonValue::Kind;
+
+void FieldErrors::add(ErrorCode code, std::string pointer, std::string message,
+                      std::optional<std::size_t> line) {
+  if (++count_ > kMostListed) return;
+  Error& entry = entries_.emplace_back(Error{code, std::move(message), std::move(pointer)});
+  if (line) entry.details.push_back({code, {}, std::to_string(*line)});
+}
+
+bool FieldErrors::has(std::string_view pointer) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [pointer](const Error& entry) { return entry.where == pointer; });
+}
+
+void FieldErrors::rollback(Mark mark) {
+  count_ = mark;
+  entries_.resize(std::min(entries_.size(), mark));
+}
+
+std::optional<Error> FieldErrors::take() {
+  if (empty()) return std::nullopt;
+  std::string message = count_ == 1 ? "1 field cannot be accepted"
+                                    : fmt::format("{} fields cannot be accepted", count_);
+  if (count_ > kMostListed) message += fmt::format("; the first {} are listed", kMostListed);
+  return Error{ErrorCode::RequestInvalid, std::move(message), {}, std::move(entries_)};
+}
+
+FieldReader::FieldReader(const JsonValue& object, std::string pointer, FieldErrors& errors)
+    : object_(object), pointer_(std::move(pointer)), errors_(errors) {
+  if (!object.is(Kind::Object)) {
+    errors_.add(ErrorCode::FieldType, pointer_,
+                fmt::format("an object is wanted, not {}", name_of(object.kind)));
+  }
+}
+
+void FieldReader::report(ErrorCode code, std::string_view name, std::string message) {
+  errors_.add(code, at(name), std::move(message));
+}
+
+const JsonValue* FieldReader::take(std::string_view name, bool required) {
+  known_.push_back(name);
+  const JsonValue* value = object_.find(name);
+  if (value == nullptr && required && object_.is(Kind::Object)) {
+    report(ErrorCode::FieldMissing, name, fmt::format("{} is required", name));
+  }
+  return value;
+}
+
+const JsonValue* FieldReader::take(std::string_view name, bool required,
+                                   std::initializer_list<Kind> kinds, std::string_view wanted) {
+  const JsonValue* value = take(name, required);
+  if (value == nullptr || std::find(kinds.begin(), kinds.end(), value->kind) != kinds.end()) {
+    return value;
+  }
+  report(ErrorCode::FieldType, name,
+         fmt::format("{} takes {}, not {}", name, wanted, name_of(value->kind)));
+  return nullptr;
+}
+
+std::optional<Length> FieldReader::length(std::string_view name, bool micrometres) {
+  const JsonValue* value =
+      take(name, true, {Kind::Number, Kind::String}, "a number or a string with one");
+  if (value == nullptr) return std::nullopt;
+  const LengthSyntax syntax{.exponent = value->is(Kind::Number)};
+  const auto parsed =
+      micrometres ? parse_length_um(value->text, syntax) : parse_length_mm(value->text, syntax);
+  if (parsed) return *parsed;
+  report(parsed.error().code, name, parsed.error().message);
+  return std::nullopt;
+}
+
+std::optional<Length> FieldReader::mm(std::string_view name) { return length(name, false); }
+
+std::optional<Length> FieldReader::um(std::string_view name) { return length(name, true); }
+
+std::optional<double> FieldReader::number(std::string_view name) {
+  const JsonValue* value = take(name, true, {Kind::Number}, "a number");
+  if (value == nullptr) return std::nullopt;
+  double parsed = 0;
+  const char* const end = value->text.data() + value->text.size();
+  if (std::from_chars(value->text.data(), end, parsed).ec != std::errc() ||
+      !std::isfinite(parsed)) {
+    report(ErrorCode::NumberOutOfRange, name, fmt::format("{} is out of range", name));
+    return std::nullopt;
+  }
+  return parsed;
+}
+
+std::optional<std::string> FieldReader::text(std::string_view name) {
+  const JsonValue* value = take(name, true, {Kind::String}, "a string");
+  return value == nullptr ? std::nullopt : std::optional(value->text);
+}
+
+const JsonValue* FieldReader::array(std::string_view name) {
+  return take(name, true, {Kind::Array}, "an array");
+}
+
+const JsonValue* FieldReader::object(std::string_view name) {
+  return take(name, true, {Kind::Object}, "an object");
+}
+
+double FieldReader::number_or(std::string_view name, double fallback) {
+  if (has(name)) return number(name).value_or(fallback);
+  known_.push_back(name);
+  return fallback;
+}
+
+std::int64_t FieldReader::integer_or(std::string_view name, std::int64_t fallback,
+                                     std::int64_t least, std::int64_t most) {
+  const JsonValue* value = take(name, false, {Kind::Number}, "a whole number");
+  if (value == nullptr) return fallback;
+  std::int64_t parsed = 0;
+  const char* const end = value->text.data() + value->text.size();
+  const auto [stop, failure] = std::from_chars(value->text.data(), end, parsed);
+  if (failure == std::errc() && stop == end && parsed >= least && parsed <= most) return parsed;
+  report(ErrorCode::FieldInvalid, name,
+         fmt::format("{} takes a whole number from {} to {}", name, least, most));
+  return fallback;
+}
+
+bool FieldReader::boolean_or(std::string_view name, bool fallback) {
+  const JsonValue* value = take(name, false, {Kind::Boolean}, "true or false");
+  return value == nullptr ? fallback : value->boolean;
+}
+
+std::optional<std::string> FieldReader::optional_text(std::string_view name) {
+  const JsonValue* value = take(name, false, {Kind::String}, "a string");
+  return value == nullptr ? std::nullopt : std::optional(value->text);
+}
+
+const JsonValue* FieldReader::optional(std::string_view name) { return take(name, false); }
+
+void FieldReader::refuse_unknown() {
+  if (accepts_all_) return;
+  for (const auto& [name, value] : object_.members) {
+    if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
+      report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));
+    }
+  }
+}
+
+}  // namespace fitgauge::api

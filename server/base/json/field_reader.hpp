@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/json/json_value.hpp"
+#include "base/length.hpp"
+
+namespace fitgauge::api {
+
+/// Collects what is wrong with a body, field by field, to report it all at once.
+class FieldErrors {
+ public:
+  /// Beyond this many the rest is counted, not listed.
+  static constexpr std::size_t kMostListed = 100;
+
+  /// @param line of a format that has lines; it becomes the place of a detail of the entry.
+  void add(ErrorCode code, std::string pointer, std::string message,
+           std::optional<std::size_t> line = {});
+  bool empty() const { return count_ == 0; }
+  /// Whether an entry of that pointer is listed.
+  bool has(std::string_view pointer) const;
+
+  /// What was added after a mark can be taken back.
+  using Mark = std::size_t;
+  Mark mark() const { return count_; }
+  void rollback(Mark mark);
+
+  /// RequestInvalid with every entry in `details`, or none when nothing was wrong.
+  std::optional<Error> take();
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<Error> entries_;
+};
+
+/// Reads the members of one JSON object, each at most once; what it does not get or cannot read
+/// goes to the FieldErrors with its pointer. A member that is read as optional may be absent, not
+/// null. Refers to the value and the errors, which outlive it.
+class FieldReader {
+ public:
+  FieldReader(const JsonValue& object, std::string pointer, FieldErrors& errors);
+
+  // Required members.
+  std::optional<Length> mm(std::string_view name);
+  std::optional<Length> um(std::string_view name);
+  std::optional<double> number(std::string_view name);
+  std::optional<std::string> text(std::string_view name);
+  const JsonValue* array(std::string_view name);
+  const JsonValue* object(std::string_view name);
+
+  // Members that may be absent.
+  double number_or(std::string_view name, double fallback);
+  std::int64_t integer_or(std::string_view name, std::int64_t fallback, std::int64_t least,
+                          std::int64_t most);
+  bool boolean_or(std::string_view name, bool fallback);
+  std::optional<std::string> optional_text(std::string_view name);
+  const JsonValue* optional(std::string_view name);
+
+  /// Reports every member that was not asked for.
+  void refuse_unknown();
+  /// As if every member had been asked for.
+  void accept_all() { accepts_all_ = true; }
+
+  bool has(std::string_view name) const { return object_.find(name) != nullptr; }
+  std::string at(std::string_view name) const { return pointer_to(pointer_, name); }
+  void report(ErrorCode code, std::string_view name, std::string message);
+
+ private:
+  const JsonValue* take(std::string_view name, bool required);
+  const JsonValue* take(std::string_view name, bool required,
+                        std::initializer_list<JsonValue::Kind> kinds, std::string_view wanted);
+  std::optional<Length> length(std::string_view name, bool micrometres);
+
+  const JsonValue& object_;
+  std::string pointer_;
+  FieldErrors& errors_;
+  std::vector<std::string_view> known_;
+  bool accepts_all_ = false;
+};
+
+}  // namespace fitgauge::api

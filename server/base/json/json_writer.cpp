@@ -1,0 +1,152 @@
+#include "base/json/json_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+#include "base/decimal.hpp"
+#include "base/json/json_escape.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+template <class Number>
+void append_number(std::string& out, Number value) {
+  char digits[32];
+  const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
+  out.append(std::begin(digits), end);
+}
+
+}  // namespace
+
+void JsonWriter::separate() {
+  if (!first_ && !after_key_) out_ += ',';
+  first_ = false;
+  after_key_ = false;
+}
+
+JsonWriter& JsonWriter::open(char bracket) {
+  separate();
+  out_ += bracket;
+  first_ = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::close(char bracket) {
+  out_ += bracket;
+  first_ = false;
+  return *this;
+}
+
+JsonWriter& JsonWriter::key(std::string_view name) {
+  separate();
+  append_json_string(out_, name);
+  out_ += ':';
+  after_key_ = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(std::int64_t value) {
+  separate();
+  append_number(out_, value);
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(std::uint64_t value) {
+  separate();
+  append_number(out_, value);
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(double value) {
+  if (!std::isfinite(value)) return null();
+  separate();
+  append_number(out_, value);
+  return *this;
+}
+
+JsonWriter& JsonWriter::figure(long double value) {
+  if (!std::isfinite(value)) return null();
+  separate();
+  char digits[40];
+  const auto end =
+      std::to_chars(std::begin(digits), std::end(digits), value, std::chars_format::general, 17)
+          .ptr;
+  out_.append(std::begin(digits), end);
+  return *this;
+}
+
+JsonWriter& JsonWriter::significant(double value, int digits) {
+  if (!std::isfinite(value)) return null();
+  separate();
+  fmt::format_to(std::back_inserter(out_), "{:.{}g}", value == 0 ? 0.0 : value, digits);
+  return *this;
+}
+
+JsonWriter& JsonWriter::fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return null();
+  separate();
+  const std::size_t start = out_.size();
+  fmt::format_to(std::back_inserter(out_), "{:.{}f}", value, decimals);
+  if (decimals > 0) {
+    out_.erase(out_.find_last_not_of('0') + 1);
+    if (out_.back() == '.') out_.pop_back();
+  }
+  if (std::string_view(out_).substr(start) == "-0") out_.replace(start, std::string::npos, "0");
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(std::string_view text) {
+  separate();
+  append_json_string(out_, text);
+  return *this;
+}
+
+JsonWriter& JsonWriter::mm(Length length) {
+  separate();
+  append_mm(out_, length);
+  return *this;
+}
+
+JsonWriter& JsonWriter::um(Length length) {
+  separate();
+  append_um(out_, length);
+  return *this;
+}
+
+JsonWriter& JsonWriter::decimal(std::int64_t value, int scale) {
+  separate();
+  append_decimal(out_, value, scale);
+  return *this;
+}
+
+JsonWriter& JsonWriter::raw(std::string_view json) {
+  separate();
+  out_ += json;
+  return *this;
+}
+
+void write_json(JsonWriter& json, const JsonValue& value) {
+  switch (value.kind) {
+    case JsonValue::Kind::Null: json.null(); break;
+    case JsonValue::Kind::Boolean: json.value(value.boolean); break;
+    case JsonValue::Kind::Number: json.raw(value.text); break;
+    case JsonValue::Kind::String: json.value(value.text); break;
+    case JsonValue::Kind::Array:
+      json.begin_array();
+      for (const JsonValue& item : value.items) write_json(json, item);
+      json.end_array();
+      break;
+    case JsonValue::Kind::Object:
+      json.begin_object();
+      for (const auto& [name, member] : value.members) {
+        write_json(json.key(name), member);
+      }
+      json.end_object();
+      break;
+  }
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/json/json_value.hpp"
+#include "base/length.hpp"
+
+namespace fitgauge::api {
+
+/// Writes JSON into a string, in order and without a tree: lengths leave as exact decimals, which
+/// no double could carry. Names are written as given, so they must be plain words of the contract.
+class JsonWriter {
+ public:
+  explicit JsonWriter(std::string& out) : out_(out) {}
+
+  JsonWriter& begin_object() { return open('{'); }
+  JsonWriter& end_object() { return close('}'); }
+  JsonWriter& begin_array() { return open('['); }
+  JsonWriter& end_array() { return close(']'); }
+  JsonWriter& key(std::string_view name);
+
+  JsonWriter& null() { return raw("null"); }
+  JsonWriter& value(bool value) { return raw(value ? "true" : "false"); }
+  JsonWriter& value(std::int64_t value);
+  JsonWriter& value(std::uint64_t value);
+  JsonWriter& value(int number) { return value(std::int64_t{number}); }
+  JsonWriter& value(std::uint32_t number) { return value(std::uint64_t{number}); }
+  /// The shortest text that reads back as the same double; null when it is not finite.
+  JsonWriter& value(double value);
+  /// 17 significant digits, the nearest to the value; null when it is not finite.
+  JsonWriter& figure(long double value);
+  /// At most so many significant digits; null when it is not finite.
+  JsonWriter& significant(double value, int digits);
+  /// At most so many decimals, without trailing zeros; null when it is not finite.
+  JsonWriter& fixed(double value, int decimals);
+  JsonWriter& value(std::string_view text);
+  JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
+  JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+  JsonWriter& mm(Length length);
+  JsonWriter& um(Length length);
+  /// value / 10^scale, exactly.
+  JsonWriter& decimal(std::int64_t value, int scale);
+  /// Appends a complete JSON value that is already text; numbers have functions of their own.
+  JsonWriter& raw(std::string_view json);
+
+  template <class T>
+  JsonWriter& member(std::string_view name, const T& content) {
+    return key(name).value(content);
+  }
+  JsonWriter& member_mm(std::string_view name, Length length) { return key(name).mm(length); }
+  JsonWriter& member_um(std::string_view name, Length length) { return key(name).um(length); }
+
+ private:
+  JsonWriter& open(char bracket);
+  JsonWriter& close(char bracket);
+  void separate();
+
+  std::string& out_;
+  bool first_ = true;  // no comma before the next element
+  bool after_key_ = false;
+};
+
+/// A value as it was read: numbers keep their digits.
+void write_json(JsonWriter& json, const JsonValue& value);
+
+}  // namespace fitgauge::api

@@ -1,0 +1,116 @@
+#include "base/json/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/json/json_escape.hpp"
+
+namespace fitgauge::api::schema {
+namespace {
+
+std::string list_of(const std::vector<std::string>& values) {
+  return fmt::format("[{}]", fmt::join(values, ","));
+}
+
+/// Adds members to an object that is already text.
+std::string with_members(std::string json, std::string_view members) {
+  json.pop_back();
+  if (json.size() > 1) json += ',';
+  return json.append(members) + '}';
+}
+
+std::string json_text(std::string_view text) {
+  std::string out;
+  append_json_string(out, text);
+  return out;
+}
+
+}  // namespace
+
+std::string boolean() { return R"({"type":"boolean"})"; }
+std::string number() { return R"({"type":"number"})"; }
+std::string number(double least, double most) {
+  return fmt::format(R"({{"type":"number","minimum":{},"maximum":{}}})", least, most);
+}
+std::string integer(std::int64_t least, std::int64_t most) {
+  return fmt::format(R"({{"type":"integer","minimum":{},"maximum":{}}})", least, most);
+}
+std::string count() { return R"({"type":"integer","minimum":0})"; }
+std::string text() { return R"({"type":"string"})"; }
+std::string text(std::size_t longest_bytes) {
+  return fmt::format(R"({{"type":"string","maxLength":{}}})", longest_bytes);
+}
+std::string time() { return R"({"type":"string","format":"date-time"})"; }
+
+std::string words(std::initializer_list<std::string_view> words) {
+  std::vector<std::string> quoted_words;
+  for (const std::string_view word : words) quoted_words.push_back(json_text(word));
+  return fmt::format(R"({{"type":"string","enum":{}}})", list_of(quoted_words));
+}
+
+std::string exact() { return R"({"type":["number","string"],"pattern":"^-?[0-9]+([.][0-9]+)?$"})"; }
+
+std::string null_or(const std::string& json) {
+  constexpr std::string_view kType = R"({"type":")";
+  const bool is_plain = json.starts_with(kType) && json.find(R"("enum":)") == std::string::npos;
+  if (!is_plain) return any_of({json, R"({"type":"null"})"});
+  const std::size_t end = json.find('"', kType.size());
+  const std::string type = json.substr(kType.size(), end - kType.size());
+  return fmt::format(R"({{"type":["{}","null"]{})", type, json.substr(end + 1));
+}
+
+std::string array(const std::string& item) {
+  return fmt::format(R"({{"type":"array","items":{}}})", item);
+}
+std::string array(const std::string& item, std::size_t size) {
+  return with_members(array(item), fmt::format(R"("minItems":{0},"maxItems":{0})", size));
+}
+
+std::string map(const std::string& value) {
+  return fmt::format(R"({{"type":"object","additionalProperties":{}}})", value);
+}
+
+std::string object(const Fields& fields, Others others, std::string_view example) {
+  std::vector<std::string> required;
+  std::vector<std::string> properties;
+  for (const Field& field : fields) {
+    const std::string name = json_text(field.name);
+    if (field.required) required.push_back(name);
+    const std::string described =
+        field.meaning.empty()
+            ? field.json
+            : with_members(field.json, R"("description":)" + json_text(field.meaning));
+    properties.push_back(name + ':' + described);
+  }
+  std::string json = R"({"type":"object")";
+  if (!required.empty()) json += R"(,"required":)" + list_of(required);
+  json += fmt::format(R"(,"properties":{{{}}})", fmt::join(properties, ","));
+  if (others == Others::Refused) json += R"(,"additionalProperties":false)";
+  if (!example.empty()) json.append(R"(,"examples":[)").append(example) += ']';
+  return json + '}';
+}
+
+std::string any_of(const std::vector<std::string>& schemas) {
+  return fmt::format(R"({{"anyOf":{}}})", list_of(schemas));
+}
+
+std::string ref(std::string_view name) {
+  return fmt::format(R"({{"$ref":"#/components/schemas/{}"}})", name);
+}
+
+std::string with_default(std::string json, std::string_view value) {
+  return with_members(std::move(json), fmt::format(R"("x-default":{})", value));
+}
+
+Fields optional(Fields fields) {
+  for (Field& field : fields) field.required = false;
+  return fields;
+}
+
+Fields operator+(Fields left, const Fields& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+}  // namespace fitgauge::api::schema

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+#include "formats/dfq/fields.hpp"
+#include "formats/dfq/lines.hpp"
+#include "formats/sheet/text_encoding.hpp"
+
+namespace fitgauge::aqdef {
+
+/// A field of the description and the line it stands in.
+struct Described {
+  int number = 0;
+  std::uint32_t line = 0;
+  std::string text;  ///< UTF-8
+};
+
+/// The fields of a part, of a characteristic, or of all of them.
+class FieldList {
+ public:
+  /// Null where there is none, or an empty one.
+  const Described* find(int number) const;
+  std::string_view text(int number) const;
+  const std::vector<Described>& all() const { return fields_; }
+  /// @errors kMalformed: it stands here with another text.
+  Result<void> add(const FieldLine& field, std::uint32_t line, std::string text);
+
+ private:
+  std::vector<Described> fields_;
+};
+
+struct Characteristic {
+  std::uint32_t index = 0;  ///< from 1, over all parts
+  std::uint32_t part = 0;   ///< 0: the file says nothing of a part
+  std::uint32_t line = 0;   ///< where it begins
+  FieldList fields{};
+  bool has_values = false;
+};
+
+/// What a file says of its parts, characteristics and catalogues. Bounded in memory.
+class Description {
+ public:
+  static constexpr std::size_t kMostCharacteristics = 20'000;
+  static constexpr std::size_t kMostBytes = std::size_t{8} << 20;  ///< of all texts
+
+  explicit Description(sheet::Encoding encoding) : encoding_(encoding) {}
+
+  /// Takes a line that is no value. @errors kMalformed
+  Result<void> add(const FieldLine& field, std::uint32_t line);
+  /// What is still missing when all lines are read. @errors kMalformed
+  Result<void> check() const;
+
+  std::size_t count() const { return count_; }
+  /// Null where the file describes none of that index. @param index from 1
+  Characteristic* characteristic(std::uint32_t index);
+  const Characteristic* characteristic(std::uint32_t index) const;
+
+  /// Of a characteristic, else what is said of all (`/0`). Null where it is nowhere, or empty.
+  const Described* find(const Characteristic& characteristic, int number) const;
+  std::string_view text(const Characteristic& characteristic, int number) const;
+  /// Of its part.
+  std::string_view part_text(const Characteristic& characteristic, int number) const;
+  /// Of an entry of a catalogue.
+  std::string_view catalogue_text(int number, std::uint32_t entry) const;
+
+  /// As UTF-8. @errors kMalformed, without a place
+  Result<std::string> decoded(std::string_view bytes) const;
+
+ private:
+  Result<void> add_to_characteristics(const FieldLine& field, std::uint32_t line, std::string text);
+
+  sheet::Encoding encoding_;
+  std::size_t bytes_ = 0;
+  std::optional<std::uint32_t> stated_count_{};
+  std::uint32_t part_ = 0;  ///< that the next characteristics belong to
+  FieldList all_parts_{};
+  FieldList all_characteristics_{};
+  std::map<std::uint32_t, FieldList> parts_{};
+  std::vector<Characteristic> characteristics_{};  ///< by index - 1; of index 0: not described
+  std::size_t count_ = 0;                          ///< of those that are
+  std::map<std::pair<int, std::uint32_t>, std::string> catalogues_{};
+};
+
+}  // namespace fitgauge::aqdef

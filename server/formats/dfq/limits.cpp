@@ -1,0 +1,235 @@
+#include "formats/dfq/limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/decimal.hpp"
+#include "base/text.hpp"
+
+namespace fitgauge::aqdef {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, LengthUnit>, 20> kUnits = {{
+    {"mm", LengthUnit::Millimetre},
+    {"millimeter", LengthUnit::Millimetre},
+    {"millimetre", LengthUnit::Millimetre},
+    {"\xC2\xB5m", LengthUnit::Micrometre},
+    {"\xCE\xBCm", LengthUnit::Micrometre},
+    {"\xC2\xB5", LengthUnit::Micrometre},
+    {"um", LengthUnit::Micrometre},
+    {"my", LengthUnit::Micrometre},
+    {"micrometer", LengthUnit::Micrometre},
+    {"micrometre", LengthUnit::Micrometre},
+    {"cm", LengthUnit::Centimetre},
+    {"m", LengthUnit::Metre},
+    {"meter", LengthUnit::Metre},
+    {"metre", LengthUnit::Metre},
+    {"in", LengthUnit::Inch},
+    {"in.", LengthUnit::Inch},
+    {"inch", LengthUnit::Inch},
+    {"inches", LengthUnit::Inch},
+    {"zoll", LengthUnit::Inch},
+    {"\"", LengthUnit::Inch},
+}};
+
+/// Digits behind the point of a value that is one nanometre.
+constexpr int decimals_of(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::Micrometre: return 3;
+    case LengthUnit::Centimetre: return 7;
+    case LengthUnit::Metre:
+    case LengthUnit::Inch: return 9;
+    default: return 6;
+  }
+}
+
+std::string_view tolerance_name(int number) { return field_info(number)->name; }
+
+/// Reads the lengths of one characteristic.
+class ToleranceReader {
+ public:
+  ToleranceReader(const Description& description, const Characteristic& characteristic)
+      : description_(description), characteristic_(characteristic) {}
+
+  Result<Toleranced> read(std::optional<LengthUnit> fallback, const LimitsOfClass& limits_of);
+
+ private:
+  Error wrong(const Described* field, std::string_view what) const {
+    return at_line(field == nullptr ? characteristic_.line : field->line, what);
+  }
+  const Described* find(int number) const { return description_.find(characteristic_, number); }
+  Result<std::optional<Length>> length(int number) const;
+  /// One of the two, from its limit or its allowance.
+  Result<std::optional<Length>> limit(int limit_number, int allowance_number,
+                                      int type_number) const;
+  Result<void> check_class(const LimitsOfClass& limits_of) const;
+
+  const Description& description_;
+  const Characteristic& characteristic_;
+  Toleranced read_{};
+};
+
+Result<std::optional<Length>> ToleranceReader::length(int number) const {
+  const Described* const field = find(number);
+  if (field == nullptr) return std::optional<Length>();
+  const auto value = parse_length(field->text, read_.unit);
+  if (!value) {
+    return wrong(field,
+                 fmt::format("says '{}' in K{:04}, the {}, which is no number",
+                             first_characters(field->text, 40), number, tolerance_name(number)));
+  }
+  return std::optional(*value);
+}
+
+Result<std::optional<Length>> ToleranceReader::limit(int limit_number, int allowance_number,
+                                                     int type_number) const {
+  const Described* const type = find(type_number);
+  if (type != nullptr && type->text != "0" && type->text != "1" && type->text != "2") {
+    return wrong(type, fmt::format("says '{}' in K{:04}: 0 is no limit, 1 a limit, 2 a natural one",
+                                   first_characters(type->text, 40), type_number));
+  }
+  auto limit = length(limit_number);
+  if (!limit) return limit;
+  const auto allowance = length(allowance_number);
+  if (!allowance) return allowance;
+  if (type != nullptr && type->text != "1") return std::optional<Length>();
+  if (!*allowance) return limit;
+  const Length by_allowance = read_.nominal + **allowance;
+  if (*limit && **limit != by_allowance) {
+    return wrong(
+        find(limit_number),
+        fmt::format("says {} mm in K{:04}, and K{:04} makes it {} mm: correct one",
+                    format_mm(**limit), limit_number, allowance_number, format_mm(by_allowance)));
+  }
+  return std::optional(by_allowance);
+}
+
+Result<void> ToleranceReader::check_class(const LimitsOfClass& limits_of) const {
+  if (!limits_of) return {};
+  const auto limits = limits_of(read_.nominal, read_.class_name);
+  if (!limits) {
+    return wrong(find(k::kToleranceClass), fmt::format("says {} in K2103 and K2104: {}",
+                                                       read_.class_name, limits.error().message));
+  }
+  const auto agree = [&](const std::optional<Length>& said, const std::optional<Length>& by_class,
+                         int number) -> Result<void> {
+    if (!said || said == by_class) return {};
+    const Described* const field = find(number);
+    return wrong(
+        field != nullptr ? field : find(k::kToleranceClass),
+        fmt::format("says {} mm in K{:04}, and {} of {} mm is {} mm: correct one, or leave "
+                    "K2103 and K2104 out",
+                    format_mm(*said), number, read_.class_name, format_mm(read_.nominal),
+                    by_class ? format_mm(*by_class) : "none"));
+  };
+  if (const auto lower = agree(read_.limits.lower, limits->lower, k::kLowerLimit); !lower) {
+    return lower;
+  }
+  return agree(read_.limits.upper, limits->upper, k::kUpperLimit);
+}
+
+Result<Toleranced> ToleranceReader::read(std::optional<LengthUnit> fallback,
+                                         const LimitsOfClass& limits_of) {
+  const Described* const unit = find(k::kUnit);
+  const auto known = unit == nullptr ? fallback : length_unit(unit->text);
+  if (!known) {
+    return unit == nullptr
+               ? wrong(nullptr, fmt::format("describes characteristic {}, which has no unit: write "
+                                            "K2142, or set length_unit",
+                                            characteristic_.index))
+               : wrong(unit, fmt::format("has the unit '{}', and a measurement is a length in mm, "
+                                         "\xC2\xB5m, cm, m or inch",
+                                         first_characters(unit->text, 40)));
+  }
+  read_.unit = *known;
+  const auto nominal = length(k::kNominal);
+  if (!nominal) return nominal.error();
+  if (!*nominal) {
+    return wrong(nullptr, fmt::format("describes characteristic {}, which has no nominal value: "
+                                      "write K2101",
+                                      characteristic_.index));
+  }
+  read_.nominal = **nominal;
+  const auto lower = limit(k::kLowerLimit, k::kLowerAllowance, k::kLowerLimitType);
+  if (!lower) return lower.error();
+  const auto upper = limit(k::kUpperLimit, k::kUpperAllowance, k::kUpperLimitType);
+  if (!upper) return upper.error();
+  read_.limits = {.upper = *upper, .lower = *lower};
+  if (*lower && *upper && **upper < **lower) {
+    return wrong(find(k::kUpperLimit), "has an upper limit that is below the lower one");
+  }
+  const Described* const letter = find(k::kToleranceClass);
+  const Described* const grade = find(k::kToleranceGrade);
+  if ((letter == nullptr) != (grade == nullptr)) {
+    return wrong(letter == nullptr ? grade : letter,
+                 "has one of K2103 and K2104: a class is both, such as H and 7");
+  }
+  read_.class_name = letter == nullptr
+                         ? std::string(user_text(description_, characteristic_, "class"))
+                         : letter->text + grade->text;
+  if (read_.class_name.empty()) return read_;
+  if (const auto checked = check_class(limits_of); !checked) return checked.error();
+  return read_;
+}
+
+}  // namespace
+
+std::optional<LengthUnit> length_unit(std::string_view name) {
+  for (const auto& [known, unit] : kUnits) {
+    if (ascii_iequals(known, name)) return unit;
+  }
+  return std::nullopt;
+}
+
+std::string_view user_text(const Description& description, const Characteristic& characteristic,
+                           std::string_view name) {
+  if (description.text(characteristic, k::kUserName) != "fitgauge") return {};
+  std::string_view rest = description.text(characteristic, k::kUserText);
+  while (!rest.empty()) {
+    const std::string_view one = rest.substr(0, rest.find(';'));
+    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+    if (one.size() > name.size() && one.starts_with(name) && one[name.size()] == '=') {
+      return one.substr(name.size() + 1);
+    }
+  }
+  return {};
+}
+
+Result<Toleranced> read_tolerance(const Description& description,
+                                  const Characteristic& characteristic,
+                                  std::optional<LengthUnit> fallback,
+                                  const LimitsOfClass& limits_of) {
+  return ToleranceReader(description, characteristic).read(fallback, limits_of);
+}
+
+Result<Length> parse_length(std::string_view text, LengthUnit unit) {
+  const auto value = parse_decimal(text, {.scale = decimals_of(unit),
+                                          .decimal_comma = true,
+                                          .exponent = true,
+                                          .round_to_nearest = true});
+  if (!value) {
+    return Error{value.error().code == ErrorCode::NumberOutOfRange ? ErrorCode::LengthOutOfRange
+                                                                   : ErrorCode::LengthMalformed,
+                 value.error().message};
+  }
+  std::int64_t nanometres = *value;
+  if (unit == LengthUnit::Inch) {
+    // 25.4 mm are 254 tenths: of 1e-9 inch, divided by 10,000.
+    constexpr std::int64_t kMost = 36'000'000'000'000'000;
+    if (nanometres > kMost || nanometres < -kMost) {
+      return Error{ErrorCode::LengthOutOfRange, "is too long"};
+    }
+    const std::int64_t half = nanometres < 0 ? -5'000 : 5'000;
+    nanometres = (nanometres * 254 + half) / 10'000;
+  }
+  const Length length = Length::nanometres(nanometres);
+  if (length > kLongest || length < -kLongest) {
+    return Error{ErrorCode::LengthOutOfRange, "is too long"};
+  }
+  return length;
+}
+
+}  // namespace fitgauge::aqdef

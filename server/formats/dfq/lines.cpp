@@ -1,0 +1,156 @@
+#include "formats/dfq/lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+
+#include "base/text.hpp"
+#include "formats/dfq/fields.hpp"
+
+namespace fitgauge::aqdef {
+namespace {
+
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+constexpr std::size_t kFieldName = 5;  ///< K0000
+
+/// Of the input that is kept where its lines are short: so little that it is still in the cache
+/// when it is parsed.
+constexpr std::size_t kPiece = std::size_t{1} << 18;
+
+/// A number of up to six digits from the front of a text.
+std::optional<std::uint32_t> take_index(std::string_view& text) {
+  constexpr std::ptrdiff_t kMostDigits = 6;
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::ptrdiff_t digits = end - text.data();
+  if (error != std::errc() || digits > kMostDigits) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(digits));
+  return number;
+}
+
+}  // namespace
+
+bool is_field_line(std::string_view line) {
+  return line.size() >= kFieldName && line[0] == 'K' && is_digit(line[1]) && is_digit(line[2]) &&
+         is_digit(line[3]) && is_digit(line[4]);
+}
+
+Result<FieldLine> parse_field_line(std::string_view line) {
+  FieldLine field;
+  field.number =
+      (line[1] - '0') * 1000 + (line[2] - '0') * 100 + (line[3] - '0') * 10 + (line[4] - '0');
+  line.remove_prefix(kFieldName);
+  if (line.starts_with('/')) {
+    line.remove_prefix(1);
+    const auto index = take_index(line);
+    bool is_right = index.has_value();
+    if (is_right && line.starts_with('/')) {
+      line.remove_prefix(1);
+      const auto value = take_index(line);
+      is_right = value && *value > 0 && level_of(field.number) == Level::Value;
+      field.value_index = value.value_or(0);
+    }
+    if (!is_right || !(line.empty() || line[0] == ' ')) {
+      return Error{kMalformed,
+                   fmt::format("has an index behind K{:04} that is no number: write K{:04}/1",
+                               field.number, field.number)};
+    }
+    field.index = *index;
+    field.has_index = true;
+  } else if (!line.empty() && line[0] != ' ') {
+    return Error{kMalformed, fmt::format("has no blank behind K{:04}", field.number)};
+  }
+  field.text = trim(line);
+  return field;
+}
+
+Error at_line(std::uint32_t line, std::string_view what) {
+  return {kMalformed, fmt::format("line {} {}", line, what), fmt::format("line {}", line)};
+}
+
+Lines::Lines(Read read) : read_(std::move(read)), room_(kPiece, '\0') {}
+
+void Lines::go_on_with(Read read) {
+  read_ = std::move(read);
+  at_ = last_at_ = mark_ = size_ = 0;
+  number_ = last_number_ = marked_number_ = 0;
+  ++moves_;
+  is_at_start_ = true;
+  is_at_end_ = false;
+}
+
+bool Lines::next(Line& line) {
+  while (!failure_) {
+    const char* const from = room_.data() + at_;
+    const auto* const end =
+        static_cast<const char*>(at_ == size_ ? nullptr : std::memchr(from, '\n', size_ - at_));
+    if (end == nullptr && !is_at_end_) {
+      fill();
+      continue;
+    }
+    if (at_ == size_) return false;
+    last_at_ = at_;
+    last_number_ = number_;
+    line.is_ended = end != nullptr;
+    auto size = static_cast<std::size_t>((end == nullptr ? room_.data() + size_ : end) - from);
+    at_ += size + (end == nullptr ? 0 : 1);
+    ++number_;
+    if (size > 0 && from[size - 1] == '\r') --size;
+    line.text = {from, size};
+    line.number = number_;
+    if (has_nul_ && std::memchr(from, '\0', size) != nullptr) {
+      return fail("has a byte that is 0: the file is damaged or no DFQ");
+    }
+    if (!trim(line.text).empty()) return true;
+  }
+  return false;
+}
+
+bool Lines::fail(std::string_view what) {
+  failure_ = at_line(number_, what);
+  return false;
+}
+
+bool Lines::fill() {
+  if (mark_ > 0) {
+    std::memmove(room_.data(), room_.data() + mark_, size_ - mark_);
+    size_ -= mark_;
+    at_ -= mark_;
+    last_at_ -= std::min(last_at_, mark_);
+    mark_ = 0;
+    ++moves_;
+  }
+  if (size_ == kRoom) {
+    ++number_;
+    return fail(
+        fmt::format("is in a value of more than {} KiB: the file is no DFQ, or its line ends "
+                    "are lost",
+                    kRoom >> 10));
+  }
+  if (size_ == room_.size()) {
+    room_.resize(std::min(2 * size_, kRoom));
+    ++moves_;
+  }
+  const auto count = read_(std::span(room_).subspan(size_));
+  if (!count) {
+    failure_ = count.error();
+    return false;
+  }
+  is_at_end_ = *count == 0;
+  has_nul_ = has_nul_ || std::memchr(room_.data() + size_, '\0', *count) != nullptr;
+  size_ += *count;
+  if (!is_at_start_ || (size_ < 3 && !is_at_end_)) return true;
+  is_at_start_ = false;
+  const std::string_view start(room_.data(), size_);
+  if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF")) {
+    ++number_;
+    return fail("is UTF-16: save the file as UTF-8 or Windows-1252");
+  }
+  if (start.starts_with("\xEF\xBB\xBF")) at_ = mark_ = 3;
+  return true;
+}
+
+}  // namespace fitgauge::aqdef

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/read.hpp"
+#include "base/result.hpp"
+#include "formats/dfq/fields.hpp"
+
+namespace fitgauge::aqdef {
+
+/// Between the fields of a value, and between the values of a line.
+inline constexpr char kFieldSeparator = '\x14';
+inline constexpr char kValueSeparator = '\x0F';
+
+/// A line `K2101/3 25.0`.
+struct FieldLine {
+  int number = 0;
+  std::uint32_t index = 1;  ///< of the part, characteristic or entry; 0: all of them
+  bool has_index = false;
+  std::uint32_t value_index = 0;  ///< `K0014/3/7`: of that value; 0: of the last
+  std::string_view text;          ///< without blanks around it
+};
+
+/// Whether a line is a field: a K with four digits. Any other that is not empty has values.
+bool is_field_line(std::string_view line);
+
+/// @errors kMalformed, without a place: an index that is no number.
+Result<FieldLine> parse_field_line(std::string_view line);
+
+/// An error of line `line`: "line 7 has …".
+Error at_line(std::uint32_t line, std::string_view what);
+
+/// Takes the lines of an input, in a bounded piece of memory. Not thread-safe.
+class Lines {
+ public:
+  static constexpr std::size_t kRoom = std::size_t{1} << 20;  ///< of what is kept at a time
+
+  struct Line {
+    std::string_view text;  ///< without its end; lives until a later line makes room
+    std::uint32_t number = 0;
+    bool is_ended = true;
+  };
+
+  explicit Lines(Read read);
+
+  /// Lines from another input, numbered anew. @pre next() has said that there is no more.
+  void go_on_with(Read read);
+
+  /// The next line that is not empty. @returns false at the end, and after a failure.
+  bool next(Line& line);
+  const std::optional<Error>& failure() const { return failure_; }
+
+  /// Gives back the line that next() has given last.
+  void unread() {
+    at_ = last_at_;
+    number_ = last_number_;
+  }
+  /// All from the next line on is to stay.
+  void mark() {
+    mark_ = at_;
+    marked_number_ = number_;
+  }
+  /// Back to the mark. What was read since may have moved.
+  void rewind() {
+    at_ = mark_;
+    number_ = marked_number_;
+  }
+  /// Changes whenever lines that were given before have moved.
+  std::size_t moves() const { return moves_; }
+
+ private:
+  /// More of the input behind what is kept. @returns false at the end, and after a failure.
+  bool fill();
+  bool fail(std::string_view what);
+
+  Read read_;
+  std::string room_;
+  std::size_t size_ = 0;
+  std::size_t at_ = 0;
+  std::size_t last_at_ = 0;
+  std::size_t mark_ = 0;
+  std::uint32_t number_ = 0;  ///< of the line before `at_`
+  std::uint32_t last_number_ = 0;
+  std::uint32_t marked_number_ = 0;
+  std::size_t moves_ = 0;
+  bool is_at_start_ = true;
+  bool is_at_end_ = false;
+  bool has_nul_ = false;
+  std::optional<Error> failure_;
+};
+
+}  // namespace fitgauge::aqdef

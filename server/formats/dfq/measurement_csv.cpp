@@ -1,0 +1,269 @@
+#include "formats/dfq/measurement_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "base/clock.hpp"
+#include "base/csv_cell.hpp"
+#include "base/text.hpp"
+#include "formats/dfq/measurement_places.hpp"
+
+namespace fitgauge::aqdef {
+namespace {
+
+// Places between the separators of a value.
+constexpr std::size_t kAttributeCell = 1;
+constexpr std::size_t kTimeCell = 2;
+constexpr std::size_t kBatchCell = 4;
+constexpr std::size_t kOperatorCell = 6;
+constexpr std::size_t kMachineCell = 7;
+constexpr std::size_t kGaugeCell = 9;
+/// Those that no field of a measurement is for: events, cavity, process parameters.
+constexpr std::array<std::size_t, 3> kCarriedCells = {3, 5, 8};
+
+constexpr std::size_t kMostAppended = std::size_t{1} << 16;  ///< bytes, before another value
+
+bool is_ascii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
+}  // namespace
+
+MeasurementCsv::MeasurementCsv(Read read, MeasurementOptions options)
+    : options_(std::move(options)), reader_(std::move(read), options_.encoding) {
+  for (const std::string_view name : kNames) {
+    if (!header_.empty()) header_ += ';';
+    header_ += name;
+  }
+  header_ += '\n';
+  for (const auto& [column, field] : options_.columns) {
+    if (!is_field_line(column) || column.size() != 5) continue;  // a column of a table
+    const auto number = parse_field_line(column);
+    mapped_.emplace_back(number->number, place_of(field));
+  }
+}
+
+std::optional<std::size_t> MeasurementCsv::mapped_place(int number) const {
+  for (const auto& [mapped, place] : mapped_) {
+    if (mapped == number) return place;
+  }
+  return std::nullopt;
+}
+
+Result<std::string_view> MeasurementCsv::utf8(std::string_view text) {
+  if (is_ascii(text)) return text;
+  auto decoded = reader_.description().decoded(text);
+  if (!decoded) return decoded.error();
+  return std::string_view(texts_.emplace_back(*std::move(decoded)));
+}
+
+std::string_view MeasurementCsv::entry(int first_field, int second_field,
+                                       std::string_view number) const {
+  number = trim(number);
+  std::uint32_t index = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
+  if (error != std::errc() || end != number.data() + number.size()) return number;
+  if (index == 0) return {};
+  const Description& description = reader_.description();
+  const std::string_view first = description.catalogue_text(first_field, index);
+  if (!first.empty()) return first;
+  const std::string_view second = description.catalogue_text(second_field, index);
+  return second.empty() ? number : second;
+}
+
+Result<std::string_view> MeasurementCsv::time_of(std::string_view text) {
+  text = trim(text);
+  if (text == last_time_) return std::string_view(last_instant_);
+  const auto wall = sheet::parse_wall_time(text);
+  if (!wall) {
+    const auto instant = parse_rfc3339(text);
+    if (!instant) {
+      return Error{kMalformed, fmt::format("has the time '{}': write 20.11.2026/08:00:00",
+                                           first_characters(text, 40))};
+    }
+    last_instant_ = text;
+  } else {
+    if (!options_.zone) {
+      return Error{
+          kMalformed,
+          fmt::format("has the time '{}' without an offset: name the time zone of its clock "
+                      "(time_zone)",
+                      first_characters(text, 40))};
+    }
+    const auto instant = options_.zone->instant(*wall);
+    if (!instant) {
+      return Error{kMalformed, fmt::format("has the time '{}', and {}", first_characters(text, 40),
+                                           instant.error().message)};
+    }
+    last_instant_ = format_rfc3339(*instant);
+  }
+  last_time_ = text;
+  return std::string_view(last_instant_);
+}
+
+Result<bool> MeasurementCsv::is_measured(const ValueSet& set, const Value& value) const {
+  const std::string_view attribute = trim(set.cell(value, kAttributeCell));
+  if (attribute == "255" || attribute == "256") return false;
+  if (!attribute.empty() && attribute != "0") {
+    if (options_.leaves_out_others) return false;
+    return at_line(value.line, fmt::format("has a value of attribute {}, which is not one that was "
+                                           "measured: with leave_out the others are taken",
+                                           first_characters(attribute, 20)));
+  }
+  if (!trim(set.cell(value, 0)).empty()) return true;
+  for (std::size_t place = 1; place < value.cells; ++place) {
+    if (trim(set.cell(value, place)).empty()) continue;
+    return at_line(value.line,
+                   fmt::format("has no value of characteristic {}, and its attribute is "
+                               "not 255 or 256",
+                               value.characteristic));
+  }
+  return false;
+}
+
+Result<void> MeasurementCsv::take_value_fields(const ValueSet& set_of, const Value& value) {
+  const auto take = [&](std::size_t place, std::string_view text) -> Result<void> {
+    if (trim(text).empty()) return {};
+    const auto decoded = utf8(trim(text));
+    if (!decoded) return decoded.error();
+    set(place, *decoded);
+    return {};
+  };
+  if (const auto time = trim(set_of.cell(value, kTimeCell)); !time.empty()) {
+    const auto instant = time_of(time);
+    if (!instant) return instant.error();
+    set(kMeasuredAt, *instant);
+  }
+  std::string_view batch = trim(set_of.cell(value, kBatchCell));
+  if (batch.starts_with('#')) batch.remove_prefix(1);
+  const std::string_view machine =
+      entry(k::kMachineNumber, k::kMachineName, set_of.cell(value, kMachineCell));
+  const std::string_view gauge =
+      entry(k::kGaugeNumber, k::kGaugeName, set_of.cell(value, kGaugeCell));
+  const std::string_view worker = set_of.cell(value, kOperatorCell);
+  std::string_view name = entry(k::kOperatorName, k::kOperatorFirstName, worker);
+  if (const auto first = entry(k::kOperatorFirstName, k::kOperatorName, worker); first != name) {
+    name = texts_.emplace_back(fmt::format("{} {}", first, name));
+  }
+  for (const auto& [place, text] :
+       {std::pair(kSubgroup, batch), std::pair(kMachine, machine), std::pair(kGauge, gauge),
+        std::pair(kOperator, name), std::pair(kPartId, set_of.field(value, k::kPartIdent)),
+        std::pair(kOrder, set_of.field(value, k::kOrder)),
+        std::pair(kComment, set_of.field(value, k::kText))}) {
+    if (const auto taken = take(place, text); !taken) return taken;
+  }
+  for (const auto& [number, place] : mapped_) {
+    if (level_of(number) != Level::Value || place >= kNames.size()) continue;
+    std::string_view text = set_of.field(value, number);
+    const auto* const cell = std::find(kCells.begin(), kCells.end(), number);
+    if (cell != kCells.end()) {
+      text = set_of.cell(value, static_cast<std::size_t>(cell - kCells.begin()));
+    }
+    if (const auto taken = take(place, text); !taken) return taken;
+  }
+  return {};
+}
+
+void MeasurementCsv::take_comment(const ValueSet& set_of, const Value& value,
+                                  const Prepared& prepared) {
+  Comment comment{.text = std::string(row_[kComment]), .fields = {}};
+  const auto carry = [&](int number, std::string_view text) {
+    text = trim(text);
+    if (text.empty() || mapped_place(number)) return;
+    const auto decoded = utf8(text);
+    comment.fields.push_back({.number = number, .text = std::string(decoded ? *decoded : text)});
+  };
+  for (const std::size_t place : kCarriedCells) {
+    const std::string_view text = set_of.cell(value, place);
+    if (trim(text) != "0") carry(kCells.at(place), text);
+  }
+  for (const ValueField& field : set_of.fields) {
+    const bool is_its = field.characteristic == value.characteristic || field.characteristic == 0;
+    const bool is_taken =
+        field.number == k::kPartIdent || field.number == k::kOrder || field.number == k::kText;
+    const bool is_there =
+        std::any_of(comment.fields.begin(), comment.fields.end(),
+                    [&](const CarriedField& other) { return other.number == field.number; });
+    if (is_its && !is_taken && !is_there) carry(field.number, set_of.field(value, field.number));
+  }
+  std::stable_sort(
+      comment.fields.begin(), comment.fields.end(),
+      [](const CarriedField& a, const CarriedField& b) { return a.number < b.number; });
+  comment.fields.insert(comment.fields.end(), prepared.carried.begin(), prepared.carried.end());
+  if (comment.fields.empty()) return;
+  row_[kComment] = texts_.emplace_back(format_comment(comment));
+}
+
+Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& value,
+                                          const Prepared& prepared, std::string& rows) {
+  texts_.clear();
+  row_.assign(prepared.fields.begin(), prepared.fields.end());
+  const std::string_view text = trim(set_of.cell(value, 0));
+  const auto measured = parse_length(text, prepared.unit);
+  if (!measured) {
+    return at_line(value.line, fmt::format("has the value '{}', which is no length",
+                                           first_characters(text, 40)));
+  }
+  row_[kMeasured] = texts_.emplace_back(format_mm(*measured));
+  if (const auto taken = take_value_fields(set_of, value); !taken) {
+    return at_line(value.line, taken.error().message);
+  }
+  take_comment(set_of, value, prepared);
+  for (std::size_t place = 0; place < row_.size(); ++place) {
+    if (place > 0) rows += ';';
+    const auto append =
+        place >= kPartId && place <= kSubgroup ? sheet::append_csv_text : sheet::append_csv_cell;
+    append(rows, row_[place], sheet::CsvSeparator::Semicolon);
+  }
+  rows += '\n';
+  return {};
+}
+
+Result<bool> MeasurementCsv::append(std::string& rows, std::vector<std::uint32_t>& lines) {
+  if (next_value_ == set_.values.size()) {
+    const auto next = reader_.next(set_);
+    if (!next || !*next) return next;
+    next_value_ = 0;
+  }
+  const std::size_t before = rows.size();
+  while (next_value_ < set_.values.size() && rows.size() - before < kMostAppended) {
+    const Value& value = set_.values[next_value_++];
+    const auto made = prepared(value.characteristic);
+    if (!made) return made.error();
+    if ((*made)->is_left_out) {
+      has_left_out_ = true;
+      continue;
+    }
+    const auto measured = is_measured(set_, value);
+    if (!measured) return measured.error();
+    if (!*measured) continue;
+    if (const auto appended = append_value(set_, value, **made, rows); !appended) {
+      return appended.error();
+    }
+    lines.push_back(value.line);
+    has_values_ = true;
+  }
+  return true;
+}
+
+Result<void> MeasurementCsv::check() const {
+  if (const auto checked = reader_.check(); !checked) return checked;
+  if (!has_values_ && has_left_out_) {
+    return Error{
+        kMalformed,
+        "All values were left out: no characteristic of the file is a length with a nominal "
+        "size and limits"};
+  }
+  if (!has_values_) {
+    return Error{kMalformed,
+                 "The file has no measured value. A DFD is read together with its DFX, of the same "
+                 "name"};
+  }
+  return {};
+}
+
+}  // namespace fitgauge::aqdef

@@ -1,0 +1,243 @@
+#include "formats/dfq/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "formats/dfq/separators.hpp"
+
+namespace fitgauge::aqdef {
+namespace {
+
+/// Where a field of a value stands between the separators; npos for any other.
+std::size_t place_of(int number) {
+  const auto* const found = std::find(kCells.begin(), kCells.end(), number);
+  return found == kCells.end() ? std::string_view::npos
+                               : static_cast<std::size_t>(found - kCells.begin());
+}
+
+/// Whether a text that is cut in it makes another measurement.
+bool must_be_whole(int number) {
+  return number == k::kText || number == k::kPartIdent || number == k::kOrder ||
+         number == k::kGuid || place_of(number) != std::string_view::npos;
+}
+
+/// Gives a value room for all cells, with those it has.
+void set_apart(Value& value, ValueSet& set) {
+  const auto first = static_cast<std::uint32_t>(set.apart.size());
+  const auto cells = std::max<std::uint32_t>(value.cells, kCells.size());
+  for (std::size_t place = 0; place < cells; ++place) set.apart.push_back(set.cell(value, place));
+  value.first_cell = first;
+  value.cells = cells;
+  value.is_apart = true;
+}
+
+bool begins_value(char c) {
+  return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == ',' || c == ' ' ||
+         c == kFieldSeparator || c == kValueSeparator;
+}
+
+}  // namespace
+
+std::string_view ValueSet::field(const Value& value, int number) const {
+  std::string_view of_all;
+  for (const ValueField& field : fields) {
+    if (field.number != number) continue;
+    if (field.characteristic == value.characteristic) return field.text;
+    if (field.characteristic == 0) of_all = field.text;
+  }
+  return of_all;
+}
+
+Result<bool> Reader::next(ValueSet& set) {
+  Lines::Line line;
+  for (;;) {
+    lines_.mark();
+    if (!lines_.next(line)) {
+      if (lines_.failure()) return *lines_.failure();
+      return false;
+    }
+    if (!is_field_line(line.text)) break;
+    const auto field = parse_field_line(line.text);
+    if (!field) return at_line(line.number, field.error().message);
+    if (level_of(field->number) == Level::Value) break;
+    if (const auto ended = check_end(line, &*field); !ended) return ended.error();
+    if (const auto added = description_.add(*field, line.number); !added) {
+      return at_line(line.number, added.error().message);
+    }
+  }
+  for (;;) {
+    const std::size_t moves = lines_.moves();
+    auto read = read_set(line, set);
+    if (!read) return read;
+    if (moves == lines_.moves()) break;
+    // Room was made for its end, so the views are of where the lines were.
+    lines_.rewind();
+    lines_.next(line);
+  }
+  if (const auto counted = count_values(set); !counted) return counted.error();
+  return true;
+}
+
+Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
+  set.values.clear();
+  set.starts.clear();
+  set.apart.clear();
+  set.fields.clear();
+  Lines::Line line = first;
+  const bool is_of_fields = is_field_line(first.text);
+  if (!is_of_fields) {
+    if (const auto added = add_values(first, set); !added) return added.error();
+  } else {
+    const auto field = parse_field_line(first.text);
+    if (!field) return at_line(first.number, field.error().message);
+    if (field->number != k::kValue && field->number != k::kSubgroupSize) {
+      return at_line(
+          first.number,
+          fmt::format("has K{:04} before any value: write it below its value", field->number));
+    }
+    const auto added = add_field(*field, first, set);
+    if (!added) return added;
+  }
+  while (lines_.next(line)) {
+    if (!is_field_line(line.text)) {
+      lines_.unread();
+      return true;
+    }
+    const auto field = parse_field_line(line.text);
+    if (!field) return at_line(line.number, field.error().message);
+    if (level_of(field->number) != Level::Value) {
+      lines_.unread();
+      return true;
+    }
+    const auto added = add_field(*field, line, set);
+    if (!added) return added;
+    if (!*added) {
+      lines_.unread();
+      return true;
+    }
+  }
+  if (lines_.failure()) return *lines_.failure();
+  return true;
+}
+
+Result<void> Reader::check_end(const Lines::Line& line, const FieldLine* field) const {
+  if (line.is_ended) return {};
+  if (field != nullptr && !must_be_whole(field->number)) return {};
+  return at_line(line.number,
+                 "has no line end, so the file may be cut: end its last line, or send it again");
+}
+
+Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
+  if (const auto ended = check_end(line, nullptr); !ended) return ended;
+  std::string_view rest = line.text;
+  if (!begins_value(rest[0])) {
+    return at_line(line.number, fmt::format("begins with '{}', and is neither a field nor a value",
+                                            first_characters(rest, 20)));
+  }
+  // Behind the last value may stand a separator.
+  if (rest.back() == kValueSeparator) rest.remove_suffix(1);
+  const std::size_t count = description_.count();
+  set.text = rest.data();
+  const std::size_t most = rest.size() + kSeparateRoom;
+  std::uint32_t* const starts = set.starts.room_for(1 + most + 1);
+  std::uint32_t* const ends = ends_.room_for(most + 1);
+  starts[0] = 0;
+  Separated found = separate(rest, starts + 1, ends);
+  *found.starts++ = static_cast<std::uint32_t>(rest.size()) + 1;
+  *found.values++ = static_cast<std::uint32_t>(found.starts - starts) - 1;
+  const auto values = static_cast<std::size_t>(found.values - ends);
+  if (values > count) {
+    return at_line(
+        line.number,
+        fmt::format("has more values than the {} characteristics described above it", count));
+  }
+  Value* value = set.values.room_for(values);
+  std::uint32_t first = 0;
+  for (std::uint32_t index = 0; index < values; ++index) {
+    *value++ = {.characteristic = index + 1,
+                .line = line.number,
+                .first_cell = first,
+                .cells = ends[index] - first};
+    first = ends[index];
+  }
+  set.starts.add_up_to(found.starts);
+  set.values.add_up_to(value);
+  return {};
+}
+
+Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, ValueSet& set) {
+  if (const auto ended = check_end(line, &field); !ended) return ended.error();
+  const bool is_value = field.number == k::kValue || field.number == k::kSubgroupSize;
+  const auto* const of_field =
+      std::find_if(set.values.begin(), set.values.end(),
+                   [&](const Value& value) { return value.characteristic == field.index; });
+  if (is_value) {
+    if (field.index == 0) {
+      return at_line(line.number, fmt::format("has K{:04} for all characteristics: name the one it "
+                                              "is of, K{:04}/1",
+                                              field.number, field.number));
+    }
+    if (of_field != set.values.end()) return false;
+    if (description_.characteristic(field.index) == nullptr) {
+      return at_line(line.number,
+                     fmt::format("has a value of characteristic {}, which no line above "
+                                 "describes",
+                                 field.index));
+    }
+    Value& value = *set.values.room_for(1);
+    value = {.characteristic = field.index, .line = line.number};
+    set.values.add_up_to(&value + 1);
+    set_apart(value, set);
+    set.apart[value.first_cell] = field.text;
+    if (field.number == k::kSubgroupSize) {
+      set.fields.push_back({field.index, field.number, field.text});
+    }
+    return true;
+  }
+  if (field.index != 0 && of_field == set.values.end()) {
+    return at_line(line.number,
+                   fmt::format("has K{:04} of characteristic {}, which has no value above it",
+                               field.number, field.index));
+  }
+  if (field.value_index != 0) {
+    const std::uint32_t last =
+        field.index == 0 || field.index >= counts_.size() ? 1 : counts_[field.index] + 1;
+    if (field.index == 0 || field.value_index != last) {
+      return at_line(line.number,
+                     fmt::format("is of value {}: write it below its value, without that number",
+                                 field.value_index));
+    }
+  }
+  const std::size_t place = place_of(field.number);
+  if (place == std::string_view::npos) {
+    set.fields.push_back({field.index, field.number, field.text});
+    return true;
+  }
+  for (Value& value : set.values) {
+    if (field.index != 0 && value.characteristic != field.index) continue;
+    if (field.index == 0 && !set.cell(value, place).empty()) continue;
+    if (!value.is_apart) set_apart(value, set);
+    set.apart[value.first_cell + place] = field.text;
+  }
+  return true;
+}
+
+Result<void> Reader::count_values(const ValueSet& set) {
+  for (const Value& value : set.values) {
+    Characteristic* const characteristic = description_.characteristic(value.characteristic);
+    if (characteristic == nullptr) {
+      return at_line(value.line,
+                     fmt::format("has a value of characteristic {}, which no line above "
+                                 "describes",
+                                 value.characteristic));
+    }
+    characteristic->has_values = true;
+    if (counts_.size() <= value.characteristic) counts_.resize(value.characteristic + 1);
+    ++counts_[value.characteristic];
+  }
+  return {};
+}
+
+}  // namespace fitgauge::aqdef

@@ -1,0 +1,180 @@
+#include "formats/measuring_log/pattern.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/text.hpp"
+
+namespace fitgauge::log_reader {
+namespace {
+
+constexpr std::size_t kMostUnread = 100;
+
+/// As the fields of a measurement go, with the control's date and time of day.
+constexpr std::array<std::string_view, 19> kFields{
+    "measured_mm", "nominal_mm",      "upper_mm", "lower_mm",       "upper_um", "lower_um",
+    "feature",     "tolerance_class", "part_id",  "characteristic", "order",    "operation",
+    "machine",     "operator",        "gauge",    "unit",           "comment",  "date",
+    "time"};
+
+Error invalid(std::size_t line, std::string_view what) {
+  return {ErrorCode::ConfigInvalid, fmt::format("line {}: {}", line, what)};
+}
+
+/// Without blanks at its ends, and with one where there are several.
+std::string squeezed(std::string_view text) {
+  std::string out;
+  for (const char c : trim(text)) {
+    const char plain = c == '\t' ? ' ' : c;
+    if (plain != ' ' || !out.ends_with(' ')) out += plain;
+  }
+  return out;
+}
+
+/// The next line, which is taken away, without its end.
+std::string_view take_text_line(std::string_view& rest) {
+  const std::size_t end = std::min(rest.find('\n'), rest.size());
+  std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+}  // namespace
+
+Result<void> Pattern::check_field(const std::string& name, std::size_t number) const {
+  if (std::find(kFields.begin(), kFields.end(), name) == kFields.end()) {
+    return invalid(number, fmt::format("there is no field '{}'; there are {}", name,
+                                       fmt::join(kFields, ", ")));
+  }
+  bool is_there = constants_.contains(name);
+  for (const Line& line : lines_) {
+    for (const auto& part : line) {
+      const auto* const field = std::get_if<Field>(&part);
+      is_there = is_there || (field != nullptr && field->name == name);
+    }
+  }
+  if (is_there) return invalid(number, fmt::format("the field '{}' comes twice", name));
+  return {};
+}
+
+Result<void> Pattern::take_constant(std::string_view line, std::size_t number) {
+  const std::size_t equals = line.find('=');
+  if (equals == std::string_view::npos) {
+    return invalid(number, "above --- a line is: field = value");
+  }
+  const std::string name(trim(line.substr(0, equals)));
+  if (auto known = check_field(name, number); !known) return known;
+  constants_.emplace(name, trim(line.substr(equals + 1)));
+  return {};
+}
+
+Result<void> Pattern::take_line(std::string_view text, std::size_t number) {
+  const std::string line = squeezed(text);
+  lines_.emplace_back();
+  std::string_view rest = line;
+  bool after_field = false;
+  while (!rest.empty()) {
+    const std::size_t open = std::min(rest.find('{'), rest.size());
+    if (open > 0) {
+      lines_.back().emplace_back(std::string(rest.substr(0, open)));
+      after_field = false;
+    }
+    rest.remove_prefix(open);
+    if (rest.empty()) break;
+    const std::size_t close = rest.find('}');
+    if (close == std::string_view::npos) return invalid(number, "a { has no }");
+    if (after_field) return invalid(number, "two fields need something printed between them");
+    Field field{std::string(trim(rest.substr(1, close - 1)))};
+    if (!field.name.empty()) {
+      if (auto known = check_field(field.name, number); !known) return known;
+    }
+    lines_.back().emplace_back(std::move(field));
+    after_field = true;
+    rest.remove_prefix(close + 1);
+  }
+  return {};
+}
+
+Result<Pattern> Pattern::parse(std::string_view text) {
+  Pattern pattern;
+  bool below = false;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::string_view line = trim(take_text_line(text));
+    if (line.empty() || (!below && line.starts_with('#'))) continue;
+    if (!below && line == "---") {
+      below = true;
+      continue;
+    }
+    const auto taken =
+        below ? pattern.take_line(line, number) : pattern.take_constant(line, number);
+    if (!taken) return taken.error();
+  }
+  if (pattern.lines_.empty()) return invalid(1, "no lines of a result stand below ---");
+  const auto measured = pattern.check_field("measured_mm", 1);
+  if (measured || pattern.constants_.contains("measured_mm")) {
+    return invalid(1, "no line below --- has {measured_mm}");
+  }
+  return pattern;
+}
+
+bool Pattern::matches(const Line& pattern, std::string_view line, Fields& fields) {
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    if (const auto* const literal = std::get_if<std::string>(&pattern[i])) {
+      if (!line.starts_with(*literal)) return false;
+      line.remove_prefix(literal->size());
+      continue;
+    }
+    // At least one character, up to the next literal.
+    std::size_t end = line.size();
+    if (i + 1 < pattern.size()) end = line.find(std::get<std::string>(pattern[i + 1]), 1);
+    if (end == std::string_view::npos || end == 0) return false;
+    const auto& field = std::get<Field>(pattern[i]);
+    if (!field.name.empty())
+      fields.insert_or_assign(field.name, std::string(trim(line.substr(0, end))));
+    line.remove_prefix(end);
+  }
+  return line.empty();
+}
+
+PatternReading Pattern::read(std::string_view bytes) const {
+  const std::string converted = is_utf8(bytes) ? std::string() : utf8_from_windows1252(bytes);
+  std::string_view rest = converted.empty() ? bytes : converted;
+  PatternReading reading;
+  PatternResult result{constants_, {}};
+  std::size_t at = 0;
+  std::size_t begun = 0;
+  const auto restart = [&] {
+    at = 0;
+    result = {constants_, {}};
+  };
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::string line = squeezed(take_text_line(rest));
+    if (line.empty()) continue;
+    Fields fields;
+    if (!matches(lines_[at], line, fields)) {
+      if (at == 0 || !matches(lines_.front(), line, fields = {})) continue;
+      if (reading.unread.size() < kMostUnread) {
+        reading.unread.push_back(
+            {begun,
+             fmt::format("the result that begins here lacks line {} of its pattern", at + 1)});
+      }
+      restart();
+    }
+    if (at == 0) begun = number;
+    for (auto& [name, value] : fields) result.fields.insert_or_assign(name, std::move(value));
+    result.text += line;
+    result.text += '\n';
+    if (++at < lines_.size()) continue;
+    reading.results.push_back(std::move(result));
+    restart();
+  }
+  reading.is_unfinished = at > 0;
+  return reading;
+}
+
+}  // namespace fitgauge::log_reader

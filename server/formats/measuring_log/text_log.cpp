@@ -1,0 +1,261 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/text.hpp"
+#include "formats/measuring_log/log_words.hpp"
+#include "formats/measuring_log/measuring_log.hpp"
+
+namespace fitgauge::log_reader {
+namespace {
+
+/// A label with its number, of one section.
+struct Entry {
+  std::string label;    ///< in lower case
+  std::string written;  ///< as the log has it
+  std::string digits;
+  std::size_t line = 0;
+};
+
+bool is_number(std::string_view text) {
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  return !text.empty() && text.front() >= '0' && text.front() <= '9' &&
+         text.find_first_not_of("0123456789.,") == std::string_view::npos;
+}
+
+/// More values than any cycle has, and more findings than anyone reads.
+constexpr std::size_t kMostEntries = 100;
+constexpr std::size_t kMostUnread = 100;
+
+/// A line of dashes, stars or the like, and nothing else.
+bool is_rule(std::string_view line) {
+  return line.find_first_not_of("-_*= ") == std::string_view::npos;
+}
+
+/// Takes the lines of a file, one after the other.
+class TextReader {
+ public:
+  /// @param is_whole whether its line end is there; the cycle may still write the rest of it.
+  void take(std::string_view raw, std::size_t number, bool is_whole);
+  Reading finish() &&;
+
+ private:
+  using Entries = std::array<std::vector<Entry>, 6>;
+
+  void begin(int cycle);
+  void take_line(std::string_view line, std::string_view lower, std::size_t number);
+  void take_head(std::string_view label, std::string_view value, std::size_t number);
+  void end();
+  /// The log that is being read cannot be; the first reason is told.
+  void spoil(std::size_t line, std::string why);
+  void match_limits();
+  std::vector<Entry>& of(Section section) { return entries_.at(static_cast<std::size_t>(section)); }
+
+  Reading reading_;
+  bool is_inside_ = false;
+  bool is_spoiled_ = false;
+  bool has_stray_ = false;
+  MeasuringLog log_;
+  LocalTime time_;
+  bool has_date_ = false;
+  bool has_time_ = false;
+  Section section_ = Section::Head;
+  Entries entries_;
+  Entry waiting_;  ///< a label whose number stands on the next line
+};
+
+void TextReader::begin(int cycle) {
+  if (is_inside_) {
+    spoil(0, fmt::format("the log of cycle {} has no end before the next one", log_.cycle));
+  }
+  is_inside_ = true;
+  is_spoiled_ = has_date_ = has_time_ = false;
+  log_ = MeasuringLog{.cycle = cycle};
+  time_ = LocalTime();
+  section_ = Section::Head;
+  entries_ = Entries();
+  waiting_ = Entry();
+}
+
+void TextReader::spoil(std::size_t line, std::string why) {
+  if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
+    reading_.unread.push_back({line, std::move(why)});
+  }
+  is_spoiled_ = true;
+}
+
+void TextReader::take(std::string_view raw, std::size_t number, bool is_whole) {
+  const std::string_view line = trim(raw);
+  const std::string lower = ascii_lower(line);
+  if (is_inside_ && !is_whole && !ends_log(lower)) return;
+  if (const auto cycle = cycle_of_title(lower)) begin(*cycle);
+  if (is_inside_) {
+    log_.text += raw;
+    log_.text += '\n';
+  }
+  if (cycle_of_title(lower) || is_rule(line)) return;
+  if (!is_inside_) {
+    // The first line of what is none tells of all of it.
+    if (!has_stray_) reading_.unread.push_back({number, "this is no log of a touch-probe cycle"});
+    has_stray_ = true;
+    return;
+  }
+  if (ends_log(lower)) return end();
+  take_line(line, lower, number);
+}
+
+void TextReader::take_line(std::string_view line, std::string_view lower, std::size_t number) {
+  if (!waiting_.label.empty()) {
+    if (is_number(line)) {
+      waiting_.digits = line;
+      of(section_).push_back(std::exchange(waiting_, {}));
+      return;
+    }
+    return spoil(waiting_.line, fmt::format("'{}' has no number", waiting_.written));
+  }
+  // A label may hold colons itself; a value, of a time or a path, stands in the head alone.
+  const bool is_head = section_ == Section::Head;
+  const std::size_t colon = is_head && !lower.starts_with("unit") && !lower.starts_with("type") &&
+                                    lower.find("0=mm") == std::string_view::npos &&
+                                    lower.find("0 = mm") == std::string_view::npos
+                                ? line.find(':')
+                                : line.rfind(':');
+  if (colon == std::string_view::npos) {
+    return spoil(number, fmt::format("'{}' is neither a title nor a value", line));
+  }
+  std::string_view label = trim(line.substr(0, colon));
+  const std::string_view value = trim(line.substr(colon + 1));
+  std::string_view key = trim(lower.substr(0, colon));
+  if (value.empty()) {
+    if (const auto opened = section_of(key)) {
+      section_ = *opened;
+      return;
+    }
+  }
+  // `Further measuring results: Measuring height: -5.0000`
+  if (const std::size_t inner = key.find(':'); inner != std::string_view::npos) {
+    if (const auto opened = section_of(key.substr(0, inner))) {
+      section_ = *opened;
+      label = trim(label.substr(inner + 1));
+      key = trim(key.substr(inner + 1));
+    }
+  }
+  if (section_ == Section::Head) return take_head(key, value, number);
+  if (of(section_).size() == kMostEntries) return spoil(number, "a log has no so many values");
+  Entry entry{std::string(key), std::string(label), std::string(value), number};
+  if (value.empty()) {
+    waiting_ = std::move(entry);
+  } else if (is_number(value)) {
+    of(section_).push_back(std::move(entry));
+  } else if (section_ != Section::Further) {
+    spoil(number, fmt::format("'{}' is no number", value));
+  }
+}
+
+void TextReader::take_head(std::string_view label, std::string_view value, std::size_t number) {
+  if (label == "date" || label == "datum") {
+    has_date_ = read_date(value, time_);
+    if (!has_date_) spoil(number, fmt::format("'{}' is no date", value));
+  } else if (label == "time" || label == "uhrzeit" || label == "zeit") {
+    has_time_ = read_time(value, time_);
+    if (!has_time_) spoil(number, fmt::format("'{}' is no time of day", value));
+  } else if (label.find("program") != std::string_view::npos) {
+    log_.program = value;
+  } else if (label.find("inch") != std::string_view::npos) {
+    if (value != "0" && value != "1") spoil(number, fmt::format("'{}' is no unit", value));
+    log_.inch = value == "1";
+  }
+}
+
+/// Nominal values and limits of the values that were measured, by what their labels are about.
+void TextReader::match_limits() {
+  for (std::size_t i = 0; i < log_.values.size(); ++i) {
+    LogValue& value = log_.values[i];
+    const Quantity quantity = quantity_of(of(Section::Actual)[i].label);
+    const auto same = [&](const Entry& entry) { return quantity_of(entry.label) == quantity; };
+    if (!value.is_length ||
+        std::count_if(of(Section::Actual).begin(), of(Section::Actual).end(), same) != 1) {
+      continue;
+    }
+    for (const Entry& entry : of(Section::Nominal)) {
+      if (!same(entry)) continue;
+      value.nominal = read_length(entry.digits, log_.inch);
+      if (!value.nominal) return spoil(entry.line, fmt::format("'{}' is no length", entry.digits));
+      value.name = name_of(quantity, log_.cycle);
+      value.role = role_of(quantity, log_.cycle);
+    }
+    for (const Entry& entry : of(Section::Limits)) {
+      if (!same(entry)) continue;
+      const auto bound = bound_of(entry.label);
+      const auto length = read_length(entry.digits, log_.inch);
+      if (!bound || !length) {
+        return spoil(entry.line, fmt::format("'{}' is no limit that is known", entry.written));
+      }
+      (*bound == Bound::Upper ? value.upper : value.lower) = length;
+    }
+    if (value.upper.has_value() != value.lower.has_value() ||
+        (value.upper && (!value.nominal || *value.upper < *value.lower))) {
+      return spoil(of(Section::Actual)[i].line,
+                   fmt::format("'{}' has limits that belong to nothing", value.name));
+    }
+  }
+}
+
+void TextReader::end() {
+  is_inside_ = false;
+  for (const Entry& entry : of(Section::Actual)) {
+    LogValue value{.name = entry.written, .printed = entry.digits};
+    value.is_length = !is_angle(entry.label);
+    if (value.is_length) {
+      const auto length = read_length(entry.digits, log_.inch);
+      if (!length) spoil(entry.line, fmt::format("'{}' is no length", entry.digits));
+      value.measured = length.value_or(Length());
+    }
+    log_.values.push_back(std::move(value));
+  }
+  match_limits();
+  if (log_.values.empty()) {
+    spoil(0, fmt::format("the log of cycle {} has no actual values", log_.cycle));
+  }
+  const std::size_t limits = of(Section::Limits).size();
+  const auto judged = std::count_if(log_.values.begin(), log_.values.end(),
+                                    [](const LogValue& value) { return value.upper.has_value(); });
+  if (limits != 2 * static_cast<std::size_t>(judged)) {
+    spoil(0, fmt::format("the log of cycle {} has limits of no actual value", log_.cycle));
+  }
+  if (has_date_ && has_time_) log_.time = time_;
+  if (!is_spoiled_) reading_.logs.push_back(std::move(log_));
+}
+
+Reading TextReader::finish() && {
+  reading_.is_unfinished = is_inside_ && !is_spoiled_;
+  return std::move(reading_);
+}
+
+}  // namespace
+
+Reading read_text_logs(std::string_view bytes) {
+  const std::string converted = is_utf8(bytes) ? std::string() : utf8_from_windows1252(bytes);
+  std::string_view rest = converted.empty() ? bytes : converted;
+  TextReader reader;
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    std::string_view line = rest.substr(0, end);
+    const bool is_whole = end < rest.size();
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    reader.take(line, number, is_whole);
+  }
+  return std::move(reader).finish();
+}
+
+Reading read_logs(std::string_view bytes) {
+  const std::string head = ascii_lower(bytes.substr(0, 512));
+  const bool is_html =
+      head.find("<!doctype html") != std::string::npos || head.find("<html") != std::string::npos;
+  return is_html ? read_html_logs(bytes) : read_text_logs(bytes);
+}
+
+}  // namespace fitgauge::log_reader

@@ -1,0 +1,287 @@
+#include "formats/qif/qif_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/csv_cell.hpp"
+#include "base/text.hpp"
+#include "formats/dfq/lines.hpp"
+#include "formats/dfq/measurement_places.hpp"
+#include "formats/qif/qif_definitions.hpp"
+#include "formats/qif/xml_reader.hpp"
+
+namespace fitgauge::qif {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::size_t kUncertainty = aqdef::place_of("uncertainty_um");
+constexpr std::string_view kEnding = "CharacteristicMeasurement";
+/// What is measured between two points of a surface, as a gauge for sizes does.
+constexpr std::array kSizes = {
+    "Diameter"sv, "SphericalDiameter"sv, "Width"sv, "Thickness"sv, "Length"sv, "Height"sv,
+    "Depth"sv,    "DistanceBetween"sv};
+
+}  // namespace
+
+/// One document on its way into rows.
+class QifRows::Converter {
+ public:
+  Converter(Definitions definitions, Read document, QifOptions options)
+      : definitions_(std::move(definitions)),
+        options_(std::move(options)),
+        reader_(std::move(document)) {}
+
+  Result<bool> append(std::string& out, std::vector<std::uint32_t>& lines);
+  bool has_rows() const { return rows_ > 0; }
+
+ private:
+  /// @returns whether there is a row.
+  Result<bool> read_row(const Element& element, std::uint32_t line);
+  /// Why no measurement can hold it; empty where one can.
+  std::string reason_against(const Element& element, const Definitions::Item& item) const;
+  /// @pre reason_against() found none
+  Result<void> read_tolerance(const Definitions::Item& item, std::uint32_t line);
+  Result<void> read_value(const Element& element, std::uint32_t line);
+  Result<void> read_time(const Element& element, std::uint32_t line);
+  Result<Length> length(std::string_view what, const std::string& text, std::uint32_t line) const;
+  Result<std::optional<Length>> limit(const std::string& text, Length from, std::string_view what,
+                                      std::uint32_t line) const;
+  /// Where nothing better has said it.
+  void fill(std::size_t place, std::string_view text) {
+    if (fields_.at(place).empty()) fields_.at(place) = text;
+  }
+  void append_row(std::string& out) const;
+
+  const Definitions definitions_;
+  const QifOptions options_;
+  XmlReader reader_;
+  Fields fields_{};
+  std::size_t rows_ = 0;
+};
+
+Result<Length> QifRows::Converter::length(std::string_view what, const std::string& text,
+                                          std::uint32_t line) const {
+  if (!definitions_.unit()) {
+    return aqdef::at_line(line,
+                          fmt::format("has lengths, and FileUnits names no unit that is known "
+                                      "('{}'): name it (length_unit)",
+                                      first_characters(definitions_.unit_name(), 40)));
+  }
+  const auto read = aqdef::parse_length(text, *definitions_.unit());
+  if (read) return *read;
+  return aqdef::at_line(
+      line, fmt::format("has the {} '{}', which is no length", what, first_characters(text, 40)));
+}
+
+Result<std::optional<Length>> QifRows::Converter::limit(const std::string& text, Length from,
+                                                        std::string_view what,
+                                                        std::uint32_t line) const {
+  if (text.empty()) return std::optional<Length>();
+  const auto read = length(what, text, line);
+  if (!read) return read.error();
+  return std::optional(from + *read);
+}
+
+Result<void> QifRows::Converter::read_tolerance(const Definitions::Item& item, std::uint32_t line) {
+  const auto* const nominal = definitions_.nominal(item.nominal);
+  const auto* const definition = definitions_.definition(nominal->definition);
+  fill(aqdef::kName, item.name);
+  fill(aqdef::kName, nominal->name);
+  fill(aqdef::kName, definition->name);
+  const auto target = length("TargetValue", nominal->target, line);
+  if (!target) return target.error();
+  fields_[aqdef::kNominal] = format_mm(*target);
+  const Length from = definition->is_limit ? Length() : *target;
+  const auto upper = limit(definition->upper, from, "MaxValue", line);
+  if (!upper) return upper.error();
+  const auto lower = limit(definition->lower, from, "MinValue", line);
+  if (!lower) return lower.error();
+  if (!definition->class_name.empty()) {
+    fields_[aqdef::kClass] = definition->class_name;
+    if (!options_.limits_of) return {};
+    const auto limits = options_.limits_of(*target, definition->class_name);
+    if (!limits) return aqdef::at_line(line, "is of a class, and " + limits.error().message);
+    for (const auto& [said, of_class, what] : {std::tuple(*upper, limits->upper, "MaxValue"),
+                                               std::tuple(*lower, limits->lower, "MinValue")}) {
+      if (!said || !of_class || *said == *of_class) continue;
+      return aqdef::at_line(
+          line, fmt::format("is of {} {}, whose {} is {} mm, and the document says {} mm",
+                            format_mm(*target), definition->class_name, what, format_mm(*of_class),
+                            format_mm(*said)));
+    }
+    return {};
+  }
+  if (*upper) fields_[aqdef::kUpper] = format_um(**upper - *target);
+  if (*lower) fields_[aqdef::kLower] = format_um(**lower - *target);
+  fill(aqdef::kFeature, definition->feature);
+  fill(aqdef::kFeature, definitions_.feature(item, *nominal));
+  return {};
+}
+
+Result<void> QifRows::Converter::read_value(const Element& element, std::uint32_t line) {
+  const auto values = element.find("Value");
+  const std::string unit = values.front().attribute("linearUnit");
+  if (!unit.empty() && unit != definitions_.unit_name()) {
+    return aqdef::at_line(line, fmt::format("has a value in '{}', and the document is in '{}'",
+                                            first_characters(unit, 40), definitions_.unit_name()));
+  }
+  const auto measured = length("value", values.front().own_text(), line);
+  if (!measured) return measured.error();
+  fields_[aqdef::kMeasured] = format_mm(*measured);
+  if (const std::string said = values.front().attribute("combinedUncertainty"); !said.empty()) {
+    const auto uncertainty = length("combinedUncertainty", said, line);
+    if (!uncertainty) return uncertainty.error();
+    fields_.at(kUncertainty) = format_um(*uncertainty);
+  }
+  return {};
+}
+
+Result<void> QifRows::Converter::read_time(const Element& element, std::uint32_t line) {
+  std::string text = element.text("TimeStamp");
+  if (text.empty()) return {};
+  const auto wall = sheet::parse_wall_time(text);
+  if (wall && !options_.zone) {
+    return aqdef::at_line(line,
+                          fmt::format("has the time '{}' without an offset: name the time zone "
+                                      "of its clock (time_zone)",
+                                      first_characters(text, 40)));
+  }
+  if (wall) {
+    const auto instant = options_.zone->instant(*wall);
+    if (!instant) {
+      return aqdef::at_line(
+          line, fmt::format("has the time '{}', and {}", text, instant.error().message));
+    }
+    text = format_rfc3339(*instant);
+  }
+  fields_[aqdef::kMeasuredAt] = std::move(text);
+  return {};
+}
+
+std::string QifRows::Converter::reason_against(const Element& element,
+                                               const Definitions::Item& item) const {
+  std::string kind = element.name();
+  if (kind.ends_with(kEnding)) kind.resize(kind.size() - kEnding.size());
+  if (std::find(kSizes.begin(), kSizes.end(), kind) == kSizes.end()) {
+    return fmt::format("has a {}, which is no size that a measurement can hold",
+                       first_characters(element.name(), 60));
+  }
+  if (!element.has("Value")) return fmt::format("has a {} without a Value", kind);
+  const auto* const nominal = definitions_.nominal(item.nominal);
+  const auto* const definition =
+      nominal == nullptr ? nullptr : definitions_.definition(nominal->definition);
+  if (definition == nullptr) return "measures a characteristic without a nominal or a definition";
+  if (nominal->target.empty()) return "measures a characteristic whose nominal has no TargetValue";
+  const bool is_toleranced =
+      !definition->upper.empty() || !definition->lower.empty() || !definition->class_name.empty();
+  return is_toleranced ? "" : "measures a characteristic without a tolerance";
+}
+
+Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t line) {
+  const auto* const item = definitions_.item(element.text("CharacteristicItemId"));
+  if (item == nullptr) {
+    return aqdef::at_line(line, "measures a characteristic whose item the document lacks");
+  }
+  if (const std::string reason = reason_against(element, *item); !reason.empty()) {
+    if (options_.leaves_out_others) return false;
+    return aqdef::at_line(line, reason + ": with leave_out the others are taken");
+  }
+  fields_ = {};
+  for (const auto& [name, text] : item->attributes) set_field(fields_, name, text);
+  for (const auto& [name, text] : element.named_attributes()) set_field(fields_, name, text);
+  if (const auto read = read_tolerance(*item, line); !read) return read.error();
+  if (const auto read = read_value(element, line); !read) return read.error();
+  if (const auto read = read_time(element, line); !read) return read.error();
+  fill(aqdef::kPartId, definitions_.part(element.text("ActualComponentId")));
+  fill(aqdef::kComment, element.text("Description"));
+  fill(aqdef::kOrder, definitions_.order());
+  fill(aqdef::kOperator, definitions_.inspector());
+  const std::string device = element.text("MeasurementDeviceIds/Id");
+  fill(aqdef::kGauge, definitions_.device(device.empty() ? item->device : device));
+  for (const auto& [name, text] : options_.constants) {
+    const std::size_t place = aqdef::place_of(name);
+    if (place < fields_.size()) fill(place, text);
+  }
+  return true;
+}
+
+void QifRows::Converter::append_row(std::string& out) const {
+  for (std::size_t place = 0; place < fields_.size(); ++place) {
+    if (place > 0) out += ';';
+    const auto append = place >= aqdef::kPartId && place <= aqdef::kSubgroup
+                            ? sheet::append_csv_text
+                            : sheet::append_csv_cell;
+    append(out, fields_.at(place), sheet::CsvSeparator::Semicolon);
+  }
+  out += '\n';
+}
+
+Result<bool> QifRows::Converter::append(std::string& out, std::vector<std::uint32_t>& lines) {
+  for (;;) {
+    const auto more = reader_.next();
+    if (!more) return more.error();
+    if (!*more) return false;
+    if (reader_.parent() != "CharacteristicMeasurements") continue;
+    const std::uint32_t line = reader_.line();
+    const auto element = reader_.take();
+    if (!element) return element.error();
+    const auto read = read_row(*element, line);
+    if (!read) return read.error();
+    if (!*read) continue;
+    if (++rows_ > options_.most_rows) {
+      return aqdef::at_line(line, fmt::format("is beyond {} measured values: cut the document into "
+                                              "several",
+                                              options_.most_rows));
+    }
+    const auto before = static_cast<std::ptrdiff_t>(out.size());
+    append_row(out);
+    // A text may have line ends.
+    const auto ends = std::count(out.begin() + before, out.end(), '\n');
+    lines.insert(lines.end(), static_cast<std::size_t>(ends), line);
+    return true;
+  }
+}
+
+QifRows::QifRows(std::unique_ptr<Converter> converter) : converter_(std::move(converter)) {}
+QifRows::QifRows(QifRows&&) noexcept = default;
+QifRows& QifRows::operator=(QifRows&&) noexcept = default;
+QifRows::~QifRows() = default;
+
+Result<QifRows> QifRows::open(Read first, Read again, QifOptions options) {
+  auto definitions = Definitions::read(std::move(first), options.length_unit);
+  if (!definitions) return definitions.error();
+  return QifRows(
+      std::make_unique<Converter>(*std::move(definitions), std::move(again), std::move(options)));
+}
+
+std::string QifRows::header() const {
+  return fmt::format("{}\n", fmt::join(sheet::kMeasurementFields, ";"));
+}
+
+Result<bool> QifRows::append(std::string& rows, std::vector<std::uint32_t>& lines) {
+  return converter_->append(rows, lines);
+}
+
+Result<void> QifRows::check() const {
+  if (converter_->has_rows()) return {};
+  return Error{aqdef::kMalformed, "The document has no measured size"};
+}
+
+bool is_qif(std::string_view file_name) { return ascii_lower(file_name).ends_with(".qif"); }
+
+Result<QifText> read_qif(std::string_view text, const QifOptions& options) {
+  auto opened = QifRows::open(read_text(text), read_text(text), options);
+  if (!opened) return opened.error();
+  QifText read{.csv = opened->header()};
+  for (;;) {
+    const auto more = opened->append(read.csv, read.lines);
+    if (!more) return more.error();
+    if (!*more) break;
+  }
+  if (const auto checked = opened->check(); !checked) return checked.error();
+  return read;
+}
+
+}  // namespace fitgauge::qif

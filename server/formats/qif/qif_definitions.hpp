@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+#include "formats/dfq/limits.hpp"
+#include "formats/dfq/lines.hpp"
+#include "formats/sheet/measurement_fields.hpp"
+
+namespace fitgauge::qif {
+
+class Element;
+
+/// The texts of a measurement by the places of sheet::kMeasurementFields.
+using Fields = std::array<std::string, sheet::kMeasurementFields.size()>;
+
+/// Gives the field of that name its text; what is no field is passed over.
+void set_field(Fields& fields, std::string_view name, std::string_view text);
+
+/// What a document says of its characteristics, parts and devices. Bounded in memory.
+class Definitions {
+ public:
+  /// A characteristic that was measured.
+  struct Item {
+    std::string name{};
+    std::string nominal{};                                          ///< id
+    std::string device{};                                           ///< id
+    std::string part_feature{};                                     ///< id of a feature item
+    std::vector<std::pair<std::string, std::string>> attributes{};  ///< by names of fields
+  };
+  struct Nominal {
+    std::string definition{};  ///< id
+    std::string target{};
+    std::string name{};
+    std::string feature{};  ///< id of a feature's nominal
+  };
+  struct Definition {
+    std::string upper{};
+    std::string lower{};
+    bool is_limit = false;  ///< else they are deviations
+    std::string class_name{};
+    std::string feature{};
+    std::string name{};
+  };
+
+  /// Reads all but the measurements. @errors CsvMalformed with the line
+  static Result<Definitions> read(Read document, std::optional<aqdef::LengthUnit> fallback);
+
+  /// Null where there is none of that id.
+  const Item* item(const std::string& id) const { return find(items_, id); }
+  const Nominal* nominal(const std::string& id) const { return find(nominals_, id); }
+  const Definition* definition(const std::string& id) const { return find(definitions_, id); }
+  std::string_view part(const std::string& id) const { return text(parts_, id); }
+  std::string_view device(const std::string& id) const { return text(devices_, id); }
+  /// `hole`, `shaft` or nothing, of the feature that a characteristic is of.
+  std::string_view feature(const Item& item, const Nominal& nominal) const;
+  /// Nothing where the document names none, nor the caller.
+  std::optional<aqdef::LengthUnit> unit() const { return unit_; }
+  const std::string& unit_name() const { return unit_name_; }
+  const std::string& order() const { return order_; }
+  const std::string& inspector() const { return inspector_; }
+
+ private:
+  template <class Value>
+  using ById = std::map<std::string, Value, std::less<>>;
+  template <class Value>
+  static const Value* find(const ById<Value>& by_id, const std::string& id) {
+    const auto found = by_id.find(id);
+    return found == by_id.end() ? nullptr : &found->second;
+  }
+  static std::string_view text(const ById<std::string>& by_id, const std::string& id) {
+    const auto* const found = find(by_id, id);
+    return found == nullptr ? std::string_view() : std::string_view(*found);
+  }
+  /// An element of one of the lists. Keeps no more of it than is used.
+  void take(std::string_view list, const Element& element);
+
+  ById<Item> items_{};
+  ById<Nominal> nominals_{};
+  ById<Definition> definitions_{};
+  ById<std::string> parts_{};
+  ById<std::string> devices_{};
+  ById<std::string> features_{};          ///< hole or shaft
+  ById<std::string> feature_nominals_{};  ///< id of the feature's definition
+  ById<std::string> feature_items_{};     ///< id of the feature's nominal
+  std::optional<aqdef::LengthUnit> unit_{};
+  std::string unit_name_{};
+  std::string order_{};
+  std::string inspector_{};
+};
+
+}  // namespace fitgauge::qif

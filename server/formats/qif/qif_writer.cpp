@@ -1,0 +1,188 @@
+#include "formats/qif/qif_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "base/xml_text.hpp"
+
+namespace fitgauge::qif {
+namespace {
+
+using Texts = std::vector<std::pair<std::string_view, std::string>>;
+
+/// `<Attributes>` of texts by their names; nothing where there is none.
+std::string attributes(const Texts& texts) {
+  if (texts.empty()) return {};
+  std::string out = fmt::format("<Attributes n=\"{}\">", texts.size());
+  for (const auto& [name, text] : texts) {
+    out += fmt::format("<AttributeStr name=\"{}\" value=\"{}\"/>", name, xml_text(text));
+  }
+  return out += "</Attributes>";
+}
+
+/// Of a part or of all results: QIF has no word for a verdict that is open.
+std::string_view inspection_word(Status status) {
+  return status == Status::Indeterminate ? "UNKNOWN" : word(status);
+}
+
+/// The text as a token: no blanks around it, and single ones inside.
+std::string token(std::string_view text) {
+  std::string out;
+  for (const char c : trim(text)) {
+    const char plain = c == '\t' || c == '\n' || c == '\r' ? ' ' : c;
+    if (plain != ' ' || !out.ends_with(' ')) out += plain;
+  }
+  return out;
+}
+
+std::string tolerance(const OutgoingValue& value) {
+  if (!value.upper && !value.lower) return "<NonTolerance>MEASURED</NonTolerance>";
+  std::string out = "<Tolerance>";
+  if (value.upper) out += fmt::format("<MaxValue>{}</MaxValue>", format_mm(*value.upper));
+  if (value.lower) out += fmt::format("<MinValue>{}</MinValue>", format_mm(*value.lower));
+  return out += "<DefinedAsLimit>true</DefinedAsLimit></Tolerance>";
+}
+
+std::string qpid_of(const OutgoingValue& value) {
+  const std::string digits =
+      fmt::format("{:0>16}{:016x}", value.origin, static_cast<std::uint64_t>(value.number));
+  return fmt::format("{}-{}-{}-{}-{}", digits.substr(0, 8), digits.substr(8, 4),
+                     digits.substr(12, 4), digits.substr(16, 4), digits.substr(20));
+}
+
+Result<void> check(std::string_view name, std::string_view text) {
+  if (is_xml_text(text)) return {};
+  return Error{ErrorCode::FieldInvalid,
+               fmt::format("{} has a control character, which XML cannot hold", name)};
+}
+
+}  // namespace
+
+std::string_view word(Status status) {
+  switch (status) {
+    case Status::Pass: return "PASS";
+    case Status::Rework: return "REWORK";
+    case Status::Indeterminate: return "INDETERMINATE";
+    case Status::Fail: break;
+  }
+  return "FAIL";
+}
+
+std::uint32_t QifWriter::item_of(const OutgoingValue& value) {
+  Texts of_definition = {{"feature", value.is_hole ? "hole" : "shaft"}};
+  if (!value.class_name.empty()) {
+    of_definition.emplace_back("tolerance_class", std::string(value.class_name));
+  }
+  const std::string definition = attributes(of_definition) + tolerance(value);
+  const std::string nominal = format_mm(value.nominal);
+  const std::string name(value.characteristic.value_or(""));
+  const auto [known, is_new] =
+      items_.try_emplace(fmt::format("{}\n{}\n{}", definition, nominal, name), 0);
+  if (!is_new) return known->second;
+  const std::uint32_t first = last_id_ + 1;
+  last_id_ += 3;
+  known->second = last_id_;
+  definitions_ += fmt::format(
+      "<DiameterCharacteristicDefinition id=\"{}\">{}</DiameterCharacteristicDefinition>\n", first,
+      definition);
+  nominals_ += fmt::format(
+      "<DiameterCharacteristicNominal id=\"{}\"><CharacteristicDefinitionId>{}"
+      "</CharacteristicDefinitionId><TargetValue>{}</TargetValue></"
+      "DiameterCharacteristicNominal>\n",
+      first + 1, first, nominal);
+  const std::string plain = token(name);
+  Texts of_item;
+  if (plain != name) of_item.emplace_back("characteristic", name);
+  item_texts_ += fmt::format(
+      "<DiameterCharacteristicItem id=\"{}\">{}{}<CharacteristicNominalId>{}"
+      "</CharacteristicNominalId></DiameterCharacteristicItem>\n",
+      last_id_, attributes(of_item),
+      plain.empty() ? "" : fmt::format("<Name>{}</Name>", xml_text(plain)), first + 1);
+  return last_id_;
+}
+
+Result<void> QifWriter::add(const OutgoingValue& value) {
+  Texts fields = {{"id", fmt::format("m{}-{}", value.number, value.origin)}};
+  for (const auto& field : value.fields) fields.push_back(field);
+  for (const auto& [name, text] : fields) {
+    if (const auto checked = check(name, text); !checked) return checked;
+  }
+  for (const auto& [name, text] : {std::pair("part_id", value.part_id.value_or("")),
+                                   std::pair("characteristic", value.characteristic.value_or("")),
+                                   std::pair("tolerance_class", value.class_name)}) {
+    if (const auto checked = check(name, text); !checked) return checked;
+  }
+  if (is_empty()) qpid_ = qpid_of(value);
+  const std::uint32_t item = item_of(value);
+  std::string part;
+  if (value.part_id) {
+    auto& known = parts_[std::string(*value.part_id)];
+    if (known.id == 0) known.id = ++last_id_;
+    known.worst = std::max(known.worst, value.status);
+    part = fmt::format("<ActualComponentId>{}</ActualComponentId>", known.id);
+  }
+  const std::string uncertainty =
+      value.uncertainty ? fmt::format(" combinedUncertainty=\"{}\"", format_mm(*value.uncertainty))
+                        : std::string();
+  measurement_texts_ += fmt::format(
+      "<DiameterCharacteristicMeasurement id=\"{}\">{}<Status><CharacteristicStatusEnum>{}"
+      "</CharacteristicStatusEnum></Status><CharacteristicItemId>{}</CharacteristicItemId>"
+      "<TimeStamp>{}</TimeStamp>{}<Value{}>{}</Value></DiameterCharacteristicMeasurement>\n",
+      ++last_id_, attributes(fields), word(value.status), item, format_rfc3339(value.measured_at),
+      part, uncertainty, format_mm(value.measured));
+  worst_ = std::max(worst_, value.status);
+  ++measurements_;
+  return {};
+}
+
+std::string QifWriter::element() const {
+  std::string out = fmt::format(
+      "<QIFDocument xmlns=\"http://qifstandards.org/xsd/qif3\" versionQIF=\"3.0.0\" idMax=\"{}\">\n"
+      "<QPId>{}</QPId>\n",
+      last_id_ + 1, qpid_);
+  out +=
+      "<StandardsDefinitions n=\"1\"><Standard "
+      "id=\"1\"><Organization><StandardsOrganizationEnum>ISO"
+      "</StandardsOrganizationEnum></Organization><Designator>286-1</Designator></Standard>"
+      "</StandardsDefinitions>\n"
+      "<FileUnits><PrimaryUnits><LinearUnit><SIUnitName>meter</SIUnitName><UnitName>mm</UnitName>"
+      "<UnitConversion><Factor>0.001</Factor></UnitConversion></LinearUnit></PrimaryUnits>"
+      "</FileUnits>\n<Characteristics><FormalStandardId>1</FormalStandardId>\n";
+  const auto list = [&out](std::string_view name, std::size_t count, std::string_view texts) {
+    out += fmt::format("<{0} n=\"{1}\">\n{2}</{0}>\n", name, count, texts);
+  };
+  list("CharacteristicDefinitions", items_.size(), definitions_);
+  list("CharacteristicNominals", items_.size(), nominals_);
+  list("CharacteristicItems", items_.size(), item_texts_);
+  out += fmt::format(
+      "</Characteristics>\n<Results><MeasurementResultsSet n=\"1\"><MeasurementResults id=\"{}\">"
+      "<MeasuredCharacteristics>\n",
+      last_id_ + 1);
+  list("CharacteristicMeasurements", measurements_, measurement_texts_);
+  out += fmt::format(
+      "</MeasuredCharacteristics><InspectionStatus><InspectionStatusEnum>{}</InspectionStatusEnum>"
+      "</InspectionStatus></MeasurementResults></MeasurementResultsSet>\n",
+      inspection_word(worst_));
+  if (!parts_.empty()) {
+    std::string components;
+    for (const auto& [serial, part] : parts_) {
+      components += fmt::format(
+          "<ActualComponent "
+          "id=\"{}\"><SerialNumber>{}</SerialNumber><Status><InspectionStatusEnum>{}"
+          "</InspectionStatusEnum></Status></ActualComponent>\n",
+          part.id, xml_text(serial), inspection_word(part.worst));
+    }
+    out += "<ActualComponentSets n=\"1\">\n";
+    list("ActualComponentSet", parts_.size(), components);
+    out += "</ActualComponentSets>\n";
+  }
+  return out += "</Results>\n</QIFDocument>\n";
+}
+
+std::string QifWriter::text() const {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + element();
+}
+
+}  // namespace fitgauge::qif

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+#include "formats/sheet/text_encoding.hpp"
+
+namespace fitgauge::sheet {
+
+/// An error of a line of a table, which its `where` is.
+Error at_table_line(ErrorCode code, std::size_t line, std::string_view what);
+
+/// Without blanks, tabs and no-break spaces around it.
+std::string_view bare(std::string_view text);
+
+/// One line of a table, which may span several of the text.
+struct Record {
+  std::size_t line = 0;
+  std::size_t lines = 0;  ///< of the text
+  std::vector<std::string> cells{};
+
+  bool is_empty() const {
+    return std::all_of(cells.begin(), cells.end(),
+                       [](const std::string& cell) { return bare(cell).empty(); });
+  }
+};
+
+/// Takes records from the front of a text, of which it keeps no more than one and a piece. Of no
+/// more use after an error.
+class RecordReader {
+ public:
+  static constexpr std::size_t kMostCells = 1000;
+  static constexpr std::size_t kLongestRecord = std::size_t{1} << 20;
+
+  explicit RecordReader(Utf8Input input) : input_(std::move(input)) {}
+
+  void set_separator(char separator) { separator_ = separator; }
+  std::size_t line() const { return line_; }
+
+  /// The next line without its end, until something is taken; empty at the end as well.
+  /// @errors CsvMalformed, TextEncoding
+  Result<std::string_view> peek_line();
+  /// @param line what peek_line() has given
+  void pass_line(std::string_view line);
+  /// After peek_line().
+  bool is_at_end() const { return is_at_end_ && at_ == room_.size(); }
+
+  /// @returns false at the end. @errors CsvMalformed, TextEncoding
+  Result<bool> next(Record& record);
+
+ private:
+  Result<void> fill();
+  Result<void> read_record(Record& record);
+  Result<void> read_cell(std::string& cell, Record& record);
+  bool take_line_end();
+
+  Utf8Input input_;
+  std::string room_{};  ///< read, and taken up to `at_`
+  std::size_t at_ = 0;
+  bool is_at_end_ = false;   ///< nothing comes behind `room_`
+  std::string_view rest_{};  ///< of `room_`, while a record is read
+  std::size_t line_ = 1;
+  char separator_ = ';';
+};
+
+}  // namespace fitgauge::sheet

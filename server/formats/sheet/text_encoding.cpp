@@ -1,0 +1,216 @@
+#include "formats/sheet/text_encoding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "base/text.hpp"
+
+namespace fitgauge::sheet {
+namespace {
+
+constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
+constexpr std::string_view kLittleMark = "\xFF\xFE";
+constexpr std::string_view kBigMark = "\xFE\xFF";
+constexpr std::size_t kLooked = 64;           ///< bytes of the beginning
+constexpr std::size_t kLongestCharacter = 4;  ///< of UTF-8
+constexpr std::size_t kPiece = std::size_t{1} << 16;
+
+/// Reads the next piece behind what is there. @returns how many bytes it has; 0 at the end
+Result<std::size_t> read_on(const Read& read, std::string& bytes) {
+  const std::size_t size = bytes.size();
+  bytes.resize(size + kPiece);
+  auto count = read(std::span(bytes).subspan(size));
+  bytes.resize(size + (count ? *count : 0));
+  return count;
+}
+
+/// How many of the beginning's bytes at even or odd places are 0.
+std::size_t zeros(std::string_view bytes, std::size_t parity) {
+  std::size_t count = 0;
+  for (std::size_t i = parity; i < std::min(bytes.size(), kLooked); i += 2) {
+    if (bytes[i] == '\0') ++count;
+  }
+  return count;
+}
+
+bool looks_like_utf16(std::string_view bytes) {
+  const std::size_t half = std::min(bytes.size(), kLooked) / 2;
+  return half >= 2 && std::max(zeros(bytes, 0), zeros(bytes, 1)) * 4 >= half * 3;
+}
+
+void append_utf8(std::string& out, std::uint32_t point) {
+  const auto put = [&out](std::uint32_t byte) { out += static_cast<char>(byte); };
+  if (point < 0x80) {
+    put(point);
+  } else if (point < 0x800) {
+    put(0xC0 | point >> 6);
+    put(0x80 | (point & 0x3F));
+  } else if (point < 0x10000) {
+    put(0xE0 | point >> 12);
+    put(0x80 | (point >> 6 & 0x3F));
+    put(0x80 | (point & 0x3F));
+  } else {
+    put(0xF0 | point >> 18);
+    put(0x80 | (point >> 12 & 0x3F));
+    put(0x80 | (point >> 6 & 0x3F));
+    put(0x80 | (point & 0x3F));
+  }
+}
+
+Error no_utf16(std::uint64_t at) {
+  return {ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-16", at)};
+}
+
+Error no_utf8(std::uint64_t at) {
+  return {ErrorCode::TextEncoding,
+          fmt::format("byte {} is not UTF-8: name the encoding, such as windows-1252", at)};
+}
+
+bool has_utf16_mark(std::string_view bytes) {
+  return bytes.starts_with(kLittleMark) || bytes.starts_with(kBigMark);
+}
+
+bool is_big_endian(std::string_view bytes) {
+  if (has_utf16_mark(bytes)) return bytes.starts_with(kBigMark);
+  return zeros(bytes, 0) > zeros(bytes, 1);
+}
+
+/// Appends the whole characters at the front of a text. @param at where that stands, for the error
+/// @returns how many bytes they have.
+Result<std::size_t> append_utf16(std::string& out, std::string_view bytes, bool is_big,
+                                 std::uint64_t at) {
+  const auto unit = [&](std::size_t place) {
+    const auto first = static_cast<std::uint8_t>(bytes[place]);
+    const auto second = static_cast<std::uint8_t>(bytes[place + 1]);
+    return static_cast<std::uint32_t>(is_big ? first << 8 | second : second << 8 | first);
+  };
+  std::size_t done = 0;
+  while (done + 1 < bytes.size()) {
+    std::uint32_t point = unit(done);
+    if (point >= 0xDC00 && point < 0xE000) return no_utf16(at + done);
+    if (point >= 0xD800 && point < 0xDC00) {
+      if (done + 3 >= bytes.size()) break;
+      const std::uint32_t low = unit(done + 2);
+      if (low < 0xDC00 || low >= 0xE000) return no_utf16(at + done);
+      point = 0x10000 + ((point - 0xD800) << 10) + (low - 0xDC00);
+      done += 2;
+    }
+    append_utf8(out, point);
+    done += 2;
+  }
+  return done;
+}
+
+/// How many bytes at the front of a text are whole characters; less than that where others follow.
+std::size_t valid_utf8(std::string_view bytes) {
+  return std::min(find_invalid_utf8(bytes), bytes.size());
+}
+
+}  // namespace
+
+std::optional<Encoding> encoding_from_word(std::string_view word) {
+  constexpr std::array<std::pair<std::string_view, Encoding>, 6> kWords = {
+      {{"auto", Encoding::Detected},
+       {"utf-8", Encoding::Utf8},
+       {"utf-16", Encoding::Utf16},
+       {"windows-1252", Encoding::Windows1252},
+       {"latin-1", Encoding::Windows1252},
+       {"iso-8859-1", Encoding::Windows1252}}};
+  for (const auto& [known, encoding] : kWords) {
+    if (ascii_iequals(word, known)) return encoding;
+  }
+  return std::nullopt;
+}
+
+Result<std::string> to_utf8(std::string_view bytes, Encoding encoding) {
+  if (encoding == Encoding::Detected) {
+    const bool is_utf16 = has_utf16_mark(bytes) || looks_like_utf16(bytes);
+    encoding = is_utf16 ? Encoding::Utf16 : is_utf8(bytes) ? Encoding::Utf8 : Encoding::Windows1252;
+  }
+  if (encoding == Encoding::Windows1252) return utf8_from_windows1252(bytes);
+  if (encoding == Encoding::Utf8) {
+    if (bytes.starts_with(kUtf8Mark)) bytes.remove_prefix(kUtf8Mark.size());
+    if (const std::size_t at = valid_utf8(bytes); at < bytes.size()) return no_utf8(at);
+    return std::string(bytes);
+  }
+  const bool is_big = is_big_endian(bytes);
+  if (has_utf16_mark(bytes)) bytes.remove_prefix(kBigMark.size());
+  std::string text;
+  text.reserve(bytes.size());
+  const auto done = append_utf16(text, bytes, is_big, 0);
+  if (!done) return done.error();
+  if (*done < bytes.size()) return no_utf16(*done);
+  return text;
+}
+
+Result<Encoding> detected_encoding(const Read& read) {
+  std::string bytes;
+  bool is_begun = false;
+  for (;;) {
+    const auto count = read_on(read, bytes);
+    if (!count) return count.error();
+    const bool is_at_end = *count == 0;
+    if (!is_begun && !is_at_end && bytes.size() < kLooked) continue;
+    if (!std::exchange(is_begun, true) && (has_utf16_mark(bytes) || looks_like_utf16(bytes))) {
+      return Encoding::Utf16;
+    }
+    bytes.erase(0, valid_utf8(bytes));
+    if (bytes.size() >= kLongestCharacter || (is_at_end && !bytes.empty())) {
+      return Encoding::Windows1252;
+    }
+    if (is_at_end) return Encoding::Utf8;
+  }
+}
+
+Result<Utf8Input> Utf8Input::open(const Read& first, Read again, Encoding encoding) {
+  if (encoding == Encoding::Detected) {
+    const auto detected = detected_encoding(first);
+    if (!detected) return detected.error();
+    encoding = *detected;
+  }
+  return Utf8Input(std::move(again), encoding);
+}
+
+Result<void> Utf8Input::fill() {
+  do {
+    const auto count = read_on(read_, bytes_);
+    if (!count) return count.error();
+    is_at_end_ = *count == 0;
+  } while (!is_begun_ && !is_at_end_ && bytes_.size() < kLooked);
+  if (std::exchange(is_begun_, true)) return {};
+  is_big_ = is_big_endian(bytes_);
+  if (encoding_ == Encoding::Utf16 && has_utf16_mark(bytes_)) bytes_.erase(0, kBigMark.size());
+  if (encoding_ == Encoding::Utf8 && bytes_.starts_with(kUtf8Mark)) {
+    bytes_.erase(0, kUtf8Mark.size());
+  }
+  return {};
+}
+
+Result<bool> Utf8Input::append(std::string& out) {
+  if (is_at_end_) return false;
+  if (const auto filled = fill(); !filled) return filled.error();
+  std::size_t done = bytes_.size();
+  if (encoding_ == Encoding::Utf16) {
+    const auto decoded = append_utf16(out, bytes_, is_big_, at_);
+    if (!decoded) return decoded.error();
+    done = *decoded;
+    if (is_at_end_ && done < bytes_.size()) return no_utf16(at_ + done);
+  } else if (encoding_ == Encoding::Windows1252) {
+    out += utf8_from_windows1252(bytes_);
+  } else {
+    done = valid_utf8(bytes_);
+    const bool is_cut = !is_at_end_ && bytes_.size() - done < kLongestCharacter;
+    if (done < bytes_.size() && !is_cut) return no_utf8(at_ + done);
+    out.append(bytes_, 0, done);
+  }
+  bytes_.erase(0, done);
+  at_ += done;
+  return true;
+}
+
+}  // namespace fitgauge::sheet

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "metrology/statistics/exact.hpp"
+
+namespace fitgauge::metrology {
+
+/// One decimal, exactly: digits / 10^scale.
+struct Decimal {
+  Wide digits = 0;
+  int scale = 0;  ///< 0 to 30
+
+  Exact exact() const { return {Integer(digits), power_of_ten(scale)}; }
+};
+
+/// Reads `[-]digits[.digits][e[±]digits]` as a whole.
+/// @errors NumberMalformed; NumberOutOfRange with more than 30 digits, before the point or after
+/// it.
+Result<Decimal> parse_exact(std::string_view text);
+
+/// Decimals with one scale: what every figure is computed from. Grows only.
+class Decimals {
+ public:
+  Decimals() = default;
+  /// counts / 10^scale, each within ±10^36.
+  Decimals(std::vector<Wide> counts, int scale) : counts_(std::move(counts)), scale_(scale) {}
+
+  /// Adds one, and widens the scale of all where it is finer.
+  /// @errors those of parse_exact; NumberOutOfRange where the values have more than 36 digits
+  ///   between the first of the largest and the last of the finest. Nothing is added then.
+  Result<void> add(std::string_view text);
+
+  std::size_t size() const { return counts_.size(); }
+  int scale() const { return scale_; }
+  std::span<const Wide> counts() const { return counts_; }
+  /// sum / 10^scale: of a count, and of a sum of counts.
+  Exact exact(const Integer& sum) const { return {sum, power_of_ten(scale_)}; }
+  Exact operator[](std::size_t i) const { return exact(Integer(counts_[i])); }
+
+ private:
+  std::vector<Wide> counts_;
+  int scale_ = 0;
+  Wide largest_ = 0;  // magnitude
+};
+
+/// Values in groups, one behind the other: counts / 10^scale.
+struct GroupedCounts {
+  std::span<const Wide> counts;
+  int scale = 0;
+  std::span<const std::size_t> ends;  ///< of each group; ascending, the last is counts.size()
+
+  std::size_t size() const { return ends.size(); }
+  std::span<const Wide> operator[](std::size_t group) const {
+    const std::size_t begin = group == 0 ? 0 : ends[group - 1];
+    return counts.subspan(begin, ends[group] - begin);
+  }
+};
+
+/// The same with what it is of.
+struct Groups {
+  Decimals values;
+  std::vector<std::size_t> ends;
+
+  GroupedCounts counts() const { return {values.counts(), values.scale(), ends}; }
+};
+
+}  // namespace fitgauge::metrology

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "metrology/statistics/anova.hpp"
+
+namespace fitgauge::metrology {
+
+/// Repeatability of one gauge on one master (Bosch Booklet 10, 4.1; ISO 22514-7:2021).
+struct Type1Study {
+  std::size_t count = 0;
+  long double mean = 0;
+  long double standard_deviation = 0;
+  long double bias = 0;  ///< mean - reference
+  long double t = 0;     ///< of the bias, n - 1 degrees of freedom
+  long double p = 0;
+  long double cg = 0;   ///< 0.2 T / (6 s)
+  long double cgk = 0;  ///< (0.1 T - |bias|) / (3 s)
+};
+
+/// @param tolerance above 0
+/// @errors StatisticsTooFew with one value; StatisticsZeroSpread; LimitsInvalid: the tolerance.
+Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
+                               const Exact& tolerance);
+
+/// Readings of parts by operators. Labels are small numbers from 0, in the order they first stand.
+struct Readings {
+  Decimals values;
+  std::vector<std::size_t> part;
+  std::vector<std::size_t> operators;  ///< empty: a study without operators
+  std::size_t parts = 0;
+  std::size_t operator_count = 0;
+};
+
+enum class StudyMethod : std::uint8_t { Anova, AverageRange, Type3, Nested };
+std::optional<StudyMethod> study_method_from_word(std::string_view text);
+std::string_view word(StudyMethod method);
+
+enum class StudyModel : std::uint8_t { Auto, Interaction, Pooled };
+std::optional<StudyModel> study_model_from_word(std::string_view text);
+std::string_view word(StudyModel model);
+
+/// `Auto` pools the interaction with the repeatability above this probability.
+inline constexpr double kPoolingProbability = 0.25;
+
+struct AnovaLine {
+  std::string_view name;
+  Variation variation;
+  FTest test;
+};
+
+/// Standard deviations; a component the method does not tell apart is kUndefined.
+struct GaugeStudy {
+  long double ev = kUndefined;           ///< equipment: repeatability
+  long double av = kUndefined;           ///< appraiser: reproducibility
+  long double interaction = kUndefined;  ///< of part and operator
+  long double grr = 0;
+  long double pv = 0;  ///< part
+  long double tv = 0;  ///< total
+  /// Categories told apart: the whole part of sqrt(2) pv / grr, at least 1; none where grr is 0.
+  std::optional<std::int64_t> ndc{};
+  std::optional<StudyModel> model{};  ///< of Anova: Interaction or Pooled
+  long double interaction_p = kUndefined;
+  std::vector<AnovaLine> anova{};  ///< of all but AverageRange, the total last
+};
+
+/// @errors StatisticsTooFew: fewer than two parts, operators or, where they are needed, trials;
+///   StatisticsUnbalanced: another number of readings in some cell; StatisticsZeroSpread.
+Result<GaugeStudy> study_gauge(const Readings& readings, StudyMethod method, StudyModel model);
+
+/// Bias over the measuring range: the regression of every reading's bias on its reference
+/// (MSA 4, III-B). Standard errors for tests of t with n - 2 degrees of freedom.
+struct LinearityStudy {
+  struct Coefficient {
+    long double value = 0;
+    long double standard_error = kUndefined;
+    long double p = kUndefined;
+  };
+  struct Bias {
+    long double reference = 0;
+    std::size_t count = 0;
+    long double bias = 0;
+    long double p = kUndefined;  ///< that it is 0, from its own readings
+  };
+  Coefficient slope;
+  Coefficient intercept;
+  long double r_squared = kUndefined;
+  long double residual_standard_deviation = kUndefined;
+  long double average_bias = 0;
+  std::vector<Bias> references;  ///< ascending
+};
+
+/// @param references of each value @pre as many as values
+/// @errors StatisticsTooFew: fewer than two references, or three readings.
+Result<LinearityStudy> study_linearity(const Decimals& values,
+                                       const std::vector<Exact>& references);
+
+}  // namespace fitgauge::metrology

@@ -1,0 +1,158 @@
+#include "metrology/statistics/process_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "metrology/statistics/anova.hpp"
+#include "metrology/statistics/distributions.hpp"
+
+namespace fitgauge::metrology {
+namespace {
+
+constexpr std::size_t kSizeOfValues = 5;
+constexpr std::size_t kFewestGroups = 5;
+
+struct Row {
+  std::string_view word;
+  std::string_view meaning;
+};
+constexpr std::array<Row, 8> kRows = {{
+    {"A1", "location and dispersion constant, normal"},
+    {"A2", "location and dispersion constant, not normal"},
+    {"B", "location constant, dispersion changes"},
+    {"C1", "location changes at random, all values together normal"},
+    {"C2", "location changes at random, all values together not normal"},
+    {"C3", "location has a trend, dispersion constant"},
+    {"C4", "location changes from batch to batch, dispersion constant"},
+    {"D", "location and dispersion change"},
+}};
+
+/// Where groups of one size end.
+std::vector<std::size_t> ends_of(std::size_t groups, std::size_t size) {
+  std::vector<std::size_t> ends(groups);
+  for (std::size_t i = 0; i < groups; ++i) ends[i] = (i + 1) * size;
+  return ends;
+}
+
+/// The same of whole subgroups, of a size of their own where the values come one by one.
+std::vector<std::size_t> ends_of_groups(const Subgroups& data) {
+  const std::size_t size = data.size > 1 ? data.size : kSizeOfValues;
+  return ends_of(data.values.size() / size, size);
+}
+
+/// Of an odd group the median is one of the values: its distance is 0 whatever the dispersion, and
+/// is left out (Hines and Hines 2000; Noguchi and Gel 2010).
+std::size_t structural_zeros(std::size_t size) { return size % 2; }
+
+/// Distances from the median of their group, doubled so that they stay whole numbers.
+std::vector<Wide> distances_from_medians(const GroupedCounts& groups) {
+  std::vector<Wide> distances;
+  distances.reserve(groups.counts.size());
+  std::vector<Wide> sorted;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto group = groups[i];
+    sorted.assign(group.begin(), group.end());
+    std::sort(sorted.begin(), sorted.end());
+    const Wide twice = sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2];
+    std::size_t left_out = structural_zeros(group.size());
+    for (const Wide value : group) {
+      if (left_out > 0 && 2 * value == twice) {
+        --left_out;
+        continue;
+      }
+      distances.push_back(2 * value > twice ? 2 * value - twice : twice - 2 * value);
+    }
+  }
+  return distances;
+}
+
+/// Whether the dispersion changes from group to group (Brown and Forsythe 1974): the probability of
+/// so much by chance. Undefined for groups of two, whose two distances are always equal.
+long double dispersion_test(const GroupedCounts& groups) {
+  const std::size_t size = groups[0].size();
+  if (size < 3) return kUndefined;
+  const std::vector<Wide> distances = distances_from_medians(groups);
+  const auto ends = ends_of(groups.size(), size - structural_zeros(size));
+  return analyse_variance({distances, groups.scale, ends}).value().test.p;
+}
+
+/// Whether the means rise or fall with their index: the probability of so steep a slope by chance;
+/// and their r(1), which shows batches.
+struct Course {
+  long double trend = kUndefined;
+  double autocorrelation = 0;
+};
+Course course_of(const GroupedCounts& groups) {
+  const std::size_t n = groups.size();
+  const long double unit = nearest(Exact(power_of_ten(groups.scale)));
+  std::vector<double> means;
+  means.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    long double sum = 0;
+    for (const Wide value : groups[i]) sum += static_cast<long double>(value);
+    means.push_back(static_cast<double>(sum / static_cast<long double>(groups[i].size()) / unit));
+  }
+  const auto count = static_cast<double>(n);
+  double mean = 0;
+  for (const double value : means) mean += value / count;
+  const double middle = (count - 1) / 2;
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  double neighbours = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = static_cast<double>(i) - middle;
+    const double y = means[i] - mean;
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+    if (i > 0) neighbours += y * (means[i - 1] - mean);
+  }
+  if (yy == 0) return {};
+  const double unexplained = std::max(0.0, 1 - xy * xy / (xx * yy));
+  const double t = std::sqrt(xy * xy / (xx * yy) / unexplained * (count - 2));
+  return {.trend = t_beyond(t, count - 2), .autocorrelation = neighbours / yy};
+}
+
+}  // namespace
+
+std::string_view word(ProcessModel model) { return kRows[static_cast<std::size_t>(model)].word; }
+std::string_view meaning(ProcessModel model) {
+  return kRows[static_cast<std::size_t>(model)].meaning;
+}
+
+std::optional<ModelChoice> choose_model(const Subgroups& data, const NormalityTest& normality) {
+  const std::vector<std::size_t> ends = ends_of_groups(data);
+  const int scale = data.values.scale();
+  if (ends.size() < kFewestGroups) return std::nullopt;
+  const GroupedCounts groups{data.values.counts().first(ends.back()), scale, ends};
+  ModelChoice choice;
+  const Course course = course_of(groups);
+  choice.tests.trend = course.trend;
+  choice.tests.subgroup_size = groups[0].size();
+  choice.tests.location = analyse_variance(groups).value().test.p;
+  choice.tests.dispersion = dispersion_test(groups);
+  // An undefined probability (no spread within) is not below the significance.
+  const bool moves = choice.tests.location < kModelSignificance;
+  const bool widens = choice.tests.dispersion < kModelSignificance;
+  const bool normal = normality.p >= kModelSignificance;
+  // Two standard errors of the r(1) of a random series.
+  const double random_bound = 2 / std::sqrt(static_cast<double>(ends.size()));
+  if (moves && widens) {
+    choice.model = ProcessModel::D;
+  } else if (widens) {
+    choice.model = ProcessModel::B;
+  } else if (!moves) {
+    choice.model = normal ? ProcessModel::A1 : ProcessModel::A2;
+  } else if (choice.tests.trend < kModelSignificance) {
+    choice.model = ProcessModel::C3;
+  } else if (course.autocorrelation > random_bound) {
+    choice.model = ProcessModel::C4;
+  } else {
+    choice.model = normal ? ProcessModel::C1 : ProcessModel::C2;
+  }
+  return choice;
+}
+
+}  // namespace fitgauge::metrology

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "metrology/statistics/decimals.hpp"
+
+namespace fitgauge::metrology {
+
+/// A figure that is not defined, such as the standard deviation of one value.
+inline constexpr long double kUndefined = std::numeric_limits<long double>::quiet_NaN();
+
+/// Mean and sum of squared deviations from it, exactly.
+struct Moments {
+  std::size_t count = 0;
+  Exact mean;
+  Exact squares;
+
+  /// The square root of squares / (n - 1), rounded once; kUndefined for one value.
+  long double standard_deviation() const;
+};
+
+/// @pre counts is not empty
+Moments moments(std::span<const Wide> counts, int scale);
+inline Moments moments(const Decimals& values) { return moments(values.counts(), values.scale()); }
+
+/// The square root, rounded once. @pre value >= 0
+long double square_root(const Exact& value);
+
+/// r(1): the sum of products of neighbouring deviations over the sum of squared ones; kUndefined
+/// without spread.
+long double autocorrelation_lag_1(const Decimals& values, const Moments& of);
+
+/// Values in ascending order, equal ones together: of measured sizes a million are some thousand.
+class Ranking {
+ public:
+  explicit Ranking(std::span<const Wide> counts);
+
+  std::size_t size() const { return ends_.empty() ? 0 : ends_.back(); }
+  /// The value with that many before it.
+  Wide operator[](std::size_t rank) const;
+  Wide front() const { return values_.front(); }
+  Wide back() const { return values_.back(); }
+
+  /// Each value once, and how many values are not above it.
+  std::span<const Wide> values() const { return values_; }
+  std::span<const std::uint32_t> ends() const { return ends_; }
+
+ private:
+  std::vector<Wide> values_;
+  std::vector<std::uint32_t> ends_;
+};
+
+struct Quantile {
+  long double p = 0;
+  long double value = 0;
+};
+
+/// Quantiles of type 7 (Hyndman and Fan 1996): linear between the values at (n - 1) p.
+/// @pre ranking is not empty
+Exact quantile(const Ranking& ranking, int scale, const Exact& p);
+
+/// The probabilities of the quantiles of a summary, in hundred-thousandths: ±3 standard deviations
+/// of a normal distribution are the first and the last.
+inline constexpr std::array kQuantiles = {135,    1'000,  5'000,  25'000, 50'000,
+                                          75'000, 95'000, 99'000, 99'865};
+
+struct Summary {
+  Moments moments;
+  long double autocorrelation_lag_1 = kUndefined;
+  Exact min;
+  Exact max;
+  std::array<Quantile, kQuantiles.size()> quantiles{};
+};
+
+/// @pre values is not empty
+Summary summarise(const Decimals& values);
+
+}  // namespace fitgauge::metrology

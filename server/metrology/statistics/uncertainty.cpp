@@ -1,0 +1,219 @@
+#include "metrology/statistics/uncertainty.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "metrology/statistics/distributions.hpp"
+
+namespace fitgauge::metrology {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Distribution>, 5> kWords = {{
+    {"normal", Distribution::Normal},
+    {"rectangular", Distribution::Rectangular},
+    {"triangular", Distribution::Triangular},
+    {"u_shaped", Distribution::UShaped},
+    {"t", Distribution::T},
+}};
+
+Error impossible() {
+  return {ErrorCode::FieldInvalid,
+          "no quantities can be correlated like this: the matrix of coefficients is not positive"};
+}
+
+/// Correlations as the lower triangle L of L L' = R, row by row; none when R is not positive.
+std::optional<std::vector<double>> cholesky(const Budget& budget) {
+  const std::size_t n = budget.contributions.size();
+  std::vector<double> l(n * n, 0);
+  for (std::size_t i = 0; i < n; ++i) l[i * n + i] = 1;
+  for (const Correlation& c : budget.correlations) {
+    l[std::max(c.a, c.b) * n + std::min(c.a, c.b)] = c.coefficient;
+  }
+  constexpr double kRounding = 1e-12;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double rest = l[i * n + j];
+      for (std::size_t k = 0; k < j; ++k) rest -= l[i * n + k] * l[j * n + k];
+      if (i == j) {
+        if (rest < -kRounding) return std::nullopt;
+        l[i * n + i] = std::sqrt(std::max(0.0, rest));
+      } else if (l[j * n + j] > kRounding) {
+        l[i * n + j] = rest / l[j * n + j];
+      } else {
+        if (std::abs(rest) > kRounding) return std::nullopt;
+        l[i * n + j] = 0;
+      }
+    }
+  }
+  return l;
+}
+
+/// The group of each contribution: those that are correlated, also by way of others, share one.
+std::vector<std::size_t> groups_of(const Budget& budget) {
+  std::vector<std::size_t> groups(budget.contributions.size());
+  std::iota(groups.begin(), groups.end(), std::size_t{0});
+  for (const Correlation& c : budget.correlations) {
+    if (c.coefficient == 0) continue;
+    std::replace(groups.begin(), groups.end(), std::size_t{groups[c.b]}, std::size_t{groups[c.a]});
+  }
+  return groups;
+}
+
+/// SplitMix64 (Steele, Lea and Flood 2014), and what is drawn with it.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  /// Above 0 and below 1.
+  double uniform() {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    z ^= z >> 31U;
+    return (static_cast<double>(z >> 11U) + 0.5) * 0x1p-53;
+  }
+  double normal() {
+    if (!std::isnan(spare_)) return std::exchange(spare_, kNone);
+    const double radius = std::sqrt(-2 * std::log(uniform()));
+    const double angle = 2 * M_PI * uniform();
+    spare_ = radius * std::sin(angle);
+    return radius * std::cos(angle);
+  }
+  /// Student's t (Bailey 1994). @param freedom may be infinite
+  double t(double freedom) {
+    if (std::isinf(freedom)) return normal();
+    const double u = uniform();
+    const double angle = 2 * M_PI * uniform();
+    return std::sqrt(freedom * (std::pow(u, -2 / freedom) - 1)) * std::cos(angle);
+  }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  std::uint64_t state_;
+  double spare_ = kNone;  ///< normals come in pairs
+};
+
+/// A deviation with the contribution's standard uncertainty.
+double draw(Random& random, const Contribution& c) {
+  switch (c.distribution) {
+    case Distribution::Rectangular:
+      return c.standard_uncertainty * std::sqrt(3.0) * (2 * random.uniform() - 1);
+    case Distribution::Triangular:
+      return c.standard_uncertainty * std::sqrt(6.0) * (random.uniform() + random.uniform() - 1);
+    case Distribution::UShaped:
+      return c.standard_uncertainty * std::sqrt(2.0) * std::cos(M_PI * random.uniform());
+    case Distribution::Normal:
+    case Distribution::T: break;
+  }
+  return c.standard_uncertainty * random.t(c.degrees_of_freedom);
+}
+
+}  // namespace
+
+std::optional<Distribution> distribution_from_word(std::string_view text) {
+  for (const auto& [name, distribution] : kWords) {
+    if (name == text) return distribution;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> standard_uncertainty_of(Distribution distribution, double half_width) {
+  switch (distribution) {
+    case Distribution::Rectangular: return half_width / std::sqrt(3.0);
+    case Distribution::Triangular: return half_width / std::sqrt(6.0);
+    case Distribution::UShaped: return half_width / std::sqrt(2.0);
+    case Distribution::Normal:
+    case Distribution::T: break;
+  }
+  return std::nullopt;
+}
+
+Result<CombinedUncertainty> combine(const Budget& budget) {
+  if (!cholesky(budget)) return impossible();
+  const auto part = [&](std::size_t i) {
+    const Contribution& c = budget.contributions[i];
+    return c.sensitivity * c.standard_uncertainty;
+  };
+  const std::vector<std::size_t> groups = groups_of(budget);
+  std::vector<double> variances(groups.size(), 0);
+  std::vector<double> freedom(groups.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    variances[groups[i]] += part(i) * part(i);
+    if (part(i) == 0) continue;
+    double& fewest = freedom[groups[i]];
+    fewest = std::min(fewest, budget.contributions[i].degrees_of_freedom);
+  }
+  for (const Correlation& c : budget.correlations) {
+    variances[groups[c.a]] += 2 * c.coefficient * part(c.a) * part(c.b);
+  }
+  double variance = 0;
+  double weighted = 0;  // the denominator of Welch and Satterthwaite
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    variance += variances[i];
+    weighted += variances[i] * variances[i] / freedom[i];
+  }
+  CombinedUncertainty result;
+  result.combined = std::sqrt(std::max(0.0, variance));
+  result.welch_satterthwaite =
+      weighted > 0 ? variance * variance / weighted : std::numeric_limits<double>::infinity();
+  result.degrees_of_freedom = std::max(1.0, std::floor(result.welch_satterthwaite));
+  const long double p = (1 + static_cast<long double>(budget.probability)) / 2;
+  result.coverage_factor = static_cast<double>(std::isinf(result.degrees_of_freedom)
+                                                   ? normal_quantile(p)
+                                                   : t_quantile(p, result.degrees_of_freedom));
+  result.expanded = result.coverage_factor * result.combined;
+  return result;
+}
+
+Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, std::uint64_t seed) {
+  for (const Correlation& c : budget.correlations) {
+    for (const std::size_t i : {c.a, c.b}) {
+      if (budget.contributions[i].distribution != Distribution::Normal) {
+        return Error{ErrorCode::FieldInvalid, "only normal contributions can be drawn correlated"};
+      }
+    }
+  }
+  const auto triangle = cholesky(budget);
+  if (!triangle) return impossible();
+  const std::size_t n = budget.contributions.size();
+  std::vector<bool> is_correlated(n, false);
+  for (const Correlation& c : budget.correlations) is_correlated[c.a] = is_correlated[c.b] = true;
+  Random random(seed);
+  std::vector<double> results(trials);
+  std::vector<double> standard(n);  // normal deviates, before they are correlated
+  for (double& result : results) {
+    result = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Contribution& c = budget.contributions[i];
+      double deviation = 0;
+      if (is_correlated[i]) {
+        standard[i] = random.normal();
+        for (std::size_t j = 0; j <= i; ++j) deviation += (*triangle)[i * n + j] * standard[j];
+        deviation *= c.standard_uncertainty;
+      } else {
+        deviation = draw(random, c);
+      }
+      result += c.sensitivity * deviation;
+    }
+  }
+  std::sort(results.begin(), results.end());
+  MonteCarloResult made;
+  const auto count = static_cast<double>(trials);
+  for (const double x : results) made.mean += x / count;
+  double squares = 0;
+  for (const double x : results) squares += (x - made.mean) * (x - made.mean);
+  made.standard_deviation = std::sqrt(squares / (count - 1));
+  // JCGM 101, 7.7: the interval holds q = p M of the trials, as many outside on either side.
+  const auto inside = static_cast<std::size_t>(std::round(budget.probability * count));
+  const std::size_t first = (trials - std::min<std::size_t>(inside, trials - 1)) / 2;
+  made.lower = results[first];
+  made.upper = results[std::min<std::size_t>(first + inside, trials - 1)];
+  return made;
+}
+
+}  // namespace fitgauge::metrology

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "nc/klartext/lexer.hpp"
+#include "nc/klartext/syntax.hpp"
+#include "nc/klartext/word_names.hpp"
+
+namespace fitgauge::klartext {
+
+/// Reads one block: the lexer's characters, and the pools that what is read goes to. A list may be
+/// started only after the lists before it are finished. Single-threaded.
+class BlockReader : public Lexer {
+ public:
+  explicit BlockReader(ProgramParts& parts) : Lexer(parts.source), parts_(parts) {}
+
+  /// Starts a block; `drop_block` takes back all that went to the pools since.
+  void open(std::size_t begin, std::size_t end);
+  void drop_block();
+
+  // --- texts
+  /// The comment of the block's first line, where a cycle has read it.
+  Text& block_comment() { return comment_; }
+  /// An empty text is always the same one.
+  Text add_text(std::string_view text);
+  std::string_view text(Text text) const {
+    return std::string_view(parts_.texts).substr(text.first, text.size);
+  }
+  /// A quoted text of at most `longest` characters.
+  Text quoted_text(std::size_t longest, std::string_view what);
+
+  // --- expressions
+  Expr add_node(Operator op, std::span<const Expr> operands);
+  Expr add_node(Operator op, std::initializer_list<Expr> operands) {
+    return add_node(op, std::span(operands.begin(), operands.size()));
+  }
+  /// True for texts, QS parameters and the functions that give a text.
+  bool is_string(const Expr& expr) const;
+  Slice<Expr> add_operands(std::span<const Expr> operands);
+
+  // --- words
+  std::uint32_t word_count() const { return static_cast<std::uint32_t>(parts_.words.size()); }
+  void add_word(const Word& word) { parts_.words.push_back(word); }
+  /// The words added since word_count() was `first`.
+  Slice<Word> words_since(std::uint32_t first) const { return {first, word_count() - first}; }
+
+  // --- cycle parameters
+  std::vector<CycleParameter>& cycle_parameters() { return parts_.cycle_parameters; }
+
+  /// One more level of parentheses or functions; leave() takes it back.
+  void enter();
+  void leave() { --depth_; }
+
+ private:
+  struct Sizes {
+    std::size_t words = 0;
+    std::size_t cycle_parameters = 0;
+    std::size_t nodes = 0;
+    std::size_t operands = 0;
+    std::size_t texts = 0;
+  };
+
+  ProgramParts& parts_;
+  Sizes at_open_;
+  Text comment_;
+  int depth_ = 0;
+};
+
+}  // namespace fitgauge::klartext

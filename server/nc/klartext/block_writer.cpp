@@ -1,0 +1,133 @@
+#include "nc/klartext/block_writer.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+#include "base/text.hpp"
+
+namespace fitgauge::klartext {
+namespace {
+
+/// Letters that a control shows without `+`.
+constexpr LetterSet kWithoutPlus(Letter::F, Letter::Fu, Letter::Fz, Letter::Ft, Letter::S,
+                                 Letter::M, Letter::Mb, Letter::La, Letter::T, Letter::Row,
+                                 Letter::Label, Letter::Len, Letter::Cca, Letter::Chamfer,
+                                 Letter::Num, Letter::NumX, Letter::NumY);
+
+bool reads_as_parameter(std::string_view path) {
+  return path.size() > 2 && ascii_iequals(path.substr(0, 2), "QS") &&
+         std::all_of(path.begin() + 2, path.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool may_be_bare(std::string_view path) {
+  return !path.empty() && trim(path) == path &&
+         path.find_first_of(";/~") == std::string_view::npos &&
+         path.find(":'") == std::string_view::npos && !reads_as_parameter(path);
+}
+
+}  // namespace
+
+void BlockWriter::quoted(Text text) {
+  out_ += '"';
+  write(text);
+  out_ += '"';
+}
+
+void BlockWriter::number(double number) {
+  // Room for a literal of the control: at most ten digits before the point; the shortest text that
+  // reads back has no more than 17 significant ones, after up to 300 zeros for a tiny one.
+  char digits[400];
+  const auto end =
+      std::to_chars(std::begin(digits), std::end(digits), number, std::chars_format::fixed).ptr;
+  out_.append(std::begin(digits), end);
+}
+
+void BlockWriter::parameter(QRef parameter) {
+  constexpr std::string_view kNames[] = {"Q", "QL", "QR", "QS"};
+  out_ += kNames[static_cast<std::size_t>(parameter.space)];
+  out_ += std::to_string(parameter.number);
+}
+
+void BlockWriter::signed_value(const Expr& expr) {
+  const auto* number = std::get_if<double>(&expr);
+  const auto* parameter = std::get_if<QRef>(&expr);
+  const bool plus = (number != nullptr && !std::signbit(*number)) ||
+                    (parameter != nullptr && !parameter->is_string());
+  if (plus) out_ += '+';
+  value(expr);
+}
+
+void BlockWriter::value(const Expr& expr) { expression(expr, Level::Signed); }
+
+void BlockWriter::formula(const Expr& expr) { expression(expr, Level::Concat); }
+
+void BlockWriter::path_piece(const Expr& piece) {
+  if (const auto* parameter_piece = std::get_if<QRef>(&piece)) {
+    out_ += ":'";
+    parameter(*parameter_piece);
+    out_ += '\'';
+  } else if (const auto* text = std::get_if<Text>(&piece)) {
+    write(*text);
+  } else if (const auto* index = std::get_if<NodeIndex>(&piece)) {
+    for (const Expr& operand : program_.operands(*index)) path_piece(operand);
+  }
+}
+
+void BlockWriter::path(const Expr& expr) {
+  const auto* text = std::get_if<Text>(&expr);
+  if (text != nullptr && !may_be_bare(program_.text(*text))) {
+    quoted(*text);
+  } else {
+    path_piece(expr);
+  }
+}
+
+void BlockWriter::label(const Label& label) {
+  if (const auto* number_label = std::get_if<std::uint32_t>(&label)) {
+    out_ += std::to_string(*number_label);
+  } else if (const auto* name = std::get_if<Text>(&label)) {
+    quoted(*name);
+  } else {
+    parameter(std::get<QRef>(label));
+  }
+}
+
+void BlockWriter::items(Slice<Expr> items) {
+  std::string_view separator;
+  for (const Expr& item : program_.view(items)) {
+    write(separator);
+    signed_value(item);
+    separator = "/";
+  }
+}
+
+void BlockWriter::word(const Word& word) {
+  if (word.incremental) out_ += 'I';
+  write(spelling(word.letter));
+  if (word.letter == Letter::Seq || word.letter == Letter::Sym) {
+    out_ += std::get<double>(word.value) < 0 ? '-' : '+';
+  } else if (kWithoutPlus.contains(word.letter)) {
+    value(word.value);
+  } else {
+    signed_value(word.value);
+  }
+}
+
+void BlockWriter::words(Slice<Word> words, std::string_view mark, LetterSet before) {
+  bool marked = mark.empty();
+  for (const Word& next : program_.view(words)) {
+    if (!marked && before.contains(next.letter)) {
+      write(mark);
+      marked = true;
+    }
+    const bool begins =
+        out_.empty() || out_.back() == ' ' || out_.back() == '\n' || out_.back() == '/';
+    if (!begins) out_ += ' ';
+    word(next);
+  }
+  if (!marked) write(mark);
+}
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "nc/klartext/syntax.hpp"
+#include "nc/klartext/word_names.hpp"
+
+namespace fitgauge::klartext {
+
+/// Writes the parts of statements as Klartext; the mirror of BlockReader. Appends to a text of its
+/// caller. Single-threaded.
+class BlockWriter {
+ public:
+  BlockWriter(const Program& program, std::string& out) : program_(program), out_(out) {}
+
+  void write(std::string_view text) { out_ += text; }
+  void write(Text text) { out_ += program_.text(text); }
+  void quoted(Text text);
+  void number(double number);
+  void parameter(QRef parameter);
+  /// With a sign before numbers: `+10`, `-Q5`; texts and QS parameters have none.
+  void signed_value(const Expr& expr);
+  /// As signed_value, without `+`.
+  void value(const Expr& expr);
+  /// A formula with the parentheses it needs.
+  void formula(const Expr& expr);
+  /// A file: bare where that reads back as the same.
+  void path(const Expr& expr);
+  void label(const Label& label);
+  /// Items separated by `/`.
+  void items(Slice<Expr> items);
+
+  void word(const Word& word);
+  /// Words with a blank before each that does not begin the block; `mark` is written before the
+  /// first word of `before`, or last.
+  void words(Slice<Word> words, std::string_view mark = {}, LetterSet before = LetterSet());
+
+  const Program& program() const { return program_; }
+
+ private:
+  /// How tightly an expression binds; the levels of the parser's grammar.
+  enum class Level { Concat, Sum, Product, Power, Signed, Alone };
+
+  Level level_of(const Expr& expr) const;
+  void expression(const Expr& expr, Level least);
+  void node(NodeIndex index);
+  void binary(const Expr& left, Level left_least, std::string_view sign, const Expr& right,
+              Level right_least);
+  void string_function(const Node& node);
+  void path_piece(const Expr& piece);
+
+  const Program& program_;
+  std::string& out_;
+};
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/source_range.hpp"
+
+namespace fitgauge::klartext {
+
+enum class Severity : std::uint8_t {
+  Warning,  ///< the program runs; what is named fails only when its block is reached, or is
+            ///< cosmetic
+  Error     ///< the program is refused
+};
+
+enum class DiagnosticCode : std::uint8_t {
+#define KLARTEXT_DIAGNOSTIC(name, id) name,
+#include "nc/klartext/diagnostic_codes.inc"
+#undef KLARTEXT_DIAGNOSTIC
+};
+
+/// The stable text of a code: `label.unknown`.
+std::string_view id(DiagnosticCode code);
+
+/// What belongs to a finding and stands elsewhere in the same text.
+struct DiagnosticNote {
+  std::string message{};
+  SourceRange range{};
+};
+
+/// One finding about a program or mask.
+struct Diagnostic {
+  Severity severity = Severity::Error;
+  DiagnosticCode code = DiagnosticCode::SyntaxError;
+  std::string message{};                 ///< what is wrong and how to put it right
+  std::string program{};                 ///< the file's name
+  SourceRange range{};                   ///< columns in characters; within one physical line
+  std::optional<std::uint32_t> block{};  ///< its number as written
+  std::string source{};                  ///< the physical line
+  bool is_unreadable = false;            ///< the line is no Klartext and is kept as an ERROR block
+  std::vector<DiagnosticNote> notes{};
+};
+
+/// One of them refuses the text.
+bool contains_error(const std::vector<Diagnostic>& diagnostics);
+
+/// The finding as text of three lines:
+/// `8255.h:14:9: error: label 5 is not defined [label.unknown]`, the line, and a caret below it.
+std::string render(const Diagnostic& diagnostic);
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,189 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "nc/klartext/diagnostic.hpp"
+#include "nc/klartext/expression.hpp"
+
+namespace fitgauge::klartext {
+
+inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
+inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') <= 9; }
+
+/// Up to seven digits at the begin of a text.
+struct DigitRun {
+  std::uint64_t value = 0;
+  unsigned count = 0;  ///< 8: eight digits or more
+};
+
+/// Reads the digits among the next eight bytes at once, which must exist: each byte is tested for
+/// being a digit, then neighbours are joined to numbers of two, four and eight digits.
+inline DigitRun scan_digits(const char* at) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, at, sizeof bytes);
+  bytes ^= 0x3030303030303030;  // digits become 0 to 9
+  const std::uint64_t others = ((bytes + 0x7676767676767676) | bytes) & 0x8080808080808080;
+  const auto count = static_cast<unsigned>(std::countr_zero(others)) / 8;
+  if (count == 0 || count == 8) return {0, count};
+  bytes <<= 64 - 8 * count;  // zeros before the first digit
+  bytes = (bytes * 10 + (bytes >> 8)) & 0x00FF00FF00FF00FF;
+  bytes = (bytes * 100 + (bytes >> 16)) & 0x0000FFFF0000FFFF;
+  bytes = (bytes * 10'000 + (bytes >> 32)) & 0x00000000FFFFFFFF;
+  return {bytes, count};
+}
+
+/// Scans a number of one to seven digits with at most seven decimals, as nearly all are. The digits
+/// are gathered in an integer, which a double holds exactly as it does the power of ten: their
+/// quotient is the double nearest to the literal.
+/// @returns the end of the number, or nullptr when it is none of this form or near the end.
+inline const char* scan_plain_number(const char* at, const char* end, double& value) {
+  constexpr std::ptrdiff_t kLongest = 7 + 1 + 8;
+  constexpr unsigned kMostDigits = 7;
+  constexpr std::uint64_t kPowersOfTen[] = {1,      10,      100,       1'000,
+                                            10'000, 100'000, 1'000'000, 10'000'000};
+  if (end - at < kLongest) return nullptr;
+  const DigitRun whole = scan_digits(at);
+  if (whole.count == 0 || whole.count > kMostDigits) return nullptr;
+  at += whole.count;
+  if (*at == ',') return nullptr;
+  if (*at != '.') {
+    value = static_cast<double>(whole.value);
+    return at;
+  }
+  const DigitRun fraction = scan_digits(++at);
+  if (fraction.count > kMostDigits) return nullptr;
+  const std::uint64_t power = kPowersOfTen[fraction.count];
+  value = static_cast<double>(whole.value * power + fraction.value) / static_cast<double>(power);
+  return at + fraction.count;
+}
+
+/// What kept a block from being read.
+struct Failure {
+  enum class Kind : std::uint8_t {
+    Faulty,      ///< not Klartext: an error
+    Unsupported  ///< Klartext of real controls that this one cannot run
+  };
+  Kind kind = Kind::Faulty;
+  DiagnosticCode code = DiagnosticCode::SyntaxError;
+  Slice<char> place;
+  std::string message;  ///< of Unsupported: the feature's name
+};
+
+/// Reads the characters of one block at a time. Holds a reference to the source, which ends with a
+/// NUL as every std::string does.
+///
+/// After `fail` or `refuse` the lexer stands at the end of the block and reads nothing more, so
+/// callers need not check each step: loops end, and what they built is dropped with the block. Only
+/// the first failure of a block counts.
+class Lexer {
+ public:
+  explicit Lexer(const std::string& source) : source_(source) {}
+
+  /// Starts on the block of these offsets; its last line end is not part of it.
+  void open(std::size_t begin, std::size_t end);
+  /// The block goes on up to this offset.
+  void extend(std::size_t end) { end_ = source_.data() + end; }
+
+  const std::optional<Failure>& failure() const { return failure_; }
+  void fail(DiagnosticCode code, Slice<char> place, std::string message);
+  /// Fails at the next character: "expected <what>, found 'x'".
+  void fail_expected(std::string_view what);
+  /// The block uses a feature that only real controls have, named by the code since `begin`.
+  void refuse(const char* begin, std::string_view feature);
+
+  /// Passes blanks and wraps (`~` at the end of a physical line).
+  void skip_blanks() {
+    const char* at = at_;
+    while (is_blank(*at)) ++at;
+    at_ = at;
+    if (*at == '~') skip_wraps();
+  }
+  /// No more code in this block: its end, or a comment.
+  bool at_end() {
+    skip_blanks();
+    return at_ == end_ || *at_ == ';';
+  }
+
+  const char* at() const { return at_; }
+  const char* end() const { return end_; }
+  const char* source_end() const { return source_.data() + source_.size(); }
+  void move_to(const char* place) { at_ = place; }
+  char peek(std::size_t ahead = 0) const { return at_ + ahead < end_ ? at_[ahead] : '\0'; }
+  Slice<char> place(const char* begin, const char* end) const;
+  Slice<char> here() const { return place(at_, at_ < end_ ? at_ + 1 : at_); }
+
+  /// Each of these passes blanks first and stays in place when it does not match.
+  bool accept(char c);
+  /// A whole word without regard to case: not followed by a letter, a digit or `_`.
+  bool accept_word(std::string_view word);
+  /// As accept_word, but a number or parameter may be joined to it: `DEF` of `DEF9.0`.
+  bool accept_joined(std::string_view word);
+  /// The first characters of a word: `REP` of `REP2`, `DAT` of `DAT+Q50`, `SRC_` of `SRC_QS1`.
+  bool accept_prefix(std::string_view prefix);
+  void expect(char c);
+  void expect_word(std::string_view word);
+  void expect_joined(std::string_view word);
+  void expect_prefix(std::string_view prefix);
+
+  /// The letters from here on, at most up to a parameter (`FQ5` gives `F`). Stays in place.
+  std::string_view letters();
+
+  /// A number without sign: `10`, `10.5`, `10,5`, `.5`, `10.`
+  bool at_number() const {
+    return is_digit(*at_) || ((*at_ == '.' || *at_ == ',') && is_digit(at_[1]));
+  }
+  double number();
+  /// Whole digits, for block, label, cycle and function numbers; fails above `largest`.
+  std::uint32_t digits(std::uint32_t largest, std::string_view what);
+
+  /// `Q5`, `QL3`, `QR1`, `QS2`: a parameter starts here.
+  bool at_parameter() const { return is_parameter(at_); }
+  QRef parameter();
+
+  /// The characters between double quotes, in one physical line.
+  std::string_view quoted();
+
+  /// The code from here to its end, without blanks and wraps at either side; the lexer stands at
+  /// the end then. May contain wraps.
+  std::string_view rest();
+
+  /// As rest(), but up to the first of `stop` (which is left) when there is one.
+  std::string_view rest_until(char stop);
+
+ private:
+  static bool is_parameter(const char* at) {
+    if ((*at | 0x20) != 'q') return false;
+    if (is_digit(at[1])) return true;
+    const char space = static_cast<char>(at[1] | 0x20);
+    return (space == 'l' || space == 'r' || space == 's') && is_digit(at[2]);
+  }
+  void skip_wraps();
+  bool matches(std::string_view text) const;
+
+  const std::string& source_;
+  const char* at_ = nullptr;
+  const char* end_ = nullptr;
+  std::optional<Failure> failure_;
+};
+
+/// Code without its wraps: each is a blank.
+std::string unwrapped(std::string_view code);
+
+/// Code that ends its block, without its wraps and without blanks or `~` at its end, so that no
+/// wrap comes into being when it is printed.
+std::string free_text(std::string_view code);
+
+/// As free_text, for a comment: the control wraps it in the middle of words.
+std::string comment_text(std::string_view comment);
+
+/// An excerpt for a message, of at most so many bytes.
+std::string excerpt(std::string_view text, std::size_t longest = 40);
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "nc/klartext/diagnostic.hpp"
+#include "nc/klartext/expression.hpp"
+
+namespace fitgauge::klartext {
+
+/// Dialog languages of the `L_` lines.
+enum class MaskLanguage : std::uint8_t {
+  English,
+  German,
+  Czech,
+  French,
+  Italian,
+  Spanish,
+  Portuguese,
+  Swedish,
+  Danish,
+  Finnish,
+  Dutch,
+  Polish,
+  Hungarian,
+  Russian,
+  Chinese,
+  ChineseTraditional,
+  Slovenian,
+  Korean,
+  Norwegian,
+  Romanian,
+  Slovak,
+  Turkish,
+  All
+};
+
+/// Values a mask takes from the control instead of a parameter.
+enum class MaskKeyword : std::uint8_t {
+  CallPath,
+  Hour,
+  Minute,
+  Second,
+  Day,
+  Month,
+  MonthName,
+  Year2,
+  Year4
+};
+
+using MaskValue = std::variant<QRef, MaskKeyword>;
+
+enum class MaskConversion : std::uint8_t {
+  Float,      ///< `%9.4LF`, `%F`
+  Integer,    ///< `%D`, `%I`: truncates
+  String,     ///< `%S`
+  RawString,  ///< `%RS`: without escapes, for paths
+  Character   ///< `%C`: a character code
+};
+
+/// `%+9.4LF` with the value it shows.
+struct MaskPlaceholder {
+  MaskConversion conversion = MaskConversion::Float;
+  bool plus = false;  ///< `+`: right-aligned
+  bool left = false;  ///< `-`: left-aligned
+  bool zero = false;  ///< `0`: filled with zeros
+  int width = 0;      ///< characters including sign and point; 0 is as many as needed
+  int decimals = -1;  ///< -1: not stated
+  MaskValue value{};
+
+  friend bool operator==(const MaskPlaceholder&, const MaskPlaceholder&) = default;
+};
+
+/// Literal text (escapes resolved) or a placeholder.
+using MaskPiece = std::variant<std::string, MaskPlaceholder>;
+
+/// `"text %9.4LF", Q1;`: one line of output.
+struct MaskFormat {
+  std::vector<MaskPiece> pieces{};
+  friend bool operator==(const MaskFormat&, const MaskFormat&) = default;
+};
+
+enum class MaskControlKind : std::uint8_t {
+  Close,
+  Append,
+  AppendMax,
+  Truncate,
+  EmptyHide,
+  EmptyShow
+};
+
+/// `M_CLOSE`, `M_APPEND_MAX20`, ...
+struct MaskControl {
+  MaskControlKind kind = MaskControlKind::Close;
+  int kilobytes = 0;  ///< of AppendMax
+  friend bool operator==(const MaskControl&, const MaskControl&) = default;
+};
+
+struct MaskLine {
+  std::uint32_t line = 1;  ///< in the file
+  std::variant<MaskFormat, MaskControl, MaskLanguage> content{};
+  friend bool operator==(const MaskLine&, const MaskLine&) = default;
+};
+
+/// A mask of FN 16: F-PRINT. Immutable once parsed.
+struct MaskFile {
+  std::string file_name{};
+  std::vector<MaskLine> lines{};
+};
+
+/// A larger file is refused with ProgramTooLarge: its lines take thirty times what they are as
+/// text.
+inline constexpr std::size_t kLargestMask = std::size_t{1} << 20;
+
+struct ParsedMask {
+  MaskFile mask;
+  std::vector<Diagnostic> diagnostics{};  ///< lines with an error are not in the mask
+
+  bool has_errors() const;
+};
+
+/// Reads a mask file; encodings as of parse_program. Never throws on bad input.
+ParsedMask parse_mask(std::string bytes, std::string name);
+
+}  // namespace fitgauge::klartext

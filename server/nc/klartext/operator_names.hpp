@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "nc/klartext/expression.hpp"
+
+/// How operators are spelled; the parser and the printer share it.
+namespace fitgauge::klartext {
+
+/// The longest text of a QS parameter.
+inline constexpr std::size_t kLongestString = 255;
+
+struct FunctionName {
+  Operator op;
+  std::string_view name;
+};
+
+/// Functions of one number in a formula.
+inline constexpr FunctionName kFunctions[] = {
+    {Operator::Sq, "SQ"},     {Operator::Sqrt, "SQRT"}, {Operator::Sin, "SIN"},
+    {Operator::Cos, "COS"},   {Operator::Tan, "TAN"},   {Operator::Asin, "ASIN"},
+    {Operator::Acos, "ACOS"}, {Operator::Atan, "ATAN"}, {Operator::Ln, "LN"},
+    {Operator::Log, "LOG"},   {Operator::Exp, "EXP"},   {Operator::Neg, "NEG"},
+    {Operator::Abs, "ABS"},   {Operator::Int, "INT"},   {Operator::Frac, "FRAC"},
+    {Operator::Sgn, "SGN"},
+};
+
+/// An argument of a function of texts: `SRC_QS10`, `BEG2`.
+struct StringArgument {
+  std::string_view prefix;
+  bool string = false;  ///< a text, not a number
+  bool required = true;
+};
+
+struct StringFunction {
+  Operator op;
+  std::string_view name;
+  std::size_t argument_count;
+  StringArgument arguments[3];
+};
+
+inline constexpr StringFunction kStringFunctions[] = {
+    {Operator::ToChar, "TOCHAR", 2, {{.prefix = "DAT"}, {.prefix = "DECIMALS", .required = false}}},
+    {Operator::SubString,
+     "SUBSTR",
+     3,
+     {{.prefix = "SRC_", .string = true}, {.prefix = "BEG"}, {.prefix = "LEN"}}},
+    {Operator::ToNumber, "TONUMB", 1, {{.prefix = "SRC_", .string = true}}},
+    {Operator::InString,
+     "INSTR",
+     3,
+     {{.prefix = "SRC_", .string = true},
+      {.prefix = "SEA_", .string = true},
+      {.prefix = "BEG", .required = false}}},
+    {Operator::StringLength, "STRLEN", 1, {{.prefix = "SRC_", .string = true}}},
+    {Operator::StringCompare,
+     "STRCOMP",
+     2,
+     {{.prefix = "SRC_", .string = true}, {.prefix = "SEA_", .string = true}}},
+    {Operator::SystemString, "SYSSTR", 2, {{.prefix = "ID"}, {.prefix = "NR"}}},
+};
+
+/// Comparisons of FN 9 to 12, in this order.
+inline constexpr FunctionName kComparisons[] = {{Operator::Equal, "EQU"},
+                                                {Operator::NotEqual, "NE"},
+                                                {Operator::Greater, "GT"},
+                                                {Operator::Less, "LT"}};
+
+/// FN 1 to 8 and 13: the function and what stands between or before its operands.
+struct ArithmeticFn {
+  unsigned fn;
+  Operator op;
+  std::string_view sign;
+  bool unary = false;
+};
+
+inline constexpr ArithmeticFn kArithmeticFns[] = {
+    {.fn = 1, .op = Operator::Add, .sign = "+"},
+    {.fn = 2, .op = Operator::Subtract, .sign = "-"},
+    {.fn = 3, .op = Operator::Multiply, .sign = "*"},
+    {.fn = 4, .op = Operator::Divide, .sign = "DIV"},
+    {.fn = 5, .op = Operator::Sqrt, .sign = "SQRT", .unary = true},
+    {.fn = 6, .op = Operator::Sin, .sign = "SIN", .unary = true},
+    {.fn = 7, .op = Operator::Cos, .sign = "COS", .unary = true},
+    {.fn = 8, .op = Operator::Length, .sign = "LEN"},
+    {.fn = 13, .op = Operator::Angle, .sign = "ANG"},
+};
+
+constexpr const ArithmeticFn* find_arithmetic(unsigned fn) {
+  for (const ArithmeticFn& row : kArithmeticFns) {
+    if (row.fn == fn) return &row;
+  }
+  return nullptr;
+}
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,162 @@
+#include "nc/klartext/operator_names.hpp"
+#include "nc/klartext/parser_rules.hpp"
+
+/// Formulas. The levels, from the loosest: `||`, `+ -`, `* / %`, `^` (right to left), functions,
+/// the algebraic sign, and what stands alone. The sign binds tighter than `^`: `- 2 ^ 2` is 4, and
+/// a function takes what follows it at once: `SIN 30 ^ 2` is the square of the sine.
+namespace fitgauge::klartext {
+namespace {
+
+Expr parse_sum(BlockReader& in);
+Expr parse_signed(BlockReader& in);
+
+Expr negated(BlockReader& in, const Expr& operand) {
+  if (const auto* number = std::get_if<double>(&operand)) return -*number;
+  return in.add_node(Operator::Minus, {operand});
+}
+
+void require(BlockReader& in, const Expr& operand, bool string, const char* begin) {
+  if (in.failure() || in.is_string(operand) == string) return;
+  in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
+          string ? "a text is needed here: a QS parameter, a text in double quotes or TOCHAR"
+                 : "a number is needed here: TONUMB makes one of a text");
+}
+
+/// What `read` reads, which must be a number or, for `string`, a text.
+template <class Read>
+Expr parse_typed(BlockReader& in, bool string, Read read) {
+  in.skip_blanks();
+  const char* begin = in.at();
+  const Expr operand = read(in);
+  require(in, operand, string, begin);
+  return operand;
+}
+
+Expr parse_alone(BlockReader& in) {
+  if (in.at_end()) {
+    in.fail_expected("a value");
+    return Absent{};
+  }
+  if (in.at_number()) return in.number();
+  if (in.at_parameter()) return in.parameter();
+  if (in.peek() == '"') return in.quoted_text(kLongestString, "the text");
+  if (in.accept('(')) {
+    in.enter();
+    const Expr inner = parse_formula(in);
+    in.expect(')');
+    in.leave();
+    return inner;
+  }
+  if (in.accept_word("PI")) return in.add_node(Operator::Pi, {});
+  Expr function;
+  if (parse_string_function(in, function)) return function;
+  for (const FunctionName& row : kFunctions) {
+    if (!in.accept_word(row.name)) continue;
+    in.enter();
+    const Expr argument = parse_typed(in, false, parse_signed);
+    in.leave();
+    return in.add_node(row.op, {argument});
+  }
+  const char* begin = in.at();
+  for (const std::string_view feature : {"CFGREAD", "TABDATA", "SQL"}) {
+    if (in.accept_word(feature)) {
+      in.refuse(begin, feature);
+      return Absent{};
+    }
+  }
+  in.fail_expected("a number, a parameter, a function or '('");
+  return Absent{};
+}
+
+Expr parse_signed(BlockReader& in) {
+  if (in.accept('-')) return negated(in, parse_typed(in, false, parse_alone));
+  if (in.accept('+')) return parse_typed(in, false, parse_alone);
+  return parse_alone(in);
+}
+
+Expr parse_power(BlockReader& in) {
+  in.skip_blanks();
+  const char* begin = in.at();
+  const Expr base = parse_signed(in);
+  if (!in.accept('^')) return base;
+  require(in, base, false, begin);
+  in.enter();
+  const Expr exponent = parse_typed(in, false, parse_power);
+  in.leave();
+  return in.add_node(Operator::Power, {base, exponent});
+}
+
+/// Operands of `next` joined from left to right by one of `operators`.
+template <class Next>
+Expr parse_chain(BlockReader& in, std::initializer_list<std::pair<char, Operator>> operators,
+                 Next next) {
+  in.skip_blanks();
+  const char* begin = in.at();
+  Expr left = next(in);
+  for (bool more = true; more && !in.failure();) {
+    more = false;
+    for (const auto& [sign, op] : operators) {
+      if (!in.accept(sign)) continue;
+      require(in, left, false, begin);
+      left = in.add_node(op, {left, parse_typed(in, false, next)});
+      more = true;
+      break;
+    }
+  }
+  return left;
+}
+
+Expr parse_product(BlockReader& in) {
+  return parse_chain(in,
+                     {{'*', Operator::Multiply}, {'/', Operator::Divide}, {'%', Operator::Modulo}},
+                     parse_power);
+}
+
+Expr parse_sum(BlockReader& in) {
+  return parse_chain(in, {{'+', Operator::Add}, {'-', Operator::Subtract}}, parse_product);
+}
+
+}  // namespace
+
+Expr parse_formula(BlockReader& in) {
+  in.skip_blanks();
+  const char* begin = in.at();
+  Expr left = parse_sum(in);
+  while (in.accept_word("||")) {
+    require(in, left, true, begin);
+    left = in.add_node(Operator::Concat, {left, parse_typed(in, true, parse_sum)});
+  }
+  return left;
+}
+
+Expr parse_value(BlockReader& in) {
+  in.skip_blanks();
+  const char* begin = in.at();
+  const bool minus = in.peek() == '-';
+  const bool has_sign = minus || in.peek() == '+';
+  if (has_sign) {
+    in.move_to(begin + 1);
+    in.skip_blanks();
+  }
+  if (in.at_number()) {
+    const double number = in.number();
+    return minus ? -number : number;
+  }
+  if (!in.at_parameter()) {
+    in.fail_expected("a number or a Q parameter");
+    return Absent{};
+  }
+  const QRef parameter = in.parameter();
+  if (has_sign) require(in, parameter, false, begin);
+  return minus ? negated(in, parameter) : Expr(parameter);
+}
+
+Expr parse_number(BlockReader& in) { return parse_typed(in, false, parse_value); }
+
+Expr parse_string(BlockReader& in) {
+  in.skip_blanks();
+  if (in.peek() == '"') return in.quoted_text(kLongestString, "the text");
+  return parse_typed(in, true, parse_value);
+}
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <iterator>
+
+#include "base/text.hpp"
+#include "nc/klartext/parser_rules.hpp"
+#include "nc/klartext/parser_words.hpp"
+#include "nc/klartext/path_names.hpp"
+
+namespace fitgauge::klartext {
+namespace {
+
+constexpr LetterSet kM(Letter::M);
+constexpr LetterSet kEveryMotion = kAxes | kFeeds | kM;
+constexpr LetterSet kPolar(Letter::Pr, Letter::Pa);
+
+/// The words of each path, in the order of Path.
+constexpr LetterSet kWordsOf[] = {
+    kEveryMotion,           // L
+    kEveryMotion | kPolar,  // LP
+    kEveryMotion | LetterSet(Letter::Nx, Letter::Ny, Letter::Nz, Letter::Tx, Letter::Ty,
+                             Letter::Tz),                       // LN
+    kAxes,                                                      // CC
+    kEveryMotion,                                               // C
+    kEveryMotion | kPolar,                                      // CP
+    kEveryMotion | LetterSet(Letter::R),                        // CR
+    kEveryMotion,                                               // CT
+    kEveryMotion | kPolar,                                      // CTP
+    LetterSet(Letter::R) | kFeeds | kM,                         // RND
+    LetterSet(Letter::Chamfer) | kFeeds | kM,                   // CHF
+    kEveryMotion | LetterSet(Letter::Len),                      // APPR LT
+    kEveryMotion | LetterSet(Letter::Len),                      // APPR LN
+    kEveryMotion | LetterSet(Letter::Cca, Letter::R),           // APPR CT
+    kEveryMotion | LetterSet(Letter::R),                        // APPR LCT
+    kEveryMotion | kPolar | LetterSet(Letter::Len),             // APPR PLT
+    kEveryMotion | kPolar | LetterSet(Letter::Len),             // APPR PLN
+    kEveryMotion | kPolar | LetterSet(Letter::Cca, Letter::R),  // APPR PCT
+    kEveryMotion | kPolar | LetterSet(Letter::R),               // APPR PLCT
+    kFeeds | kM | LetterSet(Letter::Len),                       // DEP LT
+    kFeeds | kM | LetterSet(Letter::Len),                       // DEP LN
+    kFeeds | kM | LetterSet(Letter::Cca, Letter::R),            // DEP CT
+    kEveryMotion | LetterSet(Letter::R),                        // DEP LCT
+    kEveryMotion | kPolar | LetterSet(Letter::R),               // DEP PLCT
+    kEveryMotion,                                               // paraxial
+};
+static_assert(std::size(kWordsOf) == std::size(kPaths));
+
+struct CompensationName {
+  char second;
+  RadiusCompensation compensation;
+};
+
+constexpr CompensationName kCompensations[] = {{'0', RadiusCompensation::R0},
+                                               {'L', RadiusCompensation::Rl},
+                                               {'R', RadiusCompensation::Rr},
+                                               {'+', RadiusCompensation::RPlus},
+                                               {'-', RadiusCompensation::RMinus}};
+
+/// `R0`, `RL`, `RR`, `R+`, `R-` without a letter or digit behind it; `R0.5` and `R+20` are radii.
+/// @param has_radius the block may hold a radius R, so `R+ 20` is one.
+bool parse_compensation(BlockReader& in, Motion& motion, bool has_radius) {
+  const char c = ascii_upper(in.peek(1));
+  const char behind = in.peek(2);
+  const auto* found = std::find_if(std::begin(kCompensations), std::end(kCompensations),
+                                   [c](const CompensationName& row) { return row.second == c; });
+  if (found == std::end(kCompensations) || is_ascii_letter(behind) || is_digit(behind) ||
+      behind == '.' || behind == ',' || (has_radius && (c == '+' || c == '-'))) {
+    return false;
+  }
+  const RadiusCompensation compensation = found->compensation;
+  if (motion.compensation != RadiusCompensation::Unchanged) {
+    in.fail(DiagnosticCode::WordRepeated, in.place(in.at(), in.at() + 2),
+            "the radius compensation stands twice in this block");
+    return true;
+  }
+  motion.compensation = compensation;
+  in.move_to(in.at() + 2);
+  return true;
+}
+
+/// `DR+`, `DR-`.
+bool parse_rotation(BlockReader& in, Motion& motion) {
+  const char sign = in.peek(2);
+  if (ascii_upper(in.peek(1)) != 'R' || (sign != '+' && sign != '-')) return false;
+  if (motion.rotation != Rotation::Unspecified) {
+    in.fail(DiagnosticCode::WordRepeated, in.place(in.at(), in.at() + 3),
+            "the direction of rotation stands twice in this block");
+    return true;
+  }
+  motion.rotation = sign == '+' ? Rotation::Positive : Rotation::Negative;
+  in.move_to(in.at() + 3);
+  return true;
+}
+
+/// The letter of a word that has no value: `R`, `F` and `M` of the TNC 151 to 415, which list each
+/// word of a block, also where nothing was entered for it (`L X+5 R F M`).
+bool parse_blank_word(BlockReader& in) {
+  const char* begin = in.at();
+  if (in.at_end()) return false;
+  const char behind = in.peek(1);
+  if (behind != '\0' && !is_blank(behind) && behind != ';' && behind != '~') return false;
+  in.move_to(begin + 1);
+  in.skip_blanks();
+  const char next = in.peek();
+  const bool has_value = next == '+' || next == '-' || in.at_number() || in.at_parameter() ||
+                         in.accept_word("MAX") || in.accept_word("AUTO");
+  if (has_value) in.move_to(begin);
+  return !has_value;
+}
+
+Statement parse_second_word(BlockReader& in, std::string_view first) {
+  in.skip_blanks();
+  const std::string_view second = in.letters();
+  for (const PathName& row : kPaths) {
+    if (row.name.size() == first.size() + 1 + second.size() && row.name.starts_with(first) &&
+        ascii_iequals(row.name.substr(first.size() + 1), second)) {
+      in.move_to(in.at() + second.size());
+      return parse_motion(in, row.path);
+    }
+  }
+  in.fail_expected(first == "DEP" ? "LT, LN, CT, LCT or PLCT"
+                                  : "LT, LN, CT, LCT, PLT, PLN, PCT or PLCT");
+  return Empty{};
+}
+
+}  // namespace
+
+Statement parse_motion(BlockReader& in, Path path) {
+  Motion motion{.path = path};
+  const LetterSet allowed = kWordsOf[static_cast<std::size_t>(path)];
+  WordReader words(in, allowed);
+  if (path == Path::Chf && !in.at_end()) {
+    in.add_word({.value = parse_number(in), .letter = Letter::Chamfer});
+  }
+  const bool turns = path == Path::C || path == Path::Cp || path == Path::Cr || path == Path::Ct ||
+                     path == Path::Ctp;
+  const bool compensates = path != Path::Cc && path != Path::Rnd && path != Path::Chf;
+  while (!in.at_end()) {
+    const char c = ascii_upper(in.peek());
+    if ((c == 'R' || c == 'F' || c == 'M') && parse_blank_word(in)) continue;
+    if (c == 'R' && compensates && parse_compensation(in, motion, allowed.contains(Letter::R))) {
+      continue;
+    }
+    if (c == 'D' && turns && parse_rotation(in, motion)) continue;
+    words.read();
+  }
+  motion.words = words.words();
+  return motion;
+}
+
+Statement parse_approach(BlockReader& in) { return parse_second_word(in, "APPR"); }
+
+Statement parse_departure(BlockReader& in) { return parse_second_word(in, "DEP"); }
+
+Statement parse_m_functions(BlockReader& in) {
+  in.move_to(in.at() - 1);  // the M that was read as the first word
+  return MFunctions{parse_words(in, kM)};
+}
+
+Statement parse_stop(BlockReader& in) { return Stop{parse_words(in, kM)}; }
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <string_view>
+
+#include "nc/klartext/block_reader.hpp"
+
+/// The grammar: one function per family of blocks, each starting behind the block's first keyword
+/// and reading to the end of its code. After a failure what they return is dropped.
+namespace fitgauge::klartext {
+
+// parser_expression.cpp
+/// A formula of numbers or texts: everything right of `Q5 =`.
+Expr parse_formula(BlockReader& in);
+/// A number with an optional sign, or any parameter: `+10`, `-Q5`, `QS1`.
+Expr parse_value(BlockReader& in);
+/// As parse_value, without QS parameters.
+Expr parse_number(BlockReader& in);
+/// A quoted text or a QS parameter.
+Expr parse_string(BlockReader& in);
+
+// parser_string_function.cpp
+/// The arguments of a function of texts whose name is next; false when none is.
+bool parse_string_function(BlockReader& in, Expr& value);
+
+// parser_flow.cpp
+/// A file: quoted, bare up to `stop` or the end, a QS parameter (`QS1`, `:'QS1'`), or bare with
+/// QS parameters inside (`TNC:\:'QS1'.H`).
+Expr parse_path(BlockReader& in, char stop = ';');
+Label parse_label(BlockReader& in);
+Statement parse_label_definition(BlockReader& in);
+Statement parse_call(BlockReader& in);
+Statement parse_select(BlockReader& in);
+
+// parser_frame.cpp
+Statement parse_begin(BlockReader& in);
+Statement parse_end(BlockReader& in);
+Statement parse_blank_form(BlockReader& in);
+Statement parse_structure(BlockReader& in);
+
+// parser_assignment.cpp
+Statement parse_assignment(BlockReader& in);
+Statement parse_declare(BlockReader& in);
+
+// parser_function.cpp
+Statement parse_fn(BlockReader& in);
+// parser_table.cpp
+/// FN 26 to 28.
+Statement parse_table_function(BlockReader& in, unsigned fn);
+
+// parser_cycle.cpp
+Statement parse_cycl(BlockReader& in);
+Statement parse_tch_probe(BlockReader& in);
+Statement parse_global(BlockReader& in);
+/// `Q200 =`, `QS400 =`: a parameter of a cycle starts here.
+bool at_cycle_parameter(const char* at, const char* end);
+// parser_dotted_cycle.cpp
+/// `.0` behind the number of a cycle, perhaps after blanks (`DEF 9 .0`). Stays in place.
+bool at_cycle_part(BlockReader& in);
+Statement parse_cycle_part(BlockReader& in, CycleFamily family, std::uint16_t number);
+
+// parser_pattern.cpp
+Statement parse_pattern(BlockReader& in);
+
+// parser_motion.cpp
+Statement parse_motion(BlockReader& in, Path path);
+Statement parse_approach(BlockReader& in);
+Statement parse_departure(BlockReader& in);
+Statement parse_m_functions(BlockReader& in);
+Statement parse_stop(BlockReader& in);
+Statement parse_tool(BlockReader& in);
+
+// parser_transformation.cpp
+Statement parse_trans(BlockReader& in);
+Statement parse_plane(BlockReader& in);
+Statement parse_function(BlockReader& in);
+
+// parser_block.cpp
+/// The word that is next makes, with `first` before it, a feature of real controls alone.
+void refuse_word(BlockReader& in, std::string_view first);
+/// The statement of a block that is not empty.
+Statement parse_statement(BlockReader& in);
+
+}  // namespace fitgauge::klartext

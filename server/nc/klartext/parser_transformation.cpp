@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <string>
+
+#include "base/text.hpp"
+#include "nc/klartext/parser_rules.hpp"
+#include "nc/klartext/parser_words.hpp"
+#include "nc/klartext/transformation_names.hpp"
+
+namespace fitgauge::klartext {
+namespace {
+
+constexpr LetterSet kEveryPlane =
+    kFeeds | LetterSet(Letter::Mb, Letter::MbMax, Letter::Dist, Letter::Seq, Letter::Sym);
+
+/// The words that define each plane, in the order of PlaneKind.
+constexpr LetterSet kPlaneWords[] = {
+    LetterSet(Letter::Spa, Letter::Spb, Letter::Spc),
+    LetterSet(Letter::ProPr, Letter::ProMin, Letter::Rot),
+    LetterSet(Letter::EulPr, Letter::EulNu, Letter::EulRot),
+    LetterSet(Letter::Bx, Letter::By, Letter::Bz, Letter::Nx, Letter::Ny, Letter::Nz),
+    LetterSet(Letter::P1x, Letter::P1y, Letter::P1z, Letter::P2x, Letter::P2y, Letter::P2z,
+              Letter::P3x, Letter::P3y, Letter::P3z),
+    LetterSet(Letter::Spa, Letter::Spb, Letter::Spc),
+    LetterSet(Letter::A, Letter::B, Letter::C),
+    LetterSet(),
+};
+static_assert(std::size(kPlaneWords) == std::size(kPlaneKinds));
+
+bool parse_positioning(BlockReader& in, Plane& plane) {
+  for (const PlanePositioningName& row : kPlanePositionings) {
+    if (!in.accept_word(row.name)) continue;
+    if (plane.positioning != PlanePositioning::Unspecified) {
+      in.fail(DiagnosticCode::WordRepeated, in.here(),
+              "TURN, MOVE and STAY exclude each other: name one of them");
+    }
+    plane.positioning = row.positioning;
+    return true;
+  }
+  return false;
+}
+
+/// `SEQ+`, `SYM-`, `TABLE ROT`, `COORD ROT`.
+bool parse_solution(BlockReader& in) {
+  for (const Letter letter : {Letter::TableRot, Letter::CoordRot}) {
+    const std::string_view name = spelling(letter);
+    if (in.accept_word(name.substr(0, name.find(' ')))) {
+      in.expect_word("ROT");
+      in.add_word({.letter = letter});
+      return true;
+    }
+  }
+  for (const Letter letter : {Letter::Seq, Letter::Sym}) {
+    if (in.accept_word(spelling(letter))) {
+      const bool minus = in.accept('-');
+      if (!minus) in.expect('+');
+      in.add_word({.value = minus ? -1.0 : 1.0, .letter = letter});
+      return true;
+    }
+  }
+  return false;
+}
+
+Statement parse_plane_kind(BlockReader& in, PlaneKind kind) {
+  Plane plane{.kind = kind};
+  WordReader words(in, kEveryPlane | kPlaneWords[static_cast<std::size_t>(kind)]);
+  while (!in.at_end()) {
+    if (!parse_positioning(in, plane) && !parse_solution(in)) words.read();
+  }
+  plane.words = words.words();
+  return plane;
+}
+
+Statement parse_trans_datum(BlockReader& in) {
+  Trans trans{.kind = Transformation::Datum};
+  if (in.accept_word("RESET")) {
+    trans.reset = true;
+  } else if (in.accept_word("TABLE")) {
+    trans.kind = Transformation::DatumTable;
+    in.skip_blanks();
+    if (in.peek() == '"' || in.at_parameter()) trans.table = parse_string(in);
+    trans.words = parse_words(in, LetterSet(Letter::Row));
+  } else {
+    in.expect_word("AXIS");
+    trans.words = parse_words(in, kAxes);
+  }
+  return trans;
+}
+
+/// Words or `RESET`.
+Statement parse_trans_words(BlockReader& in, Transformation kind, LetterSet words,
+                            LetterSet bare = LetterSet()) {
+  Trans trans{.kind = kind};
+  trans.reset = in.accept_word("RESET");
+  if (!trans.reset) {
+    if (kind == Transformation::Mirror) in.expect_word("AXIS");
+    trans.words = parse_words(in, words, bare);
+    if (trans.words.count == 0) in.fail_expected("a word or RESET");
+  }
+  return trans;
+}
+
+Statement parse_mode(BlockReader& in) {
+  for (const OperatingModeName& row : kOperatingModes) {
+    if (!in.accept_word(row.name)) continue;
+    FunctionMode mode{.mode = row.mode};
+    in.skip_blanks();
+    if (in.peek() == '"') mode.kinematics = in.quoted_text(255, "the name of the kinematics");
+    return mode;
+  }
+  in.fail_expected("MILL, TURN or GRIND");
+  return Empty{};
+}
+
+/// `F TCP AXIS POS PATHCTRL AXIS`, kept with one blank between words: it moves nothing here.
+Statement parse_tcpm(BlockReader& in) {
+  std::string options;
+  while (!in.at_end()) {
+    const char* begin = in.at();
+    const auto ends_word = [](char c) { return is_blank(c) || c == ';'; };
+    in.move_to(std::find_if(begin, in.end(), ends_word));
+    if (!options.empty()) options += ' ';
+    options.append(begin, in.at());
+  }
+  return FunctionTcpm{.active = true, .options = in.add_text(ascii_upper(options))};
+}
+
+Statement parse_dwell(BlockReader& in) {
+  Dwell dwell;
+  dwell.revolutions = in.accept_prefix("REV");
+  if (!dwell.revolutions) in.expect_prefix("TIME");
+  dwell.value = parse_number(in);
+  return dwell;
+}
+
+}  // namespace
+
+Statement parse_trans(BlockReader& in) {
+  if (in.accept_word("DATUM")) return parse_trans_datum(in);
+  if (in.accept_word("MIRROR")) {
+    return parse_trans_words(in, Transformation::Mirror, kAxes, kAxes);
+  }
+  if (in.accept_word("ROTATION")) {
+    return parse_trans_words(in, Transformation::Rotation, LetterSet(Letter::Rot));
+  }
+  if (in.accept_word("SCALE")) {
+    return parse_trans_words(in, Transformation::Scale, LetterSet(Letter::Scl));
+  }
+  in.fail_expected("DATUM, MIRROR, ROTATION or SCALE");
+  return Empty{};
+}
+
+Statement parse_plane(BlockReader& in) {
+  for (const PlaneKindName& row : kPlaneKinds) {
+    if (in.accept_word(row.name)) return parse_plane_kind(in, row.kind);
+  }
+  in.fail_expected("SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
+  return Empty{};
+}
+
+Statement parse_function(BlockReader& in) {
+  if (in.accept_word("MODE")) return parse_mode(in);
+  if (in.accept_word("TCPM")) return parse_tcpm(in);
+  if (in.accept_word("DWELL")) return parse_dwell(in);
+  if (in.accept_word("RESET")) {
+    if (in.accept_word("TCPM")) return FunctionTcpm{.active = false};
+    refuse_word(in, "FUNCTION RESET");
+    return Empty{};
+  }
+  refuse_word(in, "FUNCTION");
+  return Empty{};
+}
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "nc/klartext/block_reader.hpp"
+
+namespace fitgauge::klartext {
+
+inline constexpr LetterSet kAxes(Letter::X, Letter::Y, Letter::Z, Letter::A, Letter::B, Letter::C,
+                                 Letter::U, Letter::V, Letter::W);
+/// `F` with all its forms.
+inline constexpr LetterSet kFeeds(Letter::F, Letter::FMax, Letter::FAuto, Letter::Fu, Letter::Fz,
+                                  Letter::Ft, Letter::FMaxT);
+
+/// Reads words of one block into the Program's pool, one at a time.
+class WordReader {
+ public:
+  /// @param allowed the words this block may hold.
+  /// @param bare those that may stand without a value: the axes of `CYCL DEF 8.1 X Y`.
+  WordReader(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet());
+
+  /// The next word, or several; fails when one is none of the allowed ones or stands there twice.
+  void read();
+  Slice<Word> words() const { return in_.words_since(first_); }
+
+ private:
+  bool read_plain_words();
+  Word parse_name();
+  void parse_value_of(Word& word);
+  void parse_m_number(Word& word);
+
+  BlockReader& in_;
+  LetterSet allowed_;
+  LetterSet bare_;
+  LetterSet seen_;
+  LetterSet plain_;      ///< those still to come that may be read the short way
+  LetterSet arguments_;  ///< of the M function read last
+  bool arguments_are_bare_ = false;
+  std::uint32_t first_;
+};
+
+/// All words up to the end of the block.
+Slice<Word> parse_words(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet());
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,60 @@
+#include "nc/klartext/printer.hpp"
+
+#include <optional>
+
+#include "nc/klartext/statement_writer.hpp"
+
+namespace fitgauge::klartext {
+namespace {
+
+void print_block(BlockWriter& out, const Program& program, const Block& block,
+                 std::optional<std::uint32_t> number) {
+  std::string_view separator;
+  if (block.skip) out.write("/");
+  if (number) {
+    out.write(std::to_string(*number));
+    separator = " ";
+  }
+  const std::string_view comment = program.text(block.comment);
+  if (const auto* cycle = std::get_if<Cycle>(&block.statement)) {
+    out.write(separator);
+    write_cycle(out, *cycle, comment);
+    return;
+  }
+  if (!std::holds_alternative<Empty>(block.statement)) {
+    out.write(separator);
+    std::visit([&](const auto& statement) { write_block(out, statement); }, block.statement);
+    separator = " ";
+  }
+  if (!block.comment_mark) return;
+  out.write(separator);
+  out.write(";");
+  out.write(comment);
+}
+
+}  // namespace
+
+std::string print_program(const Program& program) {
+  std::string text;
+  text.reserve(program.source().size());
+  BlockWriter out(program, text);
+  for (const Block& block : program.blocks()) {
+    print_block(out, program, block, block.has_number ? std::optional(block.number) : std::nullopt);
+    out.write("\n");
+  }
+  return text;
+}
+
+std::string format_program(const Program& program) {
+  std::string text;
+  text.reserve(program.source().size() + program.blocks().size() * 4);
+  BlockWriter out(program, text);
+  std::uint32_t number = 0;
+  for (const Block& block : program.blocks()) {
+    print_block(out, program, block, number++);
+    out.write("\n");
+  }
+  return text;
+}
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "nc/klartext/syntax.hpp"
+
+namespace fitgauge::klartext {
+
+/// The program as Klartext, one blank between words, lines ending with LF. Reading it back gives an
+/// equal program. Numbers are printed with the fewest digits that give the same value.
+std::string print_program(const Program& program);
+
+/// As print_program, with every block numbered from 0: how a control lists it.
+std::string format_program(const Program& program);
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,422 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "nc/klartext/expression.hpp"
+#include "nc/klartext/word.hpp"
+
+/// What a block says, one small struct per kind of block. All are trivially copyable: texts, words
+/// and lists lie in the Program's pools.
+namespace fitgauge::klartext {
+
+enum class Unit : std::uint8_t { Millimetre, Inch };
+
+// --- frame of the program and blocks without effect
+
+/// `BEGIN PGM name MM`.
+struct BeginProgram {
+  Text name{};
+  Unit unit = Unit::Millimetre;
+  friend bool operator==(const BeginProgram&, const BeginProgram&) = default;
+};
+
+/// `END PGM name MM`; the last block.
+struct EndProgram {
+  Text name{};
+  Unit unit = Unit::Millimetre;
+  friend bool operator==(const EndProgram&, const EndProgram&) = default;
+};
+
+/// A block of nothing but its comment or its number.
+struct Empty {
+  friend bool operator==(const Empty&, const Empty&) = default;
+};
+
+/// `* - text`: an outline entry; level 0 is the outermost.
+struct Structure {
+  Text text{};
+  std::uint8_t level = 0;
+  friend bool operator==(const Structure&, const Structure&) = default;
+};
+
+/// `ERROR = raw text`: what the control stores for a line it could not read. The parser makes one
+/// of every block it reports an error in.
+struct ErrorBlock {
+  Text text{};
+  friend bool operator==(const ErrorBlock&, const ErrorBlock&) = default;
+};
+
+/// Something real controls can do and this one cannot: fails when it is reached.
+struct Unsupported {
+  Text feature{};  ///< its name for the message: "FK contour programming", "SQL"
+  Text text{};     ///< the block as written, without number and comment
+  friend bool operator==(const Unsupported&, const Unsupported&) = default;
+};
+
+enum class BlankKind : std::uint8_t { Minimum, Maximum, Cylinder, Rotation, File };
+
+/// `BLK FORM 0.1 Z X+0 Y+0 Z-20`, `0.2`, `CYLINDER`, `ROTATION`, `FILE`.
+struct BlankForm {
+  BlankKind kind = BlankKind::Minimum;
+  std::optional<Axis> tool_axis{};
+  Slice<Word> words{};
+  Expr file{};  ///< Text or QS of FILE, otherwise Absent
+  friend bool operator==(const BlankForm&, const BlankForm&) = default;
+};
+
+// --- tools and motion
+
+/// `TOOL CALL n|"name"|QSn axis S F DL DR DR2`. Words: S, F, FU, FZ, FMAX, FAUTO, DL, DR, DR2.
+struct ToolCall {
+  Expr tool{};  ///< a number, a Text name or a parameter; Absent when only speed or axis change
+  std::optional<Axis> axis{};
+  Slice<Word> words{};
+  friend bool operator==(const ToolCall&, const ToolCall&) = default;
+};
+
+/// `TOOL DEF n`: preselection, or the old definition `TOOL DEF 1 L+0 R+5`.
+struct ToolDefinition {
+  Expr tool{};
+  Slice<Word> words{};
+  friend bool operator==(const ToolDefinition&, const ToolDefinition&) = default;
+};
+
+enum class Path : std::uint8_t {
+  L,    ///< line
+  Lp,   ///< line, polar
+  Ln,   ///< line with surface normal
+  Cc,   ///< circle centre or pole
+  C,    ///< arc around the centre
+  Cp,   ///< arc around the pole, or helix
+  Cr,   ///< arc of given radius
+  Ct,   ///< tangential arc
+  Ctp,  ///< tangential arc, polar
+  Rnd,  ///< rounding
+  Chf,  ///< chamfer
+  ApprLt,
+  ApprLn,
+  ApprCt,
+  ApprLct,
+  ApprPlt,
+  ApprPln,
+  ApprPct,
+  ApprPlct,
+  DepLt,
+  DepLn,
+  DepCt,
+  DepLct,
+  DepPlct,
+  Paraxial  ///< a block of axes alone: `X+46 R+ F1000`
+};
+
+/// R+ and R- lengthen and shorten a paraxial path by the radius of the tool.
+enum class RadiusCompensation : std::uint8_t { Unchanged, R0, Rl, Rr, RPlus, RMinus };
+enum class Rotation : std::uint8_t { Unspecified, Positive, Negative };  ///< DR+ is anticlockwise
+
+/// A positioning block. Words: axes, Pr, Pa, vectors, R, Len, Cca, Chamfer, feeds, M with
+/// arguments.
+struct Motion {
+  Path path = Path::L;
+  RadiusCompensation compensation = RadiusCompensation::Unchanged;
+  Rotation rotation = Rotation::Unspecified;
+  Slice<Word> words{};
+  friend bool operator==(const Motion&, const Motion&) = default;
+};
+
+/// A block of M functions alone: `M3`, `M140 MB MAX`.
+struct MFunctions {
+  Slice<Word> words{};
+  friend bool operator==(const MFunctions&, const MFunctions&) = default;
+};
+
+/// `STOP` with optional M functions.
+struct Stop {
+  Slice<Word> words{};
+  friend bool operator==(const Stop&, const Stop&) = default;
+};
+
+// --- cycles
+
+enum class CycleFamily : std::uint8_t { CyclDef, TchProbe, GlobalDef };
+
+/// As a block of it begins: `CYCL DEF`.
+constexpr std::string_view words_of(CycleFamily family) {
+  switch (family) {
+    case CycleFamily::TchProbe: return "TCH PROBE";
+    case CycleFamily::GlobalDef: return "GLOBAL DEF";
+    default: return "CYCL DEF";
+  }
+}
+
+/// What stands right of a cycle parameter's `=`.
+enum class CycleValue : std::uint8_t {
+  Expression,  ///< `Q262=+25`, `Q262=+Q5`, `QS400="0.1-0.1"`
+  Auto,        ///< AUTO, FAUTO
+  Max,         ///< MAX, FMAX
+  Fu,          ///< `FU0.2`: the value is in `value`
+  Fz,          ///< `FZ0.1`
+  Predef       ///< PREDEF, from GLOBAL DEF
+};
+
+/// One line `Q262=+25 ;NOMINAL DIAMETER` of a cycle.
+struct CycleParameter {
+  QRef parameter{};
+  CycleValue kind = CycleValue::Expression;
+  Expr value{};
+  Text comment{};         ///< the dialog text, as written
+  Slice<char> written{};  ///< its place in the source, without the comment
+
+  /// The place does not count.
+  friend bool operator==(const CycleParameter& a, const CycleParameter& b) {
+    return a.parameter == b.parameter && a.kind == b.kind && a.value == b.value &&
+           a.comment == b.comment;
+  }
+};
+
+/// A cycle in Q-form, one block: `CYCL DEF 200 DRILLING ~ Q200=...`, `TCH PROBE 421 ...`; or
+/// values for PREDEF: `GLOBAL DEF 120 PROBING ~ Q320=...`.
+struct Cycle {
+  CycleFamily family = CycleFamily::CyclDef;
+  std::uint16_t number = 0;
+  Text dialog{};  ///< the free text after the number
+  Slice<CycleParameter> parameters{};
+  friend bool operator==(const Cycle&, const Cycle&) = default;
+};
+
+/// A sub-line of a dotted cycle: `CYCL DEF 7.1 X+60`, `TCH PROBE 0.1 X+5 Y+0 Z-5`. Sub-line 0 opens
+/// the cycle; those that follow in order belong to it.
+struct CyclePart {
+  CycleFamily family = CycleFamily::CyclDef;
+  std::uint16_t number = 0;
+  std::uint8_t part = 0;
+  Text text{};  ///< all after the number as written: the title of part 0, dialog text and words
+  /// What was understood of the text; of a part 0 that is empty but for TCH PROBE 0.0.
+  Slice<Word> words{};
+  friend bool operator==(const CyclePart&, const CyclePart&) = default;
+};
+
+enum class CycleCallKind : std::uint8_t { Here, Pattern, Position };
+
+/// `CYCL CALL [M..]`, `CYCL CALL PAT F..`, `CYCL CALL POS X Y Z F..`.
+struct CycleCall {
+  CycleCallKind kind = CycleCallKind::Here;
+  Slice<Word> words{};
+  friend bool operator==(const CycleCall&, const CycleCall&) = default;
+};
+
+enum class PatternElement : std::uint8_t { Pos, Row, Pat, Frame, Circ, PitchCirc };
+
+/// `PATTERN DEF POS1( X+25 Y+33 Z+0 ) CIRC1( ... )`: the points of CYCL CALL PAT. Words: for each
+/// element an Element and its number, then its own.
+struct PatternDefinition {
+  Slice<Word> words{};
+  friend bool operator==(const PatternDefinition&, const PatternDefinition&) = default;
+};
+
+// --- labels, programs, jumps
+
+/// `LBL 5`, `LBL "NAME"`, or by the value of `LBL QS5`, `LBL Q0`. Names are kept as written and
+/// compare without case.
+using Label = std::variant<std::uint32_t, Text, QRef>;
+
+/// `LBL n`; a Text or a number, never a parameter. Number 0 ends a subprogram.
+struct LabelDefinition {
+  Label label{};
+  friend bool operator==(const LabelDefinition&, const LabelDefinition&) = default;
+};
+
+/// `CALL LBL n [REP r]`.
+struct LabelCall {
+  Label label{};
+  Expr repeat{};  ///< Absent: a subprogram call
+  friend bool operator==(const LabelCall&, const LabelCall&) = default;
+};
+
+/// FN 9 to 12: `IF a EQU b GOTO LBL x`, `IF Q1 IS UNDEFINED GOTO LBL x`.
+struct ConditionalJump {
+  Expr condition{};  ///< always a Node: Equal, NotEqual, Greater, Less, IsDefined or IsUndefined
+  Label target{};
+  friend bool operator==(const ConditionalJump&, const ConditionalJump&) = default;
+};
+
+/// In the next three, a path is a Text, a QS parameter or a Concat of both (`TNC:\:'QS1'.H`).
+struct CallProgram {
+  Expr path{};
+  friend bool operator==(const CallProgram&, const CallProgram&) = default;
+};
+
+/// `SEL PGM path`.
+struct SelectProgram {
+  Expr path{};
+  friend bool operator==(const SelectProgram&, const SelectProgram&) = default;
+};
+
+/// `CALL SELECTED PGM`.
+struct CallSelectedProgram {
+  friend bool operator==(const CallSelectedProgram&, const CallSelectedProgram&) = default;
+};
+
+/// `SEL TABLE path`: the datum table.
+struct SelectTable {
+  Expr path{};
+  friend bool operator==(const SelectTable&, const SelectTable&) = default;
+};
+
+// --- parameters and functions
+
+/// How an assignment is spelled; it means the same in each form.
+enum class AssignmentForm : std::uint8_t { Formula, Fn, DeclareString };
+
+/// `Q5 = ...`, FN 0 to 8, 13 and 18, `DECLARE STRING QS1 = ...`. A QS target has a string value,
+/// any other a number.
+struct Assignment {
+  QRef target{};
+  AssignmentForm form = AssignmentForm::Formula;
+  std::uint8_t fn = 0;  ///< of form Fn
+  Expr value{};
+  friend bool operator==(const Assignment&, const Assignment&) = default;
+};
+
+/// `FN 0: Q5 SET UNDEFINED`.
+struct SetUndefined {
+  QRef target{};
+  friend bool operator==(const SetUndefined&, const SetUndefined&) = default;
+};
+
+/// FN 23 (3 points) and FN 24 (4 points): `Q20 = CDATA Q30`.
+struct CircleData {
+  QRef target{};
+  QRef first_point{};
+  std::uint8_t points = 3;
+  friend bool operator==(const CircleData&, const CircleData&) = default;
+};
+
+/// FN 14.
+struct ErrorStop {
+  Expr number{};
+  friend bool operator==(const ErrorStop&, const ErrorStop&) = default;
+};
+
+/// FN 15: `PRINT Q1/Q2/"text"`.
+struct Print {
+  Slice<Expr> items{};
+  friend bool operator==(const Print&, const Print&) = default;
+};
+
+/// FN 16: `F-PRINT mask / target`; paths as of CallProgram, or a device such as `SCREEN:`, `SCLR:`.
+struct FormattedPrint {
+  Expr mask{};
+  Expr target{};
+  friend bool operator==(const FormattedPrint&, const FormattedPrint&) = default;
+};
+
+/// FN 17: `SYSWRITE ID50 NR4 IDXQ2 = Q1604`.
+struct SystemWrite {
+  Expr address{};  ///< a Node SystemAddress
+  Expr value{};
+  friend bool operator==(const SystemWrite&, const SystemWrite&) = default;
+};
+
+/// FN 19, 29 (PLC), 37 (EXPORT), 38 (SEND: format, then values): without effect on a simulator but
+/// for the log.
+struct ExternalFunction {
+  std::uint8_t fn = 0;
+  Slice<Expr> operands{};
+  friend bool operator==(const ExternalFunction&, const ExternalFunction&) = default;
+};
+
+/// FN 20: `WAIT FOR SYNC`, or for a condition of the PLC that is kept as written.
+struct WaitFor {
+  Text condition{};
+  friend bool operator==(const WaitFor&, const WaitFor&) = default;
+};
+
+/// FN 26: path as of CallProgram.
+struct TableOpen {
+  Expr path{};
+  friend bool operator==(const TableOpen&, const TableOpen&) = default;
+};
+
+/// FN 27: `TABWRITE row/"A,B" = Q5`, Q6, ...
+struct TableWrite {
+  QRef first{};
+  Expr cell{};  ///< a Node TableCell
+  friend bool operator==(const TableWrite&, const TableWrite&) = default;
+};
+
+/// FN 28: `TABREAD Q10 = row/"A,B"` into Q10, Q11, ...
+struct TableRead {
+  QRef first{};
+  Expr cell{};  ///< a Node TableCell
+  friend bool operator==(const TableRead&, const TableRead&) = default;
+};
+
+// --- coordinate systems and modes
+
+enum class Transformation : std::uint8_t { Datum, DatumTable, Mirror, Rotation, Scale };
+
+/// `TRANS DATUM AXIS X+10`, `TRANS DATUM TABLE TABLINE5`, `TRANS MIRROR RESET`, ...
+struct Trans {
+  Transformation kind = Transformation::Datum;
+  bool reset = false;
+  Slice<Word> words{};  ///< axes; Row; Rot; Scl
+  Expr table{};         ///< path of TRANS DATUM TABLE when given
+  friend bool operator==(const Trans&, const Trans&) = default;
+};
+
+enum class PlaneKind : std::uint8_t {
+  Spatial,
+  Projected,
+  Euler,
+  Vector,
+  Points,
+  Relativ,
+  Axial,
+  Reset
+};
+enum class PlanePositioning : std::uint8_t { Unspecified, Turn, Move, Stay };
+
+/// `PLANE SPATIAL SPA+0 SPB+45 SPC+0 TURN MB50 FMAX SEQ- TABLE ROT`.
+struct Plane {
+  PlaneKind kind = PlaneKind::Spatial;
+  PlanePositioning positioning = PlanePositioning::Unspecified;
+  Slice<Word> words{};
+  friend bool operator==(const Plane&, const Plane&) = default;
+};
+
+enum class OperatingMode : std::uint8_t { Mill, Turn, Grind };
+
+/// `FUNCTION MODE MILL ["kinematics"]`.
+struct FunctionMode {
+  OperatingMode mode = OperatingMode::Mill;
+  Text kinematics{};
+  friend bool operator==(const FunctionMode&, const FunctionMode&) = default;
+};
+
+/// `FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS` and `FUNCTION RESET TCPM`.
+struct FunctionTcpm {
+  bool active = true;
+  Text options{};  ///< after TCPM, one blank between words
+  friend bool operator==(const FunctionTcpm&, const FunctionTcpm&) = default;
+};
+
+/// `FUNCTION DWELL TIME2`, `FUNCTION DWELL REV5`: seconds, or turns of the spindle.
+struct Dwell {
+  bool revolutions = false;
+  Expr value{};
+  friend bool operator==(const Dwell&, const Dwell&) = default;
+};
+
+using Statement =
+    std::variant<Empty, BeginProgram, EndProgram, Structure, ErrorBlock, Unsupported, BlankForm,
+                 ToolCall, ToolDefinition, Motion, MFunctions, Stop, Cycle, CyclePart, CycleCall,
+                 LabelDefinition, LabelCall, ConditionalJump, CallProgram, SelectProgram,
+                 CallSelectedProgram, SelectTable, Assignment, SetUndefined, CircleData, ErrorStop,
+                 Print, FormattedPrint, SystemWrite, ExternalFunction, WaitFor, TableOpen,
+                 TableWrite, TableRead, Trans, Plane, FunctionMode, FunctionTcpm, PatternDefinition,
+                 Dwell>;
+
+}  // namespace fitgauge::klartext

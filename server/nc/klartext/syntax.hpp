@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/source_range.hpp"
+#include "nc/klartext/expression.hpp"
+#include "nc/klartext/statement.hpp"
+#include "nc/klartext/word.hpp"
+
+namespace fitgauge::klartext {
+
+/// One logical line: optional skip mark `/`, optional block number, statement, optional comment.
+struct Block {
+  [[no_unique_address]] Statement statement{};  ///< what follows lies in its last bytes
+  bool has_number = false;                      ///< it is written
+  bool skip = false;          ///< `/`: passed over while the operator's block skip is on
+  bool comment_mark = false;  ///< a `;` is there, perhaps with an empty comment
+  /// As written, which is cosmetic and may repeat; a block without one counts on from the block
+  /// before it, from 0, as the control numbers it.
+  std::uint32_t number = 0;
+  Slice<char> written{};  ///< its place in the source, all physical lines of it
+  Text comment{};         ///< after `;` as written; of a cycle, that of its first line
+
+  /// The place does not count.
+  friend bool operator==(const Block& a, const Block& b) {
+    return a.comment == b.comment && a.number == b.number && a.has_number == b.has_number &&
+           a.skip == b.skip && a.comment_mark == b.comment_mark && a.statement == b.statement;
+  }
+};
+
+static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) == 56,
+              "a long program is one array of blocks");
+
+/// What the parser fills and a Program freezes. The pools are filled in the order of the source.
+struct ProgramParts {
+  std::string file_name{};  ///< as given by the caller
+  std::string source{};     ///< UTF-8, lines end with LF, no byte order mark
+  std::vector<std::uint32_t> line_starts{};
+  std::vector<Block> blocks{};
+  std::vector<Word> words{};
+  std::vector<CycleParameter> cycle_parameters{};
+  std::vector<Node> nodes{};
+  std::vector<Expr> operands{};
+  std::string texts{};
+
+  /// What they occupy, at most: a pool has twice its size when it has grown, but for those that
+  /// were reserved.
+  std::size_t memory_bytes() const;
+};
+
+/// A parsed program: immutable, so it may be read by any number of threads. Owns its source and all
+/// that its blocks refer to; the views it returns live as long as it does and is not moved.
+class Program {
+ public:
+  Program() = default;
+  explicit Program(ProgramParts parts) : parts_(std::move(parts)) {}
+
+  std::string_view file_name() const { return parts_.file_name; }
+  std::string_view source() const { return parts_.source; }
+  std::size_t memory_bytes() const { return parts_.memory_bytes(); }
+
+  /// All blocks in order. Without errors, BEGIN PGM comes first but for comments, and
+  /// END PGM last.
+  std::span<const Block> blocks() const { return parts_.blocks; }
+
+  /// Of BEGIN PGM.
+  Unit unit() const;
+  std::string_view name() const;
+
+  std::string_view text(Text text) const {
+    return std::string_view(parts_.texts).substr(text.first, text.size);
+  }
+  std::span<const Word> view(Slice<Word> slice) const { return part(parts_.words, slice); }
+  std::span<const Expr> view(Slice<Expr> slice) const { return part(parts_.operands, slice); }
+  std::span<const CycleParameter> view(Slice<CycleParameter> slice) const {
+    return part(parts_.cycle_parameters, slice);
+  }
+  const Node& node(NodeIndex index) const { return parts_.nodes[index.value]; }
+  std::span<const Expr> operands(NodeIndex index) const { return view(node(index).operands); }
+
+  /// The source text of a place.
+  std::string_view written(Slice<char> place) const {
+    return source().substr(place.first, place.count);
+  }
+  /// Lines and columns of a place, columns in characters. Computed on demand.
+  SourceRange range(Slice<char> place) const;
+  /// A physical line (from 1) without its line end.
+  std::string_view line(std::uint32_t number) const;
+
+  /// Structural: places, source and file name do not count.
+  friend bool operator==(const Program& a, const Program& b);
+
+ private:
+  template <class T>
+  static std::span<const T> part(const std::vector<T>& pool, Slice<T> slice) {
+    return std::span(pool).subspan(slice.first, slice.count);
+  }
+
+  ProgramParts parts_;
+};
+
+}  // namespace fitgauge::klartext

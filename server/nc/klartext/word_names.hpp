@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "nc/klartext/word.hpp"
+
+/// How words are spelled; the parser and the printer share it.
+namespace fitgauge::klartext {
+
+/// A set of letters: which words a block may hold.
+class LetterSet {
+ public:
+  constexpr LetterSet() = default;
+  template <class... Letters>
+  constexpr explicit LetterSet(Letters... letters) {
+    (insert(letters), ...);
+  }
+
+  constexpr void insert(Letter letter) { bits_[index(letter)] |= bit(letter); }
+  constexpr bool contains(Letter letter) const { return (bits_[index(letter)] & bit(letter)) != 0; }
+  constexpr void erase(Letter letter) { bits_[index(letter)] &= ~bit(letter); }
+  friend constexpr LetterSet operator&(LetterSet a, LetterSet b) {
+    a.bits_[0] &= b.bits_[0];
+    a.bits_[1] &= b.bits_[1];
+    return a;
+  }
+  friend constexpr LetterSet operator|(LetterSet a, LetterSet b) {
+    a.bits_[0] |= b.bits_[0];
+    a.bits_[1] |= b.bits_[1];
+    return a;
+  }
+
+ private:
+  static constexpr unsigned index(Letter letter) { return static_cast<unsigned>(letter) / 64; }
+  static constexpr std::uint64_t bit(Letter letter) {
+    return std::uint64_t{1} << (static_cast<unsigned>(letter) % 64);
+  }
+
+  std::uint64_t bits_[2] = {0, 0};
+};
+
+/// From `A`; Letter::Value where no word has this one letter.
+extern const std::array<Letter, 26> kSingleLetters;
+
+/// The letter of a word's letters, without regard to case; nothing when no word is called so. Words
+/// that are not made of letters alone (`DR2`, `P1X`, `#`) are not found here.
+std::optional<Letter> find_letter(std::string_view letters);
+/// As find_letter, for the word of one letter; Letter::Value where there is none.
+inline Letter single_letter(char c) {
+  const auto i = static_cast<unsigned char>((c | 0x20) - 'a');
+  return i < 26 ? kSingleLetters[i] : Letter::Value;
+}
+
+/// The spelling of a letter: `X`, `FMAX`, `MB MAX`; empty for a bare value.
+std::string_view spelling(Letter letter);
+
+/// Letters that never have a value: `FMAX`, `MB MAX`, `TABLE ROT`.
+bool is_bare(Letter letter);
+
+}  // namespace fitgauge::klartext

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "nc/machine/geometry.hpp"
+
+namespace fitgauge::machine {
+
+enum class Axis : std::uint8_t { X, Y, Z, A, B, C };
+
+inline constexpr std::size_t kAxes = 6;
+inline constexpr std::array kAllAxes{Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C};
+
+constexpr std::size_t index(Axis axis) { return static_cast<std::size_t>(axis); }
+constexpr bool is_rotary(Axis axis) { return index(axis) >= 3; }
+/// "X" to "C".
+std::string_view name(Axis axis);
+/// The unit vector of a linear axis, and for a rotary one the vector it turns around.
+Vec3 unit_vector(Axis axis);
+
+/// Where the six axes stand: X, Y, Z in mm and A, B, C in degrees.
+struct Position {
+  Vec3 linear;
+  Vec3 rotary;
+
+  double operator[](Axis axis) const {
+    return is_rotary(axis) ? rotary[index(axis) - 3] : linear[index(axis)];
+  }
+  double& operator[](Axis axis) {
+    return is_rotary(axis) ? rotary[index(axis) - 3] : linear[index(axis)];
+  }
+  friend bool operator==(const Position&, const Position&) = default;
+};
+
+/// The axes a positioning block names, absolute; an axis without a value stays where it is.
+struct AxisWords {
+  std::array<std::optional<double>, kAxes> values{};
+
+  static AxisWords linear(const Vec3& p) {
+    return {{p.x, p.y, p.z, std::nullopt, std::nullopt, std::nullopt}};
+  }
+  std::optional<double>& operator[](Axis axis) { return values[index(axis)]; }
+  const std::optional<double>& operator[](Axis axis) const { return values[index(axis)]; }
+};
+
+/// Which zero and which directions coordinates refer to.
+enum class CoordinateSystem : std::uint8_t {
+  Input,      ///< the active one, which NC programs and cycles use: all of Frames; the tool tip
+  Workpiece,  ///< the active preset with its basic rotation, nothing else; the tool tip
+  Basic,    ///< the machine datum with the table at zero; the tool tip. Preset rows are given in it
+  Machine,  ///< the machine datum; the tool tip. Basic is the same unless a tilt turned the table
+  Reference,  ///< the machine datum; the spindle nose: M91, REF, axis limits, FN 18 ID 240
+};
+
+}  // namespace fitgauge::machine

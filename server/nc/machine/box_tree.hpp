@@ -1,0 +1,148 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nc/machine/ball_path.hpp"
+#include "nc/machine/geometry.hpp"
+
+namespace fitgauge::machine {
+
+/// The points between two corners; may be endless.
+struct Box {
+  Vec3 min;
+  Vec3 max;
+
+  static Box nothing();
+  static Box everything();
+
+  void join(const Box& other);
+  /// Moves every side outwards.
+  void grow(double by);
+  bool contains(const Vec3& at) const {
+    return at.x >= min.x && at.x <= max.x && at.y >= min.y && at.y <= max.y && at.z >= min.z &&
+           at.z <= max.z;
+  }
+  double squared_distance(const Vec3& at) const;
+  /// The way after which the ball may touch something in the box: its centre enters the box grown
+  /// by its radius.
+  std::optional<double> way_to(const BallPath& ball) const;
+};
+
+/// Boxes in a tree. It orders what they hold, and its owner keeps it in that order: a leaf is a
+/// range of places. Immutable: thread-safe.
+class BoxTree {
+ public:
+  BoxTree() = default;
+  /// @param order the number of the box that comes to each place
+  BoxTree(const std::vector<Box>& boxes, std::vector<std::uint32_t>& order);
+
+  bool is_empty() const { return nodes_.empty(); }
+  /// The box of all. @pre not empty.
+  const Box& all() const { return nodes_.front().box; }
+
+  /// Calls visit(begin, end) for the leaves whose boxes are less than the root of `squared` away,
+  /// which it may lessen, the nearer child first.
+  template <class Visit>
+  void near(const Vec3& at, const double& squared, const Visit& visit) const {
+    if (is_empty()) return;
+    Stack<std::uint32_t> open;
+    open.push(0);
+    while (!open.is_empty()) {
+      const std::uint32_t index = open.pop();
+      const Node& node = nodes_[index];
+      if (!(node.box.squared_distance(at) < squared)) continue;
+      if (node.second == 0) {
+        visit(node.begin, node.end);
+        continue;
+      }
+      const bool in_order = nodes_[index + 1].box.squared_distance(at) <=
+                            nodes_[node.second].box.squared_distance(at);
+      open.push(in_order ? node.second : index + 1);
+      open.push(in_order ? index + 1 : node.second);
+    }
+  }
+
+  /// Calls visit(begin, end, way) for the leaves the ball may touch after at most `longest`, which
+  /// it may lessen, mostly in the order of the ways to their boxes.
+  template <class Visit>
+  void along(const BallPath& ball, const double& longest, const Visit& visit) const {
+    if (is_empty()) return;
+    struct Open {
+      std::uint32_t index;
+      double way;
+    };
+    Stack<Open> open;
+    const auto push = [&](std::uint32_t index, const std::optional<double>& way) {
+      if (way && *way <= longest) open.push({index, *way});
+    };
+    push(0, nodes_.front().box.way_to(ball));
+    while (!open.is_empty()) {
+      const Open next = open.pop();
+      if (next.way > longest) continue;
+      const Node& node = nodes_[next.index];
+      if (node.second == 0) {
+        visit(node.begin, node.end, next.way);
+        continue;
+      }
+      const auto first = nodes_[next.index + 1].box.way_to(ball);
+      const auto second = nodes_[node.second].box.way_to(ball);
+      const bool in_order = !second || (first && *first <= *second);
+      push(in_order ? node.second : next.index + 1, in_order ? second : first);
+      push(in_order ? next.index + 1 : node.second, in_order ? first : second);
+    }
+  }
+
+  /// Calls visit(begin, end) for the leaves of which `holds(box)` is true, until one returns true.
+  /// @returns whether one did.
+  template <class Holds, class Visit>
+  bool any(const Holds& holds, const Visit& visit) const {
+    if (is_empty()) return false;
+    Stack<std::uint32_t> open;
+    open.push(0);
+    while (!open.is_empty()) {
+      const std::uint32_t index = open.pop();
+      const Node& node = nodes_[index];
+      if (!holds(node.box)) continue;
+      if (node.second == 0) {
+        if (visit(node.begin, node.end)) return true;
+        continue;
+      }
+      open.push(node.second);
+      open.push(index + 1);
+    }
+    return false;
+  }
+
+ private:
+  struct Node {
+    Box box;
+    std::uint32_t begin;  ///< of its places
+    std::uint32_t end;
+    std::uint32_t second;  ///< the second child; the first follows its parent; 0 in a leaf
+  };
+  struct Item {
+    Vec3 centre;
+    std::uint32_t box;
+  };
+  /// A balanced tree of 32-bit counts is less deep.
+  template <class T>
+  struct Stack {
+    void push(const T& value) { values[size++] = value; }
+    T pop() { return values[--size]; }
+    bool is_empty() const { return size == 0; }
+
+    std::array<T, 64> values;
+    std::size_t size = 0;
+  };
+
+  void build(const std::vector<Box>& boxes, std::vector<Item>& items, std::uint32_t begin,
+             std::uint32_t end);
+
+  std::vector<Node> nodes_;
+};
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "nc/machine/axes.hpp"
+#include "nc/machine/machine.hpp"
+#include "nc/machine/machine_setup.hpp"
+#include "nc/machine/path.hpp"
+
+namespace fitgauge::machine {
+
+/// The control above the axes: tables, frames, modes, tool calls, where a move leads, axis ranges,
+/// machining time. What is met on the way is told by the axes.
+/// Its three files are the tables and frames, the motion, and the probing.
+/// Owns its state and its axes. Not thread-safe; after a fault the state is what the finished part
+/// has made it.
+class Control : public Machine {
+ public:
+  /// @param allowance what its moves look at while they last; null: nothing interrupts them
+  /// @pre validate() accepts the setup that `setup` is part of; `allowance` outlives the machine
+  Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowance* allowance = nullptr);
+
+  const MachineState& state() const final { return state_; }
+  MachineResult<void> move(const LinearMove& move) final;
+  MachineResult<void> move_arc(const ArcMove& arc) final;
+  MachineResult<ContactPoint> probe(const ProbeMove& move) final;
+  MachineResult<void> call_tool(const ToolCall& call) final;
+  MachineResult<void> write_tool(const Tool& tool) final;
+  MachineResult<void> write_probe(const ProbeRow& row) final;
+  MachineResult<void> write_preset(const Preset& preset) final;
+  MachineResult<void> write_tool_touch_probe(const ToolTouchProbe& tt) final;
+  MachineResult<void> activate_preset(int number) final;
+  MachineResult<void> set_frames(const Frames& frames) final;
+  MachineResult<void> set_modes(const Modes& modes) final;
+  MachineResult<void> set_kinematics(const Kinematics& kinematics) final;
+  MachineResult<void> dwell(double seconds) final;
+  void stop(std::string_view reason) final { axes_->stop(reason); }
+  void message(std::string_view text) final { axes_->message(text); }
+  std::optional<Vec3> contact_normal() const final { return axes_->contact_normal(); }
+
+ private:
+  static MachineResult<void> check_feed(const Feed& feed);
+  double seconds_of(double way, const Feed& feed) const;
+  void spend(double seconds);
+  Motion motion(const Feed& feed, bool is_retract = false);
+  MachineResult<double> follow(const Path& path, const Motion& motion);
+  MachineResult<double> follow_pieces(const Path& path, const Motion& motion, double from,
+                                      double to);
+  MachineResult<void> travel(const Path& path, const Feed& feed, bool is_retract = false);
+  MachineResult<Position> target_nose(const LinearMove& move, const Frames& frames,
+                                      const Vec3& rotary) const;
+  MachineResult<Vec3> target_rotary(const LinearMove& move) const;
+  Path following_path(const Position& end) const;
+  MachineResult<void> check_way(const Path& path, double turn_deg);
+  MachineResult<void> check_range(const Position& nose) const;
+  MachineResult<void> go_back(const Position& start, const Vec3& direction, const ProbeMove& move);
+  double reach(const Vec3& direction, double distance) const;
+  void stand_at(const Position& nose);
+  bool is_following() const { return state_.modes.tcpm || state_.frames.is_tilted(); }
+  Transform table_at(const Vec3& rotary) const;
+  void refresh_table();
+  ContactPoint contact_point(const Vec3& direction) const;
+
+  std::unique_ptr<Axes> axes_;
+  MachineState state_;
+  Allowance unlimited_;
+  Allowance& allowance_;
+};
+
+}  // namespace fitgauge::machine

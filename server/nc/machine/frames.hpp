@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "nc/machine/axis.hpp"
+#include "nc/machine/geometry.hpp"
+
+namespace fitgauge::machine {
+
+/// The part of a preset row that moves coordinates.
+struct PresetFrame {
+  Vec3 origin;              ///< Basic coordinates of the workpiece zero, in mm
+  Vec3 basic_rotation_deg;  ///< SPA, SPB, SPC: spatial angles; SPC is the plain basic rotation
+  Vec3 rotary_offsets_deg;  ///< A_OFFS, B_OFFS, C_OFFS: machine position that reads 0
+
+  friend bool operator==(const PresetFrame&, const PresetFrame&) = default;
+};
+
+/// A tilted working plane (PLANE, cycle 19).
+struct TiltedPlane {
+  Vec3 spatial_deg;  ///< spatial angles A, B, C relative to the workpiece system
+  Vec3 origin;       ///< its zero in the workpiece system, in mm: the datum shift before tilting
+
+  friend bool operator==(const TiltedPlane&, const TiltedPlane&) = default;
+};
+
+/// Cycle 10: turns the working plane around the tool axis.
+struct PlaneRotation {
+  double angle_deg = 0;  ///< counter-clockwise seen against the tool axis
+  Axis tool_axis = Axis::Z;
+
+  friend bool operator==(const PlaneRotation&, const PlaneRotation&) = default;
+};
+
+/// Cycles 11 (all factors equal, centre 0) and 26.
+struct Scaling {
+  Vec3 factor{1, 1, 1};
+  Vec3 centre;  ///< stays where it is; in input coordinates
+
+  friend bool operator==(const Scaling&, const Scaling&) = default;
+};
+
+/// The chain of coordinate systems, from the machine inwards: table, preset (with basic rotation),
+/// tilted plane, datum shift, mirror, rotation, scaling. Every setter recomposes the chain.
+///
+/// `table` carries the coordinates of a turned rotary table; the machine keeps it at the position
+/// of its axes while a plane is tilted or TCPM is on, and at the identity otherwise, as the control
+/// does. A value type; const functions may be called from several threads.
+class Frames {
+ public:
+  Frames();
+
+  void set_table(const Transform& table);
+  void set_preset(const PresetFrame& preset);
+  void set_plane(const std::optional<TiltedPlane>& plane);
+  void set_datum_shift(const Position& shift);           ///< cycle 7, TRANS DATUM: mm and degrees
+  void set_mirror(const std::array<bool, 3>& mirrored);  ///< cycle 8: X, Y, Z change their sign
+  void set_rotation(const PlaneRotation& rotation);
+  /// @pre no factor is 0.
+  void set_scaling(const Scaling& scaling);
+  /// What cycle 247 resets: datum shift (that before tilting too), mirror, rotation, scaling.
+  void reset_transformations();
+
+  const PresetFrame& preset() const { return preset_; }
+  const std::optional<TiltedPlane>& plane() const { return plane_; }
+  const Position& datum_shift() const { return shift_; }
+  const std::array<bool, 3>& mirror() const { return mirror_; }
+  const PlaneRotation& rotation() const { return rotation_; }
+  const Scaling& scaling() const { return scaling_; }
+
+  /// All values are finite and no scaling factor is 0.
+  bool is_valid() const;
+  bool is_mirrored() const { return mirror_[0] || mirror_[1] || mirror_[2]; }
+  bool is_scaled() const { return scaling_.factor != Vec3{1, 1, 1}; }
+  bool is_rotated() const { return rotation_.angle_deg != 0; }
+  bool is_tilted() const { return plane_.has_value(); }
+
+  /// Points in mm. Machine and Reference have the same axes and zero, so both leave a point as it
+  /// is: which point of the tool is meant is MachineState's matter.
+  Vec3 to_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const;
+  Vec3 from_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const;
+
+  /// Directions; the length changes where scaling is active.
+  Vec3 direction_to_machine(const Vec3& direction,
+                            CoordinateSystem system = CoordinateSystem::Input) const;
+  Vec3 direction_from_machine(const Vec3& direction,
+                              CoordinateSystem system = CoordinateSystem::Input) const;
+
+  /// From input to Machine coordinates.
+  const Transform& input() const { return input_; }
+
+  /// Rotary positions A, B, C in degrees: offsets of the preset and the datum shift.
+  Vec3 rotary_to_machine(const Vec3& rotary, CoordinateSystem system) const;
+  Vec3 rotary_from_machine(const Vec3& rotary, CoordinateSystem system) const;
+
+ private:
+  void compose();
+  const Transform& transform(CoordinateSystem system) const;
+  const Transform& inverse(CoordinateSystem system) const;
+  Vec3 rotary_zero(CoordinateSystem system) const;
+
+  Transform table_;
+  PresetFrame preset_;
+  std::optional<TiltedPlane> plane_;
+  Position shift_;
+  std::array<bool, 3> mirror_{};
+  PlaneRotation rotation_;
+  Scaling scaling_;
+
+  Transform machine_;    ///< the identity
+  Transform workpiece_;  ///< workpiece system to machine
+  Transform input_;      ///< input system to machine
+  Transform table_inverse_;
+  Transform workpiece_inverse_;
+  Transform input_inverse_;
+};
+
+}  // namespace fitgauge::machine

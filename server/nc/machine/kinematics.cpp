@@ -1,0 +1,178 @@
+#include "nc/machine/kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "nc/machine/tolerance.hpp"
+
+namespace fitgauge::machine {
+namespace {
+
+/// Table axes from the bed on (A, B, C), then head axes from the column on (C, B, A).
+bool stands_before(const RotaryAxis& a, const RotaryAxis& b) {
+  if (a.mount != b.mount) return a.mount == AxisMount::Table;
+  return a.mount == AxisMount::Table ? a.axis < b.axis : a.axis > b.axis;
+}
+
+/// What the axis does to what it carries.
+Transform turned(const RotaryAxis& axis, double angle, const Displacements& rest) {
+  return Transform::translation(rest[index(axis.axis) - 3]) *
+         Transform::rotation_around(axis.centre, axis.direction, angle);
+}
+
+/// How far the axis is turned where A, B, C show `rotary`.
+double angle_of(const RotaryAxis& axis, const Vec3& rotary) {
+  return rotary[index(axis.axis) - 3] + axis.zero_deg;
+}
+
+/// The part of `v` across the unit vector `axis`.
+Vec3 across(const Vec3& v, const Vec3& axis) { return v - axis * dot(v, axis); }
+
+/// The angle in degrees that turns `from` to `to` around `axis`, or `free` where none matters
+/// because `from` lies along the axis.
+double angle_between(const Vec3& from, const Vec3& to, const Vec3& axis, double free) {
+  const Vec3 a = across(from, axis);
+  const Vec3 b = across(to, axis);
+  if (norm(a) < tolerance::kSameDirection || norm(b) < tolerance::kSameDirection) return free;
+  return degrees(std::atan2(dot(axis, cross(a, b)), dot(a, b)));
+}
+
+/// Rotary axes of the chain normal = turn(first) turn(second) ... tool.
+struct Joint {
+  Vec3 direction;
+  std::size_t letter;  ///< 0 to 2 for A, B, C
+};
+
+/// What the axes are turned by where they show 0.
+Vec3 zeros_of(const std::vector<RotaryAxis>& axes) {
+  Vec3 zeros;
+  for (const RotaryAxis& axis : axes) zeros[index(axis.axis) - 3] = axis.zero_deg;
+  return zeros;
+}
+
+/// Solves normal = turn(outer) turn(inner) tool: the middle vector has the tool's component along
+/// the inner axis and the normal's along the outer one, and length 1 (Paden and Kahan).
+std::vector<Vec3> solve_pair(const Joint& outer, const Joint& inner, const Vec3& tool,
+                             const Vec3& normal, const Vec3& current) {
+  const Vec3& u = outer.direction;
+  const Vec3& v = inner.direction;
+  const double cosine = dot(u, v);
+  const double determinant = 1 - cosine * cosine;
+  if (determinant < tolerance::kParallel) return {};
+  const double along_u = (dot(u, normal) - cosine * dot(v, tool)) / determinant;
+  const double along_v = (dot(v, tool) - cosine * dot(u, normal)) / determinant;
+  const double rest =
+      (1 - along_u * along_u - along_v * along_v - 2 * along_u * along_v * cosine) / determinant;
+  if (rest < -tolerance::kSameDirection) return {};
+  const double side = std::sqrt(std::max(rest, 0.0));
+  std::vector<Vec3> solutions;
+  for (const double sign : {1.0, -1.0}) {
+    const Vec3 middle = u * along_u + v * along_v + cross(u, v) * (sign * side);
+    Vec3 rotary = current;
+    rotary[inner.letter] = angle_between(tool, middle, v, current[inner.letter]);
+    rotary[outer.letter] = angle_between(middle, normal, u, current[outer.letter]);
+    solutions.push_back(rotary);
+  }
+  return solutions;
+}
+
+double way(const Vec3& from, const Vec3& to) {
+  return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z);
+}
+
+}  // namespace
+
+Kinematics::Kinematics(std::vector<RotaryAxis> axes, const Vec3& offset)
+    : axes_(std::move(axes)), offset_(offset) {
+  for (RotaryAxis& axis : axes_) axis.direction = unit(axis.direction);
+  std::sort(axes_.begin(), axes_.end(), stands_before);
+}
+
+const RotaryAxis* Kinematics::find(Axis axis) const {
+  const auto found = std::find_if(axes_.begin(), axes_.end(),
+                                  [axis](const RotaryAxis& known) { return known.axis == axis; });
+  return found == axes_.end() ? nullptr : &*found;
+}
+
+Transform Kinematics::table(const Vec3& rotary, const Displacements& rest) const {
+  Transform chain;
+  for (const RotaryAxis& axis : axes_) {
+    if (axis.mount != AxisMount::Table) continue;
+    chain = chain * turned(axis, -angle_of(axis, rotary), rest);
+  }
+  return chain;
+}
+
+Vec3 Kinematics::tool_vector(const Vec3& rotary, Axis tool_axis, double length,
+                             const Displacements& rest) const {
+  Transform head = Transform::translation(offset_);
+  for (const RotaryAxis& axis : axes_) {
+    if (axis.mount != AxisMount::Head) continue;
+    head = head * turned(axis, angle_of(axis, rotary), rest);
+  }
+  return head.point(unit_vector(tool_axis) * -length);
+}
+
+Vec3 Kinematics::tool_direction(const Vec3& rotary, Axis tool_axis) const {
+  Matrix3 head;
+  for (const RotaryAxis& axis : axes_) {
+    if (axis.mount != AxisMount::Head) continue;
+    head = head * Matrix3::rotation(axis.direction, angle_of(axis, rotary));
+  }
+  return head * unit_vector(tool_axis);
+}
+
+std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown,
+                                           Axis tool_axis) const {
+  const Vec3 zeros = zeros_of(axes_);
+  const Vec3 current = shown + zeros;
+  // A table turns the normal to the tool, which is the tool the other way round: from the workpiece
+  // to the bed, then from the column to the tool, all turn the same way.
+  std::vector<Joint> joints;
+  for (const RotaryAxis& axis : axes_) {
+    const Joint joint{axis.direction, index(axis.axis) - 3};
+    const bool is_table = axis.mount == AxisMount::Table;
+    joints.insert(is_table ? joints.begin() : joints.end(), joint);
+  }
+  const Vec3 tool = unit_vector(tool_axis);
+  std::vector<Vec3> found;
+  const auto keep = [&](const Vec3& rotary) {
+    Vec3 reached = tool;
+    for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
+      reached = Matrix3::rotation(joint->direction, rotary[joint->letter]) * reached;
+    }
+    if (norm(reached - normal) > tolerance::kSameDirection) return;
+    const auto same = [&](const Vec3& other) {
+      return way(rotary, other) < tolerance::kSameDirection;
+    };
+    if (std::none_of(found.begin(), found.end(), same)) found.push_back(rotary);
+  };
+
+  keep(current);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    Vec3 rotary = current;
+    rotary[joints[k].letter] =
+        angle_between(tool, normal, joints[k].direction, current[joints[k].letter]);
+    keep(rotary);
+    for (std::size_t other = k + 1; other < joints.size(); ++other) {
+      for (const Vec3& pair : solve_pair(joints[k], joints[other], tool, normal, current)) {
+        keep(pair);
+      }
+    }
+  }
+  // Of two that are as near the one with the larger angles of A and B, as the control's manuals
+  // have it in a table of examples (PLANE without SEQ).
+  const auto order = [&](const Vec3& rotary) {
+    return std::pair(std::round(way(current, rotary) / tolerance::kSameAngle),
+                     -(rotary.x + rotary.y));
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const Vec3& a, const Vec3& b) { return order(a) < order(b); });
+  if (zeros != Vec3{}) {
+    for (Vec3& rotary : found) rotary = rotary - zeros;
+  }
+  return found;
+}
+
+}  // namespace fitgauge::machine

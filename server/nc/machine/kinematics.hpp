@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "nc/machine/axis.hpp"
+#include "nc/machine/geometry.hpp"
+
+namespace fitgauge::machine {
+
+enum class AxisMount : std::uint8_t { Table, Head };
+
+/// A rotary axis as the control's kinematic model knows it.
+/// A positive angle turns the tool right-handed around `direction` relative to the workpiece
+/// (ISO 841): a head turns that way, a table the other way.
+struct RotaryAxis {
+  Axis axis = Axis::C;
+  AxisMount mount = AxisMount::Table;
+  Vec3 centre;  ///< a point of the axis in mm: of a table in machine coordinates, of a head from
+                ///< the spindle nose
+  Vec3 direction{0, 0, 1};  ///< unit vector
+  double zero_deg = 0;      ///< by how much it is turned where it shows 0
+
+  friend bool operator==(const RotaryAxis&, const RotaryAxis&) = default;
+};
+
+/// How far off its place what A, B and C carry came to rest, in mm.
+using Displacements = std::array<Vec3, 3>;
+
+/// The rotary axes and their order: a table is stacked A, B, C from the bed to the workpiece, a
+/// head C, B, A from the column to the tool. A value type without interior state.
+class Kinematics {
+ public:
+  Kinematics() = default;
+  /// At most one axis of each letter; directions are normalised. @pre no direction is zero.
+  explicit Kinematics(std::vector<RotaryAxis> axes, const Vec3& offset = {});
+
+  const std::vector<RotaryAxis>& axes() const { return axes_; }
+  /// How far the spindle nose stands from where the linear axes show it, in mm: what preset
+  /// compensation (cycle 452) corrects when a head was exchanged or the machine has drifted.
+  const Vec3& offset() const { return offset_; }
+  const RotaryAxis* find(Axis axis) const;
+
+  /// Table-fixed coordinates to machine coordinates, with the axes at `rotary` (degrees). What an
+  /// axis carries is displaced along the directions of what carries the axis.
+  Transform table(const Vec3& rotary, const Displacements& rest = {}) const;
+
+  /// From where the linear axes show the spindle nose to the point of the tool `length` mm from it,
+  /// in machine coordinates.
+  Vec3 tool_vector(const Vec3& rotary, Axis tool_axis, double length,
+                   const Displacements& rest = {}) const;
+
+  /// The unit vector from the tool tip to the spindle nose, in machine coordinates.
+  Vec3 tool_direction(const Vec3& rotary, Axis tool_axis) const;
+
+  /// The rotary positions at which the tool stands along `normal`, a unit vector fixed to the
+  /// table: `current` if it does already, else turning one axis, else two; axes that need not turn
+  /// keep their position. Angles that turn are in -180 < angle <= 180; ranges are not looked at.
+  /// The nearest to `current` comes first; none when the machine cannot stand so.
+  std::vector<Vec3> orientations(const Vec3& normal, const Vec3& current, Axis tool_axis) const;
+
+  friend bool operator==(const Kinematics&, const Kinematics&) = default;
+
+ private:
+  std::vector<RotaryAxis> axes_;  ///< table axes first, each group in its order
+  Vec3 offset_;
+};
+
+}  // namespace fitgauge::machine

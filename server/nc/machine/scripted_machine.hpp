@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "nc/machine/control.hpp"
+
+namespace fitgauge::machine {
+
+/// What a probing move of a log found.
+struct ScriptedContact {
+  std::optional<Vec3> ball_centre;  ///< in mm; nothing: the move ended without contact
+  CoordinateSystem system = CoordinateSystem::Input;
+};
+
+/// Replays the contacts of a real machine: every probing move takes the next one of a list. Nothing
+/// stands on its table, so no other move meets anything. Not thread-safe.
+class ScriptedAxes final : public Axes {
+ public:
+  /// A recorded contact may lie `tolerance` mm beside the probing line.
+  ScriptedAxes(const Position& start, std::vector<ScriptedContact> contacts, double tolerance)
+      : nose_(start), contacts_(std::move(contacts)), tolerance_(tolerance) {}
+
+  /// Recorded contacts are written in the coordinates of the control that replays them.
+  /// @param control outlives the axes' use
+  void serve(const MachineState& control) { control_ = &control; }
+  std::size_t remaining() const { return contacts_.size() - next_; }
+
+  Position nose() const override { return nose_; }
+  MachineResult<double> follow(const Path& path, const Motion& motion) override;
+  /// @faults ScriptExhausted; ScriptedDifferent when the recorded contact is not on this line.
+  MachineResult<Position> probe(const Vec3& direction, double distance,
+                                const Motion& motion) override;
+  MachineResult<void> dwell(double, Allowance&) override { return {}; }
+  void stop(std::string_view) override {}
+  void message(std::string_view) override {}
+
+ private:
+  Position nose_;
+  std::vector<ScriptedContact> contacts_;
+  double tolerance_;
+  std::size_t next_ = 0;
+  const MachineState* control_ = nullptr;
+};
+
+/// A control over axes that replay a log. Not thread-safe.
+class ScriptedMachine final : public Control {
+ public:
+  /// @param allowance as of Control
+  /// @pre validate() accepts the setup that `setup` is part of.
+  ScriptedMachine(const MachineSetup& setup, std::vector<ScriptedContact> contacts,
+                  Allowance* allowance = nullptr, double tolerance = 0.05)
+      : ScriptedMachine(setup,
+                        new ScriptedAxes(setup.start_position(), std::move(contacts), tolerance),
+                        allowance) {}
+
+  std::size_t remaining() const { return axes_.remaining(); }
+
+ private:
+  /// Takes over `axes`.
+  ScriptedMachine(const MachineSetup& setup, ScriptedAxes* axes, Allowance* allowance)
+      : Control(setup, std::unique_ptr<Axes>(axes), allowance), axes_(*axes) {
+    axes_.serve(state());
+  }
+
+  ScriptedAxes& axes_;
+};
+
+}  // namespace fitgauge::machine

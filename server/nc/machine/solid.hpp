@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+
+#include "nc/machine/ball_path.hpp"
+#include "nc/machine/box_tree.hpp"
+#include "nc/machine/machine_setup.hpp"
+
+namespace fitgauge::machine {
+
+/// A signed distance to a boundary and its gradient, a unit vector away from the material: the
+/// nearest point of the boundary is `at - distance * gradient`.
+struct Field {
+  double distance = 0;  ///< in mm, negative inside the material
+  Vec3 gradient{0, 0, 1};
+
+  Vec3 foot(const Vec3& at) const { return at - gradient * distance; }
+};
+
+/// Material that a feature adds. The distance is exact outside; inside it is negative and exact
+/// wherever the nearest boundary is a face. Immutable: thread-safe.
+class Solid {
+ public:
+  Solid() = default;
+  Solid(const Solid&) = delete;
+  Solid& operator=(const Solid&) = delete;
+  virtual ~Solid() = default;
+
+  virtual Field field(const Vec3& at) const = 0;
+  /// Whether `contact` cannot tell, so that the path has to be traced step by step.
+  virtual bool is_traced() const { return false; }
+  /// The way after which the ball touches, 0 where it does at the start. As it stands for convex
+  /// bodies, whose distance is convex along a line: Newton's steps never pass the contact, one to a
+  /// face, a few to a rounding.
+  virtual std::optional<double> contact(const BallPath& ball) const;
+  /// Holds the material; endless where that is.
+  virtual Box box() const = 0;
+  /// The lowest z of the material, -infinity where it has no lower end.
+  double bottom() const { return box().min.z; }
+};
+
+class BlockSolid final : public Solid {
+ public:
+  explicit BlockSolid(const Block& block);
+  Field field(const Vec3& at) const override;
+  Box box() const override { return {centre_ - half_, centre_ + half_}; }
+
+ private:
+  Vec3 centre_;
+  Vec3 half_;
+};
+
+class BossSolid final : public Solid {
+ public:
+  explicit BossSolid(const Boss& boss);
+  Field field(const Vec3& at) const override;
+  Box box() const override {
+    const Vec3 half{radius_, radius_, half_height_};
+    return {centre_ - half, centre_ + half};
+  }
+
+ private:
+  Vec3 centre_;
+  double radius_;
+  double half_height_;
+};
+
+class PlaneSolid final : public Solid {
+ public:
+  explicit PlaneSolid(const Plane& plane) : point_(plane.point), normal_(unit(plane.normal)) {}
+  Field field(const Vec3& at) const override { return {dot(at - point_, normal_), normal_}; }
+  Box box() const override { return Box::everything(); }
+
+ private:
+  Vec3 point_;
+  Vec3 normal_;
+};
+
+class SphereSolid final : public Solid {
+ public:
+  explicit SphereSolid(const Sphere& sphere)
+      : centre_(sphere.centre), radius_(sphere.diameter / 2) {}
+  Field field(const Vec3& at) const override;
+  Box box() const override {
+    const Vec3 half{radius_, radius_, radius_};
+    return {centre_ - half, centre_ + half};
+  }
+
+ private:
+  Vec3 centre_;
+  double radius_;
+};
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,203 @@
+#include "nc/machine/triangle_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nc/machine/tolerance.hpp"
+
+namespace fitgauge::machine {
+namespace {
+
+double squared(const Vec3& v) { return dot(v, v); }
+
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& at) {
+  const Vec3 along = b - a;
+  const double length = squared(along);
+  const double part = length > 0 ? std::clamp(dot(at - a, along) / length, 0.0, 1.0) : 0;
+  return a + along * part;
+}
+
+/// The lesser root of `square` w^2 + 2 `half` w + `rest` = 0, which is where the ball comes near;
+/// nothing when it does not, or is near already. Written so that nothing cancels.
+std::optional<double> root_ahead(double square, double half, double rest) {
+  if (half >= 0 || rest < 0) return std::nullopt;
+  const double discriminant = half * half - square * rest;
+  if (discriminant < 0) return std::nullopt;
+  return rest / (std::sqrt(discriminant) - half);
+}
+
+std::optional<double> contact_with_corner(const Vec3& corner, const BallPath& ball) {
+  const Vec3 from = ball.start - corner;
+  return root_ahead(1, dot(from, ball.direction), squared(from) - ball.radius * ball.radius);
+}
+
+/// The edge without its ends.
+std::optional<double> contact_with_edge(const Vec3& a, const Vec3& b, const BallPath& ball) {
+  const Vec3 along = unit(b - a);
+  const Vec3 from = ball.start - a;
+  const double height = dot(from, along);
+  const double climb = dot(ball.direction, along);
+  const Vec3 across = from - along * height;
+  const Vec3 heading = ball.direction - along * climb;
+  const auto way = root_ahead(squared(heading), dot(across, heading),
+                              squared(across) - ball.radius * ball.radius);
+  if (!way) return std::nullopt;
+  const double foot = height + climb * *way;
+  return foot >= 0 && foot <= norm(b - a) ? way : std::nullopt;
+}
+
+/// Twice the area of a, b, c seen from above; positive counter-clockwise.
+double area_from_above(const Vec3& a, const Vec3& b, double x, double y) {
+  return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+}
+
+}  // namespace
+
+Vec3 nearest_point(const Triangle& triangle, const Vec3& at) {
+  const auto& [a, b, c] = triangle;
+  const Vec3 normal = cross(b - a, c - a);
+  const auto inside = [&](const Vec3& from, const Vec3& to) {
+    return dot(cross(to - from, at - from), normal) >= 0;
+  };
+  if (inside(a, b) && inside(b, c) && inside(c, a)) {
+    return at - normal * (dot(at - a, normal) / squared(normal));
+  }
+  Vec3 nearest = nearest_on_segment(a, b, at);
+  for (const Vec3& other : {nearest_on_segment(b, c, at), nearest_on_segment(c, a, at)}) {
+    if (squared(other - at) < squared(nearest - at)) nearest = other;
+  }
+  return nearest;
+}
+
+std::optional<double> contact(const Triangle& triangle, const BallPath& ball) {
+  const auto& [a, b, c] = triangle;
+  Vec3 normal = unit(cross(b - a, c - a));
+  double height = dot(ball.start - a, normal);
+  if (height < 0) {
+    normal = -normal;
+    height = -height;
+  }
+  const double descent = -dot(ball.direction, normal);
+  if (height >= ball.radius) {
+    if (descent <= 0) return std::nullopt;
+    // What a ball can touch of a triangle is convex: the face comes first where its foot is inside.
+    const double way = (height - ball.radius) / descent;
+    const Vec3 foot = ball.at(way) - normal * ball.radius;
+    const auto inside = [&](const Vec3& from, const Vec3& to, const Vec3& third) {
+      const Vec3 inward = cross(normal, to - from);
+      return dot(foot - from, inward) * dot(third - from, inward) >= 0;
+    };
+    if (inside(a, b, c) && inside(b, c, a) && inside(c, a, b)) return way;
+  }
+  std::optional<double> first;
+  const auto take = [&first](std::optional<double> way) {
+    if (way && (!first || *way < *first)) first = way;
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    take(contact_with_edge(triangle[k], triangle[(k + 1) % 3], ball));
+    take(contact_with_corner(triangle[k], ball));
+  }
+  return first;
+}
+
+namespace {
+
+Box box_of(const Triangle& triangle) {
+  Box box = Box::nothing();
+  for (const Vec3& corner : triangle) box.join({corner, corner});
+  return box;
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const std::vector<Triangle>& triangles) {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const Triangle& triangle : triangles) boxes.push_back(box_of(triangle));
+  std::vector<std::uint32_t> order;
+  tree_ = BoxTree(boxes, order);
+  triangles_.reserve(triangles.size());
+  for (const std::uint32_t place : order) triangles_.push_back(triangles[place]);
+}
+
+std::optional<TriangleTree::Nearest> TriangleTree::nearest(const Vec3& at, double within) const {
+  std::optional<Nearest> best;
+  double least = within * within;
+  tree_.near(at, least, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t t = begin; t < end; ++t) {
+      const Vec3 point = nearest_point(triangles_[t], at);
+      const double distance = squared(point - at);
+      if (distance < least) {
+        least = distance;
+        best = {point, &triangles_[t]};
+      }
+    }
+  });
+  return best;
+}
+
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& at) const {
+  return *nearest(at, std::numeric_limits<double>::infinity());
+}
+
+std::optional<double> TriangleTree::contact(const BallPath& ball) const {
+  std::optional<double> first;
+  double longest = ball.longest;
+  tree_.along(ball, longest, [&](std::uint32_t begin, std::uint32_t end, double way) {
+    // From shortly before the box, where the figures are small and so is their rounding.
+    constexpr double kBefore = 1;
+    const double before = std::max(way - kBefore, 0.0);
+    const BallPath rest = ball.from(before);
+    for (std::uint32_t t = begin; t < end; ++t) {
+      const auto touched = machine::contact(triangles_[t], rest);
+      if (!touched || before + *touched > longest) continue;
+      longest = before + *touched;
+      first = longest;
+    }
+  });
+  return first;
+}
+
+Vec3 TriangleTree::normal_at(const Vec3& point) const {
+  constexpr double kThere = tolerance::kSamePoint;  // STL's floats tell less apart
+  constexpr double kSquared = 1.01 * kThere * kThere;
+  Vec3 sum;
+  tree_.near(point, kSquared, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t t = begin; t < end; ++t) {
+      if (norm(nearest_point(triangles_[t], point) - point) > kThere) continue;
+      const auto& [a, b, c] = triangles_[t];
+      // The angles under which the edges are seen; one whose end is the point is not seen at all.
+      double angle = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 to_first = triangles_[t][k] - point;
+        const Vec3 to_second = triangles_[t][(k + 1) % 3] - point;
+        if (norm(to_first) <= kThere || norm(to_second) <= kThere) continue;
+        angle += std::atan2(norm(cross(to_first, to_second)), dot(to_first, to_second));
+      }
+      sum = sum + unit(cross(b - a, c - a)) * angle;
+    }
+  });
+  return sum;
+}
+
+std::optional<double> TriangleTree::height(double x, double y) const {
+  std::optional<double> found;
+  const auto holds = [&](const Box& box) {
+    return x >= box.min.x && x <= box.max.x && y >= box.min.y && y <= box.max.y;
+  };
+  tree_.any(holds, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t t = begin; t < end && !found; ++t) {
+      const auto& [a, b, c] = triangles_[t];
+      const double weight_a = area_from_above(b, c, x, y);
+      const double weight_b = area_from_above(c, a, x, y);
+      const double weight_c = area_from_above(a, b, x, y);
+      if (weight_a < 0 || weight_b < 0 || weight_c < 0) continue;
+      found = (weight_a * a.z + weight_b * b.z + weight_c * c.z) / (weight_a + weight_b + weight_c);
+    }
+    return found.has_value();
+  });
+  return found;
+}
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nc/machine/ball_path.hpp"
+#include "nc/machine/box_tree.hpp"
+#include "nc/machine/geometry.hpp"
+
+namespace fitgauge::machine {
+
+using Triangle = std::array<Vec3, 3>;
+
+/// The point of a triangle that is nearest to `at`.
+Vec3 nearest_point(const Triangle& triangle, const Vec3& at);
+
+/// The way after which the ball touches the triangle, in closed form: its face from either side, an
+/// edge or a corner. Nothing when it passes by or overlaps the triangle at the start.
+std::optional<double> contact(const Triangle& triangle, const BallPath& ball);
+
+/// Triangles in a tree of boxes. Immutable: thread-safe.
+class TriangleTree {
+ public:
+  /// @pre at least one triangle.
+  explicit TriangleTree(const std::vector<Triangle>& triangles);
+
+  struct Nearest {
+    Vec3 point;
+    const Triangle* triangle;
+  };
+  /// The point of all triangles that is nearest to `at`, and the triangle it is of.
+  Nearest nearest(const Vec3& at) const;
+  /// The same, or nothing when it is not nearer than `within`: quick where that is little.
+  std::optional<Nearest> nearest(const Vec3& at, double within) const;
+  /// The least way after which the ball touches a triangle, of those it does not overlap at the
+  /// start.
+  std::optional<double> contact(const BallPath& ball) const;
+  /// The sum of the unit normals of the triangles that have `point`, each by the angle it takes
+  /// there. With `point` the nearest of a closed mesh, its side is the side of the mesh (Baerentzen
+  /// and Aanaes, Signed distance computation using the angle weighted pseudonormal, 2005).
+  Vec3 normal_at(const Vec3& point) const;
+  /// The z of a triangle above or below (x, y), or nothing outside of all.
+  std::optional<double> height(double x, double y) const;
+
+  const Box& box() const { return tree_.all(); }
+  double highest() const { return tree_.all().max.z; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+ private:
+  BoxTree tree_;
+  std::vector<Triangle> triangles_;  ///< in the tree's order
+};
+
+}  // namespace fitgauge::machine

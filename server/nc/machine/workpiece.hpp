@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/allowance.hpp"
+#include "nc/machine/box_tree.hpp"
+#include "nc/machine/geometry.hpp"
+#include "nc/machine/machine_setup.hpp"
+
+namespace fitgauge::machine {
+
+class Solid;
+class BoreVoid;
+
+/// The part on the table as a signed distance: features joined in order, bores taken from what
+/// stands before them. Coordinates are fixed to the table. Immutable: thread-safe.
+class Workpiece {
+ public:
+  /// @pre validate() accepts the features.
+  explicit Workpiece(const std::vector<Feature>& features);
+  Workpiece(Workpiece&&) noexcept;
+  Workpiece& operator=(Workpiece&&) noexcept;
+  ~Workpiece();
+
+  bool is_empty() const { return parts_.empty(); }
+
+  /// How far a ball of `radius` at `centre` can move in any direction without touching, in mm: the
+  /// distance to the material less the radius. Never more than the true value, and equal to it
+  /// near contact; negative where the ball overlaps the material; infinity without material.
+  /// The one inexact place is a corner where three faces meet inside the edge of a bore: there the
+  /// value is too small.
+  double clearance(const Vec3& centre, double radius) const;
+
+  /// The way along the unit vector `direction`, at most `longest` mm, after which a ball that
+  /// starts at `start` touches: to 1e-10 mm at normal incidence. Nothing when it does not touch; 0
+  /// when it touches or overlaps at the start. Means nothing once `allowance` is spent.
+  std::optional<double> contact(const Vec3& start, const Vec3& direction, double radius,
+                                double longest, Allowance& allowance) const;
+  std::optional<double> contact(const Vec3& start, const Vec3& direction, double radius,
+                                double longest) const {
+    Allowance unlimited;
+    return contact(start, direction, radius, longest, unlimited);
+  }
+  /// Unit vector away from the material nearest to `at`, to 1e-6; nothing on a ridge between two.
+  std::optional<Vec3> normal(const Vec3& at) const;
+
+  /// What `contact` finds, found by tracing alone, step by step: what it is held to. Slow.
+  std::optional<double> traced_contact(const Vec3& start, const Vec3& direction, double radius,
+                                       double longest) const;
+
+ private:
+  struct Part;
+
+  void join(const Bore& bore);
+  template <class Added>
+  void join(const Added& feature);
+
+  std::vector<Part> parts_;
+  BoxTree tree_;  ///< of the parts, which stand in its order
+};
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,65 @@
+#include <array>
+#include <cmath>
+
+#include "nc/probing/alignment/basic_rotation.hpp"
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measured_value.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/line_probing.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kParameters =
+    join(line(kMeasuringAxisInPlane), std::array{kReferenceAngle, kPresetRow});
+
+CycleResult<void> rotate(const CycleContext& context) {
+  auto motion = begin_alignment(context);
+  if (!motion) return motion.error();
+  const auto edge = probe_line(context, *motion);
+  if (!edge) return edge.error();
+  double angle =
+      workpiece_angle(context.machine.state().frames, motion->plane(), edge->direction()) -
+      context.arguments.number(307);
+  // Along the secondary axis: the reference line is that axis, whether Q307 says 90 or 0.
+  if (edge->axis == 0) angle -= 90 * std::round(angle / 90);
+  const Vec3 rotation =
+      turned_rotation(context.machine.state().frames, motion->plane().probe, angle);
+  return set_basic_rotation(context, rotation, context.arguments.whole(305));
+}
+
+CycleResult<void> set_rotation(const CycleContext& context) {
+  if (auto motion = ProbingMotion::begin(context); !motion) return motion.error();
+  Vec3 rotation;
+  rotation[index(context.machine.state().tool_axis())] = to_angle(context.arguments.number(307));
+  return set_basic_rotation(context, rotation, context.arguments.whole(305));
+}
+
+constexpr std::array k404Parameters{
+    kReferenceAngle,
+    newer(choice(305, "Row of the preset table, 0 active at once, -1 row of the active preset", -1,
+                 kLastRow, -1))};
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle400{
+    {.number = 400,
+     .name = "BASIC ROTATION",
+     .kind = CycleKind::Alignment,
+     .parameters = kParameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1042, 1081, 1085},
+     .simulated = "All parameters. With Q272 = 1 the line is compared with the secondary axis."},
+    rotate};
+
+constinit const TouchProbeCycle kCycle404{{.number = 404,
+                                           .name = "SET BASIC ROTATION",
+                                           .kind = CycleKind::Alignment,
+                                           .parameters = k404Parameters,
+                                           .errors = errors::kWithProbe | ErrorSet{1085},
+                                           .simulated = "All parameters. No motion."},
+                                          set_rotation};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,116 @@
+#include <array>
+
+#include "nc/probing/alignment/basic_rotation.hpp"
+#include "nc/probing/alignment/rotary_alignment.hpp"
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/hole_pattern.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kCompensation{
+    kReferenceAngle, kPresetRow,
+    newer(choice(402, "Compensate by: 0 basic rotation, 1 turning the table", 0, 1, 0)),
+    newer(choice(337, "Set the table to zero: 0 no, 1 yes", 0, 1, 0))};
+
+constexpr std::array k401Parameters = join(
+    std::array{coordinate(268, "1st hole, main axis"), coordinate(269, "1st hole, secondary axis"),
+               coordinate(270, "2nd hole, main axis"), coordinate(271, "2nd hole, secondary axis"),
+               kMeasuringHeight, kClearanceHeight},
+    kCompensation);
+
+constexpr std::array k402Parameters = join(
+    std::array{coordinate(268, "1st stud, main axis"), coordinate(269, "1st stud, secondary axis"),
+               length(313, "Diameter of the 1st stud"),
+               coordinate(261, "Measuring height of the 1st stud"),
+               coordinate(270, "2nd stud, main axis"), coordinate(271, "2nd stud, secondary axis"),
+               length(314, "Diameter of the 2nd stud"),
+               coordinate(315, "Measuring height of the 2nd stud"), kSetUpClearance,
+               kClearanceHeight, kMoveToClearance},
+    kCompensation);
+
+/// The angle of the line between two centres less Q307, as basic rotation or by turning the table.
+CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& plane, Point2 first,
+                             Point2 second) {
+  const Arguments& arguments = context.arguments;
+  const Vec3 direction{second.x - first.x, second.y - first.y, 0};
+  if (direction == Vec3{}) return nc_error(1081, "both centres are the same");
+  const double angle =
+      workpiece_angle(context.machine.state().frames, plane, direction) - arguments.number(307);
+  if (arguments.whole(402) == 0) {
+    const Vec3 rotation = turned_rotation(context.machine.state().frames, plane.probe, angle);
+    return set_basic_rotation(context, rotation, arguments.whole(305));
+  }
+  const machine::Axis table = rotary_axis_around(plane.probe);
+  if (auto turned = align_rotary_axis(context, table, angle); !turned) return turned;
+  if (arguments.whole(337) == 0) return {};
+  return zero_rotary_axis(context, table, arguments.whole(305));
+}
+
+CycleResult<void> two_holes(const CycleContext& context) {
+  const Arguments& arguments = context.arguments;
+  auto motion = begin_alignment(context);
+  if (!motion) return motion.error();
+  const std::array nominal{Point2{arguments.number(268), arguments.number(269)},
+                           Point2{arguments.number(270), arguments.number(271)}};
+  const auto holes =
+      probe_hole_centres(*motion, nominal, arguments.number(261), arguments.number(260));
+  if (!holes) return holes.error();
+  return compensate(context, motion->plane(), holes->front(), holes->back());
+}
+
+CycleResult<Point2> stud_centre(const Arguments& arguments, ProbingMotion& motion, Point2 nominal,
+                                double diameter, double height) {
+  const auto touches =
+      circle_touches({.side = Side::Outside,
+                      .centre = nominal,
+                      .diameter = diameter,
+                      .height = height,
+                      .start_distance = motion.start_distance(arguments.number(320)),
+                      .via_clearance = arguments.whole(301) == 1});
+  const auto contacts = motion.touch_all(touches, arguments.number(260));
+  if (!contacts) return contacts.error();
+  const auto circle = circle_through(*contacts, Side::Outside, motion.ball_radius());
+  if (!circle) return circle.error();
+  return circle->centre;
+}
+
+CycleResult<void> two_studs(const CycleContext& context) {
+  const Arguments& arguments = context.arguments;
+  auto motion = begin_alignment(context);
+  if (!motion) return motion.error();
+  const auto first = stud_centre(arguments, *motion, {arguments.number(268), arguments.number(269)},
+                                 arguments.number(313), arguments.number(261));
+  if (!first) return first.error();
+  const auto second =
+      stud_centre(arguments, *motion, {arguments.number(270), arguments.number(271)},
+                  arguments.number(314), arguments.number(315));
+  if (!second) return second.error();
+  return compensate(context, motion->plane(), *first, *second);
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle401{
+    {.number = 401,
+     .name = "ROT OF 2 HOLES",
+     .kind = CycleKind::Alignment,
+     .parameters = k401Parameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1081, 1085, 1100},
+     .simulated = "All parameters; holes are touched from their nominal centre."},
+    two_holes};
+
+constinit const TouchProbeCycle kCycle402{
+    {.number = 402,
+     .name = "ROT OF 2 STUDS",
+     .kind = CycleKind::Alignment,
+     .parameters = k402Parameters,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1081, 1085, 1100},
+     .simulated = "All parameters."},
+    two_studs};
+
+}  // namespace fitgauge::probing

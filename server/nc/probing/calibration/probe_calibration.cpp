@@ -1,0 +1,137 @@
+#include "nc/probing/calibration/probe_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/probing/calibration/calibration_log.hpp"
+#include "nc/probing/measured_value.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using machine::MachineState;
+
+CycleResult<void> check_straight(const MachineState& state, machine::Axis probe) {
+  if (norm(state.tool_direction() - unit_vector(probe)) <= tolerance::kSameDirection) return {};
+  return nc_error(1075, "the probe stands along the probe axis while it is calibrated");
+}
+
+CycleResult<double> positive(double value, std::string_view what) {
+  if (value > 0) return to_length(value).to_mm();
+  return nc_error(1080, fmt::format("{} of {:.4f} mm", what, value));
+}
+
+}  // namespace
+
+ProbeCalibrator::ProbeCalibrator(const CycleContext& context, const ProbingMotion& motion)
+    : context_(context),
+      motion_(motion),
+      start_(motion.plane().from_input(context.machine.position().linear)) {}
+
+CycleResult<ProbeCalibrator> ProbeCalibrator::begin(const CycleContext& context) {
+  const MachineState& state = context.machine.state();
+  if (auto allowed = refuse_mirror_and_scaling(state.frames); !allowed) return allowed.error();
+  const auto motion = ProbingMotion::begin(context);
+  if (!motion) return motion.error();
+  if (auto straight = check_straight(state, motion->plane().probe); !straight) {
+    return straight.error();
+  }
+  return ProbeCalibrator(context, *motion);
+}
+
+CycleResult<RoundStandard> ProbeCalibrator::touch_around(Side side, Point2 centre, double height) {
+  const Arguments& arguments = context_.arguments;
+  const int points = arguments.whole(423);
+  constexpr double kTurn = 360;
+  const auto touches =
+      circle_touches({.side = side,
+                      .centre = centre,
+                      .diameter = 2 * arguments.number(407),
+                      .start_angle = arguments.number(380),
+                      .step = kTurn / points,
+                      .points = points,
+                      .height = height,
+                      .start_distance = motion_.start_distance(arguments.number(320)),
+                      .via_clearance = arguments.number_or(301, 0) == 1});
+  const auto contacts = motion_.touch_all(touches, start_.z);
+  if (!contacts) return contacts.error();
+  const auto circle = circle_through(*contacts, side, 0);
+  if (!circle) return circle.error();
+  return RoundStandard{circle->centre, height, circle->radius, circle->residual};
+}
+
+CycleResult<ReversalResult> ProbeCalibrator::measure(const Pass& pass) {
+  const auto near = turned(0, pass, {start_.x, start_.y});
+  if (!near) return near.error();
+  const auto first = turned(0, pass, near->centre);
+  if (!first) return first.error();
+  const auto second = turned(180, pass, near->centre);
+  if (!second) return second.error();
+  const RoundStandard mean{
+      {(first->centre.x + second->centre.x) / 2, (first->centre.y + second->centre.y) / 2},
+      (first->height + second->height) / 2,
+      (first->radius + second->radius) / 2,
+      std::max(first->residual, second->residual)};
+  if (auto moved = move_over(mean.centre); !moved) return moved.error();
+  const Vec3 error{(second->centre.x - first->centre.x) / 2,
+                   (second->centre.y - first->centre.y) / 2, 0};
+  return ReversalResult{
+      mean, context_.machine.state().frames.direction_to_machine(motion_.plane().to_input(error))};
+}
+
+CycleResult<RoundStandard> ProbeCalibrator::turned(double spindle_deg, const Pass& pass,
+                                                   Point2 near) {
+  const auto orient = [this](double degrees) {
+    machine::Modes modes = context_.machine.state().modes;
+    modes.spindle_deg = degrees;
+    return lift(context_.machine.set_modes(modes));
+  };
+  const double before = context_.machine.state().modes.spindle_deg;
+  if (auto oriented = orient(spindle_deg); !oriented) return oriented.error();
+  auto found = pass(near);
+  if (auto oriented = orient(before); !oriented) return oriented.error();
+  return found;
+}
+
+CycleResult<void> ProbeCalibrator::move_over(Point2 centre) {
+  return motion_.move_tip(
+      machine::AxisWords::linear(motion_.plane().to_input({centre.x, centre.y, start_.z})));
+}
+
+std::array<double, 2> ProbeCalibrator::corrected_offset(const Vec3& error) const {
+  const MachineState& state = context_.machine.state();
+  const Vec3 offset = state.probe_system()->centre_offset(state.tool_axis(), 0) + error;
+  const std::size_t up = index(state.tool_axis());
+  return {to_length(offset[(up + 1) % 3]).to_mm(), to_length(offset[(up + 2) % 3]).to_mm()};
+}
+
+CycleResult<void> ProbeCalibrator::finish(const ProbeCalibration& found) {
+  machine::Machine& machine = context_.machine;
+  const MachineState& state = machine.state();
+  const machine::ProbeSystem before = *state.probe_system();
+  machine::ProbeRow row = before.data;
+  if (found.centre_offset) {
+    row.cal_of1 = found.centre_offset->front();
+    row.cal_of2 = found.centre_offset->back();
+    row.cal_ang = 0;
+  }
+  // The effective values hold with DL and DR of the tool call; DL and DR of the table are zeroed.
+  machine::Tool tool = *state.active_tool();
+  if (found.radius) {
+    const auto radius = positive(*found.radius, "effective ball radius");
+    if (!radius) return radius.error();
+    tool.r = *radius - state.tool.dr;
+    tool.dr = 0;
+  }
+  if (found.length) {
+    const auto length = positive(*found.length, "effective length");
+    if (!length) return length.error();
+    tool.l = *length - state.tool.dl;
+    tool.dl = 0;
+  }
+  if (auto written = machine.write_probe(row); !written) return from_machine(written.error());
+  if (auto written = machine.write_tool(tool); !written) return from_machine(written.error());
+  return log_calibration(context_, before, *state.probe_system(), to_length(found.residual));
+}
+
+}  // namespace fitgauge::probing

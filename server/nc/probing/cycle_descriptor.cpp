@@ -1,0 +1,60 @@
+#include "nc/probing/cycle_descriptor.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace fitgauge::probing {
+
+std::string_view word(CycleKind kind) {
+  switch (kind) {
+    case CycleKind::Measuring: return "measuring";
+    case CycleKind::Preset: return "preset";
+    case CycleKind::Alignment: return "alignment";
+    case CycleKind::Calibration: return "calibration";
+    case CycleKind::Kinematics: return "kinematics";
+    case CycleKind::Tool: return "tool";
+    case CycleKind::Machining: return "machining";
+    case CycleKind::Other: return "other";
+  }
+  return {};
+}
+
+std::string_view symbol(Unit unit) {
+  switch (unit) {
+    case Unit::None: return "";
+    case Unit::Length: return "mm";
+    case Unit::Angle: return "deg";
+    case Unit::Feed: return "mm/min";
+  }
+  return {};
+}
+
+std::string name(const CycleParameter& parameter) {
+  constexpr std::array<std::string_view, 15> kWords{"Q",
+                                                    "axis",
+                                                    "direction",
+                                                    "X",
+                                                    "Y",
+                                                    "Z",
+                                                    "ANGLE",
+                                                    "ABST",
+                                                    "F",
+                                                    "MB",
+                                                    "REFERENCE SYSTEM",
+                                                    "ERRORMODE",
+                                                    "CHECK",
+                                                    "HEIGHT",
+                                                    "PROBING THE TEETH"};
+  const auto id = static_cast<std::uint16_t>(parameter.id);
+  if (is_word(parameter.id)) {
+    return std::string(kWords.at(id - static_cast<std::size_t>(ParameterId::WordResult)));
+  }
+  return (parameter.is_text() ? "QS" : "Q") + std::to_string(id);
+}
+
+const CycleParameter* CycleDescriptor::find(ParameterId id) const {
+  const auto found = std::ranges::find(parameters, id, &CycleParameter::id);
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+}  // namespace fitgauge::probing

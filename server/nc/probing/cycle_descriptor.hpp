@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "nc/probing/error_set.hpp"
+
+namespace fitgauge::probing {
+
+/// How the block that defines the cycle begins. The same number may mean two cycles: TCH PROBE 3
+/// measures, CYCL DEF 3 mills.
+enum class CycleFamily : std::uint8_t { CyclDef, TchProbe };
+
+enum class CycleKind : std::uint8_t {
+  Measuring,    ///< 0, 1, 3, 4, 420 to 431, 444: results, most with status and log
+  Preset,       ///< 408 to 419, 247
+  Alignment,    ///< 400 to 405: basic rotation
+  Calibration,  ///< 460 to 463: the probe
+  Kinematics,   ///< 450 to 453: rotary axes
+  Tool,         ///< 30 to 33, 480 to 484
+  Machining,    ///< CYCL DEF 1 to 5, 14 to 24, 200 to 267: motion without probing
+  Other         ///< 441
+};
+
+/// `measuring`, `preset`, ...
+std::string_view word(CycleKind kind);
+
+/// What a number counts. Cycles compute in mm, degrees and mm/min: lengths and feeds of an INCH
+/// program are converted on the way in and out (see CycleHost).
+enum class Unit : std::uint8_t { None, Length, Angle, Feed };
+
+/// `mm`, `deg`, `mm/min`, or nothing.
+std::string_view symbol(Unit unit);
+
+/// The address of a value. Up to 1999 it is the number of a Q (or QS) parameter; the words of a
+/// dotted cycle (`TCH PROBE 3.3 ABST+10 F100 MB1`) follow.
+enum class ParameterId : std::uint16_t {
+  WordResult = 10'000,  ///< the Q parameter that receives the result, as its number: `0.0 ... Q5`
+  WordAxis,             ///< 0 X, 1 Y, 2 Z
+  WordDirection,        ///< -1 or +1: the sign in `0.0 ... X-`
+  WordX,                ///< absolute coordinates; IX, IY, IZ of cycle 4 are the direction
+  WordY,
+  WordZ,
+  WordAngle,            ///< `ANGLE: +30`
+  WordDistance,         ///< `ABST+10`
+  WordFeed,             ///< `F100`
+  WordRetract,          ///< `MB1`
+  WordReferenceSystem,  ///< `REFERENCE SYSTEM: 0`
+  WordErrorMode,        ///< `ERRORMODE1`
+  WordCheck,            ///< `CHECK: 1`
+  WordHeight,           ///< `HEIGHT: +120`
+  WordTeeth             ///< `PROBING THE TEETH: 0`
+};
+
+constexpr ParameterId q(int number) { return static_cast<ParameterId>(number); }
+constexpr bool is_word(ParameterId id) { return id >= ParameterId::WordResult; }
+
+enum class ValueKind : std::uint8_t {
+  Number,
+  Whole,        ///< a whole number: a selection or a count
+  NumberOrMax,  ///< `Q253= MAX` is FMAX and arrives as infinity
+  Text,         ///< QS400
+  NumberOrText  ///< Q330 = 5 or QS330 = "NAME"
+};
+
+/// Both ends belong to it.
+struct ValueRange {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+
+  constexpr bool contains(double value) const { return value >= min && value <= max; }
+};
+
+struct CycleParameter {
+  ParameterId id{};
+  std::string_view meaning{};  ///< the control's dialog text
+  Unit unit = Unit::None;
+  ValueKind kind = ValueKind::Number;
+  ValueRange range{};
+  std::optional<double> default_value{};  ///< of a parameter that the block leaves out
+  bool required = true;   ///< without default: an error when it is missing, else just absent
+  bool newer = false;     ///< not in the blocks of older controls
+  std::uint8_t part = 0;  ///< of a dotted cycle: the sub-line it stands in, `3.2` is 2
+
+  constexpr bool is_text() const { return kind == ValueKind::Text; }
+  constexpr bool takes_text() const { return is_text() || kind == ValueKind::NumberOrText; }
+};
+
+/// `Q262`, `QS400`, `ABST`.
+std::string name(const CycleParameter& parameter);
+
+struct CycleOutput {
+  std::uint16_t q = 0;
+  std::string_view meaning{};
+  Unit unit = Unit::None;
+};
+
+/// What a cycle is, as the linker, the documentation and GET /v1/cycles see it. Static data.
+struct CycleDescriptor {
+  CycleFamily family = CycleFamily::TchProbe;
+  std::uint16_t number = 0;
+  std::string_view name{};  ///< as the control calls it: "MEASURE HOLE"
+  CycleKind kind = CycleKind::Measuring;
+  bool dotted = false;  ///< one block per sub-line, `0.0`, `0.1`; its parameters are words
+  std::span<const CycleParameter> parameters{};  ///< in the order of the control's dialog
+  std::span<const CycleOutput> results{};
+  ErrorSet errors{};                 ///< that it ends with, beside 1004 and 1011 of its values
+  std::string_view simulated{};      ///< what the simulation does
+  std::string_view not_simulated{};  ///< what of the control's cycle changes nothing; may be empty
+
+  const CycleParameter* find(ParameterId id) const;
+};
+
+}  // namespace fitgauge::probing

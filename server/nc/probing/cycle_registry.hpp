@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+
+#include "nc/probing/touch_probe_cycle.hpp"
+
+namespace fitgauge::probing {
+
+/// Every cycle of this library, by family and number: TCH PROBE first, then CYCL DEF.
+std::span<const TouchProbeCycle* const> cycles();
+
+/// The cycle, or null when there is none: the program then names one that is not available.
+const TouchProbeCycle* find_cycle(CycleFamily family, int number);
+
+}  // namespace fitgauge::probing

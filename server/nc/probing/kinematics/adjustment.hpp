@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "nc/probing/kinematics/fit.hpp"
+
+namespace fitgauge::probing {
+
+/// mm: the lever at which a direction counts as much as a location.
+inline constexpr double kLever = 100;
+
+enum class ErrorKind : std::uint8_t { Location, Direction, Zero };
+
+/// One value that is fitted, in mm: a location or, at kLever, a direction of an axis, along one of
+/// its two vectors, or at kLever its zero.
+struct Unknown {
+  std::size_t axis = 0;
+  ErrorKind kind = ErrorKind::Location;
+  std::size_t side = 0;
+};
+
+/// A rotary axis as a line through the height of the sphere, and two vectors across it.
+struct Line {
+  machine::RotaryAxis modelled;
+  machine::Vec3 anchor;
+  std::array<machine::Vec3, 2> across;
+};
+
+/// The point of the sphere (on a table) or of the ball (under a head) that turns around the axis.
+machine::Vec3 turning_point(const machine::Vec3& sphere, const machine::RotaryAxis& axis,
+                            const MeasuringTool& tool);
+/// @param carrier the axis that carries it, if its zero is fitted: the first vector across then is
+///   the way this axis turns with it
+Line line_of(const machine::RotaryAxis& axis, const machine::Vec3& sphere,
+             const MeasuringTool& tool, const machine::RotaryAxis* carrier = nullptr);
+
+/// What one fit works on; the parts outlive it.
+struct AdjustedPoses {
+  std::span<const PoseGroup> groups;
+  const machine::Kinematics& model;
+  const MeasuringTool& tool;
+  const std::vector<Line>& lines;
+};
+
+/// One fit of a set of unknowns: their values and what the positions see of them. Not thread-safe;
+/// lives within one fit.
+class Adjustment {
+ public:
+  Adjustment(const AdjustedPoses& poses, std::vector<Unknown> unknowns);
+
+  /// Which unknowns lie in no direction that the positions leave undefined.
+  std::vector<bool> seen() const;
+  /// @pre all unknowns are seen.
+  void solve();
+
+  const std::vector<Unknown>& unknowns() const { return unknowns_; }
+  const Eigen::VectorXd& values() const { return values_; }
+  machine::Kinematics corrected() const { return at(values_); }
+  /// Of the unknowns, for centres of variance 1 in each coordinate.
+  Eigen::MatrixXd covariance() const;
+  /// How many residuals are left to judge the scatter by.
+  std::size_t freedom() const;
+  /// The standard deviation of one coordinate of a centre; 0 without freedom.
+  double scatter() const;
+
+ private:
+  machine::Kinematics at(const Eigen::VectorXd& values) const;
+  Eigen::VectorXd residuals(const machine::Kinematics& model) const;
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& values) const;
+  void decompose();
+
+  AdjustedPoses poses_;
+  std::vector<Unknown> unknowns_;
+  Eigen::VectorXd values_;
+  // Of the Jacobian at the values: the directions of the unknowns and how strongly each is seen.
+  Eigen::VectorXd sizes_;
+  Eigen::MatrixXd directions_;
+};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <array>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/kinematics/correction.hpp"
+#include "nc/probing/kinematics/log.hpp"
+#include "nc/probing/kinematics/parameters.hpp"
+#include "nc/probing/kinematics/preset.hpp"
+#include "nc/probing/measured_value.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+using machine::Axis;
+
+constexpr std::array kMode{choice(406, "Mode: -1 delete, 0 check, 1 optimise", -1, 1, 0)};
+constexpr std::array kEnd{kTouchesOfSphere, kPresetAtSphere};
+constexpr auto kParameters = join(join(kMode, kSphereApproach), kEnd);
+
+constexpr std::array<CycleOutput, 6> kResults{
+    {{141, "Measured standard deviation of A, mm; -1 no such axis", Unit::None},
+     {142, "Measured standard deviation of B, mm; -1 no such axis", Unit::None},
+     {143, "Measured standard deviation of C, mm; -1 no such axis", Unit::None},
+     {144, "Optimised standard deviation of A, mm; -1 no such axis", Unit::None},
+     {145, "Optimised standard deviation of B, mm; -1 no such axis", Unit::None},
+     {146, "Optimised standard deviation of C, mm; -1 no such axis", Unit::None}}};
+
+/// What a machine's builder would lay down: five positions over the range of the axis, at most
+/// half a turn to either side.
+std::vector<double> positions_of(const machine::AxisRange& range) {
+  constexpr double kHalfTurn = 180;
+  return measuring_positions(std::max(range.min, -kHalfTurn), std::min(range.max, kHalfTurn), 5,
+                             range.hirth_grid_deg);
+}
+
+struct Grid {
+  std::vector<Axis> axes;
+  std::vector<Vec3> positions{Vec3{}};  ///< every combination
+};
+
+/// @errors 1100 the machine has no rotary axis.
+CycleResult<Grid> grid_of(const machine::MachineState& state) {
+  Grid grid;
+  for (const machine::RotaryAxis& axis : state.kinematics.axes()) {
+    grid.axes.push_back(axis.axis);
+    std::vector<Vec3> combined;
+    for (const Vec3& others : grid.positions) {
+      for (const double position : positions_of(*state.ranges[index(axis.axis)])) {
+        combined.push_back(others);
+        combined.back()[index(axis.axis) - 3] = position;
+      }
+    }
+    grid.positions = std::move(combined);
+  }
+  if (grid.axes.empty()) return nc_error(1100, "the machine has no rotary axis");
+  return grid;
+}
+
+void write_results(CycleHost& host, const Grid& grid, const KinematicsFit& fit) {
+  for (std::uint16_t letter = 0; letter < 3; ++letter) {
+    const auto axis = static_cast<Axis>(letter + 3);
+    const bool measured = std::ranges::find(grid.axes, axis) != grid.axes.end();
+    const auto set = [&](int first, double value) {
+      host.set_q(static_cast<std::uint16_t>(first + letter),
+                 measured ? to_length(value).to_mm() : -1, Unit::None);
+    };
+    set(141, fit.before.front().deviation);
+    set(144, fit.after.front().deviation);
+  }
+}
+
+CycleResult<void> measure_grid(const CycleContext& context) {
+  const Arguments& arguments = context.arguments;
+  const int mode = arguments.whole(406);
+  const PresetAtSphere preset(arguments.whole(431));
+  if (mode == -1) {
+    return nc_error(1097, "corrections go into the kinematic model: restore a record of cycle 450");
+  }
+  const auto grid = grid_of(context.machine.state());
+  if (!grid) return grid.error();
+  if (auto writable = preset.check(context); !writable) return writable;
+  auto probing = KinematicsProbing::begin(context);
+  if (!probing) return probing.error();
+  if (auto set = preset.before(context, *probing); !set) return set;
+
+  PoseGroup poses;
+  for (const Vec3& position : grid->positions) {
+    const auto pose = probing->measure(position);
+    if (!pose) return pose.error();
+    poses.push_back(*pose);
+  }
+  const KinematicsFit fit = fit_kinematics(std::array{poses}, context.machine.state().kinematics,
+                                           probing->tool(), grid->axes, fit_options(context, true));
+  write_results(context.host, *grid, fit);
+  const std::string_view words = mode == 1 ? "1 = optimise" : "0 = check";
+  if (auto logged = log_grid(context, words, poses, fit); !logged) return logged;
+  if (mode == 1) {
+    if (auto corrected = correct_kinematics(context, fit.errors, fit.is_corrected, fit.corrected);
+        !corrected) {
+      return corrected;
+    }
+  }
+  return preset.after(context, *probing);
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle453{
+    {.number = 453,
+     .name = "KINEMATICS GRID",
+     .kind = CycleKind::Kinematics,
+     .parameters = kParameters,
+     .results = kResults,
+     .errors = errors::kTouching | errors::kKinematics | ErrorSet{1085},
+     .simulated =
+         "Measures the calibration_sphere of the setup at every combination of five positions of "
+         "each rotary axis, evenly over its range but at most half a turn to either side, and "
+         "finds location and direction of all axes together; Q406 = 1 corrects them in the "
+         "kinematic model. All axes share their standard deviations. The log TCHPR453.html.",
+     .not_simulated =
+         "The compensation table of the machine's builder: Q406 = -1 is an error, a record of "
+         "cycle 450 brings the kinematics back."},
+    measure_grid};
+
+}  // namespace fitgauge::probing

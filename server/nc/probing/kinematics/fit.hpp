@@ -1,0 +1,114 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nc/machine/kinematics.hpp"
+
+namespace fitgauge::probing {
+
+/// The calibration sphere measured with the rotary axes at one position.
+struct SpherePose {
+  machine::Vec3 rotary;  ///< A, B, C in degrees
+  machine::Vec3 nose;    ///< what X, Y, Z would show with the ball's centre in that of the sphere
+};
+
+/// Poses that are compared with each other: those of one axis. Between groups the other axes come
+/// to rest elsewhere, so each group has a place of the sphere of its own.
+using PoseGroup = std::vector<SpherePose>;
+
+/// The spherical tool that measured: a ball `length` mm from the spindle nose.
+struct MeasuringTool {
+  machine::Axis axis = machine::Axis::Z;
+  double length = 0;
+};
+
+/// Where the sphere's centre lies on the table by a kinematic model: in machine coordinates with
+/// all axes at zero.
+machine::Vec3 on_table(const SpherePose& pose, const machine::Kinematics& model,
+                       const MeasuringTool& tool);
+
+/// The spread of sphere centres that should lie at one place of the table.
+struct Spread {
+  /// The root mean square of the errors in space (decision 26). Of two positions the distance
+  /// between them: one position beside the reference has an error, but no dispersion.
+  double deviation = 0;
+  machine::Vec3 centre;
+  std::vector<machine::Vec3> errors;  ///< of each pose, on the table
+};
+
+/// @pre there is a pose.
+Spread spread(const PoseGroup& poses, const machine::Kinematics& model, const MeasuringTool& tool);
+
+/// An error of an axis, real minus modelled, in machine coordinates with all axes at zero.
+struct FoundError {
+  machine::Vec3 value;
+  /// Half of the interval in which each coordinate lies with a probability of 95 %, by the scatter
+  /// of the poses (Student); what axes between this one and the sphere, or the tool, rest with
+  /// while it is measured counts as much as the scatter of a pose.
+  machine::Vec3 uncertainty;
+  double size = 0;                  ///< of the value: mm, or mm at 100 mm of a direction
+  double standard_uncertainty = 0;  ///< along the value, in the same unit
+  /// At least twice its standard uncertainty, or that is less than a nanometre; of a fit of
+  /// significant errors: it is corrected.
+  bool is_significant = true;
+};
+
+/// What the poses say about one rotary axis. What they cannot see has no value.
+struct AxisErrors {
+  machine::Axis axis = machine::Axis::C;
+  std::optional<FoundError> location;  ///< in mm across the axis, at the height of the sphere
+  std::optional<FoundError> tilt_deg;  ///< a rotation vector across the axis
+  std::optional<FoundError> zero_deg;  ///< a rotation vector along the axis
+  /// The variance of one measured centre over that of the location, in its worst direction; 0
+  /// without a location.
+  double valuation = 0;
+
+  bool is_significant() const {
+    return (!location || location->is_significant) && (!tilt_deg || tilt_deg->is_significant) &&
+           (!zero_deg || zero_deg->is_significant);
+  }
+};
+
+struct KinematicsFit {
+  machine::Kinematics corrected;   ///< the model with what was found
+  bool is_corrected = false;       ///< something was found and is corrected
+  std::vector<AxisErrors> errors;  ///< in the order asked for
+  std::vector<Spread> before;      ///< of each group, by the model
+  std::vector<Spread> after;       ///< by the corrected model
+};
+
+struct FitOptions {
+  bool directions = true;  ///< of the axes, beside their locations
+  /// With directions: what an axis that is fitted too is tilted by around the one that carries it
+  /// is the error of the carrier's zero.
+  bool zeros = false;
+  bool only_significant = false;  ///< corrects no error that is not significant
+};
+
+/// Location, and with `directions` the direction, of all axes together by least squares over the
+/// distances of the sphere centres on the table from the mean of their group (Gauss-Newton; the
+/// places of the sphere are eliminated): exact whatever the order of the axes and wherever the
+/// others stand (decision 26). A value that the singular value decomposition of the positions
+/// leaves undefined is not determined: first directions and zeros are given up, then locations.
+KinematicsFit fit_kinematics(std::span<const PoseGroup> groups, const machine::Kinematics& model,
+                             const MeasuringTool& tool, std::span<const machine::Axis> axes,
+                             const FitOptions& options);
+
+/// By how much more the axis is turned where its position was approached from above than where it
+/// was approached from below, in degrees, by least squares. @pre both have the same positions.
+double fit_backlash(const PoseGroup& from_below, const PoseGroup& from_above,
+                    const machine::Kinematics& model, const MeasuringTool& tool,
+                    machine::Axis axis);
+
+/// How far the axis stands from its positions, in degrees: the mean size of the errors along the
+/// measuring circle over its radius, by that model.
+double mean_positioning_error(const PoseGroup& poses, const machine::Kinematics& model,
+                              const MeasuringTool& tool, machine::Axis axis);
+
+/// The radius of the circle that the sphere and the ball describe around each other, in mm.
+double measuring_radius(const machine::Vec3& sphere, const machine::RotaryAxis& axis,
+                        const MeasuringTool& tool);
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,177 @@
+#include "nc/probing/kinematics/log.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "log_templates.hpp"
+#include "nc/probing/log/html_log.hpp"
+#include "nc/probing/log/measuring_log.hpp"
+#include "nc/probing/measured_value.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace fmt::literals;
+using machine::Axis;
+namespace parts = templates::kinematics;
+
+std::string mm(double value) { return log_text(to_length(value), false); }
+std::string degrees(double value) { return fixed(value, 4); }
+
+std::string components(const Vec3& v, std::string (*text)(double)) {
+  return fmt::format("X {}, Y {}, Z {}", text(v.x), text(v.y), text(v.z));
+}
+
+/// Where the measured axes stood: `A -30.0000 C 90.0000`.
+std::string position_text(const SpherePose& pose, std::span<const Axis> axes) {
+  std::string text;
+  for (const Axis axis : axes) {
+    if (!text.empty()) text += ' ';
+    text += fmt::format("{} {}", name(axis), degrees(pose.rotary[index(axis) - 3]));
+  }
+  return text;
+}
+
+/// The positions with the sphere's distance from its mean place.
+std::string positions(std::span<const SpherePose> poses, std::span<const Axis> axes,
+                      const Spread& before, const Spread& after) {
+  std::string rows;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const Vec3& error = before.errors[k];
+    rows += fmt::format(parts::position, "position"_a = position_text(poses[k], axes),
+                        "x"_a = mm(error.x), "y"_a = mm(error.y), "z"_a = mm(error.z),
+                        "error"_a = mm(norm(error)), "after"_a = mm(norm(after.errors[k])));
+  }
+  return fmt::format(parts::positions, "rows"_a = rows);
+}
+
+struct Valuation {
+  std::string_view style;
+  std::string_view words;
+};
+
+Valuation valuation_of(double number) {
+  constexpr double kRounding = 1e-6;
+  if (number > 4 - kRounding) return {"good", "✓ Good positions"};
+  if (number > 2 - kRounding) return {"rework", "▲ Usable positions"};
+  return {"scrap", "✗ Poor positions: measure a larger range or more of them"};
+}
+
+/// What the positions can and cannot say.
+std::string judged(const AxisErrors& errors, bool directions) {
+  if (!errors.location) return parts::no_location;
+  const auto [style, words] = valuation_of(errors.valuation);
+  std::string html = fmt::format(parts::valuation, "style"_a = style, "words"_a = words,
+                                 "number"_a = errors.valuation);
+  if (directions && !errors.tilt_deg) html += parts::no_direction;
+  return html;
+}
+
+/// What was found of an error and how sure it is. @param what "the location error".
+std::string error_rows(std::string_view label, std::string_view what, const FoundError& found,
+                       std::string (*text)(double)) {
+  std::string html =
+      fmt::format(parts::error, "label"_a = label, "value"_a = components(found.value, text));
+  if (found.uncertainty != Vec3{}) {
+    html += fmt::format(parts::uncertainty, "what"_a = what,
+                        "value"_a = components(found.uncertainty, text));
+  }
+  if (!found.is_significant) html += fmt::format(parts::insignificant, "what"_a = what);
+  return html;
+}
+
+std::string error_rows(const AxisErrors& errors) {
+  std::string html;
+  if (errors.location) {
+    html += error_rows("Location error", "the location error", *errors.location, mm);
+  }
+  if (errors.tilt_deg) {
+    html += error_rows("Direction error, turned around the axes, in degrees", "the direction error",
+                       *errors.tilt_deg, degrees);
+  }
+  if (errors.zero_deg) {
+    html += error_rows("Error of the zero, turned around the axes, in degrees",
+                       "the error of the zero", *errors.zero_deg, degrees);
+  }
+  return html;
+}
+
+std::string deviation_rows(const Spread& before, const Spread& after) {
+  const std::string old_value = mm(before.deviation);
+  const std::string new_value = mm(after.deviation);
+  if (before.errors.size() < 3) {
+    return fmt::format(parts::deviation_of_position, "before"_a = old_value, "after"_a = new_value);
+  }
+  return fmt::format(parts::dispersion, "before"_a = old_value, "after"_a = new_value);
+}
+
+std::string axis_text(const AxisMeasurement& axis, bool directions) {
+  const AxisPlan& plan = axis.plan;
+  const std::array only{plan.axis};
+  constexpr double kMicrometre = 0.001;
+  return fmt::format(
+      parts::axis, "axis"_a = name(plan.axis), "points"_a = plan.points,
+      "start"_a = degrees(plan.start), "end"_a = degrees(plan.end),
+      "grid"_a = plan.grid > 0 ? fmt::format(" on a Hirth grid of {}", degrees(plan.grid)) : "",
+      "incidence"_a = degrees(plan.incidence), "judged"_a = judged(axis.errors, directions),
+      "positions"_a = positions(axis.poses, only, axis.before, axis.after),
+      "deviations"_a = deviation_rows(axis.before, axis.after),
+      "errors"_a = error_rows(axis.errors),
+      "backlash"_a =
+          axis.backlash_deg ? degrees(*axis.backlash_deg) : std::string(axis.no_backlash),
+      "positioning_error"_a = degrees(axis.positioning_error_deg), "circle"_a = mm(axis.radius),
+      "uncertainty"_a = axis.radius > 0
+                            ? fmt::format("{:.6f}", machine::degrees(kMicrometre / axis.radius))
+                            : std::string("none: the sphere lies on the axis"));
+}
+
+/// Writes a section into the log of the cycle.
+CycleResult<void> add(const CycleContext& context, std::string_view mode,
+                      std::string_view measured) {
+  const CycleDescriptor& cycle = context.arguments.descriptor();
+  const std::string file = fmt::format("TCHPR{}.html", cycle.number);
+  const std::string title = fmt::format("Measuring log of cycle {}", cycle.number);
+  const std::string heading =
+      fmt::format("Measuring log of touch-probe cycle {} {}", cycle.number, cycle.name);
+  const HtmlLog log{file, title, heading, "Errors are real minus modelled.", true};
+  return add_section(
+      context.host, log,
+      fmt::format(parts::section, "when"_a = date_and_time(context.host), "mode"_a = mode,
+                  "radius"_a = mm(context.arguments.number(407)), "measured"_a = measured));
+}
+
+}  // namespace
+
+CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsReport& report) {
+  std::string html;
+  if (report.measurement.axes.empty()) html += parts::no_axis;
+  for (const AxisMeasurement& axis : report.measurement.axes) {
+    html += axis_text(axis, report.directions);
+  }
+  if (report.shift) {
+    html += fmt::format(parts::shift, "shift"_a = components(*report.shift, mm));
+  }
+  return add(context, report.mode, html);
+}
+
+CycleResult<void> log_grid(const CycleContext& context, std::string_view mode,
+                           std::span<const SpherePose> poses, const KinematicsFit& fit) {
+  std::vector<Axis> axes;
+  std::string html;
+  for (const AxisErrors& errors : fit.errors) {
+    axes.push_back(errors.axis);
+    html += fmt::format(parts::axis_of_grid, "axis"_a = name(errors.axis),
+                        "judged"_a = judged(errors, true), "errors"_a = error_rows(errors));
+  }
+  const Spread& before = fit.before.front();
+  const Spread& after = fit.after.front();
+  return add(context, mode,
+             fmt::format(parts::grid, "deviations"_a = deviation_rows(before, after),
+                         "axes"_a = html, "positions"_a = positions(poses, axes, before, after)));
+}
+
+}  // namespace fitgauge::probing

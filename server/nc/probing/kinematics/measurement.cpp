@@ -1,0 +1,134 @@
+#include "nc/probing/kinematics/measurement.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "nc/probing/measured_value.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using machine::Axis;
+using machine::Kinematics;
+
+/// One axis as it was measured.
+struct Approaches {
+  PoseGroup first;
+  PoseGroup second;  ///< from the other side; empty without backlash
+};
+
+/// Measures at `rotary`, coming from `by` beyond it.
+CycleResult<void> approach(KinematicsProbing& probing, const Vec3& rotary, Axis axis, double by,
+                           PoseGroup& poses) {
+  Vec3 beyond = rotary;
+  beyond[index(axis) - 3] += by;
+  if (auto turned = probing.turn(beyond); !turned) return turned;
+  const auto pose = probing.measure(rotary);
+  if (!pose) return pose.error();
+  poses.push_back(*pose);
+  return {};
+}
+
+CycleResult<Approaches> measure_axis(KinematicsProbing& probing, const AxisPlan& plan, Vec3 rotary,
+                                     double backlash) {
+  Approaches found;
+  std::vector<double> positions{0};  // the reference
+  positions.insert(positions.end(), plan.positions.begin(), plan.positions.end());
+  for (const double position : positions) {
+    rotary[index(plan.axis) - 3] = position;
+    if (auto done = approach(probing, rotary, plan.axis, -backlash, found.first); !done) {
+      return done.error();
+    }
+    if (backlash == 0) continue;
+    if (auto done = approach(probing, rotary, plan.axis, backlash, found.second); !done) {
+      return done.error();
+    }
+  }
+  return found;
+}
+
+/// Why the backlash of an axis is not measured, or nothing.
+std::string_view no_backlash(const AxisPlan& plan, double radius, double backlash_angle) {
+  constexpr double kSmallestCircle = 1;  // mm
+  if (backlash_angle == 0) return "not asked for (Q432)";
+  if (plan.strobed) return "not possible with an axis that an M function positions";
+  if (plan.grid > 0) return "not possible on a Hirth axis";
+  if (radius < kSmallestCircle) return "the measuring circle is smaller than 1 mm";
+  return {};
+}
+
+void evaluate(KinematicsMeasurement& measurement, const Kinematics& active,
+              const MeasuringTool& tool, const FitOptions& options) {
+  std::vector<PoseGroup> groups;
+  std::vector<Axis> axes;
+  for (const AxisMeasurement& axis : measurement.axes) {
+    groups.push_back(axis.poses);
+    axes.push_back(axis.plan.axis);
+  }
+  KinematicsFit fit = fit_kinematics(groups, active, tool, axes, options);
+  for (std::size_t k = 0; k < measurement.axes.size(); ++k) {
+    AxisMeasurement& axis = measurement.axes[k];
+    axis.before = std::move(fit.before[k]);
+    axis.after = std::move(fit.after[k]);
+    axis.errors = fit.errors[k];
+    axis.positioning_error_deg =
+        mean_positioning_error(axis.poses, fit.corrected, tool, axis.plan.axis);
+  }
+  measurement.corrected = std::move(fit.corrected);
+  measurement.is_corrected = fit.is_corrected;
+}
+
+}  // namespace
+
+CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& context,
+                                                      KinematicsProbing& probing,
+                                                      std::span<const AxisPlan> plans,
+                                                      const FitOptions& options) {
+  const Kinematics active = context.machine.state().kinematics;
+  const double angle = context.arguments.number_or(432, 0);
+  const MeasuringTool tool = probing.tool();
+  Vec3 incidence;
+  for (const AxisPlan& plan : plans) incidence[index(plan.axis) - 3] = plan.incidence;
+
+  KinematicsMeasurement measurement;
+  for (const AxisPlan& plan : plans) {
+    if (!plan.is_measured()) continue;
+    AxisMeasurement measured{.plan = plan, .poses = {}, .errors = {}, .before = {}, .after = {}};
+    measured.radius = measuring_radius(probing.sphere(), *active.find(plan.axis), tool);
+    measured.no_backlash = no_backlash(plan, measured.radius, angle);
+    const bool both_sides = measured.no_backlash.empty();
+    auto found = measure_axis(probing, plan, incidence, both_sides ? angle : 0);
+    if (!found) return found.error();
+    if (both_sides) {
+      const bool up = angle > 0;
+      measured.backlash_deg =
+          fit_backlash(up ? found->first : found->second, up ? found->second : found->first, active,
+                       tool, plan.axis);
+    }
+    measured.poses = std::move(found->first);
+    measurement.axes.push_back(std::move(measured));
+  }
+  evaluate(measurement, active, tool, options);
+  return measurement;
+}
+
+void write_kinematics_results(CycleHost& host, const KinematicsMeasurement& measurement,
+                              const Vec3& offset) {
+  std::array<double, 3> before{-1, -1, -1};
+  std::array<double, 3> after{-1, -1, -1};
+  for (const AxisMeasurement& axis : measurement.axes) {
+    if (axis.plan.positions.empty()) continue;  // the reference alone
+    const std::size_t letter = index(axis.plan.axis) - 3;
+    before[letter] = to_length(axis.before.deviation).to_mm();
+    after[letter] = to_length(axis.after.deviation).to_mm();
+  }
+  const std::array errors{offset.x, offset.y, offset.z};
+  for (std::uint16_t k = 0; k < 3; ++k) {
+    const auto number = [k](int first) { return static_cast<std::uint16_t>(first + k); };
+    host.set_q(number(141), before[k], Unit::None);
+    host.set_q(number(144), after[k], Unit::None);
+    host.set_q(number(147), to_length(errors[k]).to_mm(), Unit::None);
+  }
+}
+
+}  // namespace fitgauge::probing

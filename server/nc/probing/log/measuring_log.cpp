@@ -1,0 +1,92 @@
+#include "nc/probing/log/measuring_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "log_templates.hpp"
+#include "nc/probing/touch_probe_cycle.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace fmt::literals;
+
+constexpr double kMmPerInch = 25.4;
+
+}  // namespace
+
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.find_first_not_of("-0.") == std::string::npos && text.front() == '-' ? text.substr(1)
+                                                                                   : text;
+}
+
+std::string log_text(Length value, bool inch) {
+  return inch ? fixed(value.to_mm() / kMmPerInch, 6) : fixed(value.to_mm(), 4);
+}
+
+MeasuringLog::MeasuringLog(const CycleDescriptor& cycle, const CycleHost& host)
+    : inch_(host.is_inch()) {
+  const CivilTime time = civil_time(host.now());
+  text_ =
+      fmt::format(templates::measuring::beginning, "cycle"_a = cycle.number, "name"_a = cycle.name,
+                  "day"_a = time.day, "month"_a = time.month, "year"_a = time.year,
+                  "hour"_a = time.hour, "minute"_a = time.minute, "second"_a = time.second,
+                  "program"_a = host.program_path(), "unit"_a = inch_ ? 1 : 0);
+}
+
+void MeasuringLog::section(std::string_view title) {
+  text_ += fmt::format(templates::measuring::section, "title"_a = title);
+}
+
+void MeasuringLog::length(std::string_view label, Length value) {
+  line(label, log_text(value, inch_));
+}
+
+void MeasuringLog::number(std::string_view label, double value) { line(label, fixed(value, 4)); }
+
+void MeasuringLog::line(std::string_view label, std::string_view value) {
+  text_ += fmt::format(templates::measuring::line, "label"_a = fmt::format("{}:", label),
+                       "value"_a = value);
+}
+
+std::string MeasuringLog::finish() && {
+  text_ += templates::measuring::end;
+  return std::move(text_);
+}
+
+std::string MeasuringLog::file_name(const CycleDescriptor& cycle) {
+  return fmt::format("TCHPR{}.TXT", cycle.number);
+}
+
+void add_values(MeasuringLog& log, std::span<const MeasuredValue> values) {
+  log.section("Nominal values");
+  for (const auto& value : values) log.length(value.characteristic, value.nominal);
+  if (std::ranges::any_of(values, [](const auto& value) { return value.limits.has_value(); })) {
+    log.section("Limits");
+  }
+  for (const auto& value : values) {
+    if (!value.limits) continue;
+    log.length(fmt::format("{}, maximum", value.characteristic), value.limits->upper);
+    log.length(fmt::format("{}, minimum", value.characteristic), value.limits->lower);
+  }
+  log.section("Actual values");
+  for (const auto& value : values) log.length(value.characteristic, value.measured);
+  log.section("Deviations");
+  for (const auto& value : values) log.length(value.characteristic, value.deviation());
+}
+
+CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log) {
+  const int where = context.arguments.whole(281);
+  if (where == 0) return {};
+  const std::string text = std::move(log).finish();
+  if (where == 1) {
+    return context.host.append_log(MeasuringLog::file_name(context.arguments.descriptor()), text);
+  }
+  if (context.host.memory().fast_probing.interrupts) context.host.show_and_stop(text);
+  return {};
+}
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,51 @@
+#include "nc/probing/measured_value.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "metrology/gauging/gauge.hpp"
+
+namespace fitgauge::probing {
+
+using gauging::Verdict;
+
+Verdict MeasuredValue::verdict() const {
+  if (!limits) return Verdict::Good;
+  if (role == ValueRole::Position) {
+    const bool inside = measured >= limits->lower && measured <= limits->upper;
+    return inside ? Verdict::Good : Verdict::Reject;
+  }
+  const auto feature = role == ValueRole::HoleSize ? iso286::Feature::Hole : iso286::Feature::Shaft;
+  return gauging::gauge(feature, limits->upper, limits->lower, measured).verdict;
+}
+
+int MeasuredValue::error() const {
+  if (verdict() == Verdict::Good) return 0;
+  return measured > limits->upper ? error_too_large : error_too_small;
+}
+
+Length to_length(double mm) { return Length::nearest_mm(mm).value(); }
+
+void set_length(CycleHost& host, std::uint16_t q, double mm) {
+  host.set_q(q, to_length(mm).to_mm(), Unit::Length);
+}
+
+double to_angle(double degrees) { return std::round(degrees * 1e7) / 1e7; }
+
+CycleResult<std::optional<Limits>> size_limits(const Arguments& arguments, int max_q, int min_q) {
+  const Limits limits{to_length(arguments.number(max_q)), to_length(arguments.number(min_q))};
+  if (limits == Limits{}) return std::optional<Limits>{};
+  if (limits.upper < limits.lower) {
+    return nc_error(1016, fmt::format("maximum Q{} = {} is less than minimum Q{} = {}", max_q,
+                                      format_mm(limits.upper), min_q, format_mm(limits.lower)));
+  }
+  return std::optional(limits);
+}
+
+std::optional<Limits> position_limits(Length nominal, Length tolerance) {
+  if (tolerance == Length{}) return std::nullopt;
+  return Limits{nominal + tolerance, nominal - tolerance};
+}
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "nc/probing/arguments.hpp"
+#include "nc/probing/cycle_host.hpp"
+#include "nc/probing/measuring_record.hpp"
+
+namespace fitgauge::probing {
+
+/// What a value is, which decides what being out of tolerance means.
+enum class ValueRole : std::uint8_t {
+  HoleSize,   ///< too small is rework, too large is reject
+  ShaftSize,  ///< too large is rework, too small is reject
+  Position,   ///< either side is reject (decision 1)
+};
+
+/// A measured value of a cycle with all that results, status, log and record say about it. Lengths
+/// in whole nanometres: that is what limits are compared with (decision 13) and what Q parameters
+/// get (decision 21).
+struct MeasuredValue {
+  std::string_view characteristic{};  ///< "Diameter", as in the log
+  ValueRole role = ValueRole::HoleSize;
+  Length nominal{};
+  Length measured{};
+  std::optional<Limits> limits{};
+  std::uint16_t result_q = 0;     ///< receives the measured value; 0 is none
+  std::uint16_t deviation_q = 0;  ///< receives the deviation; 0 is none
+  int error_too_large = 1072;     ///< of Q309
+  int error_too_small = 1072;
+
+  Length deviation() const { return measured - nominal; }
+  /// Limits are inclusive (decision 1); without limits every value is good.
+  gauging::Verdict verdict() const;
+  /// The error of Q309 when the value is out of tolerance, else 0.
+  int error() const;
+};
+
+/// A length in the nearest nanometre. @pre finite and within 1e12 mm.
+Length to_length(double mm);
+
+/// A result in mm, to the nanometre.
+void set_length(CycleHost& host, std::uint16_t q, double mm);
+
+constexpr Length magnitude(Length length) { return length < Length{} ? -length : length; }
+
+/// An angle in degrees as Q parameters get it, to 1e-7 degrees (1 nm at 0.5 m), so that two equal
+/// angles are equal.
+double to_angle(double degrees);
+
+/// The limits of a size from its two parameters; both 0 switch the check off.
+/// @errors 1016 the maximum is less than the minimum.
+CycleResult<std::optional<Limits>> size_limits(const Arguments& arguments, int max_q, int min_q);
+
+/// Nominal position ± tolerance; a tolerance of 0 switches the check off (decision 21).
+std::optional<Limits> position_limits(Length nominal, Length tolerance);
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,83 @@
+#include <array>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/dotted_parameters.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measured_value.hpp"
+#include "nc/probing/measuring/measurement.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array k0Parameters{result_parameter(0),
+                                  in_part(0, kWordAxis),
+                                  in_part(0, kWordDirection),
+                                  pre_position(1, ParameterId::WordX),
+                                  pre_position(1, ParameterId::WordY),
+                                  pre_position(1, ParameterId::WordZ)};
+
+constexpr std::array k1Parameters{
+    in_part(1, kWordAxis), in_part(1, kWordAngle), pre_position(2, ParameterId::WordX),
+    pre_position(2, ParameterId::WordY), pre_position(2, ParameterId::WordZ)};
+
+/// Moves the tip in all axes at once to the position the block gives, then touches and comes back.
+CycleResult<Contact> touch_from_position(const CycleContext& context, const Vec3& direction) {
+  auto motion = begin_measurement(context);
+  if (!motion) return motion.error();
+  machine::AxisWords position;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto id = static_cast<ParameterId>(static_cast<std::size_t>(ParameterId::WordX) + axis);
+    if (context.arguments.has_number(id)) position.values[axis] = context.arguments.number(id);
+  }
+  if (auto moved = motion->move_tip(position); !moved) return moved.error();
+  return motion->probe(motion->plane().from_input(direction));
+}
+
+CycleResult<void> reference_plane(const CycleContext& context) {
+  const Arguments& arguments = context.arguments;
+  const double sign = arguments.number(ParameterId::WordDirection);
+  if (sign == 0) return nc_error(1042, "the sign of the probing direction is missing");
+  const auto axis = static_cast<machine::Axis>(arguments.number(ParameterId::WordAxis));
+  const auto contact = touch_from_position(context, unit_vector(axis) * sign);
+  if (!contact) return contact.error();
+  const WorkingPlane plane = WorkingPlane::across(context.machine.state().tool_axis());
+  const double coordinate = plane.to_input(contact->surface)[index(axis)];
+  set_length(context.host, static_cast<std::uint16_t>(arguments.number(ParameterId::WordResult)),
+             coordinate);
+  return {};
+}
+
+CycleResult<void> polar(const CycleContext& context) {
+  const auto contact = touch_from_position(context, angled_direction(context.arguments));
+  if (!contact) return contact.error();
+  return {};
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle0{
+    {.number = 0,
+     .name = "REF. PLANE",
+     .kind = CycleKind::Measuring,
+     .dotted = true,
+     .parameters = k0Parameters,
+     .results = kTouchResults,
+     .errors = errors::kMeasuring | ErrorSet{1042},
+     .simulated = "All parameters. The position is that of the tip; the result is compensated."},
+    reference_plane};
+
+constinit const TouchProbeCycle kCycle1{
+    {.number = 1,
+     .name = "POLAR DATUM",
+     .kind = CycleKind::Measuring,
+     .dotted = true,
+     .parameters = k1Parameters,
+     .results = kTouchResults,
+     .errors = errors::kMeasuring,
+     .simulated = "All parameters. The position is that of the tip; the angle turns from the named "
+                  "axis to the next one (X to Y, Y to Z, Z to X)."},
+    polar};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,57 @@
+#include <array>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/log/measuring_log.hpp"
+#include "nc/probing/measuring/measurement.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/line_probing.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kParameters = join(line(kMeasuringAxis), std::array{kMeasuringLog});
+
+constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
+
+CycleResult<void> measure(const CycleContext& context) {
+  auto motion = begin_measurement(context);
+  if (!motion) return motion.error();
+  const auto edge = probe_line(context, *motion);
+  if (!edge) return edge.error();
+  const double angle = to_angle(edge->angle_deg());
+  context.host.set_q(150, angle, Unit::Angle);
+  MeasuringLog log(context.arguments.descriptor(), context.host);
+  log.section("Actual values");
+  log.angle("Measured angle", angle);
+  log.section("Further results");
+  log.length("Measuring height", to_length(context.arguments.number(261)));
+  if (auto written = deliver_log(context, std::move(log)); !written) return written;
+  MeasuringRecord record{.cycle = context.arguments.descriptor().number};
+  constexpr std::array<std::string_view, 2> kNames{"1st point", "2nd point"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    record.sizes.push_back({.characteristic = kNames.at(k),
+                            .is_position = true,
+                            .nominal = to_length(edge->coordinates.at(k).nominal),
+                            .measured = to_length(edge->coordinates.at(k).measured)});
+  }
+  context.host.record(record);
+  return {};
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle420{
+    {.number = 420,
+     .name = "MEASURE ANGLE",
+     .kind = CycleKind::Measuring,
+     .parameters = kParameters,
+     .results = kResults,
+     .errors = errors::kMeasuring | ErrorSet{1042, 1081},
+     .simulated = "All parameters. The angle is that of the line to the main axis, with Q272 = 3 "
+                  "to the axis along which the points differ."},
+    measure};
+
+}  // namespace fitgauge::probing

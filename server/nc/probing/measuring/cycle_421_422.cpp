@@ -1,0 +1,84 @@
+#include <array>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measuring/feature_values.hpp"
+#include "nc/probing/measuring/measurement.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/circle_probing.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr auto parameters(int max_q, std::string_view max, int min_q, std::string_view min) {
+  return join(circle(coordinate(273, "Nominal centre, main axis"),
+                     coordinate(274, "Nominal centre, secondary axis")),
+              std::array{length(max_q, max, 0), length(min_q, min, 0), kCentreToleranceMain,
+                         kCentreToleranceSecondary, kMeasuringLog, kStopOnTolerance,
+                         kMonitoringTool, kTouches, kTraverse, kReverseTool, kAngleOfIncidence});
+}
+
+constexpr auto k421Parameters =
+    parameters(275, "Maximum size of the hole", 276, "Minimum size of the hole");
+constexpr auto k422Parameters =
+    parameters(277, "Maximum size of the stud", 278, "Minimum size of the stud");
+
+constexpr std::string_view kNotSimulated =
+    "Turning tools, which Q498 and Q531 concern: the values are checked and change nothing.";
+
+CycleResult<void> measure(const CycleContext& context, Side side) {
+  const Arguments& arguments = context.arguments;
+  const bool inside = side == Side::Inside;
+  const auto limits = inside ? size_limits(arguments, 275, 276) : size_limits(arguments, 277, 278);
+  if (!limits) return limits.error();
+  auto motion = begin_measurement(context);
+  if (!motion) return motion.error();
+  const auto probed =
+      probe_circle(context, *motion, side, {arguments.number(273), arguments.number(274)});
+  if (!probed) return probed.error();
+
+  const MeasuredValue diameter{.characteristic = "Diameter",
+                               .role = size_role(side),
+                               .nominal = to_length(arguments.number(262)),
+                               .measured = to_length(2 * probed->circle.radius),
+                               .limits = *limits,
+                               .result_q = 153,
+                               .deviation_q = 163,
+                               .error_too_large = inside ? 1047 : 1049,
+                               .error_too_small = inside ? 1046 : 1048};
+  const auto [centre_main, centre_secondary] = centre_values(arguments, probed->circle.centre);
+  return finish_measurement(context, {.values = {centre_main, centre_secondary, diameter},
+                                      .measuring_height = to_length(arguments.number(261)),
+                                      .correction = radius_correction(diameter),
+                                      .form = probed->form});
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle421{
+    {.number = 421,
+     .name = "MEASURE HOLE",
+     .kind = CycleKind::Measuring,
+     .parameters = k421Parameters,
+     .results = kCircleResults,
+     .errors = errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre |
+               ErrorSet{1046, 1047},
+     .simulated = "All other parameters.",
+     .not_simulated = kNotSimulated},
+    [](const CycleContext& context) { return measure(context, Side::Inside); }};
+
+constinit const TouchProbeCycle kCycle422{
+    {.number = 422,
+     .name = "MEAS. CIRCLE OUTSIDE",
+     .kind = CycleKind::Measuring,
+     .parameters = k422Parameters,
+     .results = kCircleResults,
+     .errors = errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre |
+               ErrorSet{1048, 1049},
+     .simulated = "All other parameters.",
+     .not_simulated = kNotSimulated},
+    [](const CycleContext& context) { return measure(context, Side::Outside); }};
+
+}  // namespace fitgauge::probing

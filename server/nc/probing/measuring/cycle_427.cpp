@@ -1,0 +1,75 @@
+#include <array>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measuring/measurement.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/single_touch.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kParameters{coordinate(263, "Point, main axis"),
+                                 coordinate(264, "Point, secondary axis"),
+                                 kMeasuringHeight,
+                                 kSetUpClearance,
+                                 kMeasuringAxis,
+                                 kDirection,
+                                 kClearanceHeight,
+                                 kMeasuringLog,
+                                 coordinate(288, "Maximum coordinate", 0),
+                                 coordinate(289, "Minimum coordinate", 0),
+                                 kStopOnTolerance,
+                                 kMonitoringTool,
+                                 kReverseTool,
+                                 kAngleOfIncidence};
+
+constexpr std::array<CycleOutput, 5> kResults{{{160, "Measured coordinate", Unit::Length},
+                                               {168, "Deviation of the coordinate", Unit::Length},
+                                               {180, "Good", Unit::None},
+                                               {181, "Rework", Unit::None},
+                                               {182, "Reject", Unit::None}}};
+
+CycleResult<void> measure(const CycleContext& context) {
+  const Arguments& arguments = context.arguments;
+  const auto limits = size_limits(arguments, 288, 289);
+  if (!limits) return limits.error();
+  auto motion = begin_measurement(context);
+  if (!motion) return motion.error();
+  const auto touched = touch_coordinate(context, *motion);
+  if (!touched) return touched.error();
+
+  const MeasuredValue coordinate{.characteristic = "Coordinate",
+                                 .role = ValueRole::ShaftSize,
+                                 .nominal = to_length(touched->nominal[touched->axis]),
+                                 .measured = to_length(touched->surface[touched->axis]),
+                                 .limits = *limits,
+                                 .result_q = 160,
+                                 .deviation_q = 168};
+  const Length deviation = coordinate.deviation();
+  const ToolCorrection correction = touched->axis == 2
+                                        ? length_correction(deviation)
+                                        : face_correction(deviation, arguments.whole(267));
+  return finish_measurement(context, {.values = {coordinate},
+                                      .measuring_height = to_length(arguments.number(261)),
+                                      .correction = correction});
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle427{
+    {.number = 427,
+     .name = "MEASURE COORDINATE",
+     .kind = CycleKind::Measuring,
+     .parameters = kParameters,
+     .results = kResults,
+     .errors = errors::kMeasuring | errors::kJudged | ErrorSet{1042, 1072},
+     .simulated = "All other parameters. The nominal coordinate is that of the point (Q263, Q264, "
+                  "Q261).",
+     .not_simulated = "Turning tools, which Q498 and Q531 concern: the values are checked and "
+                      "change nothing."},
+    measure};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,59 @@
+#include <array>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measuring/feature_values.hpp"
+#include "nc/probing/measuring/measurement.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/hole_pattern.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kParameters = join(
+    kBoltCircle, std::array{length(288, "Maximum diameter", 0), length(289, "Minimum diameter", 0),
+                            kCentreToleranceMain, kCentreToleranceSecondary, kMeasuringLog,
+                            kStopOnTolerance, kMonitoringTool});
+
+CycleResult<void> measure(const CycleContext& context) {
+  const Arguments& arguments = context.arguments;
+  const auto limits = size_limits(arguments, 288, 289);
+  if (!limits) return limits.error();
+  auto motion = begin_measurement(context);
+  if (!motion) return motion.error();
+  const auto probed = probe_bolt_circle(context, *motion);
+  if (!probed) return probed.error();
+
+  const MeasuredValue diameter{.characteristic = "Diameter",
+                               .role = ValueRole::HoleSize,
+                               .nominal = to_length(arguments.number(262)),
+                               .measured = to_length(2 * probed->circle.radius),
+                               .limits = *limits,
+                               .result_q = 153,
+                               .deviation_q = 163,
+                               .error_too_large = 1062,
+                               .error_too_small = 1063};
+  const auto [centre_main, centre_secondary] = centre_values(arguments, probed->circle.centre);
+  // Where holes lie is no matter of the tool's radius: it is only watched for breakage.
+  return finish_measurement(context,
+                            {.values = {centre_main, centre_secondary, diameter},
+                             .measuring_height = to_length(arguments.number(261)),
+                             .correction = ToolCorrection{.deviation = diameter.deviation()},
+                             .form = probed->form});
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle430{
+    {.number = 430,
+     .name = "MEAS. BOLT HOLE CIRC",
+     .kind = CycleKind::Measuring,
+     .parameters = kParameters,
+     .results = kCircleResults,
+     .errors = errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1062, 1063, 1081},
+     .simulated = "All parameters; Q330 watches for breakage only."},
+    measure};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measured_value.hpp"
+#include "nc/probing/measuring/probing_3d_log.hpp"
+#include "nc/probing/measuring/tolerance_text.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/probing_motion.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+using gauging::Verdict;
+
+constexpr std::uint16_t kTolerance = 400;  ///< QS400
+constexpr std::uint16_t kStatus = 183;     ///< -1 no tolerance, 0 good, 1 rework, 2 reject
+
+constexpr CycleParameter normal_component(int number, std::string_view meaning) {
+  return {.id = q(number), .meaning = meaning, .range = {-10, 10}};
+}
+
+constexpr std::array kParameters{
+    coordinate(263, "Nominal point, main axis"),
+    coordinate(264, "Nominal point, secondary axis"),
+    coordinate(294, "Nominal point, probe axis"),
+    normal_component(581, "Surface normal, main axis"),
+    normal_component(582, "Surface normal, secondary axis"),
+    normal_component(583, "Surface normal, probe axis"),
+    kSetUpClearance,
+    kClearanceHeight,
+    CycleParameter{.id = q(kTolerance),
+                   .meaning = "Tolerance along the normal, such as \"0.4-0.1\"",
+                   .kind = ValueKind::Text,
+                   .required = false},
+    choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 below the lower limit", 0, 2, 0)};
+
+constexpr std::array<CycleOutput, 8> kResults{
+    {{151, "Point, main axis", Unit::Length},
+     {152, "Point, secondary axis", Unit::Length},
+     {153, "Point, probe axis", Unit::Length},
+     {161, "Deviation, main axis", Unit::Length},
+     {162, "Deviation, secondary axis", Unit::Length},
+     {163, "Deviation, probe axis", Unit::Length},
+     {164, "Deviation along the surface normal", Unit::Length},
+     {kStatus, "Status: -1 no tolerance, 0 good, 1 rework, 2 reject", Unit::None}}};
+
+constexpr std::array<std::string_view, 3> kAxisNames{"Point, main axis", "Point, secondary axis",
+                                                     "Point, probe axis"};
+
+/// The normal is not zero and QS400 can be read, in whatever unit.
+CycleResult<void> check_arguments(const Arguments& arguments) {
+  const auto is_zero = [&](int component) {
+    return arguments.has_number(q(component)) && arguments.number(component) == 0;
+  };
+  if (is_zero(581) && is_zero(582) && is_zero(583)) {
+    return nc_error(1042,
+                    "Q581, Q582 and Q583 are 0: give the surface normal, away from the material");
+  }
+  const std::string* tolerance = arguments.text(q(kTolerance));
+  if (tolerance == nullptr) return {};
+  if (const auto read = parse_tolerance(*tolerance, false); !read) return read.error();
+  return {};
+}
+
+/// @pre check_arguments has accepted them.
+Vec3 surface_normal(const Arguments& arguments) {
+  const Vec3 normal{arguments.number(581), arguments.number(582), arguments.number(583)};
+  // The largest component decides, since squares of tiny ones would vanish.
+  const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+  return unit(normal * (1 / largest));
+}
+
+/// The machine parameter chkTiltingAxes: in a tilted plane the tool must stand square to it. TCPM
+/// is there to incline it.
+CycleResult<void> check_tilting_axes(const machine::MachineState& state, machine::Axis probe) {
+  if (!state.frames.is_tilted() || state.modes.tcpm) return {};
+  if (norm(state.tool_direction() - unit_vector(probe)) <= tolerance::kSquare) return {};
+  return nc_error(1099,
+                  "the rotary axes do not stand as the tilted plane needs them; position "
+                  "them, or incline the probe with FUNCTION TCPM");
+}
+
+/// Too much material along the normal is an outside size above its limit: rework (decision 11).
+MeasuredValue normal_deviation(const ProbedPoint& point) {
+  return {.characteristic = "Deviation along the surface normal",
+          .role = ValueRole::ShaftSize,
+          .measured = point.deviation,
+          .limits = point.limits};
+}
+
+int status_of(const std::optional<Verdict>& verdict) {
+  if (!verdict) return -1;
+  return *verdict == Verdict::Good ? 0 : *verdict == Verdict::Rework ? 1 : 2;
+}
+
+CycleResult<ProbedPoint> touch_point(const CycleContext& context,
+                                     const std::optional<Limits>& limits) {
+  const Arguments& arguments = context.arguments;
+  const machine::MachineState& state = context.machine.state();
+  const Vec3 normal = surface_normal(arguments);
+  if (auto allowed = refuse_mirror_and_scaling(state.frames); !allowed) return allowed.error();
+  auto motion = ProbingMotion::begin(context);
+  if (!motion) return motion.error();
+  if (auto checked = check_tilting_axes(state, motion->plane().probe); !checked) {
+    return checked.error();
+  }
+  const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(294)};
+  const auto contact =
+      motion->touch({.start = nominal + normal * motion->start_distance(arguments.number(320)),
+                     .direction = -normal},
+                    arguments.number(260));
+  if (!contact) return contact.error();
+  const Vec3 surface = contact->surface;
+
+  ProbedPoint point{.plane = motion->plane(),
+                    .normal = normal,
+                    .distance = state.probe_system()->data.distance,
+                    .deviation = to_length(dot(surface - nominal, normal)),
+                    .limits = limits};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    point.nominal[axis] = to_length(nominal[axis]);
+    point.measured[axis] = to_length(surface[axis]);
+  }
+  if (limits) point.verdict = normal_deviation(point).verdict();
+  return point;
+}
+
+void write_results(CycleHost& host, const ProbedPoint& point) {
+  for (std::uint16_t axis = 0; axis < 3; ++axis) {
+    const auto result = [&](int first) { return static_cast<std::uint16_t>(first + axis); };
+    host.set_q(result(151), point.measured[axis].to_mm(), Unit::Length);
+    host.set_q(result(161), (point.measured[axis] - point.nominal[axis]).to_mm(), Unit::Length);
+  }
+  host.set_q(164, point.deviation.to_mm(), Unit::Length);
+  host.set_q(kStatus, status_of(point.verdict), Unit::None);
+}
+
+MeasuringRecord make_record(const ProbedPoint& point) {
+  const MeasuredValue deviation = normal_deviation(point);
+  MeasuringRecord record{.cycle = 444, .verdict = point.verdict};
+  record.sizes.push_back({.characteristic = deviation.characteristic,
+                          .feature = iso286::Feature::Shaft,
+                          .measured = deviation.measured,
+                          .limits = deviation.limits,
+                          .verdict = point.verdict});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    record.sizes.push_back({.characteristic = kAxisNames[axis],
+                            .is_position = true,
+                            .nominal = point.nominal[axis],
+                            .measured = point.measured[axis]});
+  }
+  return record;
+}
+
+/// Q309; without a tolerance nothing stops (decision 14).
+bool stops(int reaction, const std::optional<Verdict>& verdict) {
+  if (verdict == Verdict::Reject) return reaction != 0;
+  return verdict == Verdict::Rework && reaction == 1;
+}
+
+CycleResult<void> measure(const CycleContext& context) {
+  const Arguments& arguments = context.arguments;
+  CycleHost& host = context.host;
+  host.set_q(kStatus, -1, Unit::None);
+  const std::string* tolerance = arguments.text(q(kTolerance));
+  const auto limits =
+      parse_tolerance(tolerance == nullptr ? std::string_view{} : *tolerance, host.is_inch());
+  if (!limits) return limits.error();
+  const auto point = touch_point(context, *limits);
+  if (!point) return point.error();
+
+  write_results(host, *point);
+  if (auto logged = log_probed_point(host, *point); !logged) return logged;
+  host.record(make_record(*point));
+  if (stops(arguments.whole(309), point->verdict)) return tolerance_stop(1072);
+  return {};
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle444{
+    {.number = 444,
+     .name = "PROBING IN 3-D",
+     .kind = CycleKind::Measuring,
+     .parameters = kParameters,
+     .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1004, 1011, 1042, 1072, 1099},
+     .simulated =
+         "All parameters. QS400 is in the unit of the program. After contact the probe goes back "
+         "to the start (MB) and stays there. A basic rotation stays active. In a tilted plane the "
+         "rotary axes must stand square to it, except with TCPM. The points of a run share one "
+         "log, which colours the value along the normal and each axis against its share of the "
+         "tolerance."},
+    measure,
+    check_arguments};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,103 @@
+#include "nc/probing/measuring/measurement.hpp"
+
+#include <algorithm>
+
+#include "nc/probing/alignment/basic_rotation.hpp"
+#include "nc/probing/log/measuring_log.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using gauging::Verdict;
+
+constexpr std::uint16_t kStatusGood = 180;
+constexpr std::uint16_t kStatusRework = 181;
+constexpr std::uint16_t kStatusReject = 182;
+
+bool has_status(const CycleDescriptor& cycle) {
+  return std::ranges::find(cycle.results, kStatusGood, &CycleOutput::q) != cycle.results.end();
+}
+
+void set_status(CycleHost& host, std::optional<Verdict> verdict) {
+  host.set_q(kStatusGood, verdict == Verdict::Good ? 1 : 0, Unit::None);
+  host.set_q(kStatusRework, verdict == Verdict::Rework ? 1 : 0, Unit::None);
+  host.set_q(kStatusReject, verdict == Verdict::Reject ? 1 : 0, Unit::None);
+}
+
+/// The first of those with the worst verdict: reject before rework before good (decision 1).
+const MeasuredValue& worst(const std::vector<MeasuredValue>& values) {
+  return *std::ranges::max_element(values, {}, &MeasuredValue::verdict);
+}
+
+void write_results(CycleHost& host, const std::vector<MeasuredValue>& values) {
+  for (const MeasuredValue& value : values) {
+    if (value.result_q != 0) host.set_q(value.result_q, value.measured.to_mm(), Unit::Length);
+    if (value.deviation_q != 0) {
+      host.set_q(value.deviation_q, value.deviation().to_mm(), Unit::Length);
+    }
+  }
+}
+
+MeasuringRecord make_record(const CycleContext& context, const Measurement& measurement) {
+  MeasuringRecord record{.cycle = context.arguments.descriptor().number,
+                         .verdict = worst(measurement.values).verdict(),
+                         .form = measurement.form};
+  for (const MeasuredValue& value : measurement.values) {
+    const bool shaft = value.role == ValueRole::ShaftSize;
+    record.sizes.push_back({.characteristic = value.characteristic,
+                            .feature = shaft ? iso286::Feature::Shaft : iso286::Feature::Hole,
+                            .is_position = value.role == ValueRole::Position,
+                            .nominal = value.nominal,
+                            .measured = value.measured,
+                            .limits = value.limits,
+                            .verdict = value.verdict()});
+  }
+  std::stable_partition(record.sizes.begin(), record.sizes.end(),
+                        [](const MeasuredSize& size) { return !size.is_position; });
+  return record;
+}
+
+/// On a short arc the scatter of the touches becomes a large one of the diameter.
+void add_short_arc(MeasuringLog& log, const std::optional<Form>& form) {
+  constexpr double kShort = 2;  // four touches at right angles: 1, three: 1.15
+  if (!form || form->diameter_factor <= kShort) return;
+  log.number("Scatter of the diameter per scatter of touch", form->diameter_factor);
+}
+
+}  // namespace
+
+CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
+  const Vec3& factor = context.machine.state().frames.scaling().factor;
+  if (factor.x != factor.y || factor.y != factor.z) {
+    return nc_error(1108, "reset cycle 26 before measuring");
+  }
+  if (has_status(context.arguments.descriptor())) set_status(context.host, std::nullopt);
+  if (auto reset = reset_basic_rotation(context.machine); !reset) return reset.error();
+  return ProbingMotion::begin(context);
+}
+
+CycleResult<void> finish_measurement(const CycleContext& context, const Measurement& measurement) {
+  CycleHost& host = context.host;
+  const MeasuredValue& decisive = worst(measurement.values);
+  write_results(host, measurement.values);
+  set_status(host, decisive.verdict());
+  MeasuringLog log(context.arguments.descriptor(), host);
+  add_values(log, measurement.values);
+  if (measurement.measuring_height) {
+    log.section("Further results");
+    log.length("Measuring height", *measurement.measuring_height);
+    add_short_arc(log, measurement.form);
+  }
+  if (auto written = deliver_log(context, std::move(log)); !written) return written;
+  host.record(make_record(context, measurement));
+  if (measurement.correction) {
+    if (auto corrected = correct_tool(context, *measurement.correction); !corrected) {
+      return corrected;
+    }
+  }
+  const int error = decisive.error();
+  if (context.arguments.whole(309) != 0 && error != 0) return tolerance_stop(error);
+  return {};
+}
+
+}  // namespace fitgauge::probing

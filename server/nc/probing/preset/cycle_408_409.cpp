@@ -1,0 +1,79 @@
+#include <array>
+#include <cmath>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measured_value.hpp"
+#include "nc/probing/preset/preset_cycle.hpp"
+#include "nc/probing/touch/rectangle_probing.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kGeometry{coordinate(321, "Centre, main axis"),
+                               coordinate(322, "Centre, secondary axis"),
+                               length(311, "Width"),
+                               kMeasuringAxisInPlane,
+                               kMeasuringHeight,
+                               kSetUpClearance,
+                               kClearanceHeight};
+constexpr std::array kDatum =
+    join(std::array{kTableRow, coordinate(405, "New datum", 0), kTransfer}, kProbeAxisDatum);
+
+constexpr std::array k408Parameters = join(join(kGeometry, std::array{kMoveToClearance}), kDatum);
+constexpr std::array k409Parameters = join(kGeometry, kDatum);
+
+constexpr std::array<CycleOutput, 2> kResults{
+    {{157, "Position of the centre line", Unit::Length}, {166, "Measured width", Unit::Length}}};
+
+CycleResult<void> set_datum(const CycleContext& context, Side side) {
+  const Arguments& arguments = context.arguments;
+  auto motion = begin_preset(context);
+  if (!motion) return motion.error();
+  const auto axis = static_cast<std::size_t>(arguments.whole(272) - 1);
+  const Vec3 centre{arguments.number(321), arguments.number(322), arguments.number(261)};
+  auto touches = width_touches(side, centre, axis, arguments.number(311),
+                               motion->start_distance(arguments.number(320)));
+  const bool moves = touches[0].start != touches[1].start;
+  if (moves && (side == Side::Outside || arguments.whole(301) == 1)) {
+    touches[1].transit = Transit::ClearanceHeight;
+  }
+  const auto contacts = motion->touch_all(touches, arguments.number(260));
+  if (!contacts) return contacts.error();
+
+  const double first = contacts->front().surface[axis];
+  const double second = contacts->back().surface[axis];
+  DatumPoint found{.point = centre};
+  found.point[axis] = (first + second) / 2;
+  found.axes[axis] = true;
+  found.datum[axis] = arguments.number(405);
+  set_length(context.host, 157, found.point[axis]);
+  set_length(context.host, 166, std::abs(first - second));
+  return finish_preset(context, *motion, found);
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle408{
+    {.number = 408,
+     .name = "SLOT CENTER REF PT",
+     .kind = CycleKind::Preset,
+     .parameters = k408Parameters,
+     .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
+     .simulated = "All parameters."},
+    [](const CycleContext& context) { return set_datum(context, Side::Inside); }};
+
+constinit const TouchProbeCycle kCycle409{
+    {.number = 409,
+     .name = "RIDGE CENTER REF PT",
+     .kind = CycleKind::Preset,
+     .parameters = k409Parameters,
+     .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
+     .simulated = "All parameters."},
+    [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
+
+}  // namespace fitgauge::probing

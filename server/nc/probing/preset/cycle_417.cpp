@@ -1,0 +1,46 @@
+#include <array>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/preset/preset_cycle.hpp"
+#include "nc/probing/touch/single_touch.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+
+constexpr std::array kParameters{coordinate(263, "Point, main axis"),
+                                 coordinate(264, "Point, secondary axis"),
+                                 coordinate(294, "Point, probe axis"),
+                                 kSetUpClearance,
+                                 kClearanceHeight,
+                                 kTableRow,
+                                 coordinate(333, "New datum in the probe axis", 0),
+                                 kTransfer};
+
+constexpr std::array<CycleOutput, 1> kResults{{{160, "Measured coordinate", Unit::Length}}};
+
+CycleResult<void> set_datum(const CycleContext& context) {
+  const Arguments& arguments = context.arguments;
+  auto motion = begin_preset(context);
+  if (!motion) return motion.error();
+  const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(294)};
+  const auto surface = touch_down(*motion, nominal, arguments.number(320), arguments.number(260));
+  if (!surface) return surface.error();
+  return set_datum_of_axis(context, motion->plane(), *surface, 2);
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle417{
+    {.number = 417,
+     .name = "DATUM IN TS AXIS",
+     .kind = CycleKind::Preset,
+     .parameters = kParameters,
+     .results = kResults,
+     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
+     .simulated = "All parameters."},
+    set_datum};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <array>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/dotted_parameters.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measured_value.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/tool/tool_measuring.hpp"
+#include "nc/probing/touch/probing_motion.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using namespace parameter;
+using machine::Tool;
+
+constexpr std::array kParameters{
+    choice(340, "Tool measurement: 0 first, 1 check, 2 check and write nothing", 0, 2, 1),
+    kClearanceHeight, choice(341, "Measure the single teeth: 0 no, 1 yes", 0, 1, 0)};
+
+/// 31 to 33: the same in sub-lines, where CHECK knows 0 and 1, and a Q for the status may follow.
+constexpr CycleParameter status_parameter() {
+  CycleParameter made = result_parameter(1);
+  made.meaning = "Q parameter for the status";
+  made.required = false;
+  return made;
+}
+constexpr std::array kToolWords{in_part(1, {.id = ParameterId::WordCheck,
+                                            .meaning = "Tool measurement: 0 first, 1 check",
+                                            .kind = ValueKind::Whole,
+                                            .range = {0, 1}}),
+                                status_parameter(), height_parameter(2),
+                                in_part(3, {.id = ParameterId::WordTeeth,
+                                            .meaning = "Measure the single teeth: 0 no, 1 yes",
+                                            .kind = ValueKind::Whole,
+                                            .range = {0, 1},
+                                            .default_value = 0})};
+
+constexpr CycleOutput kLengthDeviation{115, "Deviation of the length", Unit::Length};
+constexpr CycleOutput kRadiusDeviation{116, "Deviation of the radius", Unit::Length};
+constexpr CycleOutput kToolStatus{199, "Tool: 0 within tolerance, 1 worn, 2 broken", Unit::None};
+constexpr std::array k481Results{kLengthDeviation, kToolStatus};
+constexpr std::array k482Results{kRadiusDeviation, kToolStatus};
+constexpr std::array k483Results{kLengthDeviation, kRadiusDeviation, kToolStatus};
+
+enum class Mode : std::uint8_t { First, Check, CheckOnly };
+enum class Status : std::uint8_t { WithinTolerance, Worn, Broken };
+
+/// What the block asks for, in either form.
+struct ToolOrder {
+  Mode mode;
+  double clearance_height;
+  bool single_teeth;
+};
+
+ToolOrder tool_order_of(const Arguments& arguments) {
+  return {static_cast<Mode>(arguments.number(ParameterId::WordCheck, 340)),
+          arguments.number(ParameterId::WordHeight, 260),
+          arguments.number(ParameterId::WordTeeth, 341) != 0};
+}
+
+/// A column of tool.t that is measured, with those that judge it.
+struct Dimension {
+  const CycleOutput* result;
+  double Tool::*stored;
+  double Tool::*delta;
+  double Tool::*tolerance;
+  double Tool::*breakage;
+};
+constexpr Dimension kLength{&kLengthDeviation, &Tool::l, &Tool::dl, &Tool::l_tolerance,
+                            &Tool::l_breakage};
+constexpr Dimension kRadius{&kRadiusDeviation, &Tool::r, &Tool::dr, &Tool::r_tolerance,
+                            &Tool::r_breakage};
+
+/// 0 in the tolerance switches a check off; limits are inclusive.
+Status judge(Length deviation, double tolerance, double breakage) {
+  const auto exceeds = [&](double limit) {
+    return to_length(limit) > Length{} && magnitude(deviation) > to_length(limit);
+  };
+  if (exceeds(breakage)) return Status::Broken;
+  return exceeds(tolerance) ? Status::Worn : Status::WithinTolerance;
+}
+
+/// How the spindle behaves for each touch: turning for the longest edge, then, with Q341, standing
+/// for each tooth.
+CycleResult<std::vector<Spindle>> touches_of(const CycleContext& context, bool turns) {
+  std::vector<Spindle> touches{turns ? Spindle::Turns : Spindle::Stands};
+  if (!tool_order_of(context.arguments).single_teeth) return touches;
+  const Tool& tool = *context.machine.state().active_tool();
+  constexpr int kMostTeeth = 20;
+  if (tool.teeth < 1 || tool.teeth > kMostTeeth) {
+    return nc_error(1109, "single teeth are measured with 1 to 20 of them in the column CUT");
+  }
+  touches.insert(touches.end(), static_cast<std::size_t>(tool.teeth), Spindle::Stands);
+  return touches;
+}
+
+/// The length of the tool: the edge that R-OFFS puts over the contact plate.
+CycleResult<double> measure_length(const CycleContext& context, ToolProbing& probing) {
+  const machine::MachineState& state = context.machine.state();
+  const Tool& tool = *state.active_tool();
+  const machine::ToolTouchProbe tt = state.tt;
+  const auto touches = touches_of(context, tool.r_offset != 0 || state.tool_radius() > tt.radius);
+  if (!touches) return touches.error();
+  double longest = 0;
+  for (const Spindle spindle : *touches) {
+    const auto tip = probing.touch_top({tt.centre.x + tool.r_offset, tt.centre.y}, spindle);
+    if (!tip) return tip.error();
+    longest = std::max(longest, state.tool_length() + *tip - tt.centre.z);
+  }
+  return longest;
+}
+
+CycleResult<double> measure_radius(const CycleContext& context, ToolProbing& probing) {
+  const machine::MachineState& state = context.machine.state();
+  const machine::ToolTouchProbe tt = state.tt;
+  const auto touches = touches_of(context, true);
+  if (!touches) return touches.error();
+  const double height = tt.centre.z - tt_parameters::kDepth - state.active_tool()->l_offset;
+  double largest = 0;
+  for (const Spindle spindle : *touches) {
+    const auto axis = probing.touch_side({tt.centre.x, tt.centre.y}, height, {1, 0}, spindle);
+    if (!axis) return axis.error();
+    largest = std::max(largest, *axis - tt.radius);
+  }
+  return largest;
+}
+
+/// Enters a measured value into the tool row as Q340 says, and its deviation into Q115 or Q116.
+Status enter(const CycleContext& context, const Dimension& dimension, double measured, Tool& tool) {
+  const Mode mode = tool_order_of(context.arguments).mode;
+  const Length found = to_length(measured);
+  const Length deviation = found - to_length(tool.*dimension.stored);
+  context.host.set_q(dimension.result->q, deviation.to_mm(), Unit::Length);
+  if (mode == Mode::First) {
+    tool.*dimension.stored = found.to_mm();
+    tool.*dimension.delta = 0;
+    return Status::WithinTolerance;
+  }
+  if (mode == Mode::Check) tool.*dimension.delta = deviation.to_mm();
+  return judge(deviation, tool.*dimension.tolerance, tool.*dimension.breakage);
+}
+
+CycleResult<void> finish(const CycleContext& context, Tool tool, Status status) {
+  const Arguments& arguments = context.arguments;
+  context.host.set_q(kToolStatus.q, static_cast<double>(status), Unit::None);
+  if (arguments.descriptor().dotted && arguments.has_number(ParameterId::WordResult)) {
+    context.host.set_q(static_cast<std::uint16_t>(arguments.number(ParameterId::WordResult)),
+                       static_cast<double>(status), Unit::None);
+  }
+  if (tool_order_of(arguments).mode == Mode::CheckOnly) return {};
+  tool.locked = tool.locked || status != Status::WithinTolerance;
+  return lift(context.machine.write_tool(tool));
+}
+
+CycleResult<void> measure(const CycleContext& context, bool length, bool radius) {
+  auto probing = ToolProbing::begin(context, tool_order_of(context.arguments).clearance_height);
+  if (!probing) return probing.error();
+  Tool tool = *context.machine.state().active_tool();
+  Status status = Status::WithinTolerance;
+  if (length) {
+    const auto measured = measure_length(context, *probing);
+    if (!measured) return measured.error();
+    status = enter(context, kLength, *measured, tool);
+  }
+  if (radius) {
+    const auto measured = measure_radius(context, *probing);
+    if (!measured) return measured.error();
+    status = std::max(status, enter(context, kRadius, *measured, tool));
+  }
+  if (auto moved = probing->retract(); !moved) return moved;
+  return finish(context, tool, status);
+}
+
+constexpr std::string_view kSimulated =
+    "A first measurement writes L and R, a check DL and DR; LTOL, RTOL, LBREAK, RBREAK set the "
+    "status and, unless nothing is to be written, lock the tool. The feed of a turning tool "
+    "follows from its radius.";
+constexpr std::string_view kNotSimulated =
+    "The tool is a cylinder and its teeth are alike: measuring single teeth repeats the touch for "
+    "each. The state of the spindle does not change.";
+
+CycleResult<void> measure_tool_length(const CycleContext& context) {
+  return measure(context, true, false);
+}
+CycleResult<void> measure_tool_radius(const CycleContext& context) {
+  return measure(context, false, true);
+}
+CycleResult<void> measure_tool(const CycleContext& context) { return measure(context, true, true); }
+
+/// The cycle of a number in its Q-form or in sub-lines.
+constexpr CycleDescriptor tool_measurement(std::uint16_t number, std::string_view name, bool dotted,
+                                           std::span<const CycleOutput> results) {
+  return {.number = number,
+          .name = name,
+          .kind = CycleKind::Tool,
+          .dotted = dotted,
+          .parameters = dotted ? std::span<const CycleParameter>(kToolWords) : kParameters,
+          .results = results,
+          .errors = errors::kTouching | errors::kToolMeasuring,
+          .simulated = kSimulated,
+          .not_simulated = kNotSimulated};
+}
+
+}  // namespace
+
+constinit const TouchProbeCycle kCycle31{
+    tool_measurement(31, "CAL. TOOL LENGTH", true, k481Results), measure_tool_length};
+constinit const TouchProbeCycle kCycle32{
+    tool_measurement(32, "CAL. TOOL RADIUS", true, k482Results), measure_tool_radius};
+constinit const TouchProbeCycle kCycle33{tool_measurement(33, "MEASURE TOOL", true, k483Results),
+                                         measure_tool};
+constinit const TouchProbeCycle kCycle481{
+    tool_measurement(481, "CAL. TOOL LENGTH", false, k481Results), measure_tool_length};
+constinit const TouchProbeCycle kCycle482{
+    tool_measurement(482, "CAL. TOOL RADIUS", false, k482Results), measure_tool_radius};
+constinit const TouchProbeCycle kCycle483{tool_measurement(483, "MEASURE TOOL", false, k483Results),
+                                          measure_tool};
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,126 @@
+#include "nc/probing/tool/tool_measuring.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/probing/touch/probing_motion.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using machine::Axis;
+using machine::AxisWords;
+using machine::CoordinateSystem;
+using machine::FaultKind;
+using machine::Feed;
+using machine::MachineState;
+using machine::make_fault;
+
+CycleResult<void> check(const MachineState& state) {
+  if (!state.tool.axis) return from_machine(make_fault(FaultKind::ToolAxisMissing));
+  if (state.modes.mode != machine::OperatingMode::Mill) {
+    return nc_error(1097, "tool measurement needs FUNCTION MODE MILL");
+  }
+  const machine::Tool* tool = state.active_tool();
+  if (tool == nullptr) return from_machine(make_fault(FaultKind::NoTool));
+  if (tool->is_probe()) {
+    return nc_error(1093, fmt::format("tool {} is a touch probe", tool->number));
+  }
+  if (state.tool.axis != Axis::Z) return nc_error(1079, "the TT is touched along Z");
+  const Vec3 up = unit_vector(Axis::Z);
+  const Vec3 height = unit(state.frames.direction_to_machine(up));
+  if (norm(state.tool_direction(CoordinateSystem::Machine) - up) > tolerance::kSameDirection ||
+      norm(height - up) > tolerance::kSameDirection) {
+    return nc_error(1075, "the tool is measured upright: reset the tilted plane");
+  }
+  return {};
+}
+
+/// The feed of a turning tool: a measuring tolerance each turn, at the speed that its edge may
+/// have.
+double probing_feed(double tool_radius, Spindle spindle) {
+  using namespace tt_parameters;
+  if (spindle == Spindle::Stands) return kProbingFeed;
+  constexpr double kMetresPerTurn = 0.0063;  // of a radius of 1 mm
+  const double rpm = std::min(kMostRpm, kPeripheralSpeed / (tool_radius * kMetresPerTurn));
+  return kMeasuringTolerance * rpm;
+}
+
+}  // namespace
+
+CycleResult<ToolProbing> ToolProbing::begin(const CycleContext& context, double clearance_height) {
+  const MachineState& state = context.machine.state();
+  if (auto checked = check(state); !checked) return checked.error();
+  const double height = state.frames.to_machine({0, 0, clearance_height}).z;
+  const double start = state.tt.centre.z + tt_parameters::kSafetyDistance;
+  return ToolProbing(context, std::max(height, start), start);
+}
+
+CycleResult<ToolProbing> ToolProbing::begin_here(const CycleContext& context) {
+  const MachineState& state = context.machine.state();
+  if (auto checked = check(state); !checked) return checked.error();
+  const double height = state.position(CoordinateSystem::Machine).linear.z;
+  return ToolProbing(context, height, height);
+}
+
+CycleResult<double> ToolProbing::touch_top(Point2 at, Spindle spindle) {
+  if (auto moved = retract(); !moved) return moved.error();
+  if (auto moved = move_over(at); !moved) return moved.error();
+  if (auto moved = move_to_height(start_height_); !moved) return moved.error();
+  const auto tip = probe({0, 0, -1}, spindle);
+  if (!tip) return tip.error();
+  return tip->z;
+}
+
+CycleResult<double> ToolProbing::touch_side(Point2 centre, double tip_height, Point2 outwards,
+                                            Spindle spindle) {
+  const MachineState& state = machine_.state();
+  const double away = state.tt.radius + state.tool_radius() + tt_parameters::kSafetyDistance;
+  if (auto moved = retract(); !moved) return moved.error();
+  if (auto moved = move_over({centre.x + outwards.x * away, centre.y + outwards.y * away});
+      !moved) {
+    return moved.error();
+  }
+  if (auto moved = move_to_height(tip_height); !moved) return moved.error();
+  const auto tip = probe({-outwards.x, -outwards.y, 0}, spindle);
+  if (!tip) return tip.error();
+  return (tip->x - centre.x) * outwards.x + (tip->y - centre.y) * outwards.y;
+}
+
+CycleResult<void> ToolProbing::retract() { return move_to_height(clearance_height_); }
+
+CycleResult<void> ToolProbing::move_to_height(double height) {
+  AxisWords along;
+  along[Axis::Z] = height;
+  return move(along);
+}
+
+CycleResult<void> ToolProbing::move_over(Point2 at) {
+  AxisWords across;
+  across[Axis::X] = at.x;
+  across[Axis::Y] = at.y;
+  return move(across);
+}
+
+CycleResult<void> ToolProbing::move(const AxisWords& target) {
+  return lift(machine_.move({target, Feed::rapid(), CoordinateSystem::Machine}));
+}
+
+CycleResult<Vec3> ToolProbing::probe(const Vec3& direction, Spindle spindle) {
+  const MachineState& state = machine_.state();
+  const auto contact = machine_.probe({.direction = direction,
+                                       .distance = tt_parameters::kLongestProbing,
+                                       .feed = probing_feed(state.tool_radius(), spindle),
+                                       .system = CoordinateSystem::Machine,
+                                       .retract = std::nullopt,
+                                       .retract_feed = Feed::rapid()});
+  if (contact) return contact->tip_machine;
+  if (contact.error().kind != FaultKind::NoContact) return from_machine(contact.error());
+  return nc_error(1014, fmt::format("tool {} does not reach the tool touch probe within {} mm",
+                                    state.tool.number, tt_parameters::kLongestProbing));
+}
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "nc/probing/touch/circle_fit.hpp"
+#include "nc/probing/touch_probe_cycle.hpp"
+
+namespace fitgauge::probing {
+
+/// What a control keeps in its machine parameters for the tool touch probe and no program changes.
+namespace tt_parameters {
+inline constexpr double kSafetyDistance = 5;         ///< safetyDistStylus, mm: before every touch
+inline constexpr double kDepth = 5;                  ///< offsetToolAxis, mm: tool end below the top
+inline constexpr double kLongestProbing = 50;        ///< mm: farther away the tool is not found
+inline constexpr double kProbingFeed = 300;          ///< probingFeed, mm/min: spindle stands
+inline constexpr double kPeripheralSpeed = 40;       ///< maxPeriphSpeedMeas, m/min
+inline constexpr double kMostRpm = 1000;             ///< maxSpeed
+inline constexpr double kMeasuringTolerance = 0.01;  ///< measureTolerance1, mm a turn
+}  // namespace tt_parameters
+
+/// Whether the spindle turns while the tool is touched.
+enum class Spindle : std::uint8_t { Stands, Turns };
+
+/// The way of the tool in the spindle to the tool touch probe and its touches there, in machine
+/// coordinates of the tool tip. The spindle axis is Z. Not thread-safe; lives within one execution;
+/// after an error the machine stands where it stopped.
+class ToolProbing {
+ public:
+  /// @param clearance_height Q260, in the input system; raised to stay clear of the contact plate.
+  /// @errors 1001 tool axis missing, 1075 the tool is inclined or the coordinates are tilted, 1079
+  ///   the tool axis is not Z, 1092 no tool, 1093 a touch probe is in the spindle, 1097 not in
+  ///   FUNCTION MODE MILL.
+  static CycleResult<ToolProbing> begin(const CycleContext& context, double clearance_height);
+  /// The same with the height that the tip has now, at any distance from the plate.
+  static CycleResult<ToolProbing> begin_here(const CycleContext& context);
+
+  /// Touches the upper side with the tip over a point, and comes back. @return the tip's height.
+  /// @errors 1014 nothing within the longest probing.
+  CycleResult<double> touch_top(Point2 at, Spindle spindle);
+  /// Touches a side from outside, coming over the clearance height, the tip at a height below the
+  /// top. @param outwards a unit vector from the centre to the side. @return the distance of the
+  /// tip from the centre, along it.
+  CycleResult<double> touch_side(Point2 centre, double tip_height, Point2 outwards,
+                                 Spindle spindle);
+  /// Up to the clearance height.
+  CycleResult<void> retract();
+  CycleResult<void> move_over(Point2 at);
+
+ private:
+  ToolProbing(const CycleContext& context, double clearance_height, double start_height)
+      : machine_(context.machine),
+        clearance_height_(clearance_height),
+        start_height_(start_height) {}
+
+  CycleResult<void> move(const machine::AxisWords& target);
+  CycleResult<void> move_to_height(double height);
+  CycleResult<machine::Vec3> probe(const machine::Vec3& direction, Spindle spindle);
+
+  machine::Machine& machine_;
+  double clearance_height_;  ///< of the tip
+  double start_height_;      ///< of the tip, before it touches the upper side
+};
+
+}  // namespace fitgauge::probing

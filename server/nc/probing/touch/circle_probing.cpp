@@ -1,0 +1,79 @@
+#include "nc/probing/touch/circle_probing.hpp"
+
+#include <cmath>
+
+namespace fitgauge::probing {
+
+std::vector<Touch> circle_touches(const CirclePlan& plan) {
+  const double outwards = plan.side == Side::Inside ? 1 : -1;
+  const double pitch_radius = plan.diameter / 2 - outwards * plan.start_distance;
+  const bool from_centre = pitch_radius <= 0;
+  const Vec3 centre{plan.centre.x, plan.centre.y, plan.height};
+  const Transit between = from_centre          ? Transit::Straight
+                          : plan.via_clearance ? Transit::ClearanceHeight
+                          : plan.on_arc        ? Transit::Arc
+                                               : Transit::Straight;
+  std::vector<Touch> touches;
+  for (int point = 0; point < plan.points; ++point) {
+    const auto [sine, cosine] = machine::sine_cosine(plan.start_angle + point * plan.step);
+    const Vec3 radial{cosine, sine, 0};
+    touches.push_back({.start = from_centre ? centre : centre + radial * pitch_radius,
+                       .direction = radial * outwards,
+                       .transit = between,
+                       .arc_centre = centre,
+                       .arc_sweep = plan.step});
+  }
+  return touches;
+}
+
+CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
+                                   double ball_radius) {
+  std::vector<Point2> centres;
+  for (const Contact& contact : contacts) {
+    centres.push_back({contact.ball_centre.x, contact.ball_centre.y});
+  }
+  auto circle = fit_circle(centres);
+  if (circle) circle->radius += side == Side::Inside ? ball_radius : -ball_radius;
+  return circle;
+}
+
+Form circle_form(std::size_t points, const Circle& circle) {
+  Form form{.diameter_factor = circle.diameter_factor};
+  if (points == 3) {
+    form.reason =
+        "three points always lie on a circle: any form deviation is taken for centre and diameter";
+    return form;
+  }
+  form.residual_mm = circle.residual;
+  form.reason = points == 4 ? "four points show an oval in their residual only: three and five "
+                              "lobes move the centre, four lobes change the diameter"
+                            : std::to_string(points) +
+                                  " points cannot show as many lobes: these change the diameter";
+  return form;
+}
+
+CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
+                                       Side side, Point2 centre) {
+  const Arguments& arguments = context.arguments;
+  const double step = arguments.number(247);
+  if (step == 0) return nc_error(1066);
+  if (std::abs(step) < 5) return nc_error(1067);
+  const auto touches =
+      circle_touches({.side = side,
+                      .centre = centre,
+                      .diameter = arguments.number(262),
+                      .start_angle = arguments.number(325),
+                      .step = step,
+                      .points = static_cast<int>(arguments.number_or(423, 4)),
+                      .height = arguments.number(261),
+                      .start_distance = motion.start_distance(arguments.number(320)),
+                      .via_clearance = arguments.whole(301) == 1,
+                      .on_arc = arguments.number_or(365, 1) == 1});
+  const auto contacts = motion.touch_all(touches, arguments.number(260));
+  if (!contacts) return contacts.error();
+  const auto circle = circle_through(*contacts, side, motion.ball_radius());
+  if (!circle) return circle.error();
+  return ProbedCircle{*circle, circle_form(contacts->size(), *circle)};
+}
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,170 @@
+#include "nc/probing/touch/probing_motion.hpp"
+
+#include <fmt/format.h>
+
+#include "nc/probing/measured_value.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+using machine::AxisWords;
+using machine::ContactPoint;
+using machine::CoordinateSystem;
+using machine::Feed;
+using machine::MachineState;
+
+/// Machine mm per mm of the input system along the main axis. @pre all scaling factors are equal.
+double scale_of(const MachineState& state, machine::Axis main) {
+  return norm(state.frames.direction_to_machine(unit_vector(main)));
+}
+
+}  // namespace
+
+ProbingMotion::ProbingMotion(const CycleContext& context, const machine::ProbeSystem& probe)
+    : machine_(context.machine),
+      host_(context.host),
+      plane_(WorkingPlane::across(machine_.state().tool_axis())),
+      probe_(probe),
+      scale_(scale_of(machine_.state(), plane_.main)) {}
+
+CycleResult<ProbingMotion> ProbingMotion::begin(const CycleContext& context) {
+  using machine::FaultKind;
+  using machine::make_fault;
+  const MachineState& state = context.machine.state();
+  if (!state.tool.axis) return from_machine(make_fault(FaultKind::ToolAxisMissing));
+  if (state.modes.mode != machine::OperatingMode::Mill) {
+    return nc_error(1097, "touch-probe cycles need FUNCTION MODE MILL");
+  }
+  if (state.active_tool() == nullptr) return from_machine(make_fault(FaultKind::NoTool));
+  const auto probe = state.probe_system();
+  if (!probe) {
+    return from_machine(make_fault(
+        FaultKind::NotAProbe, fmt::format("tool {} is no touch probe (TP_NO)", state.tool.number)));
+  }
+  return ProbingMotion(context, *probe);
+}
+
+CycleResult<std::vector<Contact>> ProbingMotion::touch_all(std::span<const Touch> touches,
+                                                           double clearance_height) {
+  std::vector<Contact> contacts;
+  for (const Touch& touch : touches) {
+    const bool first = contacts.empty();
+    auto moved = first ? approach(touch, clearance_height) : transit(touch, clearance_height);
+    if (!moved) return moved.error();
+    auto contact = probe(touch.direction);
+    if (!contact) return contact.error();
+    contacts.push_back(*contact);
+  }
+  if (auto moved = move_tip_to_height(clearance_height); !moved) return moved.error();
+  return contacts;
+}
+
+CycleResult<Contact> ProbingMotion::touch(const Touch& touch, double clearance_height) {
+  if (auto moved = approach(touch, clearance_height); !moved) return moved.error();
+  return probe(touch.direction);
+}
+
+CycleResult<void> ProbingMotion::approach(const Touch& touch, double clearance_height) {
+  if (tip().z < clearance_height) return via_clearance_height(touch.start, clearance_height);
+  if (auto moved = move_ball_in_plane(touch.start); !moved) return moved;
+  return move_ball(touch.start);
+}
+
+CycleResult<void> ProbingMotion::transit(const Touch& touch, double clearance_height) {
+  switch (touch.transit) {
+    case Transit::Arc: return arc(touch);
+    case Transit::ClearanceHeight: return via_clearance_height(touch.start, clearance_height);
+    case Transit::Straight: break;
+  }
+  for (const Vec3& waypoint : touch.waypoints) {
+    if (auto moved = move_ball(waypoint); !moved) return moved;
+  }
+  return move_ball(touch.start);
+}
+
+CycleResult<void> ProbingMotion::via_clearance_height(const Vec3& start, double clearance_height) {
+  if (auto moved = move_tip_to_height(clearance_height); !moved) return moved;
+  if (auto moved = move_ball_in_plane(start); !moved) return moved;
+  return move_ball(start);
+}
+
+CycleResult<void> ProbingMotion::arc(const Touch& touch) {
+  const Vec3 offset = ball_offset();
+  return lift(machine_.move_arc({.end = plane_.to_input(touch.start) - offset,
+                                 .centre = plane_.to_input(touch.arc_centre) - offset,
+                                 .sweep_deg = touch.arc_sweep,
+                                 .normal = plane_.probe,
+                                 .feed = positioning_feed()}));
+}
+
+CycleResult<Contact> ProbingMotion::probe(const Vec3& direction) {
+  const auto contact = machine_.probe({.direction = plane_.to_input(direction),
+                                       .distance = probe_.data.distance,
+                                       .feed = probe_.data.feed,
+                                       .system = CoordinateSystem::Input,
+                                       .retract = std::nullopt,
+                                       .retract_feed = positioning_feed()});
+  if (!contact && contact.error().kind == machine::FaultKind::NoContact) {
+    return nc_error(1014,
+                    fmt::format("nothing within DIST = {} mm of the start", probe_.data.distance));
+  }
+  if (!contact) return from_machine(contact.error());
+  publish_touch(machine_.state(), host_, *contact);
+  return Contact{plane_.from_input(contact->ball_centre), plane_.from_input(contact->surface)};
+}
+
+CycleResult<void> ProbingMotion::move_tip(const AxisWords& target) {
+  return lift(machine_.move({target, positioning_feed()}));
+}
+
+CycleResult<void> ProbingMotion::move_ball(const Vec3& centre) {
+  return move_tip(AxisWords::linear(plane_.to_input(centre) - ball_offset()));
+}
+
+CycleResult<void> ProbingMotion::move_ball_in_plane(const Vec3& centre) {
+  Vec3 target = centre;
+  target.z = (tip() + plane_.from_input(ball_offset())).z;
+  return move_ball(target);
+}
+
+CycleResult<void> ProbingMotion::move_tip_to_height(double height) {
+  AxisWords target;
+  target[plane_.probe] = height;
+  return move_tip(target);
+}
+
+Feed ProbingMotion::positioning_feed() const {
+  const FastProbing& fast = host_.memory().fast_probing;
+  if (fast.machine_rapid) return Feed::rapid();
+  if (fast.positioning_feed) return Feed::at(*fast.positioning_feed);
+  const bool machine_rapid = probe_.data.prepositioning == machine::PrePositioning::MachineRapid;
+  return machine_rapid ? Feed::rapid() : Feed::rapid(probe_.data.rapid);
+}
+
+Vec3 ProbingMotion::tip() const { return plane_.from_input(machine_.position().linear); }
+
+Vec3 ProbingMotion::ball_offset() const {
+  return machine_.state().ball_centre() - machine_.position().linear;
+}
+
+CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames) {
+  if (frames.is_mirrored()) return nc_error(1008, "reset cycle 8 before this cycle");
+  if (frames.is_scaled()) return nc_error(1007, "reset cycles 11 and 26 before this cycle");
+  return {};
+}
+
+void publish_touch(const MachineState& state, CycleHost& host, const ContactPoint& contact) {
+  const Vec3 nose = state.frames.from_machine(contact.nose.linear, CoordinateSystem::Workpiece);
+  std::uint16_t number = 115;
+  for (const double coordinate : {nose.x, nose.y, nose.z}) {
+    set_length(host, number++, coordinate);
+  }
+  for (const machine::Axis axis : {machine::Axis::A, machine::Axis::B, machine::Axis::C}) {
+    if (state.ranges[index(axis)] && number <= 119) {
+      host.set_q(number++, contact.nose[axis], Unit::Angle);
+    }
+  }
+  host.touched(contact);
+}
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "nc/machine/machine.hpp"
+#include "nc/probing/touch_probe_cycle.hpp"
+#include "nc/probing/working_plane.hpp"
+
+namespace fitgauge::probing {
+
+using machine::Vec3;
+
+/// How the probe comes to the start of a touch from the one before.
+enum class Transit : std::uint8_t {
+  Straight,         ///< at measuring height, over the waypoints
+  Arc,              ///< on the pitch circle, at measuring height
+  ClearanceHeight,  ///< up to Q260, across, down
+};
+
+/// One touch, in plane coordinates of the ball centre.
+struct Touch {
+  Vec3 start;
+  Vec3 direction;  ///< of probing, length 1
+  Transit transit = Transit::Straight;
+  std::vector<Vec3> waypoints{};  ///< of Transit::Straight, before the start
+  Vec3 arc_centre{};              ///< of Transit::Arc
+  double arc_sweep = 0;           ///< in degrees, positive counter-clockwise
+};
+
+/// What a touch measured, in plane coordinates.
+struct Contact {
+  Vec3 ball_centre;
+  Vec3 surface;  ///< ball centre moved by the effective radius along the probing direction
+};
+
+/// The motion of probing cycles: positioning logic, touches with their data of tchprobe.tp (F,
+/// FMAX, DIST, SET_UP) or cycle 441, retraction. Coordinates are those of the active input system,
+/// in which a mm may be scaled (cycle 11); clearances of the probe table are real millimetres. Not
+/// thread-safe; lives within one execution. After an error the machine stands where it stopped.
+class ProbingMotion {
+ public:
+  /// @errors 1001 tool axis missing, 1092 no tool, 1093 no touch probe in the spindle, 1097 not in
+  ///   FUNCTION MODE MILL.
+  static CycleResult<ProbingMotion> begin(const CycleContext& context);
+
+  const WorkingPlane& plane() const { return plane_; }
+  /// The effective ball radius in the input system.
+  double ball_radius() const { return probe_.radius / scale_; }
+  /// Ball centre to nominal contact before a touch: radius + SET_UP + Q320.
+  double start_distance(double q320) const {
+    return (probe_.radius + probe_.data.set_up) / scale_ + q320;
+  }
+
+  /// Touches in order, then retracts to the clearance height (of the tip, Q260). The first start is
+  /// reached by the positioning logic: a tip below the clearance height goes up first.
+  /// Every touch updates Q115 to Q119.
+  /// @errors 1014 no contact within DIST, and the faults of the machine.
+  CycleResult<std::vector<Contact>> touch_all(std::span<const Touch> touches,
+                                              double clearance_height);
+
+  /// The first of such touches alone: comes back to its start and stays there.
+  /// @errors those of touch_all.
+  CycleResult<Contact> touch(const Touch& touch, double clearance_height);
+
+  /// Moves the tip in the named input axes, all together.
+  CycleResult<void> move_tip(const machine::AxisWords& target);
+  /// Touches along a direction in plane coordinates, as touch_all does, and comes back.
+  CycleResult<Contact> probe(const Vec3& direction);
+
+ private:
+  ProbingMotion(const CycleContext& context, const machine::ProbeSystem& probe);
+
+  CycleResult<void> approach(const Touch& touch, double clearance_height);
+  CycleResult<void> transit(const Touch& touch, double clearance_height);
+  CycleResult<void> via_clearance_height(const Vec3& start, double clearance_height);
+  CycleResult<void> arc(const Touch& touch);
+  CycleResult<void> move_ball(const Vec3& centre);           ///< all three axes together
+  CycleResult<void> move_ball_in_plane(const Vec3& centre);  ///< keeps the height
+  CycleResult<void> move_tip_to_height(double height);
+  machine::Feed positioning_feed() const;
+  Vec3 tip() const;
+  Vec3 ball_offset() const;  ///< tip to ball centre
+
+  machine::Machine& machine_;
+  CycleHost& host_;
+  WorkingPlane plane_;
+  machine::ProbeSystem probe_;
+  double scale_;  ///< machine mm per input mm
+};
+
+/// @errors 1008 and 1007: preset and alignment cycles do not work mirrored or scaled.
+CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames);
+
+/// Sets Q115 to Q119 and tells the host: every programmed touch does.
+void publish_touch(const machine::MachineState& state, CycleHost& host,
+                   const machine::ContactPoint& contact);
+
+/// As the Result of a cycle.
+template <class T>
+CycleResult<T> lift(machine::MachineResult<T> result) {
+  if (!result) return from_machine(result.error());
+  if constexpr (std::is_void_v<T>) {
+    return {};
+  } else {
+    return std::move(*result);
+  }
+}
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "nc/machine/machine.hpp"
+#include "nc/probing/arguments.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
+#include "nc/probing/cycle_fault.hpp"
+#include "nc/probing/cycle_host.hpp"
+
+namespace fitgauge::probing {
+
+/// What one execution works on; the arguments are complete.
+struct CycleContext {
+  const Arguments& arguments;
+  machine::Machine& machine;
+  CycleHost& host;
+};
+
+using CycleFunction = CycleResult<void> (*)(const CycleContext&);
+
+/// What several values say together, or a text says. Values that are not known yet are missing.
+using ArgumentCheck = CycleResult<void> (*)(const Arguments&);
+
+/// A cycle: what it is and what it does. Static data without state, shared by all threads.
+struct TouchProbeCycle {
+  CycleDescriptor descriptor;
+  CycleFunction execute;
+  /// Of the linker, with the values that are written out, and of run_cycle with all; may be null.
+  ArgumentCheck check = nullptr;
+};
+
+/// Completes and checks the arguments, then runs the cycle: motion, results, status, log, in that
+/// order the stop of Q309 last (decision 6). After an error the machine stands where it stopped.
+/// @errors 1001 tool axis missing, 1004, 1011, 1017 arguments, and those of the cycle and machine.
+CycleResult<void> run_cycle(const TouchProbeCycle& cycle, Arguments arguments,
+                            machine::Machine& machine, CycleHost& host);
+
+}  // namespace fitgauge::probing

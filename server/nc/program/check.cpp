@@ -1,0 +1,123 @@
+#include "nc/program/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <set>
+
+#include "nc/klartext/parser.hpp"
+#include "nc/program/diagnose.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Diagnostic;
+using klartext::Severity;
+
+std::string_view word(FileReference::Kind kind) {
+  switch (kind) {
+    case FileReference::Kind::Program: return "program";
+    case FileReference::Kind::Table: return "table";
+    case FileReference::Kind::Mask: return "mask";
+  }
+  return {};
+}
+
+/// Walks a program and what it calls, each file once.
+class Walk {
+ public:
+  Walk(const ControlDisk& disk, ProgramCache& programs, Allowance& allowance)
+      : disk_(disk), programs_(programs), allowance_(allowance) {}
+
+  /// @returns whether there is such a program.
+  bool visit_all(const ControlPath& main) {
+    seen_.insert(main.key());
+    if (!visit(main)) return false;
+    while (!pending_.empty()) {
+      const Named named = std::move(pending_.front());
+      pending_.pop_front();
+      if (allowance_.is_spent()) {
+        warn(named.reference,
+             "the programs named are too many to check at once; this one is checked when it is "
+             "called",
+             klartext::DiagnosticCode::ProgramTooLarge);
+      } else {
+        visit(named.path);
+      }
+    }
+    return true;
+  }
+
+  std::vector<Diagnostic> take() { return std::move(diagnostics_); }
+
+ private:
+  bool visit(const ControlPath& path) {
+    const auto linked = programs_.get(disk_, path);
+    if (linked == nullptr) return false;
+    add(linked->diagnostics);
+    for (const FileReference& reference : linked->references) follow(path, reference);
+    return true;
+  }
+
+  /// A program that is still to be looked into, and where it is named.
+  struct Named {
+    ControlPath path;
+    FileReference reference;
+  };
+
+  void add(const std::vector<Diagnostic>& found) {
+    const std::size_t room = kMostFindings - diagnostics_.size();
+    diagnostics_.insert(diagnostics_.end(), found.begin(),
+                        found.begin() + static_cast<std::ptrdiff_t>(std::min(room, found.size())));
+  }
+
+  void follow(const ControlPath& program, const FileReference& reference) {
+    const bool is_program = reference.kind == FileReference::Kind::Program;
+    const auto path = ControlPath::resolve(reference.written, program);
+    if (path.has_error()) return warn(reference, path.error().message);
+    ControlPath named = is_program ? path->with_default_extension(kProgramExtension) : *path;
+    if (!disk_.exists(named)) {
+      return warn(reference,
+                  fmt::format("{} '{}' does not exist: the run fails when it reaches this block",
+                              word(reference.kind), reference.written));
+    }
+    if (!is_program || !seen_.insert(named.key()).second) return;
+    pending_.push_back({std::move(named), reference});
+  }
+
+  void warn(const FileReference& reference, std::string message,
+            klartext::DiagnosticCode code = klartext::DiagnosticCode::FileMissing) {
+    Diagnostic warning = reference.place;
+    warning.code = code;
+    warning.message = std::move(message);
+    add({std::move(warning)});
+  }
+
+  const ControlDisk& disk_;
+  ProgramCache& programs_;
+  Allowance& allowance_;
+  std::set<std::string> seen_;
+  std::deque<Named> pending_;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace
+
+Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
+                                      ProgramCache& programs, Allowance& allowance) {
+  Walk walk(disk, programs, allowance);
+  if (!walk.visit_all(program)) {
+    return Error{ErrorCode::ProgramUnknown, "there is no program " + program.text()};
+  }
+  return walk.take();
+}
+
+bool has_errors(const std::vector<Diagnostic>& diagnostics, bool keeps_unreadable) {
+  return std::any_of(diagnostics.begin(), diagnostics.end(), [=](const Diagnostic& diagnostic) {
+    return diagnostic.severity == Severity::Error &&
+           !(keeps_unreadable && diagnostic.is_unreadable);
+  });
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "base/allowance.hpp"
+#include "base/result.hpp"
+#include "nc/klartext/diagnostic.hpp"
+#include "nc/program/control_disk.hpp"
+#include "nc/program/program_cache.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Everything to say about a program and every program it names literally, without running
+/// anything. Errors keep a run from starting; warnings name what would fail when its block is
+/// reached: a missing program, table or mask, an unavailable cycle or M function, an ERROR block.
+/// Programs that are reached once `allowance` is spent are left unchecked, with a warning.
+/// @errors ProgramUnknown when there is no such file.
+Result<std::vector<klartext::Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
+                                                ProgramCache& programs, Allowance& allowance);
+
+/// @param keeps_unreadable lines that are no Klartext are ERROR blocks and no errors (decision 32).
+bool has_errors(const std::vector<klartext::Diagnostic>& diagnostics,
+                bool keeps_unreadable = false);
+
+}  // namespace fitgauge::interpreter

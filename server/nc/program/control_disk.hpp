@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nc/program/control_path.hpp"
+
+namespace fitgauge::tabfile {
+class TabTable;
+}
+
+namespace fitgauge::interpreter {
+
+enum class FileSource : std::uint8_t {
+  Stored,  ///< uploaded
+  Live,    ///< projected from the tolerance tables
+  Run,     ///< written by the run itself
+};
+
+/// `stored`, `live`, `run`.
+std::string_view word(FileSource source);
+
+/// One revision of a file. The bytes are shared and immutable.
+struct ControlFile {
+  ControlPath path;                          ///< as stored
+  std::shared_ptr<const std::string> bytes;  ///< never null
+  /// Changes with the content: path and revision name one content for ever.
+  std::string revision;
+  FileSource source = FileSource::Stored;
+  /// The table the bytes hold, where the disk has it read already; else null.
+  std::shared_ptr<const tabfile::TabTable> table = nullptr;
+};
+
+/// The control's disk as a run sees it: read-only. What a run writes lies in the run's own overlay.
+/// Implementations are thread-safe; broken storage throws.
+class ControlDisk {
+ public:
+  ControlDisk() = default;
+  ControlDisk(const ControlDisk&) = delete;
+  ControlDisk& operator=(const ControlDisk&) = delete;
+  virtual ~ControlDisk() = default;
+
+  /// The file, or nothing when there is none.
+  virtual std::optional<ControlFile> find(const ControlPath& path) const = 0;
+  /// That of the file `find` gives, without reading its bytes.
+  virtual std::optional<std::string> revision(const ControlPath& path) const = 0;
+  bool exists(const ControlPath& path) const { return revision(path).has_value(); }
+
+  /// Whether a file lies in that directory or below it.
+  /// @param directory ends with `\`.
+  virtual bool has_directory(std::string_view directory) const = 0;
+};
+
+/// A disk in memory. Not to be changed while another thread reads it.
+class MemoryDisk final : public ControlDisk {
+ public:
+  /// Adds or replaces a file.
+  void write(const ControlPath& path, std::string bytes);
+  /// @pre `path` is valid for ControlPath::parse.
+  void write(std::string_view path, std::string bytes);
+
+  std::optional<ControlFile> find(const ControlPath& path) const override;
+  std::optional<std::string> revision(const ControlPath& path) const override;
+  bool has_directory(std::string_view directory) const override;
+
+ private:
+  std::map<std::string, ControlFile> files_;  // by key
+};
+
+/// Files that are found in every directory unless a file of that name lies there: 82553_hole.tab
+/// and 82553_shaft.tab, projected from the live tolerance tables.
+class ProjectingDisk final : public ControlDisk {
+ public:
+  struct Projection {
+    std::string file_name;
+    std::shared_ptr<const std::string> bytes;
+    std::string revision;  ///< of the tables it was projected from
+    std::shared_ptr<const tabfile::TabTable> table = nullptr;  ///< the same, read already
+  };
+
+  /// @param inner must outlive this disk.
+  ProjectingDisk(const ControlDisk& inner, std::vector<Projection> projections);
+
+  std::optional<ControlFile> find(const ControlPath& path) const override;
+  std::optional<std::string> revision(const ControlPath& path) const override;
+  bool has_directory(std::string_view directory) const override;
+
+ private:
+  const Projection* projection(const ControlPath& path) const;
+
+  const ControlDisk& inner_;
+  std::vector<Projection> projections_;
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "nc/klartext/diagnostic.hpp"
+#include "nc/klartext/syntax.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Findings beyond this number are not kept.
+inline constexpr std::size_t kMostFindings = 200;
+
+/// A finding about a place of a program: by default a block, as far as its first physical line
+/// goes.
+klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
+                              klartext::Severity severity, klartext::DiagnosticCode code,
+                              std::string message);
+klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
+                              klartext::Slice<char> place, klartext::Severity severity,
+                              klartext::DiagnosticCode code, std::string message);
+
+}  // namespace fitgauge::interpreter

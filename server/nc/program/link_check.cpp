@@ -1,0 +1,213 @@
+#include "nc/program/link_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/spelling_hint.hpp"
+#include "nc/klartext/parser.hpp"
+#include "nc/program/bound_cycle.hpp"
+#include "nc/program/builder_hint.hpp"
+#include "nc/program/cycle_arguments.hpp"
+#include "nc/program/cycle_names.hpp"
+#include "nc/program/diagnose.hpp"
+#include "nc/program/global_definitions.hpp"
+#include "nc/program/known_m_functions.hpp"
+#include "nc/program/parameter.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Block;
+using klartext::CyclePart;
+using klartext::DiagnosticCode;
+using klartext::Severity;
+
+/// Comments between the sub-lines of a cycle are passed over, so many at most.
+constexpr std::uint32_t kMostBetween = 100;
+
+bool is_comment(const Block& block) {
+  return std::holds_alternative<klartext::Empty>(block.statement) ||
+         std::holds_alternative<klartext::Structure>(block.statement);
+}
+
+/// The sub-line before (`step` -1) or after (1) the one at `index`, if it is of the same cycle.
+std::optional<std::uint32_t> neighbour(const klartext::Program& program, std::uint32_t index,
+                                       int step) {
+  const auto blocks = program.blocks();
+  const auto& part = std::get<CyclePart>(blocks[index].statement);
+  for (std::uint32_t passed = 0; passed <= kMostBetween; ++passed) {
+    if (step < 0 && index == 0) return std::nullopt;
+    index += static_cast<std::uint32_t>(step);
+    if (index >= blocks.size()) return std::nullopt;
+    if (is_comment(blocks[index])) continue;
+    const auto* other = std::get_if<CyclePart>(&blocks[index].statement);
+    if (other == nullptr || other->family != part.family || other->number != part.number) break;
+    if (step > 0 ? other->part <= part.part : other->part >= part.part) break;
+    return index;
+  }
+  return std::nullopt;
+}
+
+bool is_feed_word(klartext::CycleValue kind) {
+  return kind != klartext::CycleValue::Expression && kind != klartext::CycleValue::Predef;
+}
+
+/// Finds what is wrong with one block.
+class BlockCheck {
+ public:
+  BlockCheck(const klartext::Program& program, const Block& block,
+             std::vector<klartext::Diagnostic>& diagnostics)
+      : program_(program), block_(block), diagnostics_(diagnostics) {}
+
+  void check_cycle(const klartext::Cycle& cycle) {
+    check_predefined(cycle);
+    const BoundCycle bound = bind_cycle(program_, cycle);
+    if (bound.probing != nullptr) {
+      const probing::Arguments known = check_parameters(cycle, bound.probing->descriptor);
+      if (bound.probing->check != nullptr) {
+        report_failure(bound.probing->check(known), block_.written);
+      }
+    } else if (const auto* descriptor = bound.descriptor()) {
+      check_parameters(cycle, *descriptor);
+    } else {
+      warn_unavailable(cycle.family, cycle.number);
+    }
+  }
+
+  void check_part(const CyclePart& part) {
+    if (!is_available(part.family, part.number, true)) warn_unavailable(part.family, part.number);
+  }
+
+  void check_words(klartext::Slice<klartext::Word> words) {
+    for (const klartext::Word& word : program_.view(words)) {
+      const auto* number = std::get_if<double>(&word.value);
+      if (word.letter != klartext::Letter::M || number == nullptr) continue;
+      if (is_m_function(static_cast<int>(*number))) continue;
+      report(Severity::Warning, DiagnosticCode::MFunctionUnknown, block_.written,
+             m_function_hint(static_cast<int>(*number)));
+    }
+  }
+
+ private:
+  void report(Severity severity, DiagnosticCode code, klartext::Slice<char> place,
+              std::string message) {
+    if (diagnostics_.size() >= kMostFindings) return;
+    diagnostics_.push_back(diagnose(program_, block_, place, severity, code, std::move(message)));
+  }
+
+  void warn_unavailable(klartext::CycleFamily family, int number) {
+    report(Severity::Warning, DiagnosticCode::CycleUnknown, block_.written,
+           family == klartext::CycleFamily::GlobalDef
+               ? fmt::format("GLOBAL DEF {} is not available: the run fails when it reaches this "
+                             "block",
+                             number)
+               : cycle_hint(family == klartext::CycleFamily::TchProbe, number));
+  }
+
+  void report_unknown(const klartext::CycleParameter& written,
+                      const probing::CycleDescriptor& cycle) {
+    SpellingHint hint(name(written.parameter));
+    for (const auto& parameter : cycle.parameters) hint.consider(name(parameter));
+    report(Severity::Error, DiagnosticCode::CycleParameterUnknown, written.written,
+           fmt::format("cycle {} has no parameter {}{}", cycle.number, name(written.parameter),
+                       hint.text()));
+  }
+
+  /// PREDEF stands for a value of a GLOBAL DEF, so a parameter that none has takes no PREDEF.
+  void check_predefined(const klartext::Cycle& cycle) {
+    const bool defines = cycle.family == klartext::CycleFamily::GlobalDef;
+    for (const auto& written : program_.view(cycle.parameters)) {
+      if (written.kind != klartext::CycleValue::Predef) continue;
+      if (!defines && global_definition_of(written.parameter.number) != nullptr) continue;
+      report(
+          Severity::Error, DiagnosticCode::CycleParameterInvalid, written.written,
+          fmt::format("{} takes no PREDEF: {}", name(written.parameter),
+                      defines ? "GLOBAL DEF gives the value" : "no GLOBAL DEF has a value for it"));
+    }
+  }
+
+  /// @return the values that are written out and may stand there.
+  probing::Arguments check_parameters(const klartext::Cycle& cycle,
+                                      const probing::CycleDescriptor& descriptor) {
+    probing::Arguments known(descriptor);
+    std::vector<const probing::CycleParameter*> given;
+    for (const auto& written : program_.view(cycle.parameters)) {
+      const auto* parameter = find_parameter(descriptor, written.parameter);
+      if (parameter == nullptr) {
+        report_unknown(written, descriptor);
+        continue;
+      }
+      given.push_back(parameter);
+      if (is_feed_word(written.kind) && parameter->unit != probing::Unit::Feed) {
+        report(Severity::Error, DiagnosticCode::CycleParameterInvalid, written.written,
+               fmt::format("Input value incorrect: {} is no feed and takes no AUTO, MAX, FU or FZ",
+                           name(*parameter)));
+        continue;
+      }
+      if (auto value = literal(program_, written, *parameter)) {
+        const bool stands = report_failure(probing::check(*parameter, *value), written.written);
+        if (stands) known.set(parameter->id, *std::move(value));
+      }
+    }
+    for (const auto& parameter : descriptor.parameters) {
+      if (std::find(given.begin(), given.end(), &parameter) == given.end()) {
+        report_failure(probing::check(parameter, std::monostate{}), block_.written);
+      }
+    }
+    return known;
+  }
+
+  /// @return whether the check passed.
+  bool report_failure(const probing::CycleResult<void>& checked, klartext::Slice<char> place) {
+    if (checked) return true;
+    report(Severity::Error, DiagnosticCode::CycleParameterInvalid, place, checked.error().text);
+    return false;
+  }
+
+  const klartext::Program& program_;
+  const Block& block_;
+  std::vector<klartext::Diagnostic>& diagnostics_;
+};
+
+}  // namespace
+
+bool has_effect(const klartext::Program& program, std::uint32_t index) {
+  const auto& statement = program.blocks()[index].statement;
+  if (const auto* label = std::get_if<klartext::LabelDefinition>(&statement)) {
+    return label->label == klartext::Label(std::uint32_t{0});
+  }
+  if (std::holds_alternative<CyclePart>(statement)) {
+    return !neighbour(program, index, 1).has_value();
+  }
+  return !(is_comment(program.blocks()[index]) ||
+           std::holds_alternative<klartext::BeginProgram>(statement) ||
+           std::holds_alternative<klartext::BlankForm>(statement));
+}
+
+std::uint32_t first_part(const klartext::Program& program, std::uint32_t index) {
+  if (!std::holds_alternative<CyclePart>(program.blocks()[index].statement)) return index;
+  while (const auto before = neighbour(program, index, -1)) index = *before;
+  return index;
+}
+
+void check_block(const klartext::Program& program, std::uint32_t index,
+                 std::vector<klartext::Diagnostic>& diagnostics) {
+  const Block& block = program.blocks()[index];
+  BlockCheck check(program, block, diagnostics);
+  if (const auto* cycle = std::get_if<klartext::Cycle>(&block.statement)) {
+    check.check_cycle(*cycle);
+  } else if (const auto* part = std::get_if<CyclePart>(&block.statement)) {
+    if (part->part == 0) check.check_part(*part);
+  } else if (const auto* motion = std::get_if<klartext::Motion>(&block.statement)) {
+    check.check_words(motion->words);
+  } else if (const auto* functions = std::get_if<klartext::MFunctions>(&block.statement)) {
+    check.check_words(functions->words);
+  } else if (const auto* stop = std::get_if<klartext::Stop>(&block.statement)) {
+    check.check_words(stop->words);
+  } else if (const auto* call = std::get_if<klartext::CycleCall>(&block.statement)) {
+    check.check_words(call->words);
+  }
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nc/klartext/diagnostic.hpp"
+#include "nc/klartext/syntax.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Whether a block does something when the program runs: comments, labels but LBL 0, BLK FORM and
+/// all sub-lines of a dotted cycle but its last do not.
+bool has_effect(const klartext::Program& program, std::uint32_t block);
+
+/// The block that opens the dotted cycle whose sub-line `block` is, else `block` itself.
+std::uint32_t first_part(const klartext::Program& program, std::uint32_t block);
+
+/// Reports what is wrong with the cycle of a block (unknown or invalid parameters: errors; a cycle
+/// that is not available: a warning) and M functions that are not available (warnings).
+void check_block(const klartext::Program& program, std::uint32_t block,
+                 std::vector<klartext::Diagnostic>& diagnostics);
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,24 @@
+#include "nc/program/linked_program.hpp"
+
+#include "base/text.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+template <class Map, class Key>
+std::optional<std::uint32_t> lookup(const Map& map, const Key& key) {
+  const auto it = map.find(key);
+  return it == map.end() ? std::nullopt : std::optional(it->second);
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> LinkedProgram::label(std::uint32_t number) const {
+  return lookup(parts_.numbered_labels, number);
+}
+
+std::optional<std::uint32_t> LinkedProgram::label(std::string_view name) const {
+  return lookup(parts_.named_labels, ascii_upper(name));
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "nc/klartext/syntax.hpp"
+#include "nc/program/bound_cycle.hpp"
+#include "nc/program/code.hpp"
+#include "nc/program/control_path.hpp"
+
+namespace fitgauge::interpreter {
+
+/// What a program is called when it is named without one: `CALL PGM 82551`.
+inline constexpr std::string_view kProgramExtension = ".H";
+
+/// What the linker fills and a LinkedProgram freezes.
+struct LinkedParts {
+  std::vector<Instruction> code;        ///< ends with Op::End
+  std::vector<std::uint32_t> block_of;  ///< for each instruction the index of its block
+  std::vector<double> constants;        ///< cells from kFirstConstant on
+  std::vector<BoundCycle> cycles;       ///< of the blocks of cycles in Q parameters, in their order
+  std::uint32_t counters = 0;           ///< cells for the REP of label calls, after constants
+  std::uint32_t temporaries = 0;        ///< cells after the counters
+  std::unordered_map<std::string, std::uint32_t> named_labels;  ///< upper-case name, instruction
+  std::unordered_map<std::uint32_t, std::uint32_t> numbered_labels;
+};
+
+/// A program with labels, cycles and jumps resolved and its formulas lowered to flat code.
+/// Immutable, so that any number of runs and threads may share it.
+class LinkedProgram {
+ public:
+  LinkedProgram(ControlPath path, klartext::Program program, LinkedParts parts)
+      : path_(std::move(path)), program_(std::move(program)), parts_(std::move(parts)) {}
+  LinkedProgram(const LinkedProgram&) = delete;
+  LinkedProgram& operator=(const LinkedProgram&) = delete;
+
+  const ControlPath& path() const { return path_; }
+  const klartext::Program& program() const { return program_; }
+  bool is_inch() const { return program_.unit() == klartext::Unit::Inch; }
+
+  const std::vector<Instruction>& code() const { return parts_.code; }
+  const std::vector<double>& constants() const { return parts_.constants; }
+  std::uint32_t counters() const { return parts_.counters; }
+  const BoundCycle& cycle(std::uint32_t index) const { return parts_.cycles[index]; }
+
+  /// All cells a run of this program needs, those of other programs included.
+  std::size_t cells() const {
+    return kFirstConstant + parts_.constants.size() + parts_.counters + parts_.temporaries;
+  }
+  std::uint32_t block_of(std::size_t instruction) const { return parts_.block_of[instruction]; }
+
+  /// The instruction a label stands before, or nothing.
+  std::optional<std::uint32_t> label(std::uint32_t number) const;
+  std::optional<std::uint32_t> label(std::string_view name) const;
+
+ private:
+  ControlPath path_;
+  klartext::Program program_;
+  LinkedParts parts_;
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,335 @@
+#include "nc/program/linker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/spelling_hint.hpp"
+#include "base/text.hpp"
+#include "nc/program/arithmetic.hpp"
+#include "nc/program/diagnose.hpp"
+#include "nc/program/link_check.hpp"
+#include "nc/program/lowering.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Block;
+using klartext::DiagnosticCode;
+using klartext::Expr;
+using klartext::Label;
+using klartext::Operator;
+using klartext::QRef;
+using klartext::Severity;
+using klartext::Text;
+
+/// Their counters are put aside with each call of a program.
+constexpr std::uint32_t kMostRepeats = 65'535;
+/// Files that a check looks at.
+constexpr std::size_t kMostReferences = 1000;
+
+bool is_dynamic(const Label& label) { return std::holds_alternative<QRef>(label); }
+
+bool is_string(const Expr& expr) {
+  if (const auto* parameter = std::get_if<QRef>(&expr)) return parameter->is_string();
+  return std::holds_alternative<Text>(expr);
+}
+
+/// Turns the blocks of one program into code, in one pass, and fills in the jumps afterwards.
+class Linker {
+ public:
+  Linker(const klartext::Program& program, LinkedFile& file)
+      : program_(program), file_(file), writer_(program) {}
+
+  /// Nothing, but for the finding, when the program is too large.
+  LinkedParts link() {
+    const auto blocks = program_.blocks();
+    const std::size_t parsed = program_.memory_bytes();
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+      if (parsed + writer_.memory_bytes() > klartext::kMostMemory) {
+        report(Severity::Error, DiagnosticCode::ProgramTooLarge, blocks[i],
+               klartext::too_much_memory());
+        return {};
+      }
+      link_block(i, blocks[i]);
+    }
+    writer_.begin_block(blocks.empty() ? 0 : static_cast<std::uint32_t>(blocks.size() - 1));
+    writer_.add({.op = Op::End});
+    resolve_jumps();
+    writer_.join_pairs();
+    writer_.place_temporaries(parts_.counters);
+    parts_.temporaries = writer_.temporaries();
+    parts_.code = writer_.take_code();
+    parts_.block_of = writer_.take_blocks();
+    parts_.constants = writer_.take_constants();
+    return std::move(parts_);
+  }
+
+ private:
+  struct Jump {
+    std::uint32_t instruction;
+    std::uint32_t block;
+    Label label;
+  };
+
+  void report(Severity severity, DiagnosticCode code, const Block& block, std::string message) {
+    if (file_.diagnostics.size() >= kMostFindings) return;
+    file_.diagnostics.push_back(diagnose(program_, block, severity, code, std::move(message)));
+  }
+
+  std::string shown(const Label& label) const {
+    if (const auto* number = std::get_if<std::uint32_t>(&label)) return std::to_string(*number);
+    return fmt::format("\"{}\"", program_.text(std::get<Text>(label)));
+  }
+
+  void link_block(std::uint32_t index, const Block& block) {
+    writer_.begin_block(index);
+    check_block(program_, index, file_.diagnostics);
+    if (const auto* label = std::get_if<klartext::LabelDefinition>(&block.statement)) {
+      define_label(block, label->label);
+    }
+    if (!has_effect(program_, index)) {
+      writer_.count_block();
+      return;
+    }
+    if (!block.skip) {
+      writer_.count_block();
+      lower(index, block);
+      return;
+    }
+    writer_.flush();
+    const std::uint32_t skip = writer_.add({.op = Op::SkipBlock});
+    writer_.count_block();
+    lower(index, block);
+    writer_.at(skip).c = writer_.next();
+  }
+
+  void define_label(const Block& block, const Label& label) {
+    writer_.flush();
+    const auto* number = std::get_if<std::uint32_t>(&label);
+    if (number != nullptr && *number == 0) return;  // LBL 0 ends a subprogram, in many places
+    const bool is_new =
+        number != nullptr
+            ? parts_.numbered_labels.try_emplace(*number, writer_.next()).second
+            : parts_.named_labels
+                  .try_emplace(ascii_upper(program_.text(std::get<Text>(label))), writer_.next())
+                  .second;
+    if (is_new) return;
+    report(Severity::Error, DiagnosticCode::LabelDuplicate, block,
+           fmt::format("label {} is defined twice; each label stands once in a program",
+                       shown(label)));
+    if (const Block* first = first_definition(label)) {
+      const SourceRange range = program_.range(first->written);
+      file_.diagnostics.back().notes.push_back(
+          {fmt::format("label {} is also in line {}", shown(label), range.begin.line), range});
+    }
+  }
+
+  bool is_same(const Label& a, const Label& b) const {
+    const auto* first = std::get_if<Text>(&a);
+    const auto* second = std::get_if<Text>(&b);
+    if (first == nullptr || second == nullptr) return a == b;
+    return ascii_iequals(program_.text(*first), program_.text(*second));
+  }
+
+  const Block* first_definition(const Label& label) const {
+    for (const Block& block : program_.blocks()) {
+      const auto* defined = std::get_if<klartext::LabelDefinition>(&block.statement);
+      if (defined != nullptr && is_same(defined->label, label)) return &block;
+    }
+    return nullptr;
+  }
+
+  /// "; did you mean "UP1"?" for a name, or nothing.
+  std::string similar_label(const Label& label) const {
+    const auto* name = std::get_if<Text>(&label);
+    if (name == nullptr) return {};
+    SpellingHint hint(program_.text(*name));
+    constexpr std::size_t kMostCompared = 1000;
+    std::size_t compared = 0;
+    for (const auto& [known, at] : parts_.named_labels) {
+      if (++compared > kMostCompared) break;
+      hint.consider(known);
+    }
+    return hint.text();
+  }
+
+  void lower(std::uint32_t index, const Block& block) {
+    const auto& statement = block.statement;
+    if (const auto* assignment = std::get_if<klartext::Assignment>(&statement);
+        assignment != nullptr && !assignment->target.is_string()) {
+      writer_.assign(cell_of(assignment->target), assignment->value);
+    } else if (const auto* jump = std::get_if<klartext::ConditionalJump>(&statement);
+               jump != nullptr && !is_dynamic(jump->target)) {
+      lower_jump(index, *jump);
+    } else if (const auto* call = std::get_if<klartext::LabelCall>(&statement)) {
+      lower_call(index, block, *call);
+    } else if (std::holds_alternative<klartext::LabelDefinition>(statement)) {
+      writer_.add({.op = Op::LabelEnd});
+    } else if (std::holds_alternative<klartext::EndProgram>(statement)) {
+      writer_.add({.op = Op::End});
+    } else if (const auto* cycle = std::get_if<klartext::Cycle>(&statement)) {
+      writer_.add(
+          {.op = Op::Statement, .a = index, .b = static_cast<std::uint32_t>(parts_.cycles.size())});
+      parts_.cycles.push_back(bind_cycle(program_, *cycle));
+    } else {
+      collect_reference(block);
+      writer_.add({.op = Op::Statement, .a = index, .b = first_part(program_, index)});
+    }
+  }
+
+  void lower_jump(std::uint32_t index, const klartext::ConditionalJump& jump) {
+    const auto node_index = std::get<klartext::NodeIndex>(jump.condition);
+    const klartext::Node& node = program_.node(node_index);
+    const auto operands = program_.operands(node_index);
+    Instruction instruction{.op = Op::JumpWhen, .a = node_index.value};
+    if (std::none_of(operands.begin(), operands.end(), is_string)) {
+      instruction.op = jump_of(node.op);
+      instruction.a = writer_.value(operands[0]);
+      instruction.b = operands.size() > 1 ? writer_.value(operands[1]) : instruction.a;
+    }
+    jumps_.push_back({writer_.add(instruction), index, jump.target});
+  }
+
+  static Op jump_of(Operator condition) {
+    switch (condition) {
+      case Operator::Equal: return Op::JumpEqual;
+      case Operator::NotEqual: return Op::JumpNotEqual;
+      case Operator::Greater: return Op::JumpGreater;
+      case Operator::Less: return Op::JumpLess;
+      case Operator::IsDefined: return Op::JumpDefined;
+      default: return Op::JumpUndefined;
+    }
+  }
+
+  void lower_call(std::uint32_t index, const Block& block, const klartext::LabelCall& call) {
+    const bool repeats = !is_absent(call.repeat);
+    const std::uint32_t counter = repeats ? writer_.counter(parts_.counters++) : 0;
+    if (parts_.counters == kMostRepeats + 1) {
+      report(Severity::Error, DiagnosticCode::ProgramTooLarge, block,
+             fmt::format("a program has at most {} calls with REP", kMostRepeats));
+    }
+    if (is_dynamic(call.label)) {
+      writer_.add({.op = Op::Statement, .a = index, .b = counter});
+      return;
+    }
+    if (call.label == Label(std::uint32_t{0})) {
+      report(Severity::Error, DiagnosticCode::LabelUnknown, block,
+             "CALL LBL 0: label 0 ends a subprogram and cannot be called");
+      return;
+    }
+    const std::uint32_t instruction =
+        repeats ? writer_.add({.op = Op::Repeat, .a = writer_.value(call.repeat), .b = counter})
+                : writer_.add({.op = Op::CallLabel});
+    jumps_.push_back({instruction, index, call.label});
+  }
+
+  std::optional<std::uint32_t> resolve(const Label& label) const {
+    if (const auto* number = std::get_if<std::uint32_t>(&label)) {
+      const auto it = parts_.numbered_labels.find(*number);
+      return it == parts_.numbered_labels.end() ? std::nullopt : std::optional(it->second);
+    }
+    const auto it = parts_.named_labels.find(ascii_upper(program_.text(std::get<Text>(label))));
+    return it == parts_.named_labels.end() ? std::nullopt : std::optional(it->second);
+  }
+
+  void resolve_jumps() {
+    for (const Jump& jump : jumps_) {
+      const Block& block = program_.blocks()[jump.block];
+      const auto target = resolve(jump.label);
+      Instruction& instruction = writer_.at(jump.instruction);
+      if (!target) {
+        report(Severity::Error, DiagnosticCode::LabelUnknown, block,
+               fmt::format("label {} is not defined in this program{}", shown(jump.label),
+                           similar_label(jump.label)));
+        continue;
+      }
+      if (instruction.op == Op::Repeat && *target > jump.instruction) {  // decision 7
+        report(Severity::Warning, DiagnosticCode::RepeatBeforeLabel, block,
+               fmt::format("label {} stands after this CALL LBL REP: the program jumps forward to "
+                           "it; a part that is to be repeated stands before the call",
+                           shown(jump.label)));
+      }
+      instruction.c = *target;
+    }
+  }
+
+  void collect_reference(const Block& block) {
+    const auto add = [&](FileReference::Kind kind, const Expr& path) {
+      const auto* text = std::get_if<Text>(&path);
+      if (text == nullptr || file_.references.size() == kMostReferences) return;
+      file_.references.push_back(
+          {kind, std::string(program_.text(*text)),
+           diagnose(program_, block, Severity::Warning, DiagnosticCode::FileMissing, {})});
+    };
+    using Kind = FileReference::Kind;
+    const auto& statement = block.statement;
+    if (const auto* call = std::get_if<klartext::CallProgram>(&statement)) {
+      add(Kind::Program, call->path);
+    } else if (const auto* select = std::get_if<klartext::SelectProgram>(&statement)) {
+      add(Kind::Program, select->path);
+    } else if (const auto* open = std::get_if<klartext::TableOpen>(&statement)) {
+      add(Kind::Table, open->path);
+    } else if (const auto* table = std::get_if<klartext::SelectTable>(&statement)) {
+      add(Kind::Table, table->path);
+    } else if (const auto* print = std::get_if<klartext::FormattedPrint>(&statement)) {
+      add(Kind::Mask, print->mask);
+    } else if (const auto* part = std::get_if<klartext::CyclePart>(&statement)) {
+      for (const klartext::Word& word : program_.view(part->words)) {
+        if (word.letter == klartext::Letter::Program) add(Kind::Program, word.value);
+      }
+    }
+  }
+
+  const klartext::Program& program_;
+  LinkedFile& file_;
+  CodeWriter writer_;
+  LinkedParts parts_;
+  std::vector<Jump> jumps_;
+};
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& pool) {
+  return sizeof(T) * pool.size();
+}
+
+std::size_t memory_of(const LinkedParts& parts) {
+  // A node of a hash table: its link, the hash of a name, and the word beside it.
+  constexpr std::size_t kNode = 4 * sizeof(void*);
+  std::size_t bytes = bytes_of(parts.code) + bytes_of(parts.block_of) + bytes_of(parts.constants) +
+                      bytes_of(parts.cycles) +
+                      parts.numbered_labels.size() * (kNode + sizeof(std::uint64_t));
+  for (const auto& [name, at] : parts.named_labels) {
+    bytes += kNode + sizeof(name) + sizeof(at) + name.capacity();
+  }
+  return bytes;
+}
+
+}  // namespace
+
+LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
+  LinkedFile file;
+  file.diagnostics = std::move(parsed.diagnostics);
+  if (std::any_of(file.diagnostics.begin(), file.diagnostics.end(), [](const auto& diagnostic) {
+        return diagnostic.code == DiagnosticCode::ProgramTooLarge;
+      })) {
+    return file;
+  }
+  LinkedParts parts = Linker(parsed.program, file).link();
+  std::stable_sort(file.diagnostics.begin(), file.diagnostics.end(),
+                   [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
+  file.memory_bytes = parsed.program.memory_bytes() + memory_of(parts);
+  const auto has_error = [&](bool tolerant) {
+    return std::any_of(
+        file.diagnostics.begin(), file.diagnostics.end(), [tolerant](const auto& diagnostic) {
+          return diagnostic.severity == Severity::Error && !(tolerant && diagnostic.is_unreadable);
+        });
+  };
+  if (has_error(true)) return file;
+  file.with_error_blocks =
+      std::make_shared<const LinkedProgram>(path, std::move(parsed.program), std::move(parts));
+  if (!has_error(false)) file.program = file.with_error_blocks;
+  return file;
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "nc/klartext/syntax.hpp"
+#include "nc/program/code.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Writes the flat code of a program: one instruction after another, formulas as three-address
+/// code. Knows nothing of labels; jump targets are filled in by the linker.
+class CodeWriter {
+ public:
+  explicit CodeWriter(const klartext::Program& program) : program_(program) {
+    // A block becomes one instruction, mostly; what is reserved and not used is never touched.
+    code_.reserve(program.blocks().size());
+    block_of_.reserve(program.blocks().size());
+  }
+
+  /// What follows belongs to that block.
+  void begin_block(std::uint32_t index);
+  /// The block is passed over in the flow and only counted.
+  void count_block() { ++pending_blocks_; }
+  /// Accounts for blocks counted so far before a place that can be jumped to.
+  void flush();
+
+  /// Adds an instruction and returns its index.
+  std::uint32_t add(Instruction instruction);
+  std::uint32_t next() const { return static_cast<std::uint32_t>(code_.size()); }
+  Instruction& at(std::uint32_t index) { return code_[index]; }
+
+  /// The cell that holds the value of a numeric expression, after code that computes it.
+  std::uint32_t value(const klartext::Expr& expr);
+  /// Computes a numeric expression into a cell.
+  void assign(std::uint32_t target, const klartext::Expr& expr);
+  std::uint32_t constant(double value);
+
+  /// What the code occupies while it is written, at most.
+  std::size_t memory_bytes() const;
+
+  std::vector<Instruction> take_code() { return std::move(code_); }
+  std::vector<std::uint32_t> take_blocks() { return std::move(block_of_); }
+  /// Joins two instructions that often follow each other, once no more are added.
+  void join_pairs();
+  /// Moves the temporaries, whose number and place are known only at the end, behind `counters`.
+  void place_temporaries(std::uint32_t counters);
+  std::vector<double> take_constants() { return std::move(constants_); }
+  std::uint32_t temporaries() const { return most_temporaries_; }
+
+  /// A cell of the counters, which follow the constants; both get their place at the end.
+  static constexpr std::uint32_t counter(std::uint32_t index) { return kCounters + index; }
+
+ private:
+  // Until the number of constants is known, cells of counters and temporaries have numbers of
+  // their own. A program has fewer than 2^22 blocks, and an expression fewer nodes than that.
+  static constexpr std::uint32_t kCounters = 1U << 30;
+  static constexpr std::uint32_t kTemporaries = 1U << 31;
+
+  std::uint32_t temporary();
+  void lower_node(std::uint32_t target, klartext::NodeIndex index);
+
+  const klartext::Program& program_;
+  std::vector<Instruction> code_;
+  std::vector<std::uint32_t> block_of_;
+  std::vector<double> constants_;
+  std::unordered_map<std::uint64_t, std::uint32_t> constant_cells_;  // by bit pattern
+  std::uint32_t block_ = 0;
+  std::uint32_t pending_blocks_ = 0;
+  std::uint32_t used_temporaries_ = 0;
+  std::uint32_t most_temporaries_ = 0;
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+
+#include "nc/klartext/statement.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
+
+/// The machining cycles: what the linker checks, /v1/cycles shows and the run reads. They run as
+/// motion of the tool: positions, depths and feeds as on the control; no material is removed.
+namespace fitgauge::interpreter {
+
+/// What a machining cycle moves along.
+enum class MachiningShape : std::uint8_t {
+  Drilling,           ///< 200, 201, 203, 205, 240, 241 and 1: down and up the tool axis
+  Boring,             ///< 202: drilling with a withdrawal at the bottom
+  BackBoring,         ///< 204
+  Tapping,            ///< 2, 17, 18, 206, 207, 209: up again at the feed of the thread
+  BoreMilling,        ///< 208: a helix
+  RectangularPocket,  ///< 4, 251
+  CircularPocket,     ///< 5, 252
+  Slot,               ///< 3, 253
+  CircularSlot,       ///< 254
+  ThreadMilling,      ///< 262 to 267
+  Engraving,          ///< 225
+  PolarPattern,       ///< 220: runs the cycle before it at each of its points
+  LinearPattern,      ///< 221
+  ContourLabels,      ///< 14
+  ContourData,        ///< 20
+  Contour             ///< 21 to 24
+};
+
+struct MachiningCycle {
+  probing::CycleDescriptor descriptor;
+  MachiningShape shape;
+  bool runs_when_defined = false;  ///< DEF-active; the others wait for M99, M89 or CYCL CALL
+};
+
+/// All of them, by number.
+std::span<const MachiningCycle> machining_cycles();
+
+/// `CYCL DEF` of that number, or null.
+const MachiningCycle* machining_cycle(int number);
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,66 @@
+#include "nc/program/parameter.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "tables/tabfile/characters.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+constexpr std::string_view prefix(klartext::QSpace space) {
+  switch (space) {
+    case klartext::QSpace::Q: return "Q";
+    case klartext::QSpace::Ql: return "QL";
+    case klartext::QSpace::Qr: return "QR";
+    case klartext::QSpace::Qs: return "QS";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string name(klartext::QRef parameter) {
+  return std::string(prefix(parameter.space)) + std::to_string(parameter.number);
+}
+
+Result<klartext::QRef> parse_parameter_name(std::string_view text) {
+  const auto malformed = [&] {
+    return Error{
+        ErrorCode::FieldInvalid,
+        "'" + std::string(first_characters(text, 40)) +
+            "' is not a parameter: Q0 to Q1999, QL0 to QL499, QR0 to QR499, QS0 to QS1999"};
+  };
+  const std::string upper = ascii_upper(text);
+  for (const auto space :
+       {klartext::QSpace::Ql, klartext::QSpace::Qr, klartext::QSpace::Qs, klartext::QSpace::Q}) {
+    if (!upper.starts_with(prefix(space))) continue;
+    const char* begin = upper.data() + prefix(space).size();
+    const char* end = upper.data() + upper.size();
+    std::uint16_t number = 0;
+    const auto [stop, error] = std::from_chars(begin, end, number);
+    if (error != std::errc{} || stop != end || number >= parameter_count(space)) break;
+    return klartext::QRef{space, number};
+  }
+  return malformed();
+}
+
+Result<void> validate(const ParameterValue& value) {
+  const std::string who = name(value.parameter);
+  const auto* number = std::get_if<double>(&value.value);
+  if (value.parameter.is_string() != (number == nullptr)) {
+    return Error{ErrorCode::FieldType,
+                 who + (number == nullptr ? " takes a number" : " takes a text")};
+  }
+  if (number != nullptr && !std::isfinite(*number)) {
+    return Error{ErrorCode::NumberOutOfRange, who + " must be a finite number"};
+  }
+  if (number == nullptr &&
+      tabfile::count_characters(std::get<std::string>(value.value)) > kLongestString) {
+    return Error{ErrorCode::FieldTooLong, who + " has more than 255 characters"};
+  }
+  return {};
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+#include "nc/program/control_disk.hpp"
+#include "nc/program/linker.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Programs parsed and linked once per revision of their file, the least recently used dropped
+/// beyond a size. Thread-safe; two threads that miss at once both link, and one result is kept.
+class ProgramCache {
+ public:
+  explicit ProgramCache(std::size_t bytes = std::size_t{32} << 20) : capacity_(bytes) {}
+
+  /// The linked file, also when it has errors; null when there is none of that path. The disk reads
+  /// its bytes only when it is not at hand.
+  std::shared_ptr<const LinkedFile> get(const ControlDisk& disk, const ControlPath& path);
+  /// The same of a file that has been read. Never null.
+  std::shared_ptr<const LinkedFile> get(ControlFile file);
+
+ private:
+  std::shared_ptr<const LinkedFile> at_hand(const std::string& key);
+
+  struct Entry {
+    std::string key;
+    std::shared_ptr<const LinkedFile> file;
+  };
+
+  const std::size_t capacity_;
+  std::mutex mutex_;
+  std::list<Entry> entries_;  // the most recently used first
+  std::unordered_map<std::string, std::list<Entry>::iterator> index_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,73 @@
+#include "nc/run/channel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nc/klartext/diagnostic.hpp"
+
+namespace fitgauge::interpreter {
+
+Channel::Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& run_environment,
+                 const RunOptions& run_options, Allowance& allowance)
+    : environment(run_environment),
+      options(run_options),
+      budget(run_options.limits, allowance),
+      output(run_options.limits.output_bytes),
+      log(output, run_environment.observer),
+      files(run_environment.disk, output, run_options.limits.files),
+      calls(std::move(main), run_options.limits),
+      printer(files, output),
+      tables(files, parameters, allowance) {}
+
+NcResult<void> Channel::programmed_stop(std::string reason) {
+  machine().stop(reason);
+  if (options.on_stop == OnStop::End) return NcError{NcErrorKind::Stop, 0, std::move(reason)};
+  return log.report(MessageKind::Stop, 0, std::move(reason), place());
+}
+
+NcResult<ControlPath> Channel::resolve(std::string_view written) const {
+  auto path = ControlPath::resolve(written, linked().path());
+  if (path.has_error()) return from_error(path.error());
+  return *std::move(path);
+}
+
+NcResult<ControlPath> Channel::resolve_printed(std::string_view written) const {
+  const bool is_name = written.find_first_of("\\/:") == std::string_view::npos;
+  if (!is_name || !options.print_folder) return resolve(written);
+  auto path = ControlPath::resolve(written, *options.print_folder);
+  if (path.has_error()) return from_error(path.error());
+  return *std::move(path);
+}
+
+NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
+  auto path = resolve(written);
+  if (!path) return path;
+  return path->with_default_extension(kProgramExtension);
+}
+
+NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const ControlPath& path) {
+  const auto missing = [&] {
+    return nc_error(fmt::format("program {} does not exist", path.text()));
+  };
+  const auto revision = files.revision(path);
+  if (!revision) return missing();
+  std::shared_ptr<const LinkedProgram>& known = loaded_[path.key() + '|' + *revision];
+  if (known != nullptr) return known;
+  Allowance& allowance = budget.allowance();
+  const auto linked = allowance.uncounted([&] { return environment.programs.get(files, path); });
+  if (linked == nullptr) return missing();
+  allowance.share(linked->memory_bytes);
+  if (auto checked = budget.check(); !checked) return checked.error();
+  const auto& program = linked->runnable(options.keeps_unreadable);
+  if (program == nullptr) {
+    const auto first =
+        std::find_if(linked->diagnostics.begin(), linked->diagnostics.end(),
+                     [](const auto& found) { return found.severity == klartext::Severity::Error; });
+    return nc_error(fmt::format("program {} has errors, the first in line {}: {}", path.text(),
+                                first->range.begin.line, first->message));
+  }
+  return known = program;
+}
+
+}  // namespace fitgauge::interpreter

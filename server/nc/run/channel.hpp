@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "nc/machine/machine.hpp"
+#include "nc/probing/cycle_host.hpp"
+#include "nc/run/active_cycle.hpp"
+#include "nc/run/call_stack.hpp"
+#include "nc/run/contour.hpp"
+#include "nc/run/formatted_printer.hpp"
+#include "nc/run/interpreter.hpp"
+#include "nc/run/q_parameters.hpp"
+#include "nc/run/run_budget.hpp"
+#include "nc/run/run_files.hpp"
+#include "nc/run/run_log.hpp"
+#include "nc/run/table_access.hpp"
+#include "nc/run/tool_orientation.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Everything that one run owns: the parts of the control that its blocks work on. The executor
+/// moves it from block to block; the exec_* files say what each block does to it. Lives on the
+/// thread of its run.
+class Channel {
+ public:
+  Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& run_environment,
+          const RunOptions& run_options, Allowance& allowance);
+
+  // --- the program that runs
+  const LinkedProgram& linked() const { return calls.program(); }
+  const klartext::Program& program() const { return linked().program(); }
+  Place place() const { return {&linked(), block}; }
+  /// mm in one unit of a programmed length.
+  double length_unit() const { return linked().is_inch() ? 25.4 : 1.0; }
+
+  machine::Machine& machine() const { return environment.machine; }
+  Timestamp now() const { return environment.clock.now(); }
+
+  /// STOP, M0, M1: reported; the run goes on, or ends where `on_stop` says so.
+  NcResult<void> programmed_stop(std::string reason);
+  NcResult<void> note(std::string text) { return log.note(std::move(text), place()); }
+
+  /// A path as the program that runs names it.
+  NcResult<ControlPath> resolve(std::string_view written) const;
+  /// A file that the program that runs prints: in the folder of FN 16, where there is one and the
+  /// name has none.
+  NcResult<ControlPath> resolve_printed(std::string_view written) const;
+  /// A program as the one that runs names it; `.H` where it has no extension.
+  NcResult<ControlPath> resolve_program(std::string_view written) const;
+  /// The program, linked; each file is loaded once in a run.
+  /// @errors it does not exist, it has errors, limit (memory).
+  NcResult<std::shared_ptr<const LinkedProgram>> load_program(const ControlPath& path);
+
+  const RunEnvironment& environment;
+  const RunOptions& options;
+  RunBudget budget;
+  OutputBudget output;
+  RunLog log;
+  RunFiles files;
+  QParameters parameters;
+  CallStack calls;
+  std::uint32_t block = 0;  ///< index of the one that runs
+
+  Contour contour;
+  std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are those of AXIS SPAT
+  bool turns_along_vector = false;              ///< PATHCTRL VECTOR
+  ActiveCycle active_cycle;
+  /// What PREDEF takes, by the number of the Q parameter: mm, degrees, mm/min (GLOBAL DEF).
+  std::map<int, double> predefined;
+  FormattedPrinter printer;
+  TableAccess tables;
+  probing::CycleMemory cycle_memory;
+  std::optional<machine::ContactPoint> last_touch;  ///< FN 18 ID 360
+  std::optional<ControlPath> selected_program;      ///< SEL PGM
+  int prepared_tool = 0;                            ///< TOOL DEF, until the next TOOL CALL
+  bool stop_after_block = false;  ///< Q281 = 2 with on_stop=end: the run ends after this block
+
+ private:
+  std::map<std::string, std::shared_ptr<const LinkedProgram>> loaded_;  // by key
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,260 @@
+#include "nc/run/contour.hpp"
+
+#include <utility>
+
+#include "nc/machine/tolerance.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Path;
+using machine::Vec3;
+
+void set_sweep(Curve& curve) {
+  if (!curve.is_arc()) return;
+  curve.sweep_deg = sweep(curve.start, curve.end, *curve.centre, curve.is_left_turn());
+}
+
+Element along(const Curve& curve, const Element& before, const machine::Feed& feed) {
+  Element element{before.plane, curve, before.from, {}, feed, before.system, before.side};
+  set_plane_target(element, curve.end);
+  return element;
+}
+
+/// The end of a block's linear axes.
+Vec3 end_of(const Element& element) {
+  Vec3 end = element.from;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (const auto& value = element.target.values[axis]) end[axis] = *value;
+  }
+  return end;
+}
+
+/// A line seen in the plane of the arc it meets in a corner.
+void turn_into_plane(Element& line, const WorkingPlane& plane) {
+  if (line.curve.is_arc() || line.plane == plane) return;
+  line.plane = plane;
+  line.curve = {plane.project(line.from), plane.project(end_of(line)), std::nullopt, 0};
+}
+
+/// The direction of travel at the end of an element, if it moves.
+std::optional<Vec3> end_direction(const Element& element) {
+  if (element.curve.is_arc()) {
+    return element.plane.with({}, *element.curve.end_direction());
+  }
+  const Vec3 travel = end_of(element) - element.from;
+  if (!element.moves_in_plane() && norm(travel) < tolerance::kSamePoint) return std::nullopt;
+  return travel;
+}
+
+NcError no_approach() {
+  return nc_error(1024,
+                  "an SL cycle approaches its contour itself: APPR and DEP do not stand in it");
+}
+
+}  // namespace
+
+WorkingPlane working_plane(const machine::Machine& machine) {
+  return WorkingPlane::across(machine.state().tool_axis());
+}
+
+void Contour::compensate(klartext::RadiusCompensation compensation) {
+  using klartext::RadiusCompensation;
+  if (compensation == RadiusCompensation::Unchanged) return;
+  side_ = compensation == RadiusCompensation::Rl   ? 1
+          : compensation == RadiusCompensation::Rr ? -1
+                                                   : 0;
+  lengthening_ = compensation == RadiusCompensation::RPlus    ? 1
+                 : compensation == RadiusCompensation::RMinus ? -1
+                                                              : 0;
+}
+
+machine::Position Contour::position(const machine::Machine& machine) const {
+  machine::Position position = drawing_ ? drawing_->position() : machine.position();
+  if (beside_ && (cutter_.is_pending() || position == beside_->tool)) {
+    position = beside_->programmed;
+  }
+  const Element* last = approach_ ? &approach_->to_start : kept_ ? &*kept_ : nullptr;
+  if (last != nullptr) {
+    for (const machine::Axis axis : machine::kAllAxes) {
+      if (const auto& value = last->target[axis]) position[axis] = *value;
+    }
+  }
+  return position;
+}
+
+/// Gives an element to the cutter and keeps where the programmed path then is.
+NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
+  if (drawing_) return drawing_->add(element);
+  const bool is_beside = element.side != 0 || cutter_.side() != 0;
+  if (!is_beside && (is_shifted_ || element.shift != Vec3{})) return move_shifted(machine, element);
+  if (!is_beside) return CutterPath::move(machine, element);
+  machine::Position programmed = position(machine);
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (const auto& value = element.target[axis]) programmed[axis] = *value;
+  }
+  programmed.linear = element.plane.with(programmed.linear, element.curve.end);
+  if (auto done = cutter_.add(machine, element); !done) return done;
+  beside_ = Beside{programmed, machine.position()};
+  return {};
+}
+
+/// LN with DR: the tool stands beside the programmed path until a block without a normal.
+NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element) {
+  machine::Position programmed = position(machine);
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (const auto& value = element.target[axis]) programmed[axis] = *value;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    element.target.values[axis] = programmed.linear[axis] + element.shift[axis];
+  }
+  if (auto done = CutterPath::move(machine, element); !done) return done;
+  beside_ = Beside{programmed, machine.position()};
+  is_shifted_ = element.shift != Vec3{};
+  return {};
+}
+
+NcResult<void> Contour::add(machine::Machine& machine, Element element, bool corner_follows) {
+  if (element.system != machine::CoordinateSystem::Input) {
+    if (drawing_) return nc_error("M91 and M92 do not stand in the contour of an SL cycle");
+    if (auto done = finish(machine); !done) return done;
+    return CutterPath::move(machine, element);
+  }
+  if (element.side != 0 && !(element.plane == working_plane(machine))) {
+    return nc_error(
+        "RL and RR hold in the working plane alone: a circle in another plane takes R0");
+  }
+  if (approach_) {
+    if (auto done = approach(machine, element); !done) return done;
+  } else if (kept_) {
+    if (auto done = turn_corner(machine, element); !done) return done;
+  }
+  if (const auto end = end_direction(element)) direction = end;
+  if (corner_follows) {
+    set_plane_target(element, element.curve.end);
+    kept_ = element;
+    return {};
+  }
+  return cut(machine, element);
+}
+
+NcResult<void> Contour::set_corner(double size, bool is_chamfer,
+                                   std::optional<machine::Feed> feed) {
+  if (!kept_) return nc_error(1022, "RND and CHF stand between two positioning blocks");
+  if (size <= 0) return nc_error(1022, "the radius or length must be greater than 0");
+  corner_ = Corner{size, is_chamfer, feed};
+  return {};
+}
+
+/// Moves along the kept element up to the corner and around it; `next` begins behind it.
+NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
+  Element before = *std::exchange(kept_, std::nullopt);
+  const auto corner = std::exchange(corner_, std::nullopt);
+  if (!corner) return cut(machine, before);
+  turn_into_plane(before, next.plane);
+  turn_into_plane(next, before.plane);
+  const auto arriving = before.curve.end_direction();
+  const auto leaving = next.curve.start_direction();
+  if (arriving && leaving && std::abs(cross(*arriving, *leaving)) < tolerance::kParallel &&
+      dot(*arriving, *leaving) > 0) {
+    return cut(machine, before);  // no corner
+  }
+  const auto between = !(before.plane == next.plane) ? std::nullopt
+                       : corner->is_chamfer ? chamfer(before.curve, next.curve, corner->size)
+                                            : rounding(before.curve, next.curve, corner->size);
+  if (!between) {
+    return nc_error(corner->is_chamfer ? 1022 : 1023, "it does not fit between the two blocks");
+  }
+  before.curve.end = between->start;
+  set_sweep(before.curve);
+  set_plane_target(before, between->start);
+  next.curve.start = between->end;
+  set_sweep(next.curve);
+  next.from = next.plane.with(next.from, between->end);
+  const machine::Feed feed = corner->feed.value_or(before.feed);
+  if (auto done = cut(machine, before); !done) return done;
+  return cut(machine, along(*between, before, feed));
+}
+
+NcResult<void> Contour::add(machine::Machine& machine, Approach approach) {
+  if (drawing_) return no_approach();
+  if (auto done = finish(machine); !done) return done;
+  cutter_.leave();
+  approach_ = approach;
+  return {};
+}
+
+/// Moves the centre of the tool to the begin of the contour, which `next` goes on with.
+NcResult<void> Contour::approach(machine::Machine& machine, const Element& next) {
+  const auto contour_direction = next.curve.start_direction();
+  if (!contour_direction) {
+    return nc_error(1024, "the contour after APPR does not begin in the working plane");
+  }
+  const Approach approach = *std::exchange(approach_, std::nullopt);
+  const int side = approach.to_start.side;
+  const double left = side < 0 ? -1 : 1;
+  const double distance = side * CutterPath::radius(machine);
+  const Vec2 first = approach.to_start.curve.end + left_of(*contour_direction) * distance;
+  const double turn = left * approach.radius;
+  const Vec2 centre = first + left_of(*contour_direction) * turn;
+  Vec2 auxiliary = first;
+  bool is_arc = false;
+  switch (approach.path) {
+    case Path::ApprLt: auxiliary = first - *contour_direction * approach.length; break;
+    case Path::ApprLn:
+      auxiliary = first + left_of(*contour_direction) * (left * approach.length);
+      break;
+    case Path::ApprCt:
+      auxiliary = centre + turned(first - centre, turn > 0 ? -approach.angle : approach.angle);
+      is_arc = true;
+      break;
+    default: {  // APPR LCT
+      const Vec2 start = approach.to_start.curve.start;
+      const auto met = tangent_point(start, centre, std::abs(turn), turn > 0);
+      if (!met) return nc_error(1023, "the approach begins inside the circle of APPR LCT");
+      auxiliary = *met;
+      is_arc = true;
+    }
+  }
+  Element to_auxiliary = approach.to_start;
+  to_auxiliary.feed = approach.before;
+  set_plane_target(to_auxiliary, auxiliary);
+  if (auto done = CutterPath::move(machine, to_auxiliary); !done) return done;
+  Curve to_first{auxiliary, first, std::nullopt, 0};
+  if (is_arc) {
+    to_first.centre = centre;
+    to_first.sweep_deg = sweep(auxiliary, first, centre, turn > 0);
+  }
+  auto done = CutterPath::move(machine, along(to_first, approach.to_start, approach.to_start.feed));
+  if (!done) return done;
+  if (side != 0) cutter_.begin(first, side);
+  return {};
+}
+
+NcResult<Vec2> Contour::depart(machine::Machine& machine, const WorkingPlane& plane) {
+  if (drawing_) return no_approach();
+  if (auto done = finish(machine); !done) return done.error();
+  cutter_.leave();
+  beside_.reset();
+  return plane.project(machine.position().linear);
+}
+
+NcResult<void> Contour::finish(machine::Machine& machine) {
+  if (approach_) {
+    approach_.reset();
+    return nc_error(1024, "APPR must be followed by the first contour element");
+  }
+  if (kept_) {
+    const Element last = *std::exchange(kept_, std::nullopt);
+    if (std::exchange(corner_, std::nullopt)) {
+      return nc_error(1022, "RND or CHF must be followed by a contour element");
+    }
+    if (auto done = cut(machine, last); !done) return done;
+  }
+  if (!cutter_.is_pending()) return {};
+  if (auto done = cutter_.finish(machine); !done) return done;
+  if (beside_) beside_->tool = machine.position();
+  return {};
+}
+
+}  // namespace fitgauge::interpreter

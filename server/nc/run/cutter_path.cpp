@@ -1,0 +1,179 @@
+#include "nc/run/cutter_path.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "nc/machine/tolerance.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+/// Moves outside of the plane that wait for the next element of a contour.
+constexpr std::size_t kMostAside = 32;
+
+NcError too_large(double radius, Vec2 at, std::string_view where) {
+  return nc_error(1003,
+                  fmt::format("a tool of radius {:.4f} mm does not fit into the {} at {:.4f}, "
+                              "{:.4f}",
+                              radius, where, at.x, at.y));
+}
+
+/// Whether the centre of the tool goes forward from `start` to `end` beside a curve.
+bool goes_forward(const Curve& curve, Vec2 start, Vec2 end) {
+  if (!curve.is_arc())
+    return dot(end - start, unit(curve.end - curve.start)) >= -tolerance::kNanometre;
+  if (norm(end - start) < tolerance::kNanometre) return true;
+  const double turn = sweep(start, end, *curve.centre, curve.is_left_turn());
+  return std::abs(turn) <= std::abs(curve.sweep_deg) + tolerance::kNanometre;
+}
+
+void remove_plane_target(Element& element) {
+  element.target.values[element.plane.first].reset();
+  element.target.values[element.plane.second].reset();
+}
+
+}  // namespace
+
+double CutterPath::radius(const machine::Machine& machine) {
+  return radius_in_plane(machine.state(), machine.state().tool_radius());
+}
+
+NcResult<void> CutterPath::move(machine::Machine& machine, const Element& element) {
+  if (!element.curve.is_arc()) {
+    return checked(machine.move({element.target, element.feed, element.system}));
+  }
+  const WorkingPlane& plane = element.plane;
+  machine::Vec3 end = plane.with(machine.position().linear, element.curve.end);
+  const auto normal = machine::index(plane.normal);
+  if (const auto& height = element.target.values[normal]) end[normal] = *height;
+  return checked(machine.move_arc({end, plane.with(end, *element.curve.centre),
+                                   element.curve.sweep_deg, plane.normal, element.feed}));
+}
+
+void CutterPath::begin(Vec2 centre, int side) {
+  side_ = side;
+  begun_ = centre;
+}
+
+NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
+  if (next.side == 0 && side_ == 0) return move(machine, next);
+  const machine::Vec3 factor = machine.state().frames.scaling().factor;
+  if (next.side != 0 && factor[next.plane.first] != factor[next.plane.second]) {
+    return nc_error(1108, "RL and RR do not know a plane whose axes are scaled differently");
+  }
+  if (!next.moves_in_plane() && next.side == side_) {
+    Element beside = next;
+    remove_plane_target(beside);
+    if (!last_) return move(machine, beside);
+    if (aside_.size() < kMostAside) {
+      aside_.push_back(beside);
+      return {};
+    }
+    if (auto done = finish(machine); !done) return done;
+    return move(machine, beside);
+  }
+  if (next.side != side_) {
+    if (next.side != 0 && side_ != 0) {
+      return nc_error(1021, "between RL and RR stands a block with R0 that moves in the plane");
+    }
+    if (auto done = finish(machine); !done) return done;
+    side_ = next.side;
+    if (side_ != 0) return enter(machine, next);
+    Element leaving = next;
+    if (next.moves_in_plane()) set_plane_target(leaving, next.curve.end);
+    return move(machine, leaving);
+  }
+  return join(machine, next);
+}
+
+NcResult<void> CutterPath::enter(machine::Machine& machine, const Element& next) {
+  if (next.curve.is_arc()) return nc_error(1021, "RL and RR begin with a straight block");
+  if (!next.moves_in_plane()) return move(machine, next);
+  last_ = next;
+  is_entry_ = true;
+  return {};
+}
+
+NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) {
+  const double distance = side_ * reach(machine);
+  const auto leaving = next.curve.start_direction();  // the element moves in the plane
+  if (const auto offset = offset_curve(next.curve, distance); !offset) {
+    return too_large(reach(machine), next.curve.end, "arc");
+  }
+  const Vec2 corner = next.curve.start;
+  Vec2 begin = corner + left_of(*leaving) * distance;
+  if (begun_) {
+    begin = *std::exchange(begun_, std::nullopt);
+  } else if (!last_) {
+    // A block of another kind came between; there the tool stands square to the element before.
+    Element across{next.plane, {corner, begin, std::nullopt, 0}, next.from, {}, next.feed};
+    set_plane_target(across, begin);
+    if (auto done = move(machine, across); !done) return done;
+  } else if (is_entry_) {
+    if (auto done = move_to(machine, begin); !done) return done;
+  } else {
+    const Vec2 arriving = *last_->curve.end_direction();
+    const double turn = cross(arriving, *leaving);
+    const bool is_straight =
+        std::abs(turn) < tolerance::kSameDirection && dot(arriving, *leaving) > 0;
+    if (!is_straight && turn * distance > 0) {
+      const auto met = inner_corner(last_->curve, next.curve, distance);
+      if (!met || !goes_forward(last_->curve, at_, *met)) {
+        return too_large(reach(machine), corner, "corner");
+      }
+      begin = *met;
+      if (auto done = move_to(machine, begin); !done) return done;
+    } else {
+      const Vec2 end = corner + left_of(arriving) * distance;
+      if (auto done = move_to(machine, end); !done) return done;
+      if (!is_straight && norm(begin - end) > tolerance::kSamePoint) {
+        Element around{next.plane,
+                       {end, begin, corner, sweep(end, begin, corner, distance < 0)},
+                       next.from,
+                       {},
+                       next.feed};
+        if (auto done = move(machine, around); !done) return done;
+      }
+    }
+  }
+  last_ = next;
+  is_entry_ = false;
+  at_ = begin;
+  return {};
+}
+
+NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
+  Element element = *std::exchange(last_, std::nullopt);
+  if (!is_entry_) {
+    if (!goes_forward(element.curve, at_, end)) {
+      return too_large(reach(machine), element.curve.end, "corner");
+    }
+    element.curve.start = at_;
+    element.curve.end = end;
+    if (element.curve.is_arc()) {
+      // Equal ends are a full circle only where the contour itself is one.
+      element.curve.sweep_deg =
+          norm(end - at_) < tolerance::kSamePoint && std::abs(element.curve.sweep_deg) < 360
+              ? 0
+              : whole_turns(element.curve.sweep_deg) +
+                    sweep(at_, end, *element.curve.centre, element.curve.is_left_turn());
+    }
+  }
+  set_plane_target(element, end);
+  if (element.curve.is_arc() && element.curve.sweep_deg == 0) element.curve.centre.reset();
+  if (auto done = move(machine, element); !done) return done;
+  for (const Element& beside : std::exchange(aside_, {})) {
+    if (auto done = move(machine, beside); !done) return done;
+  }
+  return {};
+}
+
+NcResult<void> CutterPath::finish(machine::Machine& machine) {
+  if (!last_) return {};
+  const auto direction = last_->curve.end_direction();
+  const Vec2 end = last_->curve.end + left_of(*direction) * (side_ * reach(machine));
+  return move_to(machine, end);
+}
+
+}  // namespace fitgauge::interpreter

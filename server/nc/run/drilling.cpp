@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <cmath>
+
+#include "nc/run/machining.hpp"
+
+/// Cycles along the tool axis, as the control's manuals describe their steps.
+namespace fitgauge::interpreter {
+namespace {
+
+using machine::Feed;
+
+/// The infeeds of a hole: Q202 each, less by Q212 after each, not below Q205.
+class Infeed {
+ public:
+  explicit Infeed(const Machining& cycle)
+      : size_(std::abs(cycle.value(202))),
+        decrement_(cycle.value(212)),
+        least_(std::min(size_, cycle.value(205))) {}
+
+  double next() {
+    const double size = size_;
+    if (decrement_ > 0) size_ = std::max({size_ - decrement_, least_, 0.0});
+    return size > 0 ? size : std::max(least_, decrement_);
+  }
+
+ private:
+  double size_;
+  double decrement_;
+  double least_;
+};
+
+class Drilling {
+ public:
+  explicit Drilling(Machining& cycle)
+      : cycle_(cycle),
+        motion_(cycle.motion),
+        heights_(cycle.heights),
+        number_(cycle.definition.cycle->descriptor.number),
+        down_(heights_.bottom < heights_.surface ? -1 : 1),
+        begin_(heights_.surface + down_ * cycle.value(379)) {}
+
+  NcResult<void> run() {
+    if (auto done = cycle_.start(); !done) return done;
+    if (cycle_.value(379) != 0) {
+      const double above = begin_ - down_ * cycle_.value(200);
+      if (auto done = motion_.to_height(above, cycle_.feed(253)); !done) return done;
+    }
+    if (auto done = cut(); !done) return done;
+    if (auto done = motion_.dwell(cycle_.value(211)); !done) return done;
+    if (auto done = motion_.to_height(heights_.clearance, cycle_.retraction()); !done) return done;
+    return cycle_.leave();
+  }
+
+ private:
+  bool is_pecking() const {
+    return number_ == 1 || number_ == 200 || number_ == 203 || number_ == 241 || is_universal();
+  }
+  /// Stops above what is drilled by Q258 and breaks the chip each Q257.
+  bool is_universal() const { return number_ == 205 || number_ == 264; }
+  /// Where feed begins again above the depth that is reached: the clearance, in 205 its advanced
+  /// stop distance.
+  double stop_above(double reached) const {
+    if (number_ == 1) return advanced_stop(heights_.bottom - heights_.surface);
+    if (!is_universal()) return cycle_.value(200);
+    if (number_ == 264) return cycle_.value(258);
+    const double part = (reached - begin_) / (heights_.bottom - begin_);
+    return cycle_.value(258) + (cycle_.value(259) - cycle_.value(258)) * part;
+  }
+
+  NcResult<void> cut() {
+    Infeed infeed(cycle_);
+    double reached = begin_;
+    double breaks_left = cycle_.value(213);
+    while (reached != heights_.bottom) {
+      const double size = is_pecking() ? infeed.next() : 0;
+      const double left = std::abs(heights_.bottom - reached);
+      const double next = size <= 0 || left <= size ? heights_.bottom : reached + down_ * size;
+      if (next == reached) return nc_error(1011, "the plunging depth Q202 is too small");
+      if (auto done = plunge(reached, next); !done) return done;
+      reached = next;
+      if (reached == heights_.bottom) break;
+      if (number_ == 203 && breaks_left > 0) {
+        breaks_left -= 1;
+        if (auto done = break_chip(reached); !done) return done;
+        continue;
+      }
+      breaks_left = cycle_.value(213);
+      if (auto done = clear_chips(reached); !done) return done;
+    }
+    return {};
+  }
+
+  NcResult<void> plunge(double from, double to) {
+    const double chip = is_universal() ? cycle_.value(257) : 0;
+    for (double at = from; chip > 0 && std::abs(to - at) > chip;) {
+      const double next = at + down_ * chip;
+      if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
+      at = next;
+      if (auto done = motion_.to_height(at, cycle_.feed(206)); !done) return done;
+      if (auto done = break_chip(at); !done) return done;
+    }
+    return motion_.to_height(to, cycle_.feed(206));
+  }
+
+  NcResult<void> break_chip(double reached) {
+    return motion_.to_height(reached - down_ * cycle_.value(256), cycle_.retraction());
+  }
+
+  /// Out to the clearance, and back to the stop above what is reached.
+  NcResult<void> clear_chips(double reached) {
+    if (auto done = motion_.to_height(heights_.clearance,
+                                      number_ == 203 ? cycle_.retraction() : Feed::rapid());
+        !done) {
+      return done;
+    }
+    if (auto done = motion_.dwell(cycle_.value(210)); !done) return done;
+    const double above = reached - down_ * stop_above(reached);
+    const bool is_below = (above - heights_.clearance) * down_ > 0;
+    return is_below ? motion_.to_height(above, Feed::rapid()) : NcResult<void>();
+  }
+
+  Machining& cycle_;
+  ToolMotion& motion_;
+  const Heights& heights_;
+  const int number_;
+  const double down_;
+  const double begin_;  ///< where the hole begins: the surface, or the deepened starting point
+};
+
+/// The feed of a thread: its pitch at the speed of the spindle.
+Feed thread_feed(const Machining& cycle, double factor = 1) {
+  if (cycle.value(239) == 0) return cycle.feed(206);
+  const double rpm = cycle.motion.state().modes.spindle_rpm;
+  return Feed::at(std::abs(cycle.value(239)) * rpm * factor);
+}
+
+/// Q214: away from the wall, with the tool standing.
+Vec2 withdrawal(const Machining& cycle, double by) {
+  switch (static_cast<int>(cycle.value(214))) {
+    case 1: return {-by, 0};
+    case 2: return {0, -by};
+    case 3: return {by, 0};
+    case 4: return {0, by};
+    default: return {};
+  }
+}
+
+}  // namespace
+
+double advanced_stop(double depth) { return std::clamp(std::abs(depth) / 50, 0.6, 7.0); }
+
+NcResult<void> drill(Machining& cycle) { return Drilling(cycle).run(); }
+
+NcResult<void> tap(Machining& cycle) {
+  const Heights& heights = cycle.heights;
+  ToolMotion& motion = cycle.motion;
+  if (auto done = cycle.start(); !done) return done;
+  const double down = heights.bottom < heights.surface ? -1 : 1;
+  const double chip = cycle.value(257);
+  for (double at = heights.surface; chip > 0 && std::abs(heights.bottom - at) > chip;) {
+    const double next = at + down * chip;
+    if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
+    at = next;
+    if (auto done = motion.to_height(at, thread_feed(cycle)); !done) return done;
+    // Q256 = 0: out of the hole.
+    const double back = cycle.value(256) > 0 ? at - down * cycle.value(256) : heights.clearance;
+    if (auto done = motion.to_height(back, thread_feed(cycle)); !done) return done;
+  }
+  if (auto done = motion.to_height(heights.bottom, thread_feed(cycle)); !done) return done;
+  if (auto done = motion.dwell(cycle.value(211)); !done) return done;
+  const double faster = cycle.definition.gives(403) ? cycle.value(403) : 1;
+  if (auto done = motion.to_height(heights.clearance, thread_feed(cycle, faster)); !done) {
+    return done;
+  }
+  return cycle.leave();
+}
+
+NcResult<void> bore(Machining& cycle) {
+  constexpr double kWithdrawal = 0.2;  // mm, the control's own
+  const Heights& heights = cycle.heights;
+  ToolMotion& motion = cycle.motion;
+  if (auto done = cycle.start(); !done) return done;
+  if (auto done = motion.to_height(heights.bottom, cycle.feed(206)); !done) return done;
+  if (auto done = motion.dwell(cycle.value(211)); !done) return done;
+  const Vec2 centre = motion.point();
+  const Vec2 away = withdrawal(cycle, kWithdrawal);
+  const bool withdraws = norm(away) > 0;
+  if (withdraws) {
+    if (auto done = motion.to_point(centre + away, cycle.feed(206)); !done) return done;
+  }
+  if (auto done = motion.to_height(heights.clearance, cycle.retraction()); !done) return done;
+  if (auto done = cycle.leave(); !done || !withdraws) return done;
+  return motion.to_point(centre, Feed::rapid());
+}
+
+NcResult<void> bore_back(Machining& cycle) {
+  const Heights& heights = cycle.heights;
+  ToolMotion& motion = cycle.motion;
+  if (cycle.value(249) == 0) return nc_error(1042, "Q249 is 0");
+  const double lower_edge = heights.surface - cycle.value(250) - cycle.value(252);
+  const double below = lower_edge - cycle.value(200);
+  const Vec2 centre = motion.point();
+  const Vec2 beside = centre + withdrawal(cycle, cycle.value(251));
+  // The cutting edge enters the hole beside its centre and comes back up through the other side.
+  const auto through = [&](double height) -> NcResult<void> {
+    if (auto done = motion.to_point(beside, Feed::rapid()); !done) return done;
+    if (auto done = motion.to_height(height, cycle.feed(253)); !done) return done;
+    return motion.to_point(centre, Feed::rapid());
+  };
+  if (auto done = motion.to_height(heights.clearance, Feed::rapid()); !done) return done;
+  if (auto done = through(below); !done) return done;
+  if (auto done = motion.to_height(lower_edge + cycle.value(249), cycle.feed(254)); !done) {
+    return done;
+  }
+  if (auto done = motion.dwell(cycle.value(255)); !done) return done;
+  if (auto done = motion.to_height(below, cycle.feed(253)); !done) return done;
+  if (auto done = through(heights.clearance); !done) return done;
+  return cycle.leave();
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,251 @@
+#include <fmt/format.h>
+
+#include "nc/program/cycle_names.hpp"
+#include "nc/run/channel.hpp"
+#include "nc/run/channel_cycle_host.hpp"
+#include "nc/run/dotted_arguments.hpp"
+#include "nc/run/m_functions.hpp"
+#include "nc/run/machining.hpp"
+#include "nc/run/machining_arguments.hpp"
+#include "nc/run/motion_words.hpp"
+#include "nc/run/statements.hpp"
+#include "nc/run/transformation_cycles.hpp"
+#include "nc/run/values.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::CycleValue;
+
+/// Tells the observer which cycle commands the machine while this lives.
+class MovedByCycle {
+ public:
+  MovedByCycle(Channel& channel, int number) : observer_(channel.environment.observer) {
+    observer_.moved_by_cycle(number);
+  }
+  MovedByCycle(const MovedByCycle&) = delete;
+  MovedByCycle& operator=(const MovedByCycle&) = delete;
+  ~MovedByCycle() { observer_.moved_by_cycle(0); }
+
+ private:
+  RunObserver& observer_;
+};
+
+/// A travel that ends before the nominal contact finds only material that lies nearer.
+NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arguments) {
+  const auto probe = channel.machine().state().probe_system();
+  if (!probe || arguments.descriptor().find(probing::q(320)) == nullptr) return {};
+  const double clearance = probe->data.set_up + arguments.number(320);
+  if (probe->data.distance >= clearance) return {};
+  return channel.note(
+      fmt::format("DIST ({} mm) is shorter than SET_UP + Q320 ({} mm): the probe stops before the "
+                  "nominal surface",
+                  probe->data.distance, clearance));
+}
+
+NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cycle,
+                           probing::Arguments arguments) {
+  if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
+  if (auto noted = note_short_travel(channel, arguments); !noted) return noted;
+  channel.active_cycle.last_probing = cycle.descriptor.number;
+  const MovedByCycle moved(channel, cycle.descriptor.number);
+  ChannelCycleHost host(channel);
+  const auto done = probing::run_cycle(cycle, std::move(arguments), channel.machine(), host);
+  if (host.failure()) return *host.failure();
+  if (!done) return from_cycle(done.error());
+  return {};
+}
+
+NcResult<probing::Arguments> arguments_of(Channel& channel, const klartext::Cycle& cycle,
+                                          const BoundCycle& bound) {
+  probing::Arguments arguments(*bound.descriptor());
+  const auto parameters = channel.program().view(cycle.parameters);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    auto value = cycle_argument(channel, parameters[i], *bound.parameters[i]);
+    if (!value) return value.error();
+    arguments.set(bound.parameters[i]->id, *std::move(value));
+  }
+  return arguments;
+}
+
+NcResult<void> run_probing(Channel& channel, const klartext::Cycle& cycle,
+                           const BoundCycle& bound) {
+  auto arguments = arguments_of(channel, cycle, bound);
+  if (!arguments) return arguments.error();
+  return run_probing(channel, *bound.probing, *std::move(arguments));
+}
+
+/// GLOBAL DEF: its values hold until the next one of its number, or the end of the run.
+NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
+                               const BoundCycle& bound) {
+  auto arguments = arguments_of(channel, cycle, bound);
+  if (!arguments) return arguments.error();
+  if (auto completed = arguments->complete(); !completed) return from_cycle(completed.error());
+  for (const probing::CycleParameter& parameter : bound.global->parameters) {
+    channel.predefined[static_cast<int>(parameter.id)] = arguments->number(parameter.id);
+  }
+  return {};
+}
+
+/// Keeps the cycle for M99 and CYCL CALL, or runs it at once where it is DEF-active.
+NcResult<void> define(Channel& channel, MachiningDefinition definition) {
+  ActiveCycle& active = channel.active_cycle;
+  const MachiningShape shape = definition.cycle->shape;
+  if (shape == MachiningShape::ContourData) {
+    active.contour_data = std::move(definition);
+    return {};
+  }
+  if (definition.cycle->runs_when_defined) {
+    const MovedByCycle moved(channel, definition.cycle->descriptor.number);
+    return run_pattern(channel, definition);
+  }
+  active.number = definition.cycle->descriptor.number;
+  active.definition = std::move(definition);
+  return {};
+}
+
+/// A cycle that only the builder of the machine knows.
+NcResult<Next> run_builders(Channel& channel, klartext::CycleFamily family, int number) {
+  if (family == klartext::CycleFamily::GlobalDef) {
+    return nc_error(fmt::format("cycle GLOBAL DEF {} is not available", number));
+  }
+  const BuilderAction* action = channel.options.builder.cycle(number);
+  if (action == nullptr) {
+    return unknown_cycle(family == klartext::CycleFamily::TchProbe, number);
+  }
+  if (action->program) return call_program(channel, *action->program);
+  channel.active_cycle.definition = IgnoredCycle{};
+  return Next{};
+}
+
+/// Its parameters are Q parameters for the program that stands for it.
+NcResult<void> set_parameters(Channel& channel, const klartext::Cycle& cycle) {
+  for (const auto& written : channel.program().view(cycle.parameters)) {
+    if (written.kind != CycleValue::Expression || written.parameter.is_string()) continue;
+    const auto value = number(channel, written.value);
+    if (!value) return value.error();
+    if (auto set = channel.parameters.set(written.parameter, *value); !set) return set;
+  }
+  return {};
+}
+
+}  // namespace
+
+NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound) {
+  NcResult<void> done;
+  if (bound.probing != nullptr) {
+    done = run_probing(channel, cycle, bound);
+  } else if (bound.machining != nullptr) {
+    auto definition = machining_arguments(channel, cycle, bound);
+    done = definition ? define(channel, *std::move(definition)) : definition.error();
+  } else if (bound.global != nullptr) {
+    done = define_globally(channel, cycle, bound);
+  } else {
+    if (channel.options.builder.cycle(cycle.number) != nullptr) {
+      if (auto set = set_parameters(channel, cycle); !set) return set.error();
+    }
+    return run_builders(channel, cycle.family, cycle.number);
+  }
+  if (!done) return done.error();
+  return Next{};
+}
+
+NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last) {
+  const auto blocks = channel.program().blocks();
+  const auto& opening = std::get<klartext::CyclePart>(blocks[first].statement);
+  if (!is_available(opening.family, opening.number, true)) {
+    return run_builders(channel, opening.family, opening.number);
+  }
+  NcResult<void> done;
+  if (const auto* probing = probing_cycle(opening.family, opening.number)) {
+    auto arguments = dotted_arguments(channel, *probing, first, last);
+    done = arguments ? run_probing(channel, *probing, *std::move(arguments)) : arguments.error();
+  } else if (opening.number == 14) {
+    auto labels = contour_labels(channel, first, last);
+    if (!labels) return labels.error();
+    channel.active_cycle.contours = *std::move(labels);
+  } else if (const auto* machining = machining_cycle(opening.number)) {
+    auto definition = machining_arguments(channel, *machining, first, last);
+    done = definition ? define(channel, *std::move(definition)) : definition.error();
+  } else {
+    std::vector<klartext::Word> words;
+    for (std::uint32_t i = first; i <= last; ++i) {
+      const auto* part = std::get_if<klartext::CyclePart>(&blocks[i].statement);
+      if (part == nullptr) continue;
+      const auto view = channel.program().view(part->words);
+      words.insert(words.end(), view.begin(), view.end());
+    }
+    done = execute_transformation(channel, opening.number, words);
+  }
+  if (!done) return done.error();
+  return Next{};
+}
+
+namespace {
+
+/// CYCL CALL POS: goes there in the working plane. What it says of the tool axis shifts the cycle
+/// like a datum; the old cycles, which begin where the tool stands, and programs go there.
+NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
+  if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
+  machine::AxisWords target;
+  for (const machine::Axis axis : machine::kAllAxes) {
+    const auto& word = words.axes[machine::index(axis)];
+    if (!word) continue;
+    target[axis] =
+        word->incremental ? channel.machine().position()[axis] + word->value : word->value;
+  }
+  auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
+  const double surface = machining == nullptr ? 0 : machining->value(203);
+  const bool is_shifted = machining != nullptr && !machining->cycle->descriptor.dotted;
+  if (is_shifted) {
+    auto& height = target[channel.machine().state().tool_axis()];
+    machining->values[203] = surface + height.value_or(0);
+    height.reset();
+    ToolMotion motion(channel.machine(), channel.budget);
+    const double clearance = machining->value(203) + machining->value(200);
+    if (motion.height() < machining->value(203)) {
+      auto risen = motion.to_height(clearance, machine::Feed::rapid());
+      if (!risen) return risen.error();
+    }
+  }
+  const auto feed = words.feed.value_or(machine::Feed::rapid());
+  auto moved = checked(channel.machine().move({target, feed}));
+  auto next = moved ? call_active_cycle(channel) : NcResult<Next>(moved.error());
+  if (is_shifted) machining->values[203] = surface;
+  return next;
+}
+
+}  // namespace
+
+NcResult<Next> call_active_cycle(Channel& channel) {
+  const auto& definition = channel.active_cycle.definition;
+  if (const auto* program = std::get_if<ControlPath>(&definition)) {
+    return call_program(channel, *program);
+  }
+  if (std::holds_alternative<IgnoredCycle>(definition)) return Next{};
+  const auto* machining = std::get_if<MachiningDefinition>(&definition);
+  if (machining == nullptr) return nc_error(1027);
+  if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
+  const MovedByCycle moved(channel, channel.active_cycle.number);
+  if (auto done = machine_here(channel, *machining); !done) return done.error();
+  return Next{};
+}
+
+NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call) {
+  const auto words = read_words(channel, call.words);
+  if (!words) return words.error();
+  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  if (call.kind == klartext::CycleCallKind::Pattern) {
+    {
+      const MovedByCycle moved(channel, channel.active_cycle.number);
+      if (auto done = run_points(channel); !done) return done.error();
+    }
+    return end_m_functions(channel, *words);
+  }
+  const bool is_at_position = call.kind == klartext::CycleCallKind::Position;
+  auto next = is_at_position ? call_at_position(channel, *words) : call_active_cycle(channel);
+  if (!next || next->kind != Next::Kind::Block) return next;
+  return end_m_functions(channel, *words);
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,233 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <string_view>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/run/channel.hpp"
+#include "nc/run/frame_commands.hpp"
+#include "nc/run/statements.hpp"
+#include "nc/run/transformation_cycles.hpp"
+#include "nc/run/values.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Letter;
+using klartext::PlaneKind;
+using machine::Matrix3;
+using machine::Vec3;
+
+/// The words of PLANE by letter; those without a value count as 1.
+using Words = std::map<Letter, double>;
+
+NcResult<Words> read_plane_words(Channel& channel, klartext::Slice<klartext::Word> slice) {
+  Words words;
+  for (const klartext::Word& word : channel.program().view(slice)) {
+    if (is_absent(word.value)) {
+      words[word.letter] = 1;
+      continue;
+    }
+    const auto value = number(channel, word.value);
+    if (!value) return value.error();
+    words[word.letter] = *value;
+  }
+  return words;
+}
+
+double get(const Words& words, Letter letter) {
+  const auto it = words.find(letter);
+  return it == words.end() ? 0 : it->second;
+}
+
+Vec3 get(const Words& words, Letter x, Letter y, Letter z) {
+  return {get(words, x), get(words, y), get(words, z)};
+}
+
+Matrix3 from_axes(const Vec3& x, const Vec3& z) {
+  return Matrix3{{x, cross(z, x), z}}.transposed();
+}
+
+/// The plane of a normal, its X axis as near as possible to `x`. @errors 1018.
+NcResult<Matrix3> plane_of(const Vec3& normal, const Vec3& x) {
+  if (norm(normal) < tolerance::kSameDirection)
+    return nc_error(1018, "the normal vector has no length");
+  const Vec3 z = machine::unit(normal);
+  const Vec3 in_plane = x - z * dot(x, z);
+  if (norm(in_plane) < tolerance::kSameDirection)
+    return nc_error(1018, "base and normal vector are parallel");
+  return from_axes(machine::unit(in_plane), z);
+}
+
+Matrix3 around(Letter axis, double angle) {
+  const Vec3 direction{axis == Letter::Spa ? 1.0 : 0.0, axis == Letter::Spb ? 1.0 : 0.0,
+                       axis == Letter::Spc ? 1.0 : 0.0};
+  return Matrix3::rotation(direction, angle);
+}
+
+Matrix3 current_rotation(const Channel& channel) {
+  const auto& plane = channel.machine().state().frames.plane();
+  return plane ? Matrix3::spatial(plane->spatial_deg) : Matrix3{};
+}
+
+/// PLANE AXIAL: the plane across the tool with the rotary axes at these positions.
+NcResult<Matrix3> axial(const Channel& channel, const Words& words) {
+  const machine::MachineState& state = channel.machine().state();
+  Vec3 rotary = state.nose.rotary;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto it = words.find(static_cast<Letter>(i + 3));
+    if (it != words.end()) rotary[i] = it->second;
+  }
+  const machine::Transform to_table = state.kinematics.table(rotary).inverse();
+  return plane_of(to_table.direction(state.kinematics.tool_direction(rotary, state.tool_axis())),
+                  to_table.direction({1, 0, 0}));
+}
+
+/// The rotation of a plane relative to the workpiece system.
+NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Words& words) {
+  switch (kind) {
+    case PlaneKind::Spatial:
+      return Matrix3::spatial(get(words, Letter::Spa, Letter::Spb, Letter::Spc));
+    case PlaneKind::Relativ:
+      for (const Letter axis : {Letter::Spa, Letter::Spb, Letter::Spc}) {
+        if (words.contains(axis)) {
+          return current_rotation(channel) * around(axis, get(words, axis));
+        }
+      }
+      return nc_error(1018, "PLANE RELATIV needs SPA, SPB or SPC");
+    case PlaneKind::Euler:
+      return around(Letter::Spc, get(words, Letter::EulPr)) *
+             around(Letter::Spa, get(words, Letter::EulNu)) *
+             around(Letter::Spc, get(words, Letter::EulRot));
+    case PlaneKind::Vector:
+      return plane_of(get(words, Letter::Nx, Letter::Ny, Letter::Nz),
+                      get(words, Letter::Bx, Letter::By, Letter::Bz));
+    case PlaneKind::Projected: {
+      const auto [main_sine, main_cosine] = machine::sine_cosine(get(words, Letter::ProPr));
+      const auto [minor_sine, minor_cosine] = machine::sine_cosine(get(words, Letter::ProMin));
+      const Vec3 along_x{main_cosine, 0, main_sine};
+      const Vec3 along_y{0, minor_cosine, minor_sine};
+      auto plane = plane_of(cross(along_x, along_y), along_x);
+      if (!plane) return plane;
+      return *plane * around(Letter::Spc, get(words, Letter::Rot));
+    }
+    case PlaneKind::Points: {
+      const Vec3 first = get(words, Letter::P1x, Letter::P1y, Letter::P1z);
+      const Vec3 x = get(words, Letter::P2x, Letter::P2y, Letter::P2z) - first;
+      const Vec3 third = get(words, Letter::P3x, Letter::P3y, Letter::P3z) - first;
+      return plane_of(cross(x, third), x);
+    }
+    case PlaneKind::Axial: return axial(channel, words);
+    case PlaneKind::Reset: break;
+  }
+  return Matrix3{};
+}
+
+NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane, const Words& words) {
+  PlaneMoves moves{.positioning = plane.positioning,
+                   .feed = machine::Feed::rapid(),
+                   .turns_table = words.contains(Letter::TableRot)};
+  if (words.contains(Letter::F)) {
+    const double unit = channel.linked().is_inch() ? channel.length_unit() / 10 : 1;
+    moves.feed = machine::Feed::at(get(words, Letter::F) * unit);
+  }
+  if (words.contains(Letter::MbMax) || words.contains(Letter::Mb)) {
+    moves.retraction = MCall{.number = 140,
+                             .length = get(words, Letter::Mb) * channel.length_unit(),
+                             .to_limit = words.contains(Letter::MbMax),
+                             .feed = moves.feed};
+  }
+  moves.distance = get(words, Letter::Dist) * channel.length_unit();
+  moves.is_symmetric = words.contains(Letter::Sym);
+  moves.sequence = static_cast<int>(get(words, Letter::Seq) + get(words, Letter::Sym));
+  return moves;
+}
+
+std::array<bool, 3> named_linear_axes(const Channel& channel,
+                                      klartext::Slice<klartext::Word> words) {
+  std::array<bool, 3> named{};
+  for (const klartext::Word& word : channel.program().view(words)) {
+    if (word.letter <= Letter::Z) named[static_cast<std::size_t>(word.letter)] = true;
+  }
+  return named;
+}
+
+NcResult<void> execute_datum_table(Channel& channel, const klartext::Trans& trans,
+                                   const Words& words) {
+  if (!is_absent(trans.table)) {
+    const auto written = text(channel, trans.table);
+    if (!written) return written.error();
+    const auto path = channel.resolve(*written);
+    if (!path) return path.error();
+    if (auto done = channel.tables.select_datum_table(*path); !done) return done;
+  }
+  return shift_datum_to_row(channel, static_cast<std::int64_t>(get(words, Letter::Row)));
+}
+
+}  // namespace
+
+NcResult<void> execute(Channel& channel, const klartext::Trans& trans) {
+  using klartext::Transformation;
+  if (trans.kind == Transformation::Datum || trans.kind == Transformation::DatumTable) {
+    if (trans.reset) return reset_datum_shift(channel);
+  }
+  if (trans.kind == Transformation::Datum) {
+    const auto axes = read_axis_words(channel, channel.program().view(trans.words));
+    return axes ? shift_datum(channel, *axes) : axes.error();
+  }
+  if (trans.kind == Transformation::Mirror) {
+    return mirror(channel,
+                  trans.reset ? std::array<bool, 3>{} : named_linear_axes(channel, trans.words));
+  }
+  const auto words = read_plane_words(channel, trans.words);
+  if (!words) return words.error();
+  switch (trans.kind) {
+    case Transformation::DatumTable: return execute_datum_table(channel, trans, *words);
+    case Transformation::Rotation: {
+      bool incremental = false;
+      for (const klartext::Word& word : channel.program().view(trans.words)) {
+        incremental = incremental || word.incremental;
+      }
+      return rotate(channel,
+                    trans.reset ? Coordinate{} : Coordinate{get(*words, Letter::Rot), incremental});
+    }
+    default: {
+      const double factor = trans.reset ? 1 : get(*words, Letter::Scl);
+      return scale(channel, {{factor, factor, factor}, {}});
+    }
+  }
+}
+
+NcResult<void> execute(Channel& channel, const klartext::Plane& plane) {
+  const auto words = read_plane_words(channel, plane.words);
+  if (!words) return words.error();
+  const auto moves = moves_of(channel, plane, *words);
+  if (!moves) return moves.error();
+  if (plane.kind == PlaneKind::Reset) return reset_tilt(channel, *moves);
+  const auto rotation = rotation_of(channel, plane.kind, *words);
+  if (!rotation) return rotation.error();
+  return tilt(channel, *rotation, *moves);
+}
+
+NcResult<void> execute(Channel& channel, const klartext::FunctionMode& mode) {
+  if (mode.mode == klartext::OperatingMode::Grind) {
+    return nc_error("FUNCTION MODE GRIND is not available");
+  }
+  machine::Modes modes = channel.machine().state().modes;
+  modes.mode = mode.mode == klartext::OperatingMode::Turn ? machine::OperatingMode::Turn
+                                                          : machine::OperatingMode::Mill;
+  return checked(channel.machine().set_modes(modes));
+}
+
+NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
+  const std::string_view options = channel.program().text(tcpm.options);
+  const auto says = [&](std::string_view words) { return options.find(words) != options.npos; };
+  channel.spatial_angles.reset();
+  if (says("AXIS SPAT")) channel.spatial_angles.emplace();
+  channel.turns_along_vector = says("PATHCTRL VECTOR");
+  machine::Modes modes = channel.machine().state().modes;
+  modes.tcpm = tcpm.active;
+  return checked(channel.machine().set_modes(modes));
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "nc/run/channel.hpp"
+#include "nc/run/mask_line.hpp"
+#include "nc/run/statements.hpp"
+#include "nc/run/string_functions.hpp"
+#include "nc/run/values.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::MaskControl;
+using klartext::MaskControlKind;
+using klartext::MaskLanguage;
+
+/// FN 15: what a control collects during a program run.
+constexpr std::string_view kPrintFile = "%FN15RUN.A";
+
+/// A number with its sign always, a text as it is.
+NcResult<std::string> printed(Channel& channel, const klartext::Expr& item) {
+  const auto* parameter = std::get_if<klartext::QRef>(&item);
+  if (std::holds_alternative<klartext::Text>(item) ||
+      (parameter != nullptr && parameter->is_string())) {
+    return text(channel, item);
+  }
+  const auto value = number(channel, item);
+  if (!value) return value.error();
+  // Four decimals without trailing zeros, as controls print them.
+  constexpr int kDecimals = 4;
+  std::string text = to_char(*value, kDecimals);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  if (channel.options.decimal_comma) std::replace(text.begin(), text.end(), '.', ',');
+  return (text.front() == '-' ? "" : "+") + text;
+}
+
+void apply(const MaskControl& control, PrintedMask& printed, EmptyLines& empty) {
+  switch (control.kind) {
+    case MaskControlKind::Close: printed.close = true; break;
+    case MaskControlKind::AppendMax:
+      printed.most_bytes = static_cast<std::size_t>(control.kilobytes) * 1024;
+      [[fallthrough]];
+    case MaskControlKind::Append: printed.append = true; break;
+    case MaskControlKind::Truncate: printed.truncate = true; break;
+    case MaskControlKind::EmptyHide: empty = EmptyLines::Hide; break;
+    case MaskControlKind::EmptyShow: empty = EmptyLines::Show; break;
+  }
+}
+
+/// An escape `\n` in a line ends it.
+void add_lines(std::string_view text, std::vector<std::string>& lines) {
+  std::size_t end = 0;
+  while ((end = text.find('\n')) != std::string_view::npos) {
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  lines.emplace_back(text);
+}
+
+/// @errors those of its lines, with their place in the mask; limit.
+NcResult<PrintedMask> run_mask(Channel& channel, const klartext::MaskFile& mask) {
+  PrintedMask printed;
+  EmptyLines empty = EmptyLines::Unspecified;
+  bool is_spoken = true;
+  std::size_t bytes = 0;
+  for (const klartext::MaskLine& line : mask.lines) {
+    if (auto checked = channel.budget.check(); !checked) return checked.error();
+    if (const auto* control = std::get_if<MaskControl>(&line.content)) {
+      apply(*control, printed, empty);
+    } else if (const auto* language = std::get_if<MaskLanguage>(&line.content)) {
+      is_spoken = *language == MaskLanguage::All || *language == channel.options.language;
+    } else if (is_spoken) {
+      const auto text = format_line(channel, std::get<klartext::MaskFormat>(line.content), empty);
+      if (!text) {
+        NcError error = text.error();
+        error.text = fmt::format("mask {} line {}: {}", mask.file_name, line.line, error.text);
+        return error;
+      }
+      if (!*text) continue;
+      bytes += (*text)->size() + 1;
+      // A short mask can make long lines: what exceeds the budget is not even kept.
+      if (bytes > channel.output.left()) return channel.output.charge(bytes).error();
+      add_lines(**text, printed.lines);
+    }
+  }
+  return printed;
+}
+
+/// A device that the simulated control does not have: `RS232:`, `PRINTER:`.
+bool is_device(std::string_view target) {
+  return target.find(':') != std::string_view::npos && !ascii_iequals(target.substr(0, 4), "TNC:");
+}
+
+}  // namespace
+
+NcResult<void> execute(Channel& channel, const klartext::ErrorStop& stop) {
+  const auto code = whole(channel, stop.number);
+  if (!code) return code.error();
+  if (*code >= 1000 && *code < 1200 && !probing::error_text(*code).empty()) {
+    return nc_error(*code);
+  }
+  return NcError{NcErrorKind::Error, *code, fmt::format("FN 14: Error code {}", *code)};
+}
+
+NcResult<void> execute(Channel& channel, const klartext::Print& print) {
+  std::string line;
+  for (const klartext::Expr& item : channel.program().view(print.items)) {
+    const auto part = printed(channel, item);
+    if (!part) return part.error();
+    if (!line.empty()) line += "  ";
+    line += *part;
+  }
+  line += '\n';
+  return channel.files.append(channel.linked().path().beside(kPrintFile), line);
+}
+
+NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print) {
+  const auto name = text(channel, print.mask);
+  if (!name) return name.error();
+  const auto target = text(channel, print.target);
+  if (!target) return target.error();
+  const auto path = channel.resolve(*name);
+  if (!path) return path.error();
+  if (ascii_iequals(trim(*target), "SCLR:")) return {};  // closes the window; what it showed stays
+  const auto mask = channel.printer.mask(*path);
+  if (!mask) return mask.error();
+  const auto printed = run_mask(channel, **mask);
+  if (!printed) return printed.error();
+  if (ascii_iequals(trim(*target), "SCREEN:")) {
+    for (const std::string& line : printed->lines) {
+      if (auto done = channel.log.print(line); !done) return done;
+    }
+    return {};
+  }
+  if (is_device(*target)) {
+    return channel.note(fmt::format("FN 16: nothing is connected to {}", *target));
+  }
+  const auto file = channel.resolve_printed(*target);
+  if (!file) return file.error();
+  return channel.printer.print(*printed, *file);
+}
+
+NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& function) {
+  return channel.note(
+      fmt::format("FN {} reaches outside of the program and has no effect here", function.fn));
+}
+
+NcResult<void> execute(Channel& channel, const klartext::WaitFor& wait) {
+  const std::string_view condition = channel.program().text(wait.condition);
+  if (condition.empty() || condition == "SYNC") return {};
+  return channel.note(fmt::format("FN 20: WAIT FOR {} does not wait here", condition));
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,268 @@
+#include "nc/run/executor.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "nc/program/arithmetic.hpp"
+#include "nc/run/executor_steps.hpp"
+
+// Direct threading: each operation jumps to the next one's code, so that the processor predicts
+// every pair of operations apart. Labels as values are an extension of GCC and Clang; other
+// compilers get a switch in a loop.
+#if defined(__GNUC__) && !defined(FITGAUGE_SWITCH_DISPATCH)
+#define FITGAUGE_THREADED 1
+#else
+#define FITGAUGE_THREADED 0
+#endif
+
+namespace fitgauge::interpreter {
+namespace {
+
+/// The loop over the code of a run. `kFollowed`: every block is announced to the observer; a second
+/// instantiation, so that the usual one does not even ask.
+template <bool kFollowed>
+class Executor : ExecutorSteps {
+ public:
+  explicit Executor(Channel& channel) : ExecutorSteps(channel, kFollowed) {}
+
+  Ending run() {
+    load_program();
+    loop(code_);
+    return {channel_.budget.executed(fuel_), std::move(error_)};
+  }
+
+  NcResult<void> run_label(std::uint32_t label) {
+    const std::uint32_t caller = channel_.block;
+    if (auto called = channel_.calls.call_label(kBackToCycle); !called) return called;
+    load_program();
+    loop(code_ + label);
+    channel_.budget.give_back(fuel_);
+    if (error_) return *std::move(error_);
+    if (!has_returned_) return nc_error("the subprogram of a contour ends with LBL 0");
+    channel_.block = caller;
+    return {};
+  }
+
+ private:
+  void loop(const Instruction* first);
+};
+
+// The table of labels and the jump through it are the extension.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpedantic"
+// Macros that are labels and statements confuse the formatter.
+// clang-format off
+
+#if FITGAUGE_THREADED
+#define FITGAUGE_OP(name) op_##name
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a statement
+#define FITGAUGE_NEXT() goto* kHandlers[static_cast<std::size_t>(pc->op)]
+// What is known of a variable is forgotten: on the rare way out everything is read again, so that
+// no step of the usual way keeps it in a register.
+#define FITGAUGE_FORGET(variable) asm volatile("" : "+r"(variable) : : "memory")
+#else
+#define FITGAUGE_FORGET(variable) static_cast<void>(variable)
+#define FITGAUGE_OP(name) case Op::name
+#define FITGAUGE_NEXT() continue
+#endif
+
+// Accounts for the blocks that an instruction begins.
+#define FITGAUGE_BEGIN()                                            \
+  if ((fuel -= pc->blocks) < 0) [[unlikely]] goto out_of_fuel;      \
+  if constexpr (kFollowed) announce(pc)
+
+// Keeps a result, which must be finite: else an operand is undefined or the operation failed.
+#define FITGAUGE_KEEP(value)                                        \
+  do {                                                              \
+    const double result = (value);                                  \
+    if (!std::isfinite(result)) [[unlikely]] goto not_a_value;      \
+    cells[pc->c] = result;                                          \
+  } while (false);                                                  \
+  ++pc
+
+#define FITGAUGE_STORE(value)                                       \
+  FITGAUGE_KEEP(value);                                             \
+  FITGAUGE_NEXT()
+
+// Jumps when `jumps`, goes on when `stays`; neither holds where an operand is undefined.
+#define FITGAUGE_BRANCH(jumps, stays)                               \
+  do {                                                              \
+    const double a = cells[pc->a];                                  \
+    const double b = cells[pc->b];                                  \
+    if (jumps) {                                                    \
+      pc = code + pc->c;                                            \
+    } else if (stays) [[likely]] {                                  \
+      ++pc;                                                         \
+    } else {                                                        \
+      goto not_a_value;                                             \
+    }                                                               \
+  } while (false);                                                  \
+  FITGAUGE_NEXT()
+
+// Leaves the loop for a function that says where the run goes on; null: it ended or failed. A
+// program call changes code and cells.
+#define FITGAUGE_CALL(function)                                     \
+  fuel_ = fuel;                                                     \
+  next = (function);                                                \
+  if (next == nullptr) goto done;                                   \
+  pc = next;                                                        \
+  code = code_;                                                     \
+  cells = cells_;                                                   \
+  FITGAUGE_NEXT()
+
+template <bool kFollowed>
+void Executor<kFollowed>::loop(const Instruction* first) {
+#if FITGAUGE_THREADED
+  static const void* const kHandlers[] = {
+      &&op_Add,         &&op_Subtract,      &&op_Multiply,    &&op_Divide,
+      &&op_Copy,        &&op_Compute,       &&op_Evaluate,    &&op_JumpEqual,
+      &&op_JumpNotEqual, &&op_JumpGreater,  &&op_JumpLess,    &&op_JumpDefined,
+      &&op_JumpUndefined, &&op_JumpWhen,    &&op_AddThenAdd,  &&op_AddThenJumpLess,
+      &&op_AddTwiceThenJumpLess, &&op_Count,  &&op_SkipBlock,   &&op_CallLabel,
+      &&op_LabelEnd,    &&op_Repeat,        &&op_Statement,   &&op_End};
+  static_assert(std::size(kHandlers) == static_cast<std::size_t>(Op::End) + 1);
+#endif
+  // What the loop works with lies in registers; the members are brought up to date on the way out.
+  const Instruction* code = code_;
+  double* cells = cells_;
+  std::int64_t fuel = fuel_;
+  const Instruction* pc = first;
+  const Instruction* next = nullptr;
+
+#if FITGAUGE_THREADED
+  FITGAUGE_NEXT();
+#else
+  for (;;) {
+  switch (pc->op) {
+#endif
+
+  FITGAUGE_OP(Add):
+    FITGAUGE_BEGIN();
+    FITGAUGE_STORE(cells[pc->a] + cells[pc->b]);
+  FITGAUGE_OP(Subtract):
+    FITGAUGE_BEGIN();
+    FITGAUGE_STORE(cells[pc->a] - cells[pc->b]);
+  FITGAUGE_OP(Multiply):
+    FITGAUGE_BEGIN();
+    FITGAUGE_STORE(cells[pc->a] * cells[pc->b]);
+  FITGAUGE_OP(Divide):
+    FITGAUGE_BEGIN();
+    FITGAUGE_STORE(cells[pc->a] / cells[pc->b]);
+  FITGAUGE_OP(Copy):
+    FITGAUGE_BEGIN();
+    FITGAUGE_STORE(cells[pc->a]);
+  FITGAUGE_OP(Compute):
+    FITGAUGE_BEGIN();
+    FITGAUGE_STORE(compute(pc->function, cells[pc->a], cells[pc->b]));
+  FITGAUGE_OP(Evaluate):
+    FITGAUGE_BEGIN();
+    FITGAUGE_CALL(evaluate_node(pc) ? pc + 1 : nullptr);
+
+  FITGAUGE_OP(JumpEqual):
+    FITGAUGE_BEGIN();
+    FITGAUGE_BRANCH(are_equal(a, b), is_defined(a) && is_defined(b));
+  FITGAUGE_OP(JumpNotEqual):
+    FITGAUGE_BEGIN();
+    FITGAUGE_BRANCH(is_defined(a) && is_defined(b) && !are_equal(a, b), are_equal(a, b));
+  FITGAUGE_OP(JumpGreater):
+    FITGAUGE_BEGIN();
+    FITGAUGE_BRANCH(a > b, a <= b);
+  FITGAUGE_OP(JumpLess):
+    FITGAUGE_BEGIN();
+    FITGAUGE_BRANCH(a < b, a >= b);
+  FITGAUGE_OP(JumpDefined):
+    FITGAUGE_BEGIN();
+    pc = is_defined(cells[pc->a]) ? code + pc->c : pc + 1;
+    FITGAUGE_NEXT();
+  FITGAUGE_OP(JumpUndefined):
+    FITGAUGE_BEGIN();
+    pc = is_defined(cells[pc->a]) ? pc + 1 : code + pc->c;
+    FITGAUGE_NEXT();
+  FITGAUGE_OP(JumpWhen):
+    FITGAUGE_BEGIN();
+    FITGAUGE_CALL(jump_when(pc));
+
+  FITGAUGE_OP(AddThenAdd):
+    FITGAUGE_BEGIN();
+    FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
+    FITGAUGE_BEGIN();
+    FITGAUGE_STORE(cells[pc->a] + cells[pc->b]);
+  FITGAUGE_OP(AddThenJumpLess):
+    FITGAUGE_BEGIN();
+    FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
+    FITGAUGE_BEGIN();
+    FITGAUGE_BRANCH(a < b, a >= b);
+  FITGAUGE_OP(AddTwiceThenJumpLess):
+    FITGAUGE_BEGIN();
+    FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
+    FITGAUGE_BEGIN();
+    FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
+    FITGAUGE_BEGIN();
+    FITGAUGE_BRANCH(a < b, a >= b);
+
+  FITGAUGE_OP(Count):
+    FITGAUGE_BEGIN();
+    ++pc;
+    FITGAUGE_NEXT();
+  FITGAUGE_OP(SkipBlock):
+    pc = channel_.options.block_skip ? code + pc->c : pc + 1;
+    FITGAUGE_NEXT();
+  FITGAUGE_OP(CallLabel):
+    FITGAUGE_BEGIN();
+    FITGAUGE_CALL(call_label(pc->c, pc));
+  FITGAUGE_OP(LabelEnd):
+    FITGAUGE_BEGIN();
+    FITGAUGE_CALL(end_label(pc));
+  FITGAUGE_OP(Repeat):
+    FITGAUGE_BEGIN();
+    FITGAUGE_CALL(repeat(pc));
+  FITGAUGE_OP(Statement):
+    FITGAUGE_BEGIN();
+    FITGAUGE_CALL(statement(pc));
+  FITGAUGE_OP(End):
+    FITGAUGE_BEGIN();
+    FITGAUGE_CALL(end_block(pc));
+
+  out_of_fuel:
+    FITGAUGE_FORGET(pc);
+    FITGAUGE_FORGET(fuel);
+    fuel_ = fuel + pc->blocks;
+    if (!refuel(pc->blocks)) goto done;
+    fuel = fuel_;
+    FITGAUGE_NEXT();
+  not_a_value:
+    FITGAUGE_FORGET(pc);
+    if (give_preassigned(*pc)) {
+      fuel += pc->blocks;
+      FITGAUGE_NEXT();
+    }
+    error_ = value_error(*pc);
+    fuel_ = fuel;
+    goto done;
+#if !FITGAUGE_THREADED
+  }
+  }
+#endif
+done:
+  if (error_) enter(pc);
+  if (failed_at_) channel_.block = *failed_at_;
+}
+
+// clang-format on
+#pragma GCC diagnostic pop
+
+}  // namespace
+
+Ending execute_program(Channel& channel) {
+  return channel.environment.observer.follows_every_block() ? Executor<true>(channel).run()
+                                                            : Executor<false>(channel).run();
+}
+
+NcResult<void> execute_label(Channel& channel, std::uint32_t label) {
+  return channel.environment.observer.follows_every_block()
+             ? Executor<true>(channel).run_label(label)
+             : Executor<false>(channel).run_label(label);
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "nc/run/channel.hpp"
+
+namespace fitgauge::interpreter {
+
+/// How the code of a run came to its end.
+struct Ending {
+  std::uint64_t blocks_executed = 0;
+  std::optional<NcError> error;  ///< nothing when the program ended
+};
+
+/// Runs the main program of a channel to its end. Where it fails, `channel.place()` is the block.
+Ending execute_program(Channel& channel);
+
+/// Runs the blocks from the instruction of a label to its LBL 0, for a cycle that needs what a
+/// subprogram programs. @errors those of the blocks; no LBL 0 comes.
+NcResult<void> execute_label(Channel& channel, std::uint32_t label);
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,149 @@
+#include "nc/run/executor_steps.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "nc/program/arithmetic.hpp"
+#include "nc/run/preassigned.hpp"
+#include "nc/run/statements.hpp"
+#include "nc/run/values.hpp"
+
+namespace fitgauge::interpreter {
+
+/// Why the result of an instruction is not finite, or its comparison not possible.
+NcError ExecutorSteps::value_error(const Instruction& instruction) const {
+  const double a = cells_[instruction.a];
+  const double b = cells_[instruction.b];
+  if (!is_defined(a)) return undefined_error(parameter_of(instruction.a));
+  if (!is_defined(b)) return undefined_error(parameter_of(instruction.b));
+  return nc_error(failure(
+      instruction.op == Op::Divide ? klartext::Operator::Divide : instruction.function, a, b));
+}
+
+/// Whether an undefined operand was one that the control gives a value.
+bool ExecutorSteps::give_preassigned(const Instruction& instruction) {
+  for (const std::uint32_t cell : {instruction.a, instruction.b}) {
+    if (!is_defined(cells_[cell]) && is_preassigned(cell)) {
+      update_preassigned(channel_);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool ExecutorSteps::refuel(std::int64_t needed) {
+  const auto portion = channel_.budget.refuel(std::exchange(fuel_, 0), needed);
+  if (!portion) {
+    error_ = portion.error();
+    return false;
+  }
+  fuel_ = *portion;
+  channel_.environment.observer.progressed(channel_.budget.executed(fuel_));
+  return true;
+}
+
+bool ExecutorSteps::call_program(std::shared_ptr<const LinkedProgram> program,
+                                 std::uint32_t return_to) {
+  QParameters& parameters = channel_.parameters;
+  auto locals = parameters.save_locals(channel_.linked());
+  if (auto called = channel_.calls.call_program(std::move(program), {return_to, std::move(locals)});
+      !called) {
+    error_ = called.error();
+    return false;
+  }
+  parameters.enter(channel_.linked());
+  load_program();
+  return true;
+}
+
+bool ExecutorSteps::evaluate_node(const Instruction* pc) {
+  enter(pc);
+  if (auto checked = channel_.budget.check(); !checked) {
+    error_ = checked.error();
+    return false;
+  }
+  const auto value = evaluate(channel_, klartext::NodeIndex{pc->a});
+  if (!value) {
+    error_ = value.error();
+    return false;
+  }
+  cells_[pc->c] = *value;
+  return true;
+}
+
+const Instruction* ExecutorSteps::jump_when(const Instruction* pc) {
+  enter(pc);
+  if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
+  const auto holds = condition(channel_, klartext::NodeIndex{pc->a});
+  if (!holds) return fail(holds.error());
+  return *holds ? code_ + pc->c : pc + 1;
+}
+
+const Instruction* ExecutorSteps::call_label(std::uint32_t target, const Instruction* pc) {
+  if (auto called = channel_.calls.call_label(index_of(pc + 1)); !called) {
+    return fail(called.error());
+  }
+  return code_ + target;
+}
+
+/// LBL 0, which is passed over outside of a subprogram.
+const Instruction* ExecutorSteps::end_label(const Instruction* pc) {
+  const auto target = channel_.calls.return_from_label();
+  has_returned_ = target == kBackToCycle;
+  if (has_returned_) return nullptr;
+  return target ? code_ + *target : pc + 1;
+}
+
+/// CALL LBL REP: the counter cell is undefined while the part is not being repeated.
+const Instruction* ExecutorSteps::repeat(const Instruction* pc) {
+  double& counter = cells_[pc->b];
+  if (!is_defined(counter)) {
+    const double count = cells_[pc->a];
+    if (!is_defined(count)) return fail(undefined_error(parameter_of(pc->a)));
+    counter = std::round(count);  // decision 7
+  }
+  if (counter < 1) {
+    counter = kUndefined;
+    return pc + 1;
+  }
+  counter -= 1;
+  return code_ + pc->c;
+}
+
+const Instruction* ExecutorSteps::statement(const Instruction* pc) {
+  enter(pc);
+  if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
+  if (!announces_) channel_.environment.observer.entered(channel_.place());
+  auto next = execute_statement(channel_, *pc);
+  cells_ = channel_.parameters.cells();  // a cycle may have run a subprogram
+  if (!next) {
+    failed_at_ = channel_.block;
+    return fail(next.error());
+  }
+  switch (next->kind) {
+    case Next::Kind::Block: return pc + 1;
+    case Next::Kind::Jump: return code_ + next->target;
+    case Next::Kind::CallLabel: return call_label(next->target, pc);
+    case Next::Kind::CallProgram:
+      return call_program(std::move(next->program), index_of(pc + 1)) ? code_ : nullptr;
+    case Next::Kind::EndRun: break;
+  }
+  return nullptr;
+}
+
+const Instruction* ExecutorSteps::end_block(const Instruction* pc) {
+  enter(pc);
+  if (auto done = channel_.contour.finish(channel_.machine()); !done) return fail(done.error());
+  return end_program();
+}
+
+/// @returns where the caller goes on, or null at the end of the main program.
+const Instruction* ExecutorSteps::end_program() {
+  if (channel_.calls.depth() == depth_) return nullptr;
+  const CallStack::Caller caller = channel_.calls.return_from_program();
+  channel_.parameters.enter(channel_.linked(), caller.locals);
+  load_program();
+  return code_ + caller.return_to;
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nc/klartext/mask_file.hpp"
+#include "nc/program/control_path.hpp"
+#include "nc/run/nc_error.hpp"
+#include "nc/run/run_files.hpp"
+#include "nc/run/run_log.hpp"
+
+namespace fitgauge::interpreter {
+
+/// One run through a mask: its lines in the language of the control, and what it says about the
+/// file they go to.
+struct PrintedMask {
+  std::vector<std::string> lines;
+  bool close = false;
+  bool append = false;
+  bool truncate = false;
+  std::optional<std::size_t> most_bytes;  ///< M_APPEND_MAX
+};
+
+/// The masks and files of FN 16: F-PRINT. What goes to one file is collected and written at M_CLOSE
+/// or at the end of the run. Not thread-safe.
+class FormattedPrinter {
+ public:
+  /// Both must outlive this object.
+  FormattedPrinter(RunFiles& files, OutputBudget& budget) : files_(files), budget_(budget) {}
+
+  /// A mask, as its file is now. @errors missing or malformed file.
+  NcResult<std::shared_ptr<const klartext::MaskFile>> mask(const ControlPath& path);
+  /// @errors limit.
+  NcResult<void> print(const PrintedMask& printed, const ControlPath& path);
+  /// Writes what has been collected. @errors limit.
+  NcResult<void> close();
+
+ private:
+  struct Output {
+    ControlPath path;
+    std::string text;
+    bool append = false;
+    std::optional<std::size_t> most_bytes;
+  };
+  struct Known {
+    std::string revision;
+    std::shared_ptr<const klartext::MaskFile> mask;
+  };
+
+  NcResult<void> write(const Output& output);
+
+  RunFiles& files_;
+  OutputBudget& budget_;
+  std::map<std::string, Output> outputs_;  // by key
+  std::map<std::string, Known> masks_;     // by key
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,212 @@
+#include "nc/run/frame_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/run/channel.hpp"
+#include "nc/run/m_functions.hpp"
+#include "nc/run/plane_geometry.hpp"
+#include "nc/run/preassigned.hpp"
+#include "nc/run/tool_orientation.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::PlanePositioning;
+using machine::Axis;
+using machine::Frames;
+using machine::Vec3;
+
+template <class Change>
+NcResult<void> change_frames(Channel& channel, const Change& change) {
+  Frames frames = channel.machine().state().frames;
+  change(frames);
+  return checked(channel.machine().set_frames(frames));
+}
+
+/// TABLE ROT (decision 31): the table axis next to the workpiece is free where it is parallel to
+/// the tool in the plane. It turns until the plane's main axis lies along the machine's.
+void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec3& rotary) {
+  const auto& axes = state.kinematics.axes();
+  const auto next_to_workpiece = std::find_if(axes.rbegin(), axes.rend(), [](const auto& axis) {
+    return axis.mount == machine::AxisMount::Table;
+  });
+  if (next_to_workpiece == axes.rend()) return;
+  const auto working = WorkingPlane::across(state.tool_axis());
+  const Vec3 normal =
+      machine::unit(plane.direction_to_machine(machine::unit_vector(state.tool_axis())));
+  const double along = dot(normal, next_to_workpiece->direction);
+  if (std::abs(along) < 1 - tolerance::kSameDirection) return;
+  double& angle = rotary[machine::index(next_to_workpiece->axis) - 3];
+  angle = 0;
+  const Vec3 main_axis = state.kinematics.table(rotary).direction(
+      plane.direction_to_machine(machine::unit_vector(static_cast<Axis>(working.first))));
+  const Vec2 seen = working.project(main_axis);
+  const double turn = machine::degrees(std::atan2(seen.y, seen.x));
+  angle = along > 0 ? turn : -turn;
+  if (angle < -180 + tolerance::kSameDirection) angle = 180;
+}
+
+/// SEQ and SYM: the first axis that is not C, of the head from the tool, has a sign of its angle
+/// from 0 or from the middle of its range.
+bool is_on_side(const machine::MachineState& state, const PlaneMoves& moves, const Vec3& rotary) {
+  const auto& axes = state.kinematics.axes();
+  const auto primary =
+      std::find_if(axes.begin(), axes.end(), [](const auto& axis) { return axis.axis != Axis::C; });
+  if (moves.sequence == 0 || primary == axes.end()) return true;
+  const auto& range = state.ranges[machine::index(primary->axis)];
+  const double zero = moves.is_symmetric && range ? (range->min + range->max) / 2 : 0;
+  const double angle = rotary[machine::index(primary->axis) - 3] - zero;
+  return moves.sequence > 0 ? angle >= 0 : angle <= 0;
+}
+
+/// The rotary positions for a plane: of those in range on the side that SEQ or SYM asks for the
+/// nearest.
+NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& frames,
+                                               const PlaneMoves& moves) {
+  const machine::MachineState& state = channel.machine().state();
+  Frames plane;
+  plane.set_preset(frames.preset());
+  plane.set_plane(frames.plane());
+  const Vec3 normal =
+      machine::unit(plane.direction_to_machine(machine::unit_vector(state.tool_axis())));
+  for (const Vec3& found :
+       state.kinematics.orientations(normal, state.nose.rotary, state.tool_axis())) {
+    auto rotary = in_range(state, found, found);
+    if (!rotary || !is_on_side(state, moves, *rotary)) continue;
+    if (moves.turns_table) turn_free_axis(state, plane, *rotary);
+    return rotary;
+  }
+  const bool turns =
+      moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;
+  if (turns || !state.kinematics.axes().empty()) {
+    return nc_error(1013, "no position of the rotary axes reaches the plane");
+  }
+  return std::optional<Vec3>();
+}
+
+/// Along the tool to the spindle, in input coordinates, with the rotary axes at `rotary`.
+Vec3 tool_at(const machine::MachineState& state, const Vec3& rotary) {
+  Frames on_table = state.frames;
+  on_table.set_table({});
+  const Vec3 tool = state.kinematics.tool_direction(rotary, state.tool_axis());
+  const Vec3 workpiece = state.kinematics.table(rotary).inverse().direction(tool);
+  return machine::unit(on_table.direction_from_machine(workpiece));
+}
+
+/// MOVE keeps the tip where it is on the workpiece, TURN leaves the linear axes alone.
+NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& moves) {
+  machine::Machine& machine = channel.machine();
+  if (moves.retraction) {
+    if (auto done = retract(channel, *moves.retraction); !done) return done;
+  }
+  const machine::Modes before = machine.state().modes;
+  machine::Modes during = before;
+  during.tcpm = moves.positioning == PlanePositioning::Move;
+  if (auto set = checked(machine.set_modes(during)); !set) return set;
+  const Vec3 shown =
+      machine.state().frames.rotary_from_machine(rotary, machine::CoordinateSystem::Input);
+  machine::AxisWords target;
+  for (const machine::RotaryAxis& axis : machine.state().kinematics.axes()) {
+    target[axis.axis] = shown[machine::index(axis.axis) - 3];
+  }
+  if (during.tcpm && moves.distance != 0) {
+    const machine::MachineState& state = machine.state();
+    const Vec3 swing = tool_at(state, rotary) - tool_at(state, state.nose.rotary);
+    const Vec3 tip = machine.position().linear + swing * moves.distance;
+    for (std::size_t axis = 0; axis < 3; ++axis) target.values[axis] = tip[axis];
+  }
+  auto moved = checked(machine.move({target, moves.feed}));
+  if (auto set = checked(machine.set_modes(before)); !set) return set;
+  return moved;
+}
+
+NcResult<void> apply(Channel& channel, const Frames& frames, const std::optional<Vec3>& rotary,
+                     const PlaneMoves& moves) {
+  if (auto set = checked(channel.machine().set_frames(frames)); !set) return set;
+  if (!rotary) return {};
+  set_plane_angles(channel, *rotary);
+  const bool turns =
+      moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;
+  return turns ? turn(channel, *rotary, moves) : NcResult<void>();
+}
+
+/// The datum shift relative to the workpiece system, tilted or not.
+machine::Position untilted_shift(const Frames& frames) {
+  machine::Position shift = frames.datum_shift();
+  if (frames.plane()) shift.linear = frames.plane()->origin;
+  return shift;
+}
+
+}  // namespace
+
+NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes) {
+  return change_frames(channel, [&](Frames& frames) {
+    machine::Position shift = frames.datum_shift();
+    for (const Axis axis : machine::kAllAxes) {
+      const auto& word = axes[machine::index(axis)];
+      if (word) shift[axis] = word->incremental ? shift[axis] + word->value : word->value;
+    }
+    frames.set_datum_shift(shift);
+  });
+}
+
+NcResult<void> shift_datum_to_row(Channel& channel, std::int64_t row) {
+  const auto values = channel.tables.datum(row);
+  if (!values) return values.error();
+  AxisCoordinates axes;
+  for (const Axis axis : machine::kAllAxes) {
+    if ((*values)[axis]) axes[machine::index(axis)] = Coordinate{*(*values)[axis], false};
+  }
+  return shift_datum(channel, axes);
+}
+
+NcResult<void> reset_datum_shift(Channel& channel) {
+  return change_frames(channel, [](Frames& frames) { frames.set_datum_shift({}); });
+}
+
+NcResult<void> mirror(Channel& channel, const std::array<bool, 3>& axes) {
+  return change_frames(channel, [&](Frames& frames) { frames.set_mirror(axes); });
+}
+
+NcResult<void> rotate(Channel& channel, const Coordinate& angle) {
+  const Axis tool_axis = channel.machine().state().tool_axis();
+  return change_frames(channel, [&](Frames& frames) {
+    const double last = angle.incremental ? frames.rotation().angle_deg : 0;
+    frames.set_rotation({last + angle.value, tool_axis});
+  });
+}
+
+NcResult<void> scale(Channel& channel, const machine::Scaling& scaling) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (scaling.factor[axis] <= 0) {
+      return nc_error(1011, fmt::format("scaling factor {}", scaling.factor[axis]));
+    }
+  }
+  return change_frames(channel, [&](Frames& frames) { frames.set_scaling(scaling); });
+}
+
+NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const PlaneMoves& moves) {
+  Frames frames = channel.machine().state().frames;
+  machine::Position shift = untilted_shift(frames);
+  frames.set_plane(machine::TiltedPlane{machine::spatial_angles(rotation), shift.linear});
+  shift.linear = {};
+  frames.set_datum_shift(shift);
+  const auto rotary = rotary_positions(channel, frames, moves);
+  if (!rotary) return rotary.error();
+  return apply(channel, frames, *rotary, moves);
+}
+
+NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves) {
+  Frames frames = channel.machine().state().frames;
+  const machine::Position shift = untilted_shift(frames);
+  frames.set_plane(std::nullopt);
+  frames.set_datum_shift(shift);
+  const Vec3 home = frames.rotary_to_machine({}, machine::CoordinateSystem::Workpiece);
+  return apply(channel, frames, home, moves);
+}
+
+}  // namespace fitgauge::interpreter

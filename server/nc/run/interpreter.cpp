@@ -1,0 +1,83 @@
+#include "nc/run/interpreter.hpp"
+
+#include "nc/run/channel.hpp"
+#include "nc/run/executor.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+/// As if an earlier program had left them.
+NcResult<void> preset(QParameters& parameters, const std::vector<ParameterValue>& values) {
+  for (const auto& [parameter, value] : values) {
+    const auto* number = std::get_if<double>(&value);
+    auto set = number != nullptr
+                   ? parameters.set(parameter, *number)
+                   : parameters.set_string(parameter.number, std::get<std::string>(value));
+    if (!set) return set;
+  }
+  return {};
+}
+
+RunStatus status_of(NcErrorKind kind) {
+  switch (kind) {
+    case NcErrorKind::Stop: return RunStatus::Stopped;
+    case NcErrorKind::Limit: return RunStatus::LimitExceeded;
+    case NcErrorKind::Cancelled: return RunStatus::Cancelled;
+    case NcErrorKind::Error: break;
+  }
+  return RunStatus::Failed;
+}
+
+/// What a control does at the end of a run, also after an error: collected output is written.
+NcResult<void> close_files(Channel& channel) {
+  auto printed = channel.printer.close();
+  auto tables = channel.tables.close();
+  channel.cycle_memory.end_program();
+  return printed ? tables : printed;
+}
+
+}  // namespace
+
+RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& environment,
+              const RunOptions& options, std::stop_token stop) {
+  Allowance own(options.limits.time, options.limits.memory_bytes, std::move(stop));
+  Allowance& allowance = environment.allowance != nullptr ? *environment.allowance : own;
+  Channel channel(std::move(main), environment, options, allowance);
+  environment.observer.begins(channel.files);
+  channel.parameters.enter(channel.linked());
+  Ending ending;
+  if (auto done = preset(channel.parameters, options.parameters); !done) {
+    ending.error = done.error();
+  } else {
+    ending = execute_program(channel);
+  }
+  const Place last = channel.place();
+  auto closed = close_files(channel);
+  if (!ending.error && !closed) ending.error = closed.error();
+  // A move or a loop that was interrupted has failed for that reason, whatever it says.
+  if (auto refusal = channel.budget.refusal()) ending.error = std::move(refusal);
+
+  RunResult result;
+  result.blocks_executed = ending.blocks_executed;
+  if (ending.error) {
+    result.status = status_of(ending.error->kind);
+    channel.log.finish(*ending.error, last);
+  }
+  environment.observer.ends();
+  // What is reported are the QL of the main program, also when the run ended in another.
+  while (!channel.calls.is_in_main()) {
+    const CallStack::Caller caller = channel.calls.return_from_program();
+    channel.parameters.enter(channel.linked(), caller.locals);
+  }
+  result.parameters = channel.parameters.all();
+  result.files = channel.files.take();
+  result.tables = channel.tables.opened();
+  channel.log.take(result);
+  const machine::MachineState& state = environment.machine.state();
+  result.machining_time_s = state.elapsed_s;
+  result.active_preset = state.active_preset;
+  for (const auto& [number, row] : state.presets.rows()) result.presets.push_back(row);
+  return result;
+}
+
+}  // namespace fitgauge::interpreter

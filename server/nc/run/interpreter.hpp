@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "base/allowance.hpp"
+#include "base/clock.hpp"
+#include "nc/klartext/mask_file.hpp"
+#include "nc/machine/machine.hpp"
+#include "nc/program/control_disk.hpp"
+#include "nc/program/parameter.hpp"
+#include "nc/program/program_cache.hpp"
+#include "nc/run/machine_builder.hpp"
+#include "nc/run/run_limits.hpp"
+#include "nc/run/run_observer.hpp"
+#include "nc/run/run_result.hpp"
+
+namespace fitgauge::interpreter {
+
+/// What happens at STOP, M0, M1 and Q281 = 2: the run goes on as if NC Start was pressed, or ends.
+enum class OnStop : std::uint8_t { Continue, End };
+
+struct RunOptions {
+  std::vector<ParameterValue> parameters;  ///< set before block 0; each valid for `validate`
+  RunLimits limits;
+  OnStop on_stop = OnStop::Continue;
+  bool block_skip = false;  ///< blocks that begin with `/` are passed over
+  MachineBuilder builder;   ///< M functions and cycles that the control does not know
+  /// Lines that are no Klartext are ERROR blocks, which fail when they are reached (decision 32);
+  /// otherwise they refuse the program.
+  bool keeps_unreadable = false;
+  bool decimal_comma = true;  ///< of FN 15
+  /// A file of the folder for logs and for what FN 16 names without a folder (fn16DefaultPath);
+  /// without one they lie beside the program.
+  std::optional<ControlPath> print_folder;
+  klartext::MaskLanguage language = klartext::MaskLanguage::English;  ///< of the control's dialog
+};
+
+/// What a run works on. All must outlive the run; machine and observer belong to it alone, the
+/// others may be shared with other runs.
+struct RunEnvironment {
+  machine::Machine& machine;
+  const ControlDisk& disk;
+  ProgramCache& programs;
+  const Clock& clock;
+  RunObserver& observer;
+  /// Made of the limits and the stop token before the machine, which looks at it too; without one
+  /// the run makes its own, and what the machine does is not interrupted.
+  Allowance* allowance = nullptr;
+};
+
+/// Runs a program to its end, on the calling thread.
+///
+/// To run a file: `check` it and refuse the run when an error is among the diagnostics; build a
+/// machine from the setup; then
+///
+///     const auto file = programs.get(*disk.find(path));
+///     RunResult result = run(file->program, {machine, disk, programs, clock, observer}, options,
+///                            stop_source.get_token());
+///
+/// Never throws for what a program does: NC errors, machine faults, budgets and cancellation are
+/// in the result, whose last message then names the block. Broken storage (ControlDisk) passes
+/// through as an exception. Cancel with the stop token from any thread: it is seen within a few
+/// thousand blocks of formulas, and inside of every block that can last. Files the run writes are
+/// in the result only.
+/// @param stop unused where the environment brings an allowance
+RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& environment,
+              const RunOptions& options, std::stop_token stop = {});
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,158 @@
+#include "nc/run/kinematics_records.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tables/tabfile/tab_reader.hpp"
+#include "tables/tabfile/tab_writer.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using machine::Axis;
+using machine::AxisMount;
+using machine::Kinematics;
+using machine::RotaryAxis;
+using machine::Vec3;
+using tabfile::TabTable;
+
+/// The row of a record that is no axis: how far the tool stands off.
+constexpr std::string_view kTool = "TOOL";
+constexpr std::string_view kOnTable = "TABLE";
+constexpr std::string_view kOnHead = "HEAD";
+constexpr std::string_view kZero = "ZERO";
+
+ControlPath records_path() { return ControlPath::parse("TNC:\\table\\DATA450.KD").value(); }
+
+NcError broken(std::string_view what) {
+  return nc_error(1096, fmt::format("{}: {}", records_path().text(), what));
+}
+
+struct Record {
+  std::vector<RotaryAxis> axes;
+  Vec3 offset;
+};
+
+/// Reads one row after the other; the first thing that is wrong is kept.
+class RecordReader {
+ public:
+  explicit RecordReader(const TabTable& table) : table_(table) {}
+
+  NcResult<probing::KinematicsRecords> read() {
+    for (std::int64_t row = 0; row < static_cast<std::int64_t>(table_.row_count()); ++row) {
+      add(row);
+      if (!wrong_.empty()) return broken(fmt::format("row {}: {}", row, wrong_));
+    }
+    probing::KinematicsRecords records;
+    for (auto& [name, record] : found_) {
+      records.emplace(name, Kinematics(std::move(record.axes), record.offset));
+    }
+    return records;
+  }
+
+ private:
+  void add(std::int64_t row) {
+    const Vec3 point = vector(row, {"X", "Y", "Z"});
+    const std::string name(text(row, "NAME"));
+    const std::string_view part = text(row, "AXIS");
+    if (part == kTool) {
+      found_[name].offset = point;
+      return;
+    }
+    const auto axis = std::ranges::find(machine::kAllAxes, part, machine::name);
+    const std::string_view mount = text(row, "ON");
+    if (axis == machine::kAllAxes.end() || !is_rotary(*axis))
+      return fail("AXIS is A, B, C or TOOL");
+    if (mount != kOnTable && mount != kOnHead) return fail("ON is TABLE or HEAD");
+    std::vector<RotaryAxis>& axes = found_[name].axes;
+    if (std::ranges::count(axes, *axis, &RotaryAxis::axis) > 0)
+      return fail("the axis is there twice");
+    const Vec3 direction = vector(row, {"I", "J", "K"});
+    if (direction == Vec3{}) return fail("the direction is zero");
+    // Records that were written before there were zeros have no such column.
+    const double zero = table_.find_column(kZero) ? number(row, kZero) : 0;
+    axes.push_back(
+        {*axis, mount == kOnTable ? AxisMount::Table : AxisMount::Head, point, direction, zero});
+  }
+
+  std::string_view text(std::int64_t row, std::string_view column) {
+    const auto cell = table_.text(row, column);
+    if (cell) return *cell;
+    fail(cell.error().message);
+    return {};
+  }
+  Vec3 vector(std::int64_t row, const std::array<std::string_view, 3>& columns) {
+    Vec3 vector;
+    for (std::size_t k = 0; k < 3; ++k) vector[k] = number(row, columns[k]);
+    return vector;
+  }
+  double number(std::int64_t row, std::string_view column) {
+    const auto value = table_.number(row, column);
+    if (value) return *value;
+    fail(value.error().message);
+    return 0;
+  }
+  void fail(std::string_view what) {
+    if (wrong_.empty()) wrong_ = what;
+  }
+
+  const TabTable& table_;
+  std::map<std::string, Record> found_;
+  std::string wrong_;
+};
+
+TabTable empty_table() {
+  constexpr std::size_t kName = 16;
+  constexpr std::size_t kWord = 5;
+  constexpr std::size_t kNumber = 24;  // the shortest text of any double
+  std::vector<tabfile::TabColumn> columns{{.name = "NR", .width = kWord},
+                                          {.name = "NAME", .width = kName},
+                                          {.name = "AXIS", .width = kWord},
+                                          {.name = "ON", .width = kWord}};
+  for (const char* name : {"X", "Y", "Z", "I", "J", "K"}) {
+    columns.push_back({.name = name, .width = kNumber});
+  }
+  columns.push_back({.name = std::string(kZero), .width = kNumber});
+  return TabTable({.name = "DATA450 .KD", .unit = "MM", .form = tabfile::HeaderForm::None},
+                  std::move(columns));
+}
+
+void append(TabTable& table, const std::string& name, std::string_view part, std::string_view on,
+            const Vec3& point, const Vec3& direction, double zero_deg) {
+  std::vector<std::string> cells{fmt::to_string(table.row_count()), name, std::string(part),
+                                 std::string(on)};
+  for (const Vec3& vector : {point, direction}) {
+    for (std::size_t k = 0; k < 3; ++k) cells.push_back(fmt::format("{}", vector[k]));
+  }
+  cells.push_back(fmt::format("{}", zero_deg));
+  table.append_row(std::move(cells)).value();
+}
+
+}  // namespace
+
+NcResult<probing::KinematicsRecords> read_kinematics_records(const RunFiles& files,
+                                                             Allowance& allowance) {
+  const auto file = files.find(records_path());
+  if (!file) return probing::KinematicsRecords{};
+  const auto table = tabfile::read_tab_file(*file->bytes, allowance);
+  if (!table) return broken(table.error().message);
+  return RecordReader(*table).read();
+}
+
+NcResult<void> write_kinematics_records(RunFiles& files,
+                                        const probing::KinematicsRecords& records) {
+  TabTable table = empty_table();
+  for (const auto& [name, model] : records) {
+    for (const RotaryAxis& axis : model.axes()) {
+      append(table, name, machine::name(axis.axis),
+             axis.mount == AxisMount::Table ? kOnTable : kOnHead, axis.centre, axis.direction,
+             axis.zero_deg);
+    }
+    append(table, name, kTool, {}, model.offset(), {}, 0);
+  }
+  return files.write(records_path(), tabfile::write_tab(table));
+}
+
+}  // namespace fitgauge::interpreter

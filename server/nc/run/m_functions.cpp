@@ -1,0 +1,142 @@
+#include "nc/run/m_functions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/run/channel.hpp"
+#include "nc/run/preassigned.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using machine::SpindleState;
+
+/// Puts modes into the machine where the block changes them.
+NcResult<void> set_modes(Channel& channel, const machine::Modes& modes) {
+  if (modes == channel.machine().state().modes) return {};
+  if (auto set = checked(channel.machine().set_modes(modes)); !set) return set;
+  update_preassigned(channel);
+  return {};
+}
+
+SpindleState stopped(SpindleState state) {
+  switch (state) {
+    case SpindleState::Clockwise: return SpindleState::StoppedAfterM3;
+    case SpindleState::CounterClockwise: return SpindleState::StoppedAfterM4;
+    default: return state;
+  }
+}
+
+/// How far the spindle nose can go along `direction` (machine coordinates) before an axis is at its
+/// limit.
+double room(const machine::MachineState& state, const machine::Vec3& direction) {
+  double room = std::numeric_limits<double>::infinity();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& range = state.ranges[axis];
+    if (!range || std::abs(direction[axis]) < tolerance::kParallel) continue;
+    const double limit = direction[axis] > 0 ? range->max : range->min;
+    room = std::min(room, (limit - state.nose.linear[axis]) / direction[axis]);
+  }
+  return std::max(room, 0.0);
+}
+
+}  // namespace
+
+NcResult<void> retract(Channel& channel, const MCall& call) {
+  const machine::MachineState& state = channel.machine().state();
+  const machine::Vec3 direction = state.tool_direction(machine::CoordinateSystem::Reference);
+  const double length = call.to_limit ? room(state, direction) : call.length.value_or(0);
+  const machine::Vec3 target = state.nose.linear + direction * length;
+  return checked(channel.machine().move({machine::AxisWords::linear(target),
+                                         call.feed.value_or(machine::Feed::rapid()),
+                                         machine::CoordinateSystem::Reference}));
+}
+
+NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls) {
+  machine::Modes modes = channel.machine().state().modes;
+  for (const MCall& call : calls) {
+    switch (call.number) {
+      case 13: modes.coolant = true; [[fallthrough]];
+      case 3: modes.spindle = SpindleState::Clockwise; break;
+      case 14: modes.coolant = true; [[fallthrough]];
+      case 4: modes.spindle = SpindleState::CounterClockwise; break;
+      case 8: modes.coolant = true; break;
+      case 116: modes.feed_at_circumference = true; break;
+      case 117: modes.feed_at_circumference = false; break;
+      case 128:
+      case 129:
+        modes.tcpm = call.number == 128;
+        channel.spatial_angles.reset();
+        channel.turns_along_vector = false;
+        break;
+      case 144: modes.kinematics_in_display = true; break;
+      case 145: modes.kinematics_in_display = false; break;
+      case 136: channel.contour.feed_per_revolution = true; break;
+      case 137: channel.contour.feed_per_revolution = false; break;
+      default: break;
+    }
+  }
+  return set_modes(channel, modes);
+}
+
+NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
+  machine::Modes modes = channel.machine().state().modes;
+  bool stops = false;
+  bool ends = false;
+  bool calls_cycle = channel.active_cycle.after_every_block && words.names_axes();
+  const bool stands = std::any_of(words.m.begin(), words.m.end(), [](const MCall& call) {
+    return call.number <= 2 || call.number == 30 || call.number == 140;
+  });
+  if (stands) {
+    if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
+  }
+  for (const MCall& call : words.m) {
+    switch (call.number) {
+      case 0:
+      case 1: stops = true; break;
+      case 2:
+      case 30: ends = true; [[fallthrough]];
+      case 5:
+        modes.spindle = stopped(modes.spindle);
+        if (call.number != 5) modes.coolant = false;
+        break;
+      case 9: modes.coolant = false; break;
+      case 89: channel.active_cycle.after_every_block = calls_cycle = true; break;
+      case 99:
+        calls_cycle = true;
+        channel.active_cycle.after_every_block = false;
+        break;
+      case 140:
+        if (auto done = retract(channel, call); !done) return done.error();
+        break;
+      default: break;
+    }
+  }
+  if (calls_cycle) {
+    auto next = call_active_cycle(channel);
+    if (!next || next->kind != Next::Kind::Block) return next;
+  }
+  if (auto set = set_modes(channel, modes); !set) return set.error();
+  if (stops) {
+    const char* reason = words.has_m(0) ? "programmed stop M0" : "optional stop M1";
+    if (auto done = channel.programmed_stop(reason); !done) return done.error();
+  }
+  for (const MCall& call : words.m) {
+    if (call.program == nullptr) continue;
+    if (ends || calls_cycle) {
+      return nc_error(
+          fmt::format("M{} calls a program and stands alone with it: M2, M30, M89 and "
+                      "M99 go into a block of their own",
+                      call.number));
+    }
+    return call_program(channel, *call.program);
+  }
+  if (ends) return Next{.kind = Next::Kind::EndRun};
+  return Next{};
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,85 @@
+#include "nc/run/machining.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nc/run/channel.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+/// Cycle 240 may give the diameter of the countersink instead of its depth.
+double depth(const MachiningDefinition& definition, const machine::Tool* tool) {
+  if (definition.value(343) != 1) return definition.value(201);
+  const double point = tool == nullptr ? 0 : tool->point_angle;
+  if (point <= 0 || point >= 180) return 0;
+  return -std::abs(definition.value(344)) / 2 / std::tan(machine::radians(point / 2));
+}
+
+Heights heights_of(const MachiningDefinition& definition, const ToolMotion& motion) {
+  Heights heights;
+  if (definition.cycle->descriptor.dotted) {
+    // The old cycles begin at their clearance: the surface lies below the tool.
+    heights.clearance = motion.height();
+    heights.surface = heights.clearance - std::abs(definition.value(200));
+    heights.second = heights.clearance;
+  } else {
+    heights.surface = definition.value(203);
+    heights.clearance = heights.surface + definition.value(200);
+    heights.second = std::max(heights.clearance, heights.surface + definition.value(204));
+  }
+  heights.bottom = heights.surface + depth(definition, motion.state().active_tool());
+  return heights;
+}
+
+}  // namespace
+
+machine::Feed feed_of(double rate) {
+  return std::isinf(rate) ? machine::Feed::rapid() : machine::Feed::at(rate);
+}
+
+Machining::Machining(const ToolMotion& tool, const MachiningDefinition& defined)
+    : definition(defined), motion(tool), heights(heights_of(defined, tool)) {}
+
+machine::Feed Machining::feed(int parameter) const { return feed_of(value(parameter)); }
+
+machine::Feed Machining::retraction() const {
+  if (!definition.gives(208)) return machine::Feed::rapid();
+  return feed(value(208) > 0 ? 208 : 206);
+}
+
+NcResult<void> Machining::start() {
+  if (heights.bottom == heights.surface) return nc_error(1042, "Q201 is 0");
+  if (definition.cycle->descriptor.dotted) return {};  // the tool stands there
+  return motion.to_height(heights.clearance, machine::Feed::rapid());
+}
+
+NcResult<void> Machining::leave() {
+  if (heights.second <= heights.clearance) return {};
+  return motion.to_height(heights.second, machine::Feed::rapid());
+}
+
+NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition) {
+  Machining cycle({channel.machine(), channel.budget}, definition);
+  switch (definition.cycle->shape) {
+    case MachiningShape::Drilling: return drill(cycle);
+    case MachiningShape::Boring: return bore(cycle);
+    case MachiningShape::BackBoring: return bore_back(cycle);
+    case MachiningShape::Tapping: return tap(cycle);
+    case MachiningShape::BoreMilling: return mill_bore(cycle);
+    case MachiningShape::RectangularPocket: return mill_rectangle(cycle);
+    case MachiningShape::CircularPocket: return mill_circle(cycle);
+    case MachiningShape::Slot: return mill_slot(cycle);
+    case MachiningShape::CircularSlot: return mill_circular_slot(cycle);
+    case MachiningShape::ThreadMilling: return mill_thread(cycle);
+    case MachiningShape::Engraving: return engrave(cycle);
+    case MachiningShape::Contour: return mill_contours(channel, cycle);
+    case MachiningShape::PolarPattern:
+    case MachiningShape::LinearPattern:
+    case MachiningShape::ContourLabels:
+    case MachiningShape::ContourData: break;
+  }
+  return nc_error(1027);  // they are not called
+}
+
+}  // namespace fitgauge::interpreter

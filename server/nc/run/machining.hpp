@@ -1,0 +1,69 @@
+#pragma once
+
+#include "nc/run/active_cycle.hpp"
+#include "nc/run/nc_error.hpp"
+#include "nc/run/tool_motion.hpp"
+
+/// The machining cycles as motion of the tool, one function for each shape. Each begins where the
+/// tool stands in the plane and ends over the surface, at the larger of its clearances.
+/// @errors 1010 no feed, 1042 a depth of 0, and those of the machine and the budget.
+namespace fitgauge::interpreter {
+
+class Channel;
+
+/// The heights of a cycle along the tool axis.
+struct Heights {
+  double surface = 0;    ///< Q203
+  double clearance = 0;  ///< Q200 above it
+  double second = 0;     ///< Q204 above it, or the clearance where that is higher
+  double bottom = 0;     ///< Q201 below it
+};
+
+/// What one execution of a cycle works with.
+struct Machining {
+  const MachiningDefinition& definition;
+  ToolMotion motion;
+  Heights heights;
+
+  Machining(const ToolMotion& tool, const MachiningDefinition& defined);
+  double value(int parameter) const { return definition.value(parameter); }
+  machine::Feed feed(int parameter) const;
+  /// Q208; where the block says 0, the feed of plunging (decision 30); rapid without it.
+  machine::Feed retraction() const;
+  NcResult<void> start();
+  NcResult<void> leave();
+};
+
+machine::Feed feed_of(double rate);
+
+// drilling.cpp
+/// Where 1 and 21 stop above what is drilled: a fiftieth of the hole, from 0.6 to 7 mm.
+double advanced_stop(double depth);
+NcResult<void> drill(Machining& cycle);
+NcResult<void> tap(Machining& cycle);
+NcResult<void> bore(Machining& cycle);
+NcResult<void> bore_back(Machining& cycle);
+
+// milling.cpp
+NcResult<void> mill_bore(Machining& cycle);
+NcResult<void> mill_rectangle(Machining& cycle);
+NcResult<void> mill_circle(Machining& cycle);
+NcResult<void> mill_slot(Machining& cycle);
+NcResult<void> mill_circular_slot(Machining& cycle);
+NcResult<void> mill_thread(Machining& cycle);
+NcResult<void> engrave(Machining& cycle);
+
+// contour_pocket.cpp
+/// 21 to 24. @errors 1017 without cycles 14 and 20.
+NcResult<void> mill_contours(Channel& channel, Machining& cycle);
+
+// patterns.cpp
+/// 220 and 221: runs the cycle before it at each point.
+NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern);
+/// CYCL CALL PAT.
+NcResult<void> run_points(Channel& channel);
+
+/// What M99 runs where the tool stands.
+NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition);
+
+}  // namespace fitgauge::interpreter

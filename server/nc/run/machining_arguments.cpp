@@ -1,0 +1,201 @@
+#include "nc/run/machining_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "nc/program/cycle_arguments.hpp"
+#include "nc/program/global_definitions.hpp"
+#include "nc/run/channel.hpp"
+#include "nc/run/values.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::CycleValue;
+using klartext::Letter;
+using klartext::Word;
+
+bool is_text(const klartext::Expr& expr) {
+  const auto* parameter = std::get_if<klartext::QRef>(&expr);
+  return std::holds_alternative<klartext::Text>(expr) ||
+         (parameter != nullptr && parameter->is_string());
+}
+
+/// FU is a feed a turn of the spindle, FZ a tooth.
+NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& written) {
+  switch (written.kind) {
+    case CycleValue::Max: return std::numeric_limits<double>::infinity();
+    case CycleValue::Auto: return channel.contour.tool_feed;
+    default: break;
+  }
+  const auto value = number(channel, written.value);
+  if (!value || written.kind == CycleValue::Expression) return value;
+  double feed = *value * channel.length_unit() * channel.machine().state().modes.spindle_rpm;
+  if (written.kind == CycleValue::Fz) {
+    const machine::Tool* tool = channel.machine().state().active_tool();
+    feed *= tool == nullptr ? 0 : tool->teeth;
+  }
+  return feed;
+}
+
+/// What the active GLOBAL DEF says, in mm, degrees or mm/min.
+NcResult<double> predefined_value(const Channel& channel, int parameter) {
+  const auto found = channel.predefined.find(parameter);
+  if (found != channel.predefined.end()) return found->second;
+  // Not null: the linker has refused parameters that no GLOBAL DEF has.
+  const probing::CycleDescriptor& definition = *global_definition_of(parameter);
+  return nc_error(1017, fmt::format("Q{} is PREDEF, and no GLOBAL DEF {} {} stands before",
+                                    parameter, definition.number, definition.name));
+}
+
+/// What a word of an old cycle is in the cycle of today. `scale`: 2 makes a diameter of a radius.
+struct OldWord {
+  int cycle;
+  int part;
+  Letter letter;
+  int parameter;
+  double scale = 1;
+};
+
+constexpr OldWord kOldWords[] = {
+    {1, 1, Letter::Value, 200},  {1, 2, Letter::Value, 201},    {1, 3, Letter::Value, 202},
+    {1, 4, Letter::Value, 211},  {1, 5, Letter::F, 206},        {2, 1, Letter::Value, 200},
+    {2, 2, Letter::Value, 201},  {2, 3, Letter::Value, 211},    {2, 4, Letter::F, 206},
+    {3, 1, Letter::Value, 200},  {3, 2, Letter::Value, 201},    {3, 3, Letter::Value, 202},
+    {3, 3, Letter::F, 206},      {3, 4, Letter::X, 218},        {3, 4, Letter::Y, 218},
+    {3, 5, Letter::X, 219},      {3, 5, Letter::Y, 219},        {3, 6, Letter::F, 207},
+    {4, 1, Letter::Value, 200},  {4, 2, Letter::Value, 201},    {4, 3, Letter::Value, 202},
+    {4, 3, Letter::F, 206},      {4, 4, Letter::X, 218},        {4, 4, Letter::Y, 219},
+    {4, 5, Letter::X, 218},      {4, 5, Letter::Y, 219},        {4, 6, Letter::F, 207},
+    {4, 6, Letter::Value, 220},  {4, 6, Letter::Dr, 351},       {5, 5, Letter::Dr, 351},
+    {5, 1, Letter::Value, 200},  {5, 2, Letter::Value, 201},    {5, 3, Letter::Value, 202},
+    {5, 3, Letter::F, 206},      {5, 4, Letter::Value, 223, 2}, {5, 5, Letter::F, 207},
+    {17, 1, Letter::Value, 200}, {17, 2, Letter::Value, 201},   {17, 3, Letter::Value, 239},
+    {18, 1, Letter::Value, 201}, {18, 2, Letter::Value, 239},
+};
+
+const OldWord* find_old(int cycle, int part, Letter letter) {
+  for (const OldWord& row : kOldWords) {
+    if (row.cycle == cycle && row.part == part && row.letter == letter) return &row;
+  }
+  return nullptr;
+}
+
+/// Feeds of an INCH program count tenths of an inch a minute.
+double unit_of(const Channel& channel, int parameter) {
+  if (parameter == 211 || !channel.linked().is_inch()) return 1;
+  const bool is_feed = parameter == 206 || parameter == 207;
+  return is_feed ? kMillimetresPerInch / 10 : kMillimetresPerInch;
+}
+
+/// Calls `read(sub-line, word)` for the words of the sub-lines of a cycle.
+template <class Read>
+NcResult<void> for_each_word(Channel& channel, std::uint32_t first, std::uint32_t last,
+                             const Read& read) {
+  const auto blocks = channel.program().blocks();
+  for (std::uint32_t i = first; i <= last; ++i) {
+    const auto* part = std::get_if<klartext::CyclePart>(&blocks[i].statement);
+    if (part == nullptr) continue;
+    for (const Word& word : channel.program().view(part->words)) {
+      if (NcResult<void> done = read(*part, word); !done) return done;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
+                                                const klartext::CycleParameter& written,
+                                                const probing::CycleParameter& parameter) {
+  if (written.kind == CycleValue::Predef) {
+    const auto value = predefined_value(channel, written.parameter.number);
+    return value ? NcResult<probing::ArgumentValue>(*value) : value.error();
+  }
+  if (auto value = literal(channel.program(), written, parameter)) return *std::move(value);
+  if (written.kind == CycleValue::Expression && is_text(written.value)) {
+    auto value = text(channel, written.value);
+    if (!value) return value.error();
+    return probing::ArgumentValue(*std::move(value));
+  }
+  const auto value = number_value(channel, written);
+  if (!value) return value.error();
+  const bool is_converted = written.kind != CycleValue::Expression;
+  const double scale = is_converted ? 1 : scale_of(parameter.unit, channel.linked().is_inch());
+  return probing::ArgumentValue(*value * scale);
+}
+
+NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
+                                                  const BoundCycle& bound) {
+  const probing::CycleDescriptor& descriptor = bound.machining->descriptor;
+  probing::Arguments arguments(descriptor);
+  MachiningDefinition definition{.cycle = bound.machining};
+  const auto parameters = channel.program().view(cycle.parameters);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const probing::CycleParameter& parameter = *bound.parameters[i];
+    auto value = cycle_argument(channel, parameters[i], parameter);
+    if (!value) return value.error();
+    if (!std::holds_alternative<std::monostate>(*value)) {
+      definition.given.insert(static_cast<int>(parameter.id));
+    }
+    arguments.set(parameter.id, *std::move(value));
+  }
+  if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
+  for (const probing::CycleParameter& parameter : descriptor.parameters) {
+    if (arguments.has_number(parameter.id)) {
+      definition.values[static_cast<int>(parameter.id)] = arguments.number(parameter.id);
+    } else if (const std::string* written = arguments.text(parameter.id)) {
+      definition.text = *written;
+    }
+  }
+  return definition;
+}
+
+NcResult<MachiningDefinition> machining_arguments(Channel& channel, const MachiningCycle& cycle,
+                                                  std::uint32_t first, std::uint32_t last) {
+  MachiningDefinition definition{.cycle = &cycle};
+  const int number_of_cycle = cycle.descriptor.number;
+  auto read = for_each_word(
+      channel, first, last,
+      [&](const klartext::CyclePart& part, const Word& word) -> NcResult<void> {
+        if (part.part == 0) return {};
+        const OldWord* row = find_old(number_of_cycle, part.part, word.letter);
+        if (row == nullptr || is_absent(word.value)) return {};
+        const auto value = number(channel, word.value);
+        if (!value) return value.error();
+        double result = *value * row->scale * unit_of(channel, row->parameter);
+        // Depth, pitch and rotation have a direction, the others are sizes.
+        const bool has_direction =
+            row->parameter == 201 || row->parameter == 239 || row->parameter == 351;
+        if (row->parameter == 218) {  // the slot runs along that axis, in that direction
+          definition.values[374] = (word.letter == Letter::Y ? 90 : 0) + (result < 0 ? 180 : 0);
+        }
+        if (!has_direction) result = std::abs(result);
+        definition.values[row->parameter] = result;
+        definition.given.insert(row->parameter);
+        return {};
+      });
+  if (!read) return read.error();
+  return definition;
+}
+
+NcResult<std::vector<klartext::Label>> contour_labels(Channel& channel, std::uint32_t first,
+                                                      std::uint32_t last) {
+  std::vector<klartext::Label> labels;
+  auto read = for_each_word(
+      channel, first, last,
+      [&](const klartext::CyclePart& part, const Word& word) -> NcResult<void> {
+        if (part.part == 0 || word.letter != Letter::Value) return {};
+        const auto label = whole(channel, word.value);
+        if (!label) return label.error();
+        labels.emplace_back(static_cast<std::uint32_t>(std::max<std::int64_t>(0, *label)));
+        return {};
+      });
+  if (!read) return read.error();
+  if (labels.empty()) return nc_error(1017, "CYCL DEF 14 names no label");
+  return labels;
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "nc/program/bound_cycle.hpp"
+#include "nc/run/active_cycle.hpp"
+#include "nc/run/nc_error.hpp"
+
+namespace fitgauge::interpreter {
+
+class Channel;
+
+/// The value of a cycle parameter in mm, mm/min and degrees; MAX is infinity, AUTO the feed of TOOL
+/// CALL, a text where the parameter takes one. @errors decision 3.
+NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
+                                                const klartext::CycleParameter& written,
+                                                const probing::CycleParameter& parameter);
+
+/// The values of a machining cycle in Q parameters. @errors 1004, 1011 a value out of its range.
+NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
+                                                  const BoundCycle& bound);
+
+/// The same of an old cycle in sub-lines, from block `first` to `last`.
+NcResult<MachiningDefinition> machining_arguments(Channel& channel, const MachiningCycle& cycle,
+                                                  std::uint32_t first, std::uint32_t last);
+
+/// The labels of cycle 14.
+NcResult<std::vector<klartext::Label>> contour_labels(Channel& channel, std::uint32_t first,
+                                                      std::uint32_t last);
+
+}  // namespace fitgauge::interpreter

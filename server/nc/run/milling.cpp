@@ -1,0 +1,340 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/run/machining.hpp"
+
+/// Pockets, slots, bores and threads: the finished contour of the centre of the tool at each depth.
+namespace fitgauge::interpreter {
+namespace {
+
+using machine::Feed;
+
+/// Counter-clockwise inside for climb milling, which M3 and Q351 = 1 ask for.
+double turn_inside(const Machining& cycle) { return cycle.value(351) < 0 ? -1 : 1; }
+
+/// What stays at the side: the allowance when only roughing.
+double side_allowance(const Machining& cycle) {
+  return cycle.value(215) == 1 ? cycle.value(368) : 0;
+}
+
+double bottom_of(const Machining& cycle) {
+  return cycle.heights.bottom + (cycle.value(215) == 1 ? cycle.value(369) : 0);
+}
+
+/// Drilling may go up, into a part from below; a cutter that mills goes down.
+NcResult<void> check_depth(const Machining& cycle) {
+  if (cycle.heights.bottom <= cycle.heights.surface) return {};
+  return nc_error(1012, "the depth Q201 is negative: milling goes down from the surface");
+}
+
+/// Calls `mill` at each depth, plunging at `where` before.
+template <class Mill>
+NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
+  ToolMotion& motion = cycle.motion;
+  const double bottom = bottom_of(cycle);
+  const double infeed = cycle.value(202) > 0 ? cycle.value(202) : std::abs(cycle.value(201));
+  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
+  if (auto done = cycle.start(); !done) return done;
+  for (double depth = cycle.heights.surface; depth > bottom;) {
+    const double next = depth - bottom <= infeed ? bottom : depth - infeed;
+    if (next == depth) return nc_error(1011, "the plunging depth Q202 is too small");
+    depth = next;
+    if (auto done = motion.to_point(where, cycle.feed(207)); !done) return done;
+    if (auto done = motion.to_height(depth, cycle.feed(206)); !done) return done;
+    if (auto done = mill(depth); !done) return done;
+  }
+  if (auto done = motion.to_height(cycle.heights.clearance, Feed::rapid()); !done) return done;
+  return cycle.leave();
+}
+
+/// A closed contour of lines and corner arcs, in a system of its own.
+struct Outline {
+  Vec2 origin;
+  double rotation_deg = 0;
+  Vec2 at(Vec2 point) const { return origin + turned(point, rotation_deg); }
+};
+
+/// A rectangle of half sides `a`, `b` and corner radius `corner`, beginning at the middle of its
+/// right side.
+NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, double b,
+                         double corner, double height) {
+  const double turn = turn_inside(cycle);
+  ToolMotion& motion = cycle.motion;
+  const Feed feed = cycle.feed(207);
+  if (auto done = motion.to_point(outline.at({a, 0}), feed); !done) return done;
+  // The corners in the order of a counter-clockwise turn; clockwise is its image in the main axis.
+  constexpr std::array<Vec2, 4> kCorners{Vec2{1, 1}, Vec2{-1, 1}, Vec2{-1, -1}, Vec2{1, -1}};
+  for (std::size_t i = 0; i < kCorners.size(); ++i) {
+    const Vec2 sign = kCorners[i];
+    const Vec2 point{sign.x * a, sign.y * b};
+    const Vec2 centre{sign.x * (a - corner), sign.y * (b - corner)};
+    const bool arrives_along_y = i % 2 == 0;
+    const Vec2 first = arrives_along_y ? Vec2{point.x, centre.y} : Vec2{centre.x, point.y};
+    const Vec2 last = arrives_along_y ? Vec2{centre.x, point.y} : Vec2{point.x, centre.y};
+    const auto placed = [&](Vec2 p) { return outline.at({p.x, p.y * turn}); };
+    if (auto done = motion.to_point(placed(first), feed); !done) return done;
+    if (corner <= tolerance::kSamePoint) continue;
+    if (auto done = motion.arc(placed(centre), placed(last), turn * 90, height, feed); !done) {
+      return done;
+    }
+  }
+  if (auto done = motion.to_point(outline.at({a, 0}), feed); !done) return done;
+  return motion.to_point(outline.origin, feed);
+}
+
+NcResult<void> full_circle(Machining& cycle, Vec2 centre, double radius, double height) {
+  ToolMotion& motion = cycle.motion;
+  const Vec2 start = centre + Vec2{radius, 0};
+  if (auto done = motion.to_point(start, cycle.feed(207)); !done) return done;
+  auto done = motion.arc(centre, start, turn_inside(cycle) * 360, height, cycle.feed(207));
+  if (!done) return done;
+  return motion.to_point(centre, cycle.feed(207));
+}
+
+/// The offset of the figure's centre from where the tool stands, by Q367.
+Vec2 rectangle_centre(const Machining& cycle, double half_length, double half_width) {
+  switch (static_cast<int>(cycle.value(367))) {
+    case 1: return {half_length, half_width};
+    case 2: return {-half_length, half_width};
+    case 3: return {-half_length, -half_width};
+    case 4: return {half_length, -half_width};
+    default: return {};
+  }
+}
+
+NcError does_not_fit(int number, double radius) {
+  return nc_error(number, "the tool has a radius of " + std::to_string(radius) + " mm");
+}
+
+/// From the centre onto a circle and back, on half circles of half its radius. @param turn has the
+/// sign of the way around, so that both are tangents.
+NcResult<void> onto_circle(Machining& cycle, Vec2 centre, Vec2 point, double turn, double height,
+                           const Feed& feed) {
+  return cycle.motion.arc((centre + point) * 0.5, point, std::copysign(180, turn), height, feed);
+}
+NcResult<void> off_circle(Machining& cycle, Vec2 centre, double turn, double height,
+                          const Feed& feed) {
+  const Vec2 middle = (centre + cycle.motion.point()) * 0.5;
+  return cycle.motion.arc(middle, centre, std::copysign(180, turn), height, feed);
+}
+
+/// One helical path of a thread from `from` to `to`.
+NcResult<void> thread_path(Machining& cycle, Vec2 centre, double radius, double from, double to) {
+  ToolMotion& motion = cycle.motion;
+  const double pitch = cycle.value(239);
+  const bool outside = cycle.definition.cycle->descriptor.number == 267;
+  const Vec2 start = centre + Vec2{radius, 0};
+  // A right-hand thread goes up turning counter-clockwise.
+  const double up = to > from ? 1 : -1;
+  const double sweep = (pitch < 0 ? -1 : 1) * up * 360 * std::abs(to - from) / std::abs(pitch);
+  const Vec2 end = centre + turned(start - centre, sweep);
+  if (outside) {
+    const Vec2 beside = centre + Vec2{radius + cycle.value(200), 0};
+    if (auto done = motion.to_point(beside, cycle.feed(253)); !done) return done;
+  }
+  if (auto done = motion.to_height(from, cycle.feed(253)); !done) return done;
+  auto entered = outside ? motion.to_point(start, cycle.feed(207))
+                         : onto_circle(cycle, centre, start, sweep, from, cycle.feed(207));
+  if (!entered) return entered;
+  if (auto done = motion.arc(centre, end, sweep, to, cycle.feed(207)); !done) return done;
+  if (!outside) return off_circle(cycle, centre, sweep, to, cycle.feed(207));
+  const Vec2 beside = centre + (end - centre) * ((radius + cycle.value(200)) / radius);
+  return motion.to_point(beside, cycle.feed(207));
+}
+
+/// 264: the hole of the thread, in the infeeds of drilling. Without a depth there is none.
+NcResult<void> drill_core(Machining& cycle) {
+  MachiningDefinition core = cycle.definition;
+  core.values[201] = cycle.value(356);
+  if (core.value(201) == 0) return {};
+  Machining drilling(cycle.motion, core);
+  return drill(drilling);
+}
+
+/// 263 to 267: the countersinking of the bore (Q356; of 264 that is the hole) and at the front
+/// (Q358).
+NcResult<void> countersink(Machining& cycle) {
+  const bool is_core = cycle.definition.cycle->descriptor.number == 264;
+  for (const int parameter : {356, 358}) {
+    if (cycle.value(parameter) == 0 || (parameter == 356 && is_core)) continue;
+    const double height = cycle.heights.surface + cycle.value(parameter);
+    const int feed = cycle.value(254) > 0 ? 254 : 207;
+    if (auto done = cycle.motion.to_height(height, cycle.feed(feed)); !done) return done;
+    if (auto done = cycle.motion.to_height(cycle.heights.clearance, Feed::rapid()); !done) {
+      return done;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+NcResult<void> mill_bore(Machining& cycle) {
+  ToolMotion& motion = cycle.motion;
+  const Heights& heights = cycle.heights;
+  const double radius = cycle.value(335) / 2 - motion.tool_radius();
+  if (radius < 0) return does_not_fit(1003, motion.tool_radius());
+  if (cycle.value(334) <= 0) return nc_error(1011, "Q334 is 0");
+  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
+  if (auto done = cycle.start(); !done) return done;
+  const Feed feed = cycle.feed(206);
+  if (radius < tolerance::kSamePoint) {  // a hole of the tool's own diameter is drilled
+    if (auto done = motion.to_height(heights.bottom, feed); !done) return done;
+  } else {
+    const Vec2 centre = motion.point();
+    const Vec2 start = centre + Vec2{radius, 0};
+    const double turns = (heights.clearance - heights.bottom) / cycle.value(334);
+    const double sweep = turn_inside(cycle) * 360 * turns;
+    const Vec2 end = centre + turned(start - centre, sweep);
+    auto done = onto_circle(cycle, centre, start, sweep, heights.clearance, feed);
+    if (done) done = motion.arc(centre, end, sweep, heights.bottom, feed);
+    if (done) done = motion.arc(centre, end, turn_inside(cycle) * 360, heights.bottom, feed);
+    if (done) done = off_circle(cycle, centre, sweep, heights.bottom, feed);
+    if (!done) return done;
+  }
+  if (auto done = motion.to_height(heights.clearance, Feed::rapid()); !done) return done;
+  return cycle.leave();
+}
+
+NcResult<void> mill_rectangle(Machining& cycle) {
+  const double inset = cycle.motion.tool_radius() + side_allowance(cycle);
+  const double a = cycle.value(218) / 2 - inset;
+  const double b = cycle.value(219) / 2 - inset;
+  if (a < 0 || b < 0) return does_not_fit(1029, cycle.motion.tool_radius());
+  Outline outline{cycle.motion.point(), cycle.value(224)};
+  outline.origin = outline.at(rectangle_centre(cycle, cycle.value(218) / 2, cycle.value(219) / 2));
+  const double corner = std::clamp(cycle.value(220) - inset, 0.0, std::min(a, b));
+  return at_each_depth(cycle, outline.origin, [&](double depth) {
+    return go_around(cycle, outline, a, b, corner, depth);
+  });
+}
+
+NcResult<void> mill_circle(Machining& cycle) {
+  const double half = cycle.value(223) / 2;
+  const double radius = half - cycle.motion.tool_radius() - side_allowance(cycle);
+  if (radius < 0) return does_not_fit(1029, cycle.motion.tool_radius());
+  // Q367 = 1 to 4: the tool stands at a quarter of the circle, on its axes.
+  constexpr std::array<Vec2, 5> kCentres{Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0},
+                                         Vec2{0, -1}};
+  const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
+  const Vec2 centre = cycle.motion.point() + kCentres[place] * half;
+  return at_each_depth(cycle, centre,
+                       [&](double depth) { return full_circle(cycle, centre, radius, depth); });
+}
+
+NcResult<void> mill_slot(Machining& cycle) {
+  const double half_length = cycle.value(218) / 2;
+  const double half_width = cycle.value(219) / 2;
+  const double radius = half_width - cycle.motion.tool_radius() - side_allowance(cycle);
+  if (radius < 0) return does_not_fit(1028, cycle.motion.tool_radius());
+  const double reach = half_length - half_width;  // of the end circles' centres
+  if (reach < 0) return nc_error(1011, "Q218 is less than Q219");
+  constexpr std::array<double, 5> kEnds{0, 1, 1, -1, -1};
+  const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
+  double along = kEnds[place] * (place == 2 || place == 3 ? reach : half_length);
+  // The old cycle begins in the slot, with the tool at its end.
+  if (cycle.definition.cycle->descriptor.dotted) along = half_length - cycle.motion.tool_radius();
+  Outline outline{cycle.motion.point(), cycle.value(374)};
+  outline.origin = outline.at({along, 0});
+  return at_each_depth(cycle, outline.origin, [&](double depth) {
+    return go_around(cycle, outline, reach + radius, radius, radius, depth);
+  });
+}
+
+NcResult<void> mill_circular_slot(Machining& cycle) {
+  ToolMotion& motion = cycle.motion;
+  const double width = cycle.value(219) / 2 - motion.tool_radius() - side_allowance(cycle);
+  if (width < 0) return does_not_fit(1028, motion.tool_radius());
+  const double pitch = cycle.value(375) / 2;
+  const double length = cycle.value(248);
+  if (pitch - width <= 0) return nc_error(1003, "the slot lies across the centre of its circle");
+  // Q367: where on the slot the tool stands; Q376 is the angle of that place.
+  constexpr std::array<double, 4> kParts{0, 0, 0.5, 1};
+  const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 3.0));
+  const double angle = cycle.value(376) - kParts[place] * length;
+  const Vec2 centre = place == 0 ? Vec2{cycle.value(216), cycle.value(217)}
+                                 : motion.point() - polar(pitch, cycle.value(376));
+  const Feed feed = cycle.feed(207);
+  const auto slots = static_cast<int>(std::max(1.0, cycle.value(377)));
+  for (int i = 0; i < slots; ++i) {
+    const double first = angle + i * cycle.value(378);
+    const double last = first + length;
+    if (i > 0 || place == 0) {
+      auto done = motion.to_height(cycle.heights.second, Feed::rapid());
+      if (done) done = motion.to_point(centre + polar(pitch, first), Feed::rapid());
+      if (!done) return done;
+    }
+    auto done = at_each_depth(cycle, centre + polar(pitch, first), [&](double depth) {
+      const auto on = [&](double radius, double at) { return centre + polar(radius, at); };
+      auto milled = motion.to_point(on(pitch + width, first), feed);
+      if (milled) milled = motion.arc(centre, on(pitch + width, last), length, depth, feed);
+      if (width > tolerance::kSamePoint) {
+        const double end = std::copysign(180, length);
+        if (milled) milled = motion.arc(on(pitch, last), on(pitch - width, last), end, depth, feed);
+        if (milled) milled = motion.arc(centre, on(pitch - width, first), -length, depth, feed);
+        if (milled) {
+          milled = motion.arc(on(pitch, first), on(pitch + width, first), end, depth, feed);
+        }
+      }
+      return milled;
+    });
+    if (!done) return done;
+  }
+  return {};
+}
+
+NcResult<void> mill_thread(Machining& cycle) {
+  ToolMotion& motion = cycle.motion;
+  const Heights& heights = cycle.heights;
+  const int number = cycle.definition.cycle->descriptor.number;
+  const double pitch = std::abs(cycle.value(239));
+  if (pitch == 0) return nc_error(1011, "the pitch Q239 is 0");
+  const double nominal = cycle.value(335) / 2;
+  const double radius =
+      number == 267 ? nominal + motion.tool_radius() : nominal - motion.tool_radius();
+  if (radius <= 0) return does_not_fit(1003, motion.tool_radius());
+  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
+  if (number == 264) {
+    if (auto done = drill_core(cycle); !done) return done;
+  }
+  if (auto done = cycle.start(); !done) return done;
+  if (auto done = countersink(cycle); !done) return done;
+  const Vec2 centre = motion.point();
+  // Climb milling turns counter-clockwise inside and clockwise outside: a right-hand thread goes up
+  // in a hole and down on a bolt. 265 drills the thread on its way down.
+  const bool follows_hand = (cycle.value(351) < 0) == (cycle.value(239) < 0);
+  const bool up = number != 265 && follows_hand == (number != 267);
+  // 265 has no Q355 and mills the whole depth; 263 and 264 take one turn at it, for a tool whose
+  // teeth cut all threads.
+  const double per_step = number == 265 ? 1 : cycle.value(355);
+  const double depth = heights.surface - heights.bottom;
+  const double stretch = per_step == 1 ? depth : pitch;
+  const double step = per_step > 1 ? per_step * pitch : depth;
+  for (double bottom = heights.bottom; bottom < heights.surface - tolerance::kSamePoint;
+       bottom += step) {
+    const double top = bottom + stretch;
+    if (auto done = thread_path(cycle, centre, radius, up ? bottom : top, up ? top : bottom);
+        !done) {
+      return done;
+    }
+    if (bottom + step == bottom) break;
+  }
+  if (auto done = motion.to_height(heights.clearance, Feed::rapid()); !done) return done;
+  if (number == 267) {
+    if (auto done = motion.to_point(centre, Feed::rapid()); !done) return done;
+  }
+  return cycle.leave();
+}
+
+NcResult<void> engrave(Machining& cycle) {
+  if (auto done = cycle.start(); !done) return done;
+  if (auto done = cycle.motion.to_height(cycle.heights.bottom, cycle.feed(206)); !done) return done;
+  if (auto done = cycle.motion.to_height(cycle.heights.clearance, Feed::rapid()); !done) {
+    return done;
+  }
+  return cycle.leave();
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,162 @@
+#include "nc/run/motion_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nc/program/known_m_functions.hpp"
+#include "nc/run/channel.hpp"
+#include "nc/run/m_functions.hpp"
+#include "nc/run/values.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Letter;
+using klartext::Word;
+
+/// The feed of FU (mm per revolution) and FZ (mm per tooth).
+double feed_of_revolutions(const Channel& channel, double per_revolution) {
+  return per_revolution * channel.machine().state().modes.spindle_rpm;
+}
+
+int teeth(const Channel& channel) {
+  const machine::Tool* tool = channel.machine().state().active_tool();
+  return tool == nullptr ? 0 : tool->teeth;
+}
+
+NcResult<machine::Feed> read_feed(Channel& channel, const Word& word) {
+  if (word.letter == Letter::FMax) return machine::Feed::rapid();
+  if (word.letter == Letter::FAuto) return machine::Feed::at(channel.contour.tool_feed);
+  const auto value = number(channel, word.value);
+  if (!value) return value.error();
+  const double unit = channel.length_unit();
+  if (word.letter == Letter::Fu) {
+    return machine::Feed::at(feed_of_revolutions(channel, *value * unit));
+  }
+  if (word.letter == Letter::Fz) {
+    return machine::Feed::at(feed_of_revolutions(channel, *value * unit * teeth(channel)));
+  }
+  if (channel.contour.feed_per_revolution) {
+    return machine::Feed::at(feed_of_revolutions(channel, *value * unit));
+  }
+  // In INCH programs F counts tenths of an inch a minute.
+  return machine::Feed::at(channel.linked().is_inch() ? *value * unit / 10 : *value);
+}
+
+NcResult<void> read_coordinate(Channel& channel, const Word& word, double unit,
+                               std::optional<Coordinate>& target) {
+  if (is_absent(word.value)) return {};
+  const auto value = coordinate(channel, word.value);
+  if (!value) return value.error();
+  if (*value) target = Coordinate{**value * unit, word.incremental};
+  return {};
+}
+
+NcResult<void> read_number(Channel& channel, const Word& word, double unit,
+                           std::optional<double>& target) {
+  const auto value = number(channel, word.value);
+  if (!value) return value.error();
+  target = *value * unit;
+  return {};
+}
+
+NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& calls) {
+  const auto value = whole(channel, word.value);
+  if (!value) return value.error();
+  const int called = *value;
+  if (is_m_function(called)) {
+    calls.push_back({.number = called});
+    return {};
+  }
+  const BuilderAction* action = channel.options.builder.m_function(called);
+  if (action == nullptr) return unknown_m_function(called);
+  if (action->program) calls.push_back({.number = called, .program = &*action->program});
+  return {};
+}
+
+/// What follows an M function; most of it has no effect on a simulated machine.
+NcResult<void> read_argument(Channel& channel, const Word& word, std::vector<MCall>& calls) {
+  if (calls.empty() || calls.back().number != 140) return {};
+  MCall& retraction = calls.back();
+  if (word.letter == Letter::MbMax) {
+    retraction.to_limit = true;
+    return {};
+  }
+  if (word.letter == Letter::Mb) {
+    return read_number(channel, word, channel.length_unit(), retraction.length);
+  }
+  const auto feed = read_feed(channel, word);
+  if (!feed) return feed.error();
+  retraction.feed = *feed;
+  return {};
+}
+
+NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
+  const double unit = channel.length_unit();
+  if (word.argument) return read_argument(channel, word, out.m);
+  if (is_axis(word.letter)) {
+    const auto axis = machine_axis(word.letter);
+    if (!axis) return axis.error();
+    return read_coordinate(channel, word, machine::is_rotary(*axis) ? 1 : unit,
+                           out.axes[machine::index(*axis)]);
+  }
+  switch (word.letter) {
+    case Letter::Pr: return read_coordinate(channel, word, unit, out.pr);
+    case Letter::Pa: return read_coordinate(channel, word, 1, out.pa);
+    case Letter::R: return read_number(channel, word, unit, out.r);
+    case Letter::Len: return read_number(channel, word, unit, out.len);
+    case Letter::Cca: return read_number(channel, word, 1, out.cca);
+    case Letter::Chamfer: return read_number(channel, word, unit, out.chamfer);
+    case Letter::M: return read_m(channel, word, out.m);
+    case Letter::F:
+    case Letter::FMax:
+    case Letter::FAuto:
+    case Letter::Fu:
+    case Letter::Fz: {
+      const auto feed = read_feed(channel, word);
+      if (!feed) return feed.error();
+      out.feed = *feed;
+      return {};
+    }
+    default: return {};  // normal vectors of LN
+  }
+}
+
+}  // namespace
+
+bool MotionWords::names_axes() const {
+  return pr || pa ||
+         std::any_of(axes.begin(), axes.end(), [](const auto& axis) { return axis.has_value(); });
+}
+
+bool MotionWords::has_m(int number) const {
+  return std::any_of(m.begin(), m.end(), [&](const MCall& call) { return call.number == number; });
+}
+
+NcResult<machine::Axis> machine_axis(Letter letter) {
+  if (letter <= Letter::C) return static_cast<machine::Axis>(letter);
+  constexpr std::string_view kNames = "XYZABCUVW";
+  return from_machine(machine::make_fault(machine::FaultKind::AxisMissing,
+                                          kNames.substr(static_cast<std::size_t>(letter), 1)));
+}
+
+NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) {
+  MotionWords out;
+  for (const Word& word : channel.program().view(words)) {
+    if (auto read = read_word(channel, word, out); !read) return read.error();
+  }
+  return out;
+}
+
+NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written) {
+  machine::Modes modes = channel.machine().state().modes;
+  if (!written) return machine::Feed::at(modes.feed_mm_min);
+  if (!written->is_rapid && written->rate != modes.feed_mm_min) {
+    modes.feed_mm_min = written->rate;
+    if (auto set = checked(channel.machine().set_modes(modes)); !set) return set.error();
+  }
+  return *written;
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "nc/klartext/syntax.hpp"
+#include "nc/machine/machine.hpp"
+#include "nc/program/control_path.hpp"
+#include "nc/run/nc_error.hpp"
+
+namespace fitgauge::interpreter {
+
+class Channel;
+
+/// A number that may add to where the last block ended.
+struct Coordinate {
+  double value = 0;
+  bool incremental = false;
+};
+
+/// An M function with what follows it: `M140 MB50 F750`, `M128 F1000`.
+struct MCall {
+  int number = 0;
+  std::optional<double> length{};        ///< MB, mm
+  bool to_limit = false;                 ///< MB MAX
+  std::optional<machine::Feed> feed{};   ///< of M140
+  const ControlPath* program = nullptr;  ///< that stands for it in the setup
+};
+
+/// The words of a positioning block as numbers, in mm, degrees and mm/min.
+struct MotionWords {
+  std::array<std::optional<Coordinate>, machine::kAxes> axes;
+  std::optional<Coordinate> pr;
+  std::optional<Coordinate> pa;
+  std::optional<double> r;
+  std::optional<double> len;
+  std::optional<double> cca;
+  std::optional<double> chamfer;
+  std::optional<machine::Feed> feed;  ///< written in the block
+  std::vector<MCall> m;
+
+  bool names_axes() const;
+  bool has_m(int number) const;
+};
+
+/// @errors an axis the machine has no name for, an M function that is not available; decision 18
+///   holds for coordinates, decision 3 for all others.
+NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<klartext::Word> words);
+
+/// The feed of a block: its own, which becomes the modal one unless it is FMAX, or the modal feed.
+NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written);
+
+/// @errors AxisMissing for U, V, W, which the simulated machine does not have.
+NcResult<machine::Axis> machine_axis(klartext::Letter letter);
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,320 @@
+#include "nc/run/positioning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/run/tool_orientation.hpp"
+#include "nc/run/values.hpp"
+#include "nc/run/vector_path.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Path;
+using machine::CoordinateSystem;
+
+/// Whether RND or CHF is the next block that is not a comment.
+bool corner_follows(const Channel& channel) {
+  const auto blocks = channel.program().blocks();
+  for (std::size_t i = channel.block + 1; i < blocks.size(); ++i) {
+    const auto& statement = blocks[i].statement;
+    if (std::holds_alternative<klartext::Empty>(statement) ||
+        std::holds_alternative<klartext::Structure>(statement)) {
+      continue;
+    }
+    const auto* motion = std::get_if<klartext::Motion>(&statement);
+    if (motion == nullptr || (blocks[i].skip && channel.options.block_skip)) return false;
+    return motion->path == Path::Rnd || motion->path == Path::Chf;
+  }
+  return false;
+}
+
+}  // namespace
+
+NcResult<void> Positioning::run() {
+  switch (motion_.path) {
+    case Path::Cc: return set_pole();
+    case Path::Rnd: return corner(words_.r, false);
+    case Path::Chf: return corner(words_.chamfer, true);
+    case Path::L:
+    case Path::Ln:
+      if (words_.has_m(91) || words_.has_m(92)) return machine_line();
+      [[fallthrough]];
+    case Path::Lp:
+    case Path::Paraxial: return line();
+    case Path::C:
+    case Path::Cp:
+    case Path::Cr:
+    case Path::Ct:
+    case Path::Ctp: return arc();
+    case Path::DepLt:
+    case Path::DepLn:
+    case Path::DepCt:
+    case Path::DepLct:
+    case Path::DepPlct: return depart();
+    default: return approach();
+  }
+}
+
+NcResult<machine::Feed> Positioning::block_feed() {
+  if (contour().drawing() != nullptr) return machine::Feed::rapid();
+  const auto feed = use_feed(channel_, words_.feed);
+  if (feed) contour().last_feed = *feed;
+  return feed;
+}
+
+machine::AxisWords Positioning::target(const machine::Position& from) const {
+  machine::AxisWords target;
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (const auto& word = words_.axes[machine::index(axis)]) {
+      target[axis] = resolved(*word, from[axis]);
+    }
+  }
+  return target;
+}
+
+WorkingPlane Positioning::plane() const {
+  const auto& pole = channel_.contour.pole;
+  if (pole && (is_polar() || motion_.path == Path::C)) return pole->plane;
+  const WorkingPlane working = working_plane(channel_.machine());
+  if (motion_.path != Path::Cr && motion_.path != Path::Ct) return working;
+  const std::size_t tool_axis = machine::index(working.normal);
+  const bool first = words_.axes[working.first].has_value();
+  const bool second = words_.axes[working.second].has_value();
+  if (!words_.axes[tool_axis] || first == second) return working;
+  return WorkingPlane::spanned_by(tool_axis, first ? working.first : working.second);
+}
+
+bool Positioning::is_polar() const {
+  switch (motion_.path) {
+    case Path::Lp:
+    case Path::Cp:
+    case Path::Ctp:
+    case Path::ApprPlt:
+    case Path::ApprPln:
+    case Path::ApprPct:
+    case Path::ApprPlct:
+    case Path::DepPlct: return true;
+    default: return false;
+  }
+}
+
+NcResult<Vec2> Positioning::end_point() {
+  if (!is_polar()) {
+    const auto words = target(position_);
+    return Vec2{words.values[plane_.first].value_or(start_.x),
+                words.values[plane_.second].value_or(start_.y)};
+  }
+  if (!contour().pole) return nc_error("polar coordinates need a pole: CC stands before them");
+  Vec2& last = contour().last_polar;
+  const Vec2 pole = contour().pole->point;
+  const Vec2 from_pole = start_ - pole;
+  if (motion_.path == Path::Cp) {
+    last = {norm(from_pole), machine::degrees(std::atan2(from_pole.y, from_pole.x))};
+  }
+  if (words_.pr) last.x = resolved(*words_.pr, last.x);
+  if (words_.pa) last.y = resolved(*words_.pa, last.y);
+  return pole + polar(last.x, last.y);
+}
+
+NcResult<Element> Positioning::element(const Curve& curve) {
+  const auto feed = block_feed();
+  if (!feed) return feed.error();
+  Element element{plane_, curve, position_.linear, target(position_), *feed};
+  element.side = contour().side();
+  if (is_polar()) set_plane_target(element, curve.end);
+  return element;
+}
+
+NcResult<void> Positioning::move_along(Element element) {
+  return contour().add(channel_.machine(), std::move(element), corner_follows(channel_));
+}
+
+NcResult<void> Positioning::add(const Curve& curve) {
+  auto made = element(curve);
+  if (!made) return made.error();
+  return move_along(*std::move(made));
+}
+
+NcResult<void> Positioning::set_pole() {
+  for (const klartext::Word& word : channel_.program().view(motion_.words)) {
+    if (!is_axis(word.letter) || is_absent(word.value)) continue;
+    if (const auto value = number(channel_, word.value); !value) return value.error();
+  }
+  std::array<bool, 3> named{};
+  for (std::size_t axis = 0; axis < 3; ++axis) named[axis] = words_.axes[axis].has_value();
+  const auto count = std::count(named.begin(), named.end(), true);
+  if (count == 3) return nc_error("CC names the two axes of a plane, not three");
+  const WorkingPlane working = working_plane(channel_.machine());
+  const auto& before = contour().pole;
+  Pole pole{working, {}};
+  if (count == 2) {
+    const std::size_t left_out = !named[0] ? 0 : !named[1] ? 1 : 2;
+    pole.plane = WorkingPlane::across(static_cast<machine::Axis>(left_out));
+  } else if (count == 1 && before) {
+    pole.plane = before->plane;
+  }
+  machine::Vec3 point = position_.linear;
+  if (count == 1 && before) point = pole.plane.with(point, before->point);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!named[axis]) continue;
+    if (!pole.plane.contains(axis)) {
+      return nc_error(1019, fmt::format("the {} axis does not lie in the plane of the circle; CC "
+                                        "names both of its axes",
+                                        "XYZ"[axis]));
+    }
+    point[axis] = resolved(*words_.axes[axis], position_.linear[axis]);
+  }
+  pole.point = pole.plane.project(point);
+  contour().pole = pole;
+  contour().last_polar = {};
+  return {};
+}
+
+NcResult<void> Positioning::machine_line() {
+  if (auto done = contour().finish(channel_.machine()); !done) return done;
+  const auto feed = block_feed();
+  if (!feed) return feed.error();
+  const auto from = channel_.machine().position(CoordinateSystem::Reference);
+  return move_along({plane_, {}, from.linear, target(from), *feed, CoordinateSystem::Reference});
+}
+
+NcResult<void> Positioning::line() {
+  if (!words_.names_axes()) {
+    // `L FMAX M99`, or every coordinate undefined: the feed may change, nothing moves.
+    const auto feed = block_feed();
+    return feed ? NcResult<void>() : feed.error();
+  }
+  const auto end = end_point();
+  if (!end) return end.error();
+  if (contour().lengthening() != 0 && motion_.path != Path::Ln) return lengthened_line(*end);
+  auto made = element({start_, *end, std::nullopt, 0});
+  if (!made) return made.error();
+  const auto shift = shift_of_surface();
+  if (!shift) return shift.error();
+  made->shift = *shift;
+  const bool is_pieced = channel_.turns_along_vector && channel_.machine().state().modes.tcpm;
+  return is_pieced ? add_along_vector(*made) : move_along(*std::move(made));
+}
+
+NcResult<machine::Vec3> Positioning::shift_of_surface() {
+  const auto normal = vector_of(channel_, motion_, klartext::Letter::Nx);
+  if (!normal) return normal.error();
+  if (!*normal || contour().side() != 0) return machine::Vec3{};
+  const machine::MachineState& state = channel_.machine().state();
+  const machine::Tool* tool = state.active_tool();
+  const double oversize = state.tool.dr + (tool == nullptr ? 0 : tool->dr);
+  return machine::unit(**normal) * radius_in_plane(state, oversize);
+}
+
+NcResult<void> Positioning::add_along_vector(const Element& line) {
+  const machine::MachineState& state = channel_.machine().state();
+  machine::Position end = position_;
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (const auto& value = line.target[axis]) end[axis] = *value;
+  }
+  const auto to_machine = [&](const machine::Vec3& rotary) {
+    return state.frames.rotary_to_machine(rotary, CoordinateSystem::Input);
+  };
+  const auto stops =
+      vector_stops(state, to_machine(position_.rotary), to_machine(end.rotary), channel_.budget);
+  if (!stops) return stops.error();
+  if (stops->size() == 1) return move_along(line);
+  const machine::Vec3 shifted = contour().side() == 0
+                                    ? channel_.machine().position().linear - position_.linear
+                                    : machine::Vec3{};
+  Element piece = line;
+  for (const VectorStop& stop : *stops) {
+    const bool is_last = stop.part == 1;
+    const machine::Vec3 point =
+        is_last ? end.linear : position_.linear + (end.linear - position_.linear) * stop.part;
+    const machine::Vec3 rotary =
+        state.frames.rotary_from_machine(stop.rotary, CoordinateSystem::Input);
+    for (std::size_t axis = 0; axis < 3; ++axis) piece.target.values[axis] = point[axis];
+    for (const machine::RotaryAxis& axis : state.kinematics.axes()) {
+      piece.target[axis.axis] = rotary[machine::index(axis.axis) - 3];
+    }
+    piece.curve.end = plane_.project(point);
+    piece.shift = shifted + (line.shift - shifted) * stop.part;
+    if (is_last) break;
+    if (auto done = contour().add(channel_.machine(), piece, false); !done) return done;
+    piece.curve.start = piece.curve.end;
+    piece.from = point;
+  }
+  return move_along(std::move(piece));
+}
+
+NcResult<void> Positioning::lengthened_line(Vec2 end) {
+  auto made = element({start_, end, std::nullopt, 0});
+  if (!made) return made.error();
+  const double by = contour().lengthening() * CutterPath::radius(channel_.machine());
+  for (const std::size_t axis : {plane_.first, plane_.second}) {
+    auto& value = made->target.values[axis];
+    const double travel = value ? *value - position_.linear[axis] : 0;
+    if (travel != 0) *value += std::copysign(by, by * travel);
+  }
+  made->curve.end = plane_.project(plane_.with(position_.linear, end));
+  return move_along(*std::move(made));
+}
+
+NcResult<void> Positioning::arc() {
+  for (std::size_t axis = 3; axis < machine::kAxes; ++axis) {
+    if (words_.axes[axis]) return nc_error(1019, "a rotary axis cannot follow an arc");
+  }
+  const auto end = end_point();
+  if (!end) return end.error();
+  const auto curve = motion_.path == Path::Cr                                ? radius_arc(*end)
+                     : motion_.path == Path::Ct || motion_.path == Path::Ctp ? tangential(*end)
+                                                                             : centre_arc(*end);
+  if (!curve) return curve.error();
+  return add(*curve);
+}
+
+NcResult<Curve> Positioning::radius_arc(Vec2 end) const {
+  if (!words_.r) return nc_error("CR needs a radius R");
+  const auto arc = arc_of_radius(start_, end, *words_.r, left_turn());
+  if (!arc) {
+    return nc_error(fmt::format("CR: no arc of radius {} mm joins two points {:.4f} mm apart",
+                                *words_.r, norm(end - start_)));
+  }
+  return *arc;
+}
+
+NcResult<Curve> Positioning::tangential(Vec2 end) {
+  const auto direction = arriving();
+  if (!direction) return nc_error("CT needs a contour element before it that it continues");
+  return tangential_arc(start_, *direction, end);
+}
+
+std::optional<Vec2> Positioning::arriving() {
+  if (!contour().direction) return std::nullopt;
+  const Vec2 in_plane = plane_.project(*contour().direction);
+  if (norm(in_plane) < tolerance::kSamePoint) return std::nullopt;
+  return unit(in_plane);
+}
+
+NcResult<Curve> Positioning::centre_arc(Vec2 end) {
+  if (!contour().pole) return nc_error("an arc needs a centre: CC stands before it");
+  const Vec2 centre = contour().pole->point;
+  const double radius = norm(start_ - centre);
+  if (radius < tolerance::kSamePoint) return nc_error("the arc begins in its centre");
+  const double error = norm(end - centre) - radius;
+  if (std::abs(error) > tolerance::kBesideCircle) {
+    return nc_error(fmt::format(
+        "the end of the arc lies {:.4f} mm {} its circle in the plane {}{}: CC names the centre "
+        "and by its two axes the plane",
+        std::abs(error), error > 0 ? "outside" : "inside", "XYZ"[plane_.first],
+        "XYZ"[plane_.second]));
+  }
+  double turn = sweep(start_, end, centre, left_turn());
+  if (motion_.path == Path::Cp && words_.pa && words_.pa->incremental) {
+    const double angle = std::abs(words_.pa->value);
+    turn = left_turn() ? angle : -angle;
+  }
+  return Curve{start_, end, centre, turn};
+}
+
+}  // namespace fitgauge::interpreter

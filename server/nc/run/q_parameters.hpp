@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nc/program/arithmetic.hpp"
+#include "nc/program/linked_program.hpp"
+#include "nc/program/parameter.hpp"
+#include "nc/run/nc_error.hpp"
+
+namespace fitgauge::interpreter {
+
+/// The cells that a program's code works on, and the strings. Q, QR and QS are the control's and
+/// outlive programs; QL, constants, counters and temporaries are those of the program that runs
+/// (code.hpp has the layout). An undefined parameter is a NaN; a defined one is finite. Not
+/// thread-safe.
+class QParameters {
+ public:
+  QParameters();
+
+  double* cells() { return cells_.data(); }
+
+  /// Nothing when it is undefined. @pre not a QS
+  std::optional<double> number(klartext::QRef parameter) const;
+  /// @errors when the value is not finite.
+  NcResult<void> set(klartext::QRef parameter, double value);
+  /// @pre `value` is finite
+  void set_q(std::uint16_t number, double value);
+
+  /// Null when it is undefined.
+  const std::string* string(std::uint16_t number) const;
+  /// @errors when it has more than 255 characters.
+  NcResult<void> set_string(std::uint16_t number, std::string value);
+
+  void undefine(klartext::QRef parameter);
+  bool is_defined(klartext::QRef parameter) const;
+
+  /// What a call of another program puts aside: the QL and the counters of repeats.
+  std::vector<double> save_locals(const LinkedProgram& program) const;
+  /// Makes the cells those of `program`: with saved locals, or fresh ones.
+  void enter(const LinkedProgram& program, std::span<const double> saved = {});
+
+  /// Everything defined: Q, QR, QS, then the QL of the program entered last.
+  std::vector<ParameterValue> all() const;
+
+ private:
+  static constexpr std::size_t kLocals = parameter_count(klartext::QSpace::Ql);
+
+  std::vector<double> cells_;
+  std::vector<std::optional<std::string>> strings_;
+};
+
+/// The error of reading it: decision 3.
+NcError undefined_error(klartext::QRef parameter);
+
+}  // namespace fitgauge::interpreter

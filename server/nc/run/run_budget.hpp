@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/allowance.hpp"
+#include "nc/run/nc_error.hpp"
+#include "nc/run/run_limits.hpp"
+
+namespace fitgauge::interpreter {
+
+/// The blocks of a run, and its allowance of time and memory. The executor takes blocks in portions
+/// and counts them down itself; the allowance is looked at with each portion, with each block that
+/// is more than arithmetic, and in every loop inside of such a block.
+class RunBudget {
+ public:
+  /// @param allowance is that of the run's machine, too, and outlives the budget
+  RunBudget(const RunLimits& limits, Allowance& allowance)
+      : limits_(limits), allowance_(allowance) {}
+
+  /// Takes back what is left of a portion and grants a new one of at least `needed` blocks.
+  /// @errors limit (blocks, time), cancelled.
+  NcResult<std::int64_t> refuel(std::int64_t left, std::int64_t needed);
+  /// What is left of a portion when its executor ends before the run.
+  void give_back(std::int64_t left) { granted_ -= static_cast<std::uint64_t>(left); }
+  /// To be called for each block that is more than arithmetic, and in loops.
+  /// @errors limit (time, memory), cancelled.
+  NcResult<void> check() {
+    if (!allowance_.is_spent()) [[likely]]
+      return {};
+    return *refusal();
+  }
+  /// Why the allowance is spent, if an earlier look has found it so: then whatever failed since
+  /// failed for that.
+  std::optional<NcError> refusal() const;
+
+  Allowance& allowance() { return allowance_; }
+
+  /// @param left of the last portion.
+  std::uint64_t executed(std::int64_t left) const {
+    return granted_ - static_cast<std::uint64_t>(left);
+  }
+
+ private:
+  static constexpr std::int64_t kPortion = 8192;
+
+  const RunLimits limits_;
+  Allowance& allowance_;
+  std::uint64_t granted_ = 0;
+};
+
+}  // namespace fitgauge::interpreter

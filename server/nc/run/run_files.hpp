@@ -1,0 +1,57 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nc/program/control_disk.hpp"
+#include "nc/run/nc_error.hpp"
+#include "nc/run/run_log.hpp"
+
+namespace fitgauge::interpreter {
+
+/// The control's disk as this run has left it: what it wrote lies over what is stored, and stays
+/// in the run. Not thread-safe.
+class RunFiles final : public ControlDisk {
+ public:
+  /// @param disk must outlive this object, as must `budget`.
+  RunFiles(const ControlDisk& disk, OutputBudget& budget, std::size_t most_files)
+      : disk_(disk), budget_(budget), most_files_(most_files) {}
+
+  std::optional<ControlFile> find(const ControlPath& path) const override;
+  /// That of the file `find` gives, without reading its bytes.
+  std::optional<std::string> revision(const ControlPath& path) const override;
+  bool has_directory(std::string_view directory) const override;
+
+  /// Counts a file that will be written later. @errors limit: number of files.
+  NcResult<void> reserve(const ControlPath& path);
+  /// @errors limit: output or number of files.
+  NcResult<void> write(const ControlPath& path, std::string bytes);
+  /// Adds to a file of the run, or to what is stored of it. @errors as write.
+  NcResult<void> append(const ControlPath& path, std::string_view bytes);
+
+  /// Copies of all that was written until now.
+  std::vector<WrittenFile> copies() const;
+  std::vector<WrittenFile> take();
+
+ private:
+  struct Written {
+    ControlPath path;
+    std::shared_ptr<std::string> bytes;  ///< not to be changed while others have found the file
+    unsigned revision = 0;
+
+    std::string revision_text() const { return "run-" + std::to_string(revision); }
+  };
+
+  const ControlDisk& disk_;
+  OutputBudget& budget_;
+  std::size_t most_files_;
+  std::set<std::string> reserved_;          // keys of all that is or will be written
+  std::map<std::string, Written> written_;  // by key
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,106 @@
+#include "nc/run/run_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nc/klartext/lexer.hpp"
+
+namespace fitgauge::interpreter {
+
+std::string_view word(RunStatus status) {
+  switch (status) {
+    case RunStatus::Completed: return "completed";
+    case RunStatus::Stopped: return "stopped";
+    case RunStatus::Failed: return "failed";
+    case RunStatus::LimitExceeded: return "limit_exceeded";
+    case RunStatus::Cancelled: return "cancelled";
+  }
+  return {};
+}
+
+std::string_view word(MessageKind kind) {
+  switch (kind) {
+    case MessageKind::Error: return "error";
+    case MessageKind::Stop: return "stop";
+    case MessageKind::Limit: return "limit";
+    case MessageKind::Cancelled: return "cancelled";
+    case MessageKind::Note: return "note";
+  }
+  return {};
+}
+
+std::uint32_t Place::line() const { return program->program().range(source().written).begin.line; }
+
+NcResult<void> OutputBudget::charge(std::size_t bytes) {
+  if (bytes > left_) {
+    return limit_error(fmt::format("the run has written more than {} bytes", total_));
+  }
+  left_ -= bytes;
+  return {};
+}
+
+NcResult<void> RunLog::print(std::string line) {
+  if (auto charged = budget_.charge(line.size() + sizeof(std::string)); !charged) return charged;
+  observer_.printed(line);
+  screen_.push_back(std::move(line));
+  return {};
+}
+
+NcResult<void> RunLog::report(MessageKind kind, int number, std::string text, const Place& place) {
+  const std::size_t size = text.size() + place.path().size() + sizeof(RunMessage);
+  if (auto charged = budget_.charge(size); !charged) return charged;
+  add(kind, number, std::move(text), place);
+  return {};
+}
+
+NcResult<void> RunLog::note(std::string text, const Place& place) {
+  if (!notes_.insert(text).second) return {};
+  return report(MessageKind::Note, 0, std::move(text), place);
+}
+
+void RunLog::finish(const NcError& error, const Place& place) {
+  const auto kind = [&] {
+    switch (error.kind) {
+      case NcErrorKind::Stop: return MessageKind::Stop;
+      case NcErrorKind::Limit: return MessageKind::Limit;
+      case NcErrorKind::Cancelled: return MessageKind::Cancelled;
+      case NcErrorKind::Error: break;
+    }
+    return MessageKind::Error;
+  }();
+  add(kind, error.number, error.text, place);
+}
+
+void RunLog::add(MessageKind kind, int number, std::string text, const Place& place) {
+  constexpr std::size_t kLongestSource = 200;
+  const std::string_view line = place.program->program().line(place.line());
+  const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
+  messages_.push_back({kind, number, std::move(text), std::string(place.path()), place.line(),
+                       place.block(), static_cast<std::uint32_t>(first + 1),
+                       klartext::excerpt(line, kLongestSource)});
+  observer_.reported(messages_.back());
+}
+
+NcResult<void> RunLog::record(probing::MeasuringRecord record, const Place& place) {
+  const std::size_t size = sizeof(Measurement) + place.path().size() +
+                           record.sizes.size() * sizeof(probing::MeasuredSize);
+  if (auto charged = budget_.charge(size); !charged) return charged;
+  measurements_.push_back(
+      {std::move(record), std::string(place.path()), place.line(), place.block()});
+  return {};
+}
+
+void RunLog::take(RunResult& result) {
+  result.screen = std::move(screen_);
+  result.messages = std::move(messages_);
+  result.measurements = std::move(measurements_);
+  for (const Measurement& measurement : result.measurements) {
+    // A cycle without a status (0, 1, 420, 431) leaves the last verdict; 444 always sets Q183, and
+    // without a tolerance that is none.
+    const probing::MeasuringRecord& record = measurement.record;
+    if (record.verdict || record.cycle == 444) result.verdict = record.verdict;
+  }
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nc/run/nc_error.hpp"
+#include "nc/run/run_limits.hpp"
+#include "nc/run/run_observer.hpp"
+#include "nc/run/run_result.hpp"
+
+namespace fitgauge::interpreter {
+
+/// What is left of the run's output budget; every text that is kept is charged to it.
+class OutputBudget {
+ public:
+  explicit OutputBudget(std::size_t bytes) : total_(bytes), left_(bytes) {}
+  /// @errors limit when it is used up; nothing is charged then.
+  NcResult<void> charge(std::size_t bytes);
+  std::size_t left() const { return left_; }
+
+ private:
+  std::size_t total_;
+  std::size_t left_;
+};
+
+/// What a run tells: screen, messages, measurements. Owns them until they are taken.
+class RunLog {
+ public:
+  RunLog(OutputBudget& budget, RunObserver& observer) : budget_(budget), observer_(observer) {}
+
+  /// A line of the screen window. @errors limit.
+  NcResult<void> print(std::string line);
+  /// A message that does not end the run. @errors limit.
+  NcResult<void> report(MessageKind kind, int number, std::string text, const Place& place);
+  /// Something the simulation leaves out: reported the first time only. @errors limit.
+  NcResult<void> note(std::string text, const Place& place);
+  /// The message of the error that ends the run; not charged, so that it is always there.
+  void finish(const NcError& error, const Place& place);
+  NcResult<void> record(probing::MeasuringRecord record, const Place& place);
+
+  void take(RunResult& result);
+
+ private:
+  void add(MessageKind kind, int number, std::string text, const Place& place);
+
+  OutputBudget& budget_;
+  RunObserver& observer_;
+  std::vector<std::string> screen_;
+  std::vector<RunMessage> messages_;
+  std::vector<Measurement> measurements_;
+  std::set<std::string, std::less<>> notes_;
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "nc/program/linked_program.hpp"
+#include "nc/run/run_result.hpp"
+
+namespace fitgauge::interpreter {
+
+class RunFiles;
+
+/// A block of a running program.
+struct Place {
+  const LinkedProgram* program = nullptr;
+  std::uint32_t index = 0;  ///< of the block
+
+  std::string_view path() const { return program->path().text(); }
+  std::uint32_t line() const;
+  /// Its number, as written or counted.
+  std::uint32_t block() const { return source().number; }
+  const klartext::Block& source() const { return program->program().blocks()[index]; }
+};
+
+/// What follows a run while it runs; called on the run's thread, so it must not block.
+class RunObserver {
+ public:
+  RunObserver() = default;
+  RunObserver(const RunObserver&) = delete;
+  RunObserver& operator=(const RunObserver&) = delete;
+  virtual ~RunObserver() = default;
+
+  /// Asked once at the start: whether `entered` is wanted for every block, and not only for those
+  /// that may command the machine or print.
+  virtual bool follows_every_block() const { return false; }
+  /// Called once before the first block: where the run's files are, which may be looked at in the
+  /// calls below.
+  virtual void begins(const RunFiles&) {}
+  /// The block that is about to run: what the machine is commanded until the next call is its
+  /// doing.
+  virtual void entered(const Place&) {}
+  /// The cycle that commands the machine from now on; 0: the blocks themselves.
+  virtual void moved_by_cycle(int /*number*/) {}
+  /// Now and then, with the blocks executed so far.
+  virtual void progressed(std::uint64_t /*blocks*/) {}
+  virtual void printed(std::string_view /*screen_line*/) {}
+  virtual void reported(const RunMessage&) {}
+  /// The run is over and its files are closed; the last call, and the files are still there.
+  virtual void ends() {}
+};
+
+}  // namespace fitgauge::interpreter

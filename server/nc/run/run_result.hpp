@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nc/machine/preset_table.hpp"
+#include "nc/probing/measuring_record.hpp"
+#include "nc/program/control_disk.hpp"
+#include "nc/program/parameter.hpp"
+
+namespace fitgauge::interpreter {
+
+/// How a run ended; the words of the HTTP contract.
+enum class RunStatus : std::uint8_t { Completed, Stopped, Failed, LimitExceeded, Cancelled };
+
+/// `completed`, `stopped`, `failed`, `limit_exceeded`, `cancelled`.
+std::string_view word(RunStatus status);
+
+enum class MessageKind : std::uint8_t {
+  Error,      ///< of the NC program or the machine; the run failed
+  Stop,       ///< STOP, M0, a log on the screen, the Q309 reaction of a cycle
+  Limit,      ///< a budget of the run is used up
+  Cancelled,  ///< by the operator
+  Note,       ///< what the simulation leaves out: radius compensation, PLC functions
+};
+
+/// `error`, `stop`, `limit`, `cancelled`, `note`.
+std::string_view word(MessageKind kind);
+
+/// What the control's message line would show, and the block it belongs to.
+struct RunMessage {
+  MessageKind kind = MessageKind::Error;
+  int number = 0;  ///< the control's error number, 0 where it has none
+  std::string text;
+  std::string program;                 ///< TNC:\...
+  std::uint32_t line = 0;              ///< from 1, of the block's first physical line
+  std::optional<std::uint32_t> block;  ///< its number, as written or counted
+  std::uint32_t column = 0;            ///< from 1, of the block in that line; 0: no line is meant
+  std::string source{};                ///< the physical line, cut where it is long
+
+  friend bool operator==(const RunMessage&, const RunMessage&) = default;
+};
+
+/// A file the run wrote.
+struct WrittenFile {
+  ControlPath path;
+  std::string bytes;
+};
+
+/// A table the run opened.
+struct OpenedTable {
+  ControlPath path;
+  FileSource source = FileSource::Stored;
+};
+
+/// What a measuring cycle found, and where it stands in the program.
+struct Measurement {
+  probing::MeasuringRecord record;
+  std::string program;
+  std::uint32_t line = 0;
+  std::optional<std::uint32_t> block;
+};
+
+/// Everything a run leaves behind; complete also when it failed.
+struct RunResult {
+  RunStatus status = RunStatus::Completed;
+  std::uint64_t blocks_executed = 0;
+  double machining_time_s = 0;
+  /// Of the last measuring cycle that has a status (444: from Q183, nothing for -1).
+  std::optional<gauging::Verdict> verdict;
+  /// Every Q, QR and QS and the main program's QL that is defined at the end, in that order.
+  std::vector<ParameterValue> parameters;
+  std::vector<std::string> screen;  ///< every line printed, in order
+  std::vector<WrittenFile> files;
+  std::vector<OpenedTable> tables;
+  std::vector<RunMessage> messages;
+  std::vector<Measurement> measurements;
+  int active_preset = 0;
+  std::vector<machine::Preset> presets;
+};
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,155 @@
+#include "nc/run/sl_contour.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "nc/machine/tolerance.hpp"
+#include "nc/run/channel.hpp"
+#include "nc/run/executor.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+/// The enclosed area, positive when the curves go around it to the left.
+double area(const std::vector<Curve>& curves) {
+  double twice = 0;
+  for (const Curve& curve : curves) {
+    twice += cross(curve.start, curve.end);
+    if (!curve.is_arc()) continue;
+    const double radius = norm(curve.start - *curve.centre);
+    const double turn = machine::radians(curve.sweep_deg);
+    twice += radius * radius * (turn - std::sin(turn));  // between the arc and its chord
+  }
+  return twice / 2;
+}
+
+double length(const Curve& curve) {
+  if (!curve.is_arc()) return norm(curve.end - curve.start);
+  return norm(curve.start - *curve.centre) * std::abs(machine::radians(curve.sweep_deg));
+}
+
+std::vector<Curve> reversed(std::vector<Curve> curves) {
+  std::reverse(curves.begin(), curves.end());
+  for (Curve& curve : curves) {
+    std::swap(curve.start, curve.end);
+    curve.sweep_deg = -curve.sweep_deg;
+  }
+  return curves;
+}
+
+/// Where two lines meet; nothing when one is an arc or they are parallel.
+std::optional<Vec2> corner_of(const Curve& before, const Curve& after) {
+  if (before.is_arc() || after.is_arc()) return std::nullopt;
+  const Vec2 along = before.end - before.start;
+  const Vec2 other = after.end - after.start;
+  const double across = cross(along, other);
+  if (std::abs(across) < tolerance::kParallel * norm(along) * norm(other)) return std::nullopt;
+  return before.start + along * (cross(after.start - before.start, other) / across);
+}
+
+/// The curves without the arcs that shrink to nothing at `distance` to the left.
+std::vector<Curve> with_sharp_corners(std::vector<Curve> curves, double distance) {
+  std::vector<Curve> kept;
+  std::size_t left = curves.size();
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    Curve& before = kept.empty() ? curves.back() : kept.back();
+    Curve& after = i + 1 < curves.size() ? curves[i + 1] : kept.empty() ? curves[i] : kept.front();
+    const bool vanishes = curves[i].is_arc() && left > 3 && !offset_curve(curves[i], distance);
+    const auto corner = vanishes ? corner_of(before, after) : std::nullopt;
+    if (corner) {
+      before.end = after.start = *corner;
+      --left;
+    } else {
+      kept.push_back(curves[i]);
+    }
+  }
+  return kept;
+}
+
+/// Begins in the middle of the longest curve: every corner then lies between two curves.
+void begin_in_the_middle(std::vector<Curve>& curves) {
+  const auto longest = std::max_element(
+      curves.begin(), curves.end(),
+      [](const Curve& a, const Curve& b) { return length(a) < length(b) - tolerance::kSamePoint; });
+  std::rotate(curves.begin(), longest, curves.end());
+  Curve last = curves.front();
+  Curve& first = curves.front();
+  first.sweep_deg = last.sweep_deg = first.sweep_deg / 2;
+  const Vec2 middle = first.is_arc()
+                          ? *first.centre + turned(first.start - *first.centre, first.sweep_deg)
+                          : (first.start + first.end) * 0.5;
+  last.end = first.start = middle;
+  curves.push_back(last);
+}
+
+std::optional<std::uint32_t> find_label(const Channel& channel, const klartext::Label& label) {
+  const auto* number = std::get_if<std::uint32_t>(&label);
+  return number == nullptr ? std::nullopt : channel.linked().label(*number);
+}
+
+bool are_the_same(const machine::Frames& a, const machine::Frames& b) {
+  return a.datum_shift() == b.datum_shift() && a.mirror() == b.mirror() &&
+         a.rotation() == b.rotation() && a.scaling() == b.scaling();
+}
+
+/// Transformations of the subprogram hold in it alone.
+NcResult<SlDrawing> draw(Channel& channel, const klartext::Label& label) {
+  const auto first = find_label(channel, label);
+  if (!first) return nc_error(1024, "a contour label of cycle 14 is not defined in this program");
+  const machine::Frames frames = channel.machine().state().frames;
+  const Contour path = std::exchange(channel.contour, Contour());
+  channel.contour.tool_feed = path.tool_feed;
+  channel.contour.pole = path.pole;
+  channel.contour.draw(channel.machine());
+  auto done = execute_label(channel, *first);
+  if (done) done = channel.contour.finish(channel.machine());
+  if (!done) return done.error();
+  SlDrawing drawing = *channel.contour.drawing();
+  channel.contour = path;
+  if (!are_the_same(channel.machine().state().frames, frames)) {
+    if (auto set = checked(channel.machine().set_frames(frames)); !set) return set.error();
+  }
+  return drawing;
+}
+
+}  // namespace
+
+NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label) {
+  auto drawing = draw(channel, label);
+  if (!drawing) return drawing.error();
+  SlContour contour;
+  contour.curves = drawing->curves();
+  std::vector<Curve>& curves = contour.curves;
+  if (!curves.empty()) {
+    const Vec2 first = curves.front().start;
+    const Vec2 last = curves.back().end;
+    if (norm(first - last) > tolerance::kNanometre) {
+      curves.push_back({last, first, std::nullopt, 0});
+    }
+  }
+  const double enclosed = area(curves);
+  if (std::abs(enclosed) < tolerance::kSamePoint) {
+    return nc_error(
+        1024, fmt::format("contour label {} encloses nothing", std::get<std::uint32_t>(label)));
+  }
+  contour.is_pocket = drawing->side() * enclosed >= 0;
+  return contour;
+}
+
+SlPath path_along(const SlContour& contour, double reach, bool is_climb) {
+  SlPath path;
+  path.curves = contour.curves;
+  const bool goes_left = contour.is_pocket == is_climb;
+  if ((area(path.curves) > 0) != goes_left) path.curves = reversed(std::move(path.curves));
+  path.side = is_climb ? 1 : -1;
+  path.curves = with_sharp_corners(std::move(path.curves), path.side * reach);
+  begin_in_the_middle(path.curves);
+  const Curve& first = path.curves.front();
+  path.start = first.start + left_of(*first.start_direction()) * (path.side * reach);
+  return path;
+}
+
+}  // namespace fitgauge::interpreter

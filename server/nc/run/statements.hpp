@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "nc/klartext/statement.hpp"
+#include "nc/program/code.hpp"
+#include "nc/program/linked_program.hpp"
+#include "nc/run/nc_error.hpp"
+
+/// What each kind of block does, one function for each; a family lies in one exec_* file.
+namespace fitgauge::interpreter {
+
+class Channel;
+
+/// Where the run goes on after a block.
+struct Next {
+  enum class Kind : std::uint8_t { Block, Jump, CallLabel, CallProgram, EndRun };
+  Kind kind = Kind::Block;
+  std::uint32_t target = 0;  ///< of Jump and CallLabel: an instruction
+  std::shared_ptr<const LinkedProgram> program = nullptr;  ///< of CallProgram
+};
+
+/// Runs the block of an Op::Statement.
+NcResult<Next> execute_statement(Channel& channel, const Instruction& instruction);
+
+// exec_flow.cpp
+NcResult<Next> execute(Channel& channel, const klartext::ConditionalJump& jump);
+NcResult<Next> execute(Channel& channel, const klartext::LabelCall& call, std::uint32_t counter);
+NcResult<Next> execute(Channel& channel, const klartext::CallProgram& call);
+NcResult<Next> execute(Channel& channel, const klartext::CallSelectedProgram& call);
+NcResult<void> execute(Channel& channel, const klartext::SelectProgram& select);
+/// Goes on in a program. @errors it does not exist or has errors.
+NcResult<Next> call_program(Channel& channel, const ControlPath& path);
+
+// exec_parameters.cpp
+NcResult<void> execute(Channel& channel, const klartext::Assignment& assignment);
+NcResult<void> execute(Channel& channel, const klartext::SetUndefined& undefine);
+NcResult<void> execute(Channel& channel, const klartext::CircleData& circle);
+NcResult<void> execute(Channel& channel, const klartext::SystemWrite& write);
+
+// exec_output.cpp
+NcResult<void> execute(Channel& channel, const klartext::ErrorStop& stop);
+NcResult<void> execute(Channel& channel, const klartext::Print& print);
+NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print);
+NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& function);
+NcResult<void> execute(Channel& channel, const klartext::WaitFor& wait);
+
+// exec_tables.cpp
+NcResult<void> execute(Channel& channel, const klartext::TableOpen& open);
+NcResult<void> execute(Channel& channel, const klartext::TableWrite& write);
+NcResult<void> execute(Channel& channel, const klartext::TableRead& read);
+NcResult<void> execute(Channel& channel, const klartext::SelectTable& select);
+
+// exec_tools.cpp
+NcResult<void> execute(Channel& channel, const klartext::ToolCall& call);
+NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definition);
+
+// exec_motion.cpp
+NcResult<Next> execute(Channel& channel, const klartext::Motion& motion);
+NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions);
+NcResult<Next> execute(Channel& channel, const klartext::Stop& stop);
+
+// exec_cycles.cpp
+NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound);
+NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last);
+NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call);
+/// What M99, M89 and CYCL CALL run at the current position.
+NcResult<Next> call_active_cycle(Channel& channel);
+
+// exec_pattern.cpp
+NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& pattern);
+NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell);
+
+// exec_frames.cpp
+NcResult<void> execute(Channel& channel, const klartext::Trans& trans);
+NcResult<void> execute(Channel& channel, const klartext::Plane& plane);
+NcResult<void> execute(Channel& channel, const klartext::FunctionMode& mode);
+NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm);
+
+}  // namespace fitgauge::interpreter

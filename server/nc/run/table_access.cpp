@@ -1,0 +1,193 @@
+#include "nc/run/table_access.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/text.hpp"
+#include "nc/program/cycle_arguments.hpp"
+#include "tables/tabfile/tab_reader.hpp"
+#include "tables/tabfile/tab_writer.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::QRef;
+using tabfile::TabTable;
+
+/// FN 27 and FN 28 name up to eight columns.
+constexpr std::size_t kMostColumns = 8;
+
+/// "X,Y,D" and the parameters X, X + 1, X + 2 they are read into or written from.
+struct ColumnTarget {
+  std::string_view column;
+  QRef parameter;
+};
+
+NcResult<std::vector<ColumnTarget>> targets(std::string_view columns, QRef first) {
+  std::vector<ColumnTarget> targets;
+  while (true) {
+    const std::size_t end = columns.find(',');
+    const std::size_t place = first.number + targets.size();
+    if (targets.size() == kMostColumns) {
+      return nc_error(fmt::format("more than {} columns are named", kMostColumns));
+    }
+    if (place >= parameter_count(first.space)) {
+      return nc_error(fmt::format("there are not enough parameters after {}", name(first)));
+    }
+    targets.push_back(
+        {trim(columns.substr(0, end)), {first.space, static_cast<std::uint16_t>(place)}});
+    if (end == std::string_view::npos) return targets;
+    columns.remove_prefix(end + 1);
+  }
+}
+
+/// Program units in one unit of the table, for columns that hold lengths.
+double unit_of(const TabTable& table, std::string_view column, double length_unit) {
+  const auto index = table.find_column(column);
+  if (!index) return 1;
+  const std::string& type = table.columns()[*index].type;
+  if (type != "L" && type != "LENGTH") return 1;
+  return (table.header().unit == "INCH" ? kMillimetresPerInch : 1) / length_unit;
+}
+
+NcError no_table_error() { return nc_error("no table is open: FN 26: TABOPEN stands before this"); }
+
+constexpr std::array<std::string_view, machine::kAxes> kAxisColumns{"X", "Y", "Z", "A", "B", "C"};
+
+}  // namespace
+
+NcResult<TableAccess::Table> TableAccess::load(const ControlPath& path, std::string_view what) {
+  auto file = files_.find(path);
+  if (!file) return nc_error(fmt::format("{} {} does not exist", what, path.text()));
+  if (std::none_of(opened_.begin(), opened_.end(),
+                   [&](const OpenedTable& table) { return table.path == path; })) {
+    opened_.push_back({file->path, file->source});
+  }
+  Known& known = known_[path.key()];
+  if (known.content == nullptr || known.revision != file->revision) {
+    known = {file->revision, file->table};
+    if (known.content == nullptr) {
+      auto read = tabfile::read_tab_file(*file->bytes, allowance_);
+      if (read.has_error()) {
+        return nc_error(
+            fmt::format("{} {} cannot be read: {}", what, path.text(), read.error().message));
+      }
+      known.content = std::make_shared<const TabTable>(*std::move(read));
+    }
+  }
+  return Table{file->path, known.content};
+}
+
+NcResult<void> TableAccess::save(std::optional<Table>& table) {
+  if (!table || table->changed == nullptr) return {};
+  table->changed.reset();
+  return files_.write(table->path, tabfile::write_tab(*table->content));
+}
+
+TabTable& TableAccess::editable(Table& table) {
+  if (table.changed == nullptr) {
+    table.changed = std::make_shared<TabTable>(*table.content);
+    table.content = table.changed;
+  }
+  return *table.changed;
+}
+
+NcResult<void> TableAccess::open(const ControlPath& path) {
+  if (auto saved = save(open_); !saved) return saved;
+  open_.reset();
+  auto table = load(path, "table");
+  if (!table) return table.error();
+  open_ = *std::move(table);
+  return {};
+}
+
+NcResult<void> TableAccess::read(QRef first, std::int64_t row, std::string_view columns,
+                                 double length_unit) const {
+  if (!open_) return no_table_error();
+  const auto named = targets(columns, first);
+  if (!named) return named.error();
+  const TabTable& table = *open_->content;
+  const auto failed = [&](const Error& error) {
+    return nc_error(fmt::format("table {}: {}", open_->path.text(), error.message));
+  };
+  for (const auto& [column, parameter] : *named) {
+    if (parameter.is_string()) {
+      const auto cell = table.text(row, column);
+      if (!cell) return failed(cell.error());
+      if (auto set = parameters_.set_string(parameter.number, std::string(*cell)); !set) {
+        return set;
+      }
+      continue;
+    }
+    const auto value = table.number(row, column);
+    if (!value) return failed(value.error());
+    const double scaled = *value * unit_of(table, column, length_unit);
+    if (auto set = parameters_.set(parameter, scaled); !set) return set;
+  }
+  return {};
+}
+
+NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view columns,
+                                  double length_unit) {
+  if (!open_) return no_table_error();
+  const auto named = targets(columns, first);
+  if (!named) return named.error();
+  TabTable& table = editable(*open_);
+  for (const auto& [column, parameter] : *named) {
+    if (!parameters_.is_defined(parameter)) return undefined_error(parameter);
+    const auto set = parameter.is_string()
+                         ? table.set_text(row, column, *parameters_.string(parameter.number))
+                         : table.set_number(row, column,
+                                            *parameters_.number(parameter) /
+                                                unit_of(table, column, length_unit));
+    if (!set) {
+      return nc_error(fmt::format("table {}: {}", open_->path.text(), set.error().message));
+    }
+  }
+  return {};
+}
+
+NcResult<void> TableAccess::select_datum_table(const ControlPath& path) {
+  if (auto saved = save(datum_); !saved) return saved;
+  datum_.reset();
+  auto table = load(path, "datum table");
+  if (!table) return table.error();
+  datum_ = *std::move(table);
+  return {};
+}
+
+NcResult<machine::AxisWords> TableAccess::datum(std::int64_t row) const {
+  if (!datum_) return nc_error(1043, "SEL TABLE stands before this");
+  const auto found = datum_->content->find_row(row);
+  if (!found) {
+    return nc_error(fmt::format("datum table {}: {}", datum_->path.text(), found.error().message));
+  }
+  machine::AxisWords values;
+  for (const machine::Axis axis : machine::kAllAxes) {
+    const auto value = datum_->content->number(row, kAxisColumns[machine::index(axis)]);
+    if (value) values[axis] = *value;
+  }
+  return values;
+}
+
+NcResult<void> TableAccess::write_datum(std::int64_t row, const machine::AxisWords& values) {
+  if (!datum_) return nc_error(1043, "SEL TABLE stands before this");
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (!values[axis]) continue;
+    const auto set =
+        editable(*datum_).set_number(row, kAxisColumns[machine::index(axis)], *values[axis]);
+    if (!set) {
+      return nc_error(fmt::format("datum table {}: {}", datum_->path.text(), set.error().message));
+    }
+  }
+  return save(datum_);
+}
+
+NcResult<void> TableAccess::close() {
+  if (auto saved = save(open_); !saved) return saved;
+  return save(datum_);
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,91 @@
+#include "nc/run/tool_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fitgauge::interpreter {
+namespace {
+
+using machine::Tool;
+
+/// A column that is a plain number.
+struct Column {
+  std::int64_t nr;
+  double Tool::*value;
+};
+
+constexpr Column kColumns[] = {
+    {1, &Tool::l},
+    {2, &Tool::r},
+    {3, &Tool::r2},
+    {4, &Tool::dl},
+    {5, &Tool::dr},
+    {6, &Tool::dr2},
+    {9, &Tool::time1},
+    {10, &Tool::time2},
+    {11, &Tool::current_time},
+    {13, &Tool::cutting_length},
+    {14, &Tool::plunge_angle},
+    {16, &Tool::l_tolerance},
+    {17, &Tool::r_tolerance},
+    {19, &Tool::r_offset},
+    {20, &Tool::l_offset},
+    {21, &Tool::l_breakage},
+    {22, &Tool::r_breakage},
+    {28, &Tool::max_rpm},
+    {32, &Tool::point_angle},
+    {33, &Tool::pitch},
+};
+
+/// A column that is a whole number from 0.
+struct WholeColumn {
+  std::int64_t nr;
+  int Tool::*value;
+  int most;
+};
+
+constexpr WholeColumn kWholeColumns[] = {
+    {8, &Tool::replacement, 32'767},
+    {15, &Tool::teeth, 1000},
+    {36, &Tool::type, 999},
+};
+
+template <class Columns>
+auto column(const Columns& columns, std::int64_t nr) {
+  const auto* it = std::find_if(std::begin(columns), std::end(columns),
+                                [nr](const auto& entry) { return entry.nr == nr; });
+  return it == std::end(columns) ? nullptr : it;
+}
+
+}  // namespace
+
+std::optional<double> tool_value(const Tool& tool, std::int64_t nr) {
+  if (const Column* plain = column(kColumns, nr)) return tool.*plain->value;
+  if (const WholeColumn* whole = column(kWholeColumns, nr)) return tool.*whole->value;
+  switch (nr) {
+    case 7: return tool.locked ? 1 : 0;
+    case 18: return tool.clockwise ? 0 : 1;
+    default: return std::nullopt;
+  }
+}
+
+ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
+  if (const Column* plain = column(kColumns, nr)) {
+    tool.*plain->value = value;
+    return ToolWrite::Done;
+  }
+  if (const WholeColumn* whole = column(kWholeColumns, nr)) {
+    if (!(value >= 0 && value <= whole->most) || value != std::floor(value)) {
+      return ToolWrite::OutOfRange;
+    }
+    tool.*whole->value = static_cast<int>(value);
+    return ToolWrite::Done;
+  }
+  switch (nr) {
+    case 7: tool.locked = value != 0; return ToolWrite::Done;
+    case 18: tool.clockwise = value == 0; return ToolWrite::Done;
+    default: return ToolWrite::Unknown;
+  }
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,134 @@
+#include "nc/run/transformation_cycles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nc/run/channel.hpp"
+#include "nc/run/frame_commands.hpp"
+#include "nc/run/values.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Letter;
+using klartext::Word;
+using machine::Vec3;
+using Words = std::span<const Word>;
+
+const Word* find(Words words, Letter letter) {
+  const auto it = std::find_if(words.begin(), words.end(),
+                               [&](const Word& word) { return word.letter == letter; });
+  return it == words.end() ? nullptr : &*it;
+}
+
+/// The number of a word, or `otherwise` where it is not written.
+NcResult<double> value(Channel& channel, Words words, Letter letter, double otherwise) {
+  const Word* word = find(words, letter);
+  if (word == nullptr || is_absent(word->value)) return otherwise;
+  return number(channel, word->value);
+}
+
+NcResult<void> datum_shift(Channel& channel, Words words) {
+  if (const Word* row = find(words, Letter::Row)) {
+    const auto value = whole(channel, row->value);
+    return value ? shift_datum_to_row(channel, *value) : value.error();
+  }
+  const auto axes = read_axis_words(channel, words);
+  return axes ? shift_datum(channel, *axes) : axes.error();
+}
+
+NcResult<void> mirror_axes(Channel& channel, Words words) {
+  std::array<bool, 3> axes{};
+  for (const Word& word : words) {
+    if (word.letter <= Letter::Z) axes[static_cast<std::size_t>(word.letter)] = true;
+  }
+  return mirror(channel, axes);
+}
+
+NcResult<void> dwell(Channel& channel, Words words) {
+  const auto seconds = value(channel, words, Letter::Value, 0);
+  return seconds ? checked(channel.machine().dwell(*seconds)) : seconds.error();
+}
+
+NcResult<void> rotation(Channel& channel, Words words) {
+  const auto angle = value(channel, words, Letter::Rot, 0);
+  if (!angle) return angle.error();
+  const Word* word = find(words, Letter::Rot);
+  return rotate(channel, {*angle, word != nullptr && word->incremental});
+}
+
+NcResult<void> scaling(Channel& channel, Words words) {
+  const auto factor = value(channel, words, Letter::Scl, 1);
+  return factor ? scale(channel, {{*factor, *factor, *factor}, {}}) : factor.error();
+}
+
+NcResult<void> axis_scaling(Channel& channel, Words words) {
+  machine::Scaling scaling;
+  constexpr std::array kFactors{Letter::X, Letter::Y, Letter::Z};
+  constexpr std::array kCentres{Letter::Ccx, Letter::Ccy, Letter::Ccz};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto factor = value(channel, words, kFactors[axis], 1);
+    if (!factor) return factor.error();
+    const auto centre = value(channel, words, kCentres[axis], 0);
+    if (!centre) return centre.error();
+    scaling.factor[axis] = *factor;
+    scaling.centre[axis] = *centre * channel.length_unit();
+  }
+  return scale(channel, scaling);
+}
+
+NcResult<void> working_plane_cycle(Channel& channel, Words words) {
+  const auto axes = read_axis_words(channel, words);
+  if (!axes) return axes.error();
+  Vec3 angles;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (const auto& word = (*axes)[i + 3]) angles[i] = word->value;
+  }
+  if (angles == Vec3{}) return reset_tilt(channel, {});
+  return tilt(channel, machine::Matrix3::spatial(angles), {});
+}
+
+NcResult<void> program_call(Channel& channel, Words words) {
+  const Word* path = find(words, Letter::Program);
+  if (path == nullptr) return nc_error(1017, "CYCL DEF 12 needs a program");
+  const auto written = text(channel, path->value);
+  if (!written) return written.error();
+  auto program = channel.resolve_program(*written);
+  if (!program) return program.error();
+  channel.active_cycle.definition = *std::move(program);
+  channel.active_cycle.number = 12;
+  return {};
+}
+
+}  // namespace
+
+NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const Word> words) {
+  AxisCoordinates axes;
+  for (const Word& word : words) {
+    if (!is_axis(word.letter) || is_absent(word.value)) continue;
+    const auto axis = machine_axis(word.letter);
+    if (!axis) return axis.error();
+    const auto value = number(channel, word.value);
+    if (!value) return value.error();
+    const double unit = machine::is_rotary(*axis) ? 1 : channel.length_unit();
+    axes[machine::index(*axis)] = Coordinate{*value * unit, word.incremental};
+  }
+  return axes;
+}
+
+NcResult<void> execute_transformation(Channel& channel, int cycle, Words words) {
+  switch (cycle) {
+    case 7: return datum_shift(channel, words);
+    case 8: return mirror_axes(channel, words);
+    case 9: return dwell(channel, words);
+    case 10: return rotation(channel, words);
+    case 11: return scaling(channel, words);
+    case 12: return program_call(channel, words);
+    case 19: return working_plane_cycle(channel, words);
+    case 26: return axis_scaling(channel, words);
+    default: return {};  // 13 and 32 have no effect on a simulated path
+  }
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,226 @@
+#include "plant/centre/forwarder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <condition_variable>
+
+#include "base/base64.hpp"
+#include "base/guarded.hpp"
+#include "base/json/json_value.hpp"
+#include "plant/centre/batch_text.hpp"
+
+namespace fitgauge::forwarder {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr milliseconds kBetweenLooks{200};
+constexpr seconds kPatienceAtStart{3};
+constexpr milliseconds kFirstPause{250};
+constexpr milliseconds kLongestPause{seconds(30)};
+
+constexpr long kOk = 200;
+constexpr long kConflict = 409;
+constexpr long kTooLarge = 413;
+constexpr long kFirstOfServer = 500;
+
+std::string text_of(const JsonValue& json, std::string_view name) {
+  const JsonValue* value = json.find(name);
+  return value == nullptr ? std::string() : value->text;
+}
+
+std::optional<std::int64_t> size_of(const JsonValue& head) {
+  const std::string text = text_of(head, "size");
+  std::int64_t size = 0;
+  const char* const end = text.data() + text.size();
+  const bool whole = !text.empty() && std::from_chars(text.data(), end, size).ptr == end;
+  return whole && size >= 0 ? std::optional(size) : std::nullopt;
+}
+
+}  // namespace
+
+Forwarder::Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, ForwarderOptions options)
+    : outbox_(outbox),
+      options_(std::move(options)),
+      link_(options_.centre),
+      follower_(std::move(intake), options_.origin, options_.tell) {
+  if (const auto confirmed = outbox_.confirmed(options_.centre.url)) confirmed_ = *confirmed;
+  look();
+  // Before the first measurement is taken: whether this folder is an older copy, and the newest
+  // tables. A centre that is away holds nothing up for long.
+  const auto until = Steady::now() + kPatienceAtStart;
+  guarded("the follower", [&] { follow([until] { return Steady::now() < until; }); });
+  thread_ = Thread("the forwarder", [this](const std::stop_token& stop) { run(stop); });
+}
+
+Forwarder::~Forwarder() { thread_.stop(); }
+
+Forwarder::State Forwarder::state() const {
+  State state;
+  {
+    const std::lock_guard lock(mutex_);
+    state = state_;
+  }
+  // What was committed since the last look counts too.
+  const std::int64_t confirmed = confirmed_;
+  state.rows = std::max<std::int64_t>(0, std::max(seen_.load(), outbox_.committed()) - confirmed);
+  if (state.rows == 0) state.oldest.reset();
+  return state;
+}
+
+/// @returns false: the end has come.
+bool Forwarder::wait(const std::stop_token& stop, milliseconds time) {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock lock(mutex);
+  const auto until = Steady::now() + time;
+  while (!stop.stop_requested() && Steady::now() < until) {
+    const auto next = std::min(until, Steady::now() + kBetweenLooks);
+    wake.wait_until(lock, stop, next, [] { return false; });
+    look();
+  }
+  return !stop.stop_requested();
+}
+
+/// Takes what the centre hands on, and what it says of this folder's log.
+void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
+  const bool is_first = !has_asked_;
+  const auto there = follower_.look(link_, goes_on);
+  if (!there) return;
+  has_asked_ = true;
+  // It was set back to an older copy: it gets what it has lost.
+  if (*there < confirmed_) confirmed_ = *there;
+  if (is_first) static_cast<void>(outbox_.compare(options_.centre.url, *there));
+}
+
+/// Counts what is waiting while a call does.
+CentreLink::GoesOn Forwarder::goes_on(const std::stop_token& stop) {
+  return [this, &stop] {
+    look();
+    return !stop.stop_requested();
+  };
+}
+
+void Forwarder::run(const std::stop_token& stop) {
+  Sent sent = Sent::Nothing;
+  do {
+    sent = Sent::Failed;
+    guarded("the forwarder", [&] { sent = send(stop); });
+    guarded("the follower", [&] { follow(goes_on(stop)); });
+    if (sent == Sent::Taken) {
+      pause_ = {};
+    } else if (sent == Sent::Failed || sent == Sent::Refused) {
+      pause_ = std::clamp(2 * pause_, kFirstPause, kLongestPause);
+    }
+    if (sent == Sent::Taken) continue;
+    // Half of it by chance, so that stations do not come together when their centre is back.
+    const milliseconds pause = sent == Sent::Nothing ? kBetweenLooks : pause_;
+    auto jitter = std::uniform_int_distribution<milliseconds::rep>(0, pause.count() / 2);
+    wait(stop, pause - milliseconds(jitter(random_)));
+  } while (!stop.stop_requested());
+}
+
+Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
+  const auto batch = outbox_.next(confirmed_, most_rows_);
+  if (!batch) return failed(Sent::Failed, batch.error().message);
+  if (batch->records.empty()) return Sent::Nothing;
+  const std::string path = fmt::format("/v1/log/{}/{}", options_.origin, batch->from);
+  const http_client::HttpAnswer answer = link_.put(path, batch_text(*batch), goes_on(stop));
+  if (stop.stop_requested() && answer.status == 0) return Sent::Nothing;
+  return answered(answer, confirmed_ + static_cast<std::int64_t>(batch->records.size()));
+}
+
+Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::int64_t end) {
+  if (answer.status == 0) return failed(Sent::Failed, answer.failure);
+  const auto json = parse_json(answer.body);
+  if (answer.status == kOk) {
+    if (!json || size_of(*json) != end) {
+      return failed(Sent::Failed, "the centre's answer is none of a centre");
+    }
+    most_rows_ = app::LogOutbox::kMostRows;
+    took(end);
+    return Sent::Taken;
+  }
+  if (answer.status == kTooLarge && most_rows_ > 1) {
+    most_rows_ = std::max<std::int64_t>(1, most_rows_ / 2);
+    return Sent::Taken;
+  }
+  const std::string detail = json ? text_of(*json, "detail") : std::string();
+  if (answer.status == kConflict && json && text_of(*json, "code") == "log.position") {
+    const JsonValue* head = json->find("head");
+    const auto size = head == nullptr ? std::nullopt : size_of(*head);
+    if (size) return elsewhere(*size, text_of(*head, "root"));
+  }
+  return failed(answer.status < kFirstOfServer ? Sent::Refused : Sent::Failed,
+                fmt::format("{} {}", answer.status, detail));
+}
+
+/// The centre has more or less than was thought: go on from there, if it has the same.
+Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root) {
+  const auto bytes = tlog::from_base64(root);
+  tlog::Hash there{};
+  if (!bytes || bytes->size() != there.size()) return failed(Sent::Refused, "its root is none");
+  std::copy(bytes->begin(), bytes->end(), there.begin());
+  const auto same = outbox_.begins_with(size, there);
+  if (!same) return failed(Sent::Failed, same.error().message);
+  if (*same == true && size != confirmed_) {
+    took(size);
+    return Sent::Taken;
+  }
+  if (*same == true) return failed(Sent::Failed, "the centre is behind itself");
+  return failed(Sent::Refused,
+                *same
+                    ? fmt::format("the {} records of this log at the centre are others than here: "
+                                  "this folder was copied and started twice, or an older copy "
+                                  "was put back",
+                                  size)
+                    : fmt::format("the centre has {} records of this log, which are more than "
+                                  "there are here: an older copy was put back, or this folder was "
+                                  "copied and started twice",
+                                  size));
+}
+
+Forwarder::Sent Forwarder::failed(Sent how, const std::string& why) {
+  std::unique_lock lock(mutex_);
+  const bool is_new = state_.failure != why;
+  state_.failure = why;
+  state_.is_refused = how == Sent::Refused;
+  lock.unlock();
+  if (is_new && options_.tell) {
+    options_.tell(how == Sent::Refused ? "forward_refused" : "forward_failed",
+                  fmt::format("{}: {}", options_.centre.url, why));
+  }
+  return how;
+}
+
+void Forwarder::took(std::int64_t size) {
+  static_cast<void>(outbox_.confirm(options_.centre.url, size));  // else the centre tells it again
+  confirmed_ = size;
+  std::unique_lock lock(mutex_);
+  const bool failed_before = !state_.failure.empty();
+  state_.failure.clear();
+  state_.is_refused = false;
+  lock.unlock();
+  if (failed_before && options_.tell) {
+    options_.tell("forward_goes_on", fmt::format("{} has {} records", options_.centre.url, size));
+  }
+  looked_ = {};
+  look();
+}
+
+/// Counts what is waiting, not more often than need be.
+void Forwarder::look() {
+  const auto now = Steady::now();
+  if (now < looked_ + kBetweenLooks) return;
+  looked_ = now;
+  const auto waiting = outbox_.waiting(confirmed_);
+  if (!waiting) return;
+  const std::lock_guard lock(mutex_);
+  seen_ = waiting->rows + confirmed_;
+  state_.oldest = waiting->oldest;
+}
+
+}  // namespace fitgauge::forwarder

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/json/field_reader.hpp"
+#include "formats/dfq/limits.hpp"
+#include "formats/sheet/shop_csv.hpp"
+#include "plant/folder/folder_path.hpp"
+#include "plant/worker.hpp"
+
+namespace fitgauge::connections {
+
+/// A folder that others put files of measurements into.
+struct FolderInOptions {
+  std::string name{};  ///< of the connection
+  std::filesystem::path folder{};
+  std::vector<std::string> names{"*.csv", "*.txt", "*.ndjson", "*.jsonl",
+                                 "*.dfq", "*.dfd", "*.dfx",    "*.qif"};  ///< in either case
+  sheet::ShopCsvOptions csv{};                     ///< of what is no NDJSON by its name
+  std::optional<aqdef::LengthUnit> length_unit{};  ///< of a DFQ or QIF that says none
+  std::chrono::seconds interval{10};  ///< between two looks; the kernel tells changes at once
+  std::chrono::seconds rest{2};       ///< size and time must have been the same for so long
+  std::size_t most_file_bytes = std::size_t{32} << 20;
+  std::size_t most_entries = 100'000;  ///< of one look
+};
+
+/// Reads what the kind folder_in takes: `folder`, `names`, `map`, `set`, `encoding`, `time_zone`,
+/// `other_columns`, `length_unit`, `interval_s`, `rest_s`. What is wrong goes to `errors`.
+FolderInOptions read_folder_in(std::string_view name, const FolderPermissions& allowed,
+                               api::FieldReader& fields, api::FieldErrors& errors);
+
+/// Takes the files of a folder, each once, and moves them to its folder `done`, or with a text that
+/// names line and remedy to `failed`. @param around outlives it.
+std::unique_ptr<Worker> make_folder_in(const FolderInOptions& options, const Surroundings& around);
+
+/// Whether the folder can be read, and files moved in it.
+app::ConnectionTest test_folder_in(const FolderInOptions& options);
+
+}  // namespace fitgauge::connections

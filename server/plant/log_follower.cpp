@@ -1,0 +1,384 @@
+#include "plant/log_follower.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <future>
+#include <iterator>
+
+#include "base/guarded.hpp"
+
+namespace fitgauge::connections {
+namespace {
+
+constexpr std::size_t kPage = 256;
+constexpr std::chrono::milliseconds kBetweenSaves{1000};
+constexpr std::chrono::milliseconds kLongestSleep{30'000};
+constexpr std::chrono::seconds kFirstPause{1};
+constexpr std::int64_t kMostWait = 3600;
+constexpr std::string_view kRecorded = "measurement.recorded";
+constexpr std::array<std::string_view, 3> kStoredEvents = {"run.finished", "table.changed",
+                                                           "note.added"};
+
+struct Page {
+  std::vector<Outgoing> measurements{};
+  app::ListPage end{};
+};
+
+Result<Page> read_page(app::MeasurementService& service, const LogFilter& filter,
+                       std::int64_t after, std::size_t limit) {
+  std::promise<Result<app::ListPage>> promise;
+  auto read = promise.get_future();
+  Page page;
+  service.list(
+      filter.query, after, limit,
+      [&](const app::Measurement& measurement) {
+        if (filter.takes(measurement))
+          page.measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
+      },
+      [&promise](Result<app::ListPage> end) { promise.set_value(std::move(end)); });
+  auto end = read.get();
+  if (!end) return end.error();
+  page.end = *end;
+  return page;
+}
+
+Result<app::EventService::StoredPage> read_event_page(app::EventService& service,
+                                                      std::int64_t after, std::size_t limit) {
+  std::promise<Result<app::EventService::StoredPage>> promise;
+  auto read = promise.get_future();
+  service.read_stored(after, limit, [&promise](Result<app::EventService::StoredPage> page) {
+    promise.set_value(std::move(page));
+  });
+  return read.get();
+}
+
+/// How many measurements the log has.
+Result<std::int64_t> end_of_log(app::MeasurementService& service) {
+  const auto page = read_page(service, {}, 0, 1);
+  if (!page) return page.error();
+  return page->end.as_of;
+}
+
+}  // namespace
+
+void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerOptions& options) {
+  options.filter = read_filter(fields, errors);
+  const auto start = fields.optional_text("start");
+  options.from_beginning = start == "beginning";
+  if (start && *start != "now" && *start != "beginning") {
+    fields.report(ErrorCode::FieldInvalid, "start", "start is now or beginning");
+  }
+  options.longest_wait = std::chrono::seconds(
+      fields.integer_or("longest_wait_s", options.longest_wait.count(), 1, kMostWait));
+}
+
+std::string event_text(const OutgoingEvent& event, std::string_view origin) {
+  return fmt::format("e{}-{}", event.id, origin);
+}
+
+void read_events(api::FieldReader& fields, FollowerOptions& options) {
+  if (!fields.has("events")) return;
+  const JsonValue* const list = fields.array("events");
+  if (list == nullptr) return;
+  bool has_measurements = false;
+  for (const JsonValue& item : list->items) {
+    const std::string type = item.is(JsonValue::Kind::String) ? item.text : std::string();
+    if (type == kRecorded) {
+      has_measurements = true;
+    } else if (std::find(kStoredEvents.begin(), kStoredEvents.end(), type) != kStoredEvents.end()) {
+      options.events.insert(type);
+    } else {
+      return fields.report(
+          ErrorCode::FieldInvalid, "events",
+          fmt::format("events is a list of {}, {}", kRecorded, fmt::join(kStoredEvents, ", ")));
+    }
+  }
+  if (list->items.empty()) {
+    fields.report(ErrorCode::FieldInvalid, "events", "an empty list lets nothing through");
+  }
+  if (!has_measurements) options.filter.verdicts = {};
+}
+
+Result<Progress> begin_progress(const FollowerOptions& options, app::Application& app) {
+  auto loaded = load_progress(app.documents(), options.name);
+  if (!loaded) return loaded.error();
+  const bool is_new = !*loaded;
+  Progress progress = is_new ? Progress() : **std::move(loaded);
+  const bool begins_events = !options.events.empty() && !progress.event;
+  // One that asks for none, and later for some again, begins anew.
+  if (options.events.empty()) progress.event.reset();
+  if (!is_new && !begins_events) return progress;
+  if (is_new && !options.from_beginning) {
+    const auto end = end_of_log(app.measurements());
+    if (!end) return end.error();
+    progress.position = *end;
+  }
+  if (begins_events) {
+    const auto events = read_event_page(app.events(), 0, 0);
+    if (!events) return events.error();
+    progress.event = is_new && options.from_beginning ? 0 : events->newest;
+  }
+  const auto saved = save_progress(app.documents(), options.name, progress);
+  if (!saved) return saved.error();
+  return progress;
+}
+
+/// Rung by commits; outlives the follower as long as a call is under way.
+class LogFollower::Bell final : public app::CommitListener {
+ public:
+  void committed() override { ring(); }
+  void ring() {
+    const std::lock_guard lock(mutex_);
+    rung_ = true;
+    wake_.notify_all();
+  }
+  void wait(const std::stop_token& stop, std::chrono::milliseconds most, bool until_rung) {
+    std::unique_lock lock(mutex_);
+    wake_.wait_for(lock, stop, most, [&] { return until_rung && rung_; });
+    if (until_rung) rung_ = false;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool rung_ = false;
+};
+
+LogFollower::LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet,
+                         const Surroundings& around)
+    : options_(std::move(options)),
+      outlet_(std::move(outlet)),
+      around_(around),
+      bell_(std::make_shared<Bell>()) {
+  state_.is_outgoing = true;
+  outlet_->wake_by([bell = bell_] { bell->ring(); });
+  around_.app.events().add(bell_);
+  bool has_begun = begin();
+  thread_ =
+      Thread("connection", [this, has_begun](const auto& stop) mutable { run(has_begun, stop); });
+}
+
+LogFollower::~LogFollower() {
+  around_.app.events().remove(bell_);
+  thread_.stop();
+}
+
+void LogFollower::request_stop() { thread_.request_stop(); }
+
+app::ConnectionState LogFollower::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+void LogFollower::run(bool& has_begun, const std::stop_token& stop) {
+  while (!has_begun && !stop.stop_requested()) {
+    wait(stop, kBetweenSaves);
+    has_begun = begin();
+  }
+  while (!stop.stop_requested() && !state().is_stopped) {
+    guarded("connection", [&] {
+      // Events first, so that what was stored before them is among the measurements.
+      auto has_read = read_events();
+      if (has_read) has_read = read();
+      if (!has_read || cannot_read_) {
+        finish_attempt(has_read ? std::nullopt : std::optional(has_read.error().message));
+      }
+      cannot_read_ = !has_read;
+      if (pause_.count() == 0) deliver(stop);
+    });
+    const bool is_saved = save(false);
+    show();
+    if (pause_.count() > 0) {
+      bell_->wait(stop, pause_, false);
+      guarded("connection", [&] { deliver(stop); });
+    } else if (ripe() == 0 && !has_events()) {
+      const bool is_idle = pending_.empty() && is_saved && !cannot_read_;
+      wait(stop, is_idle ? kLongestSleep : kBetweenSaves);
+    }
+  }
+  save(true);
+}
+
+void LogFollower::wait(const std::stop_token& stop, std::chrono::milliseconds most) {
+  bell_->wait(stop, most, true);
+}
+
+bool LogFollower::begin() {
+  auto begun = begin_progress(options_, around_.app);
+  if (!begun) {
+    finish_attempt(begun.error().message);
+    return false;
+  }
+  progress_ = *std::move(begun);
+  read_to_ = progress_.position;
+  show();
+  return true;
+}
+
+Result<void> LogFollower::read_events() {
+  if (options_.events.empty() || !pending_events_.empty()) return {};
+  auto page = read_event_page(around_.app.events(), *progress_.event, kPage);
+  if (!page) return page.error();
+  if (page->gap) {
+    around_.tell("connection_events_lost",
+                 fmt::format("{}: event_retention keeps too few events for how long the other side "
+                             "was away",
+                             options_.name));
+  }
+  if (page->events.empty()) return {};
+  const std::int64_t last = page->events.back().id;
+  std::erase_if(page->events, [this](const OutgoingEvent& event) {
+    return options_.events.find(event.type) == options_.events.end();
+  });
+  pending_events_ = std::move(page->events);
+  // What is not asked for is dealt with.
+  if (pending_events_.empty()) {
+    progress_.event = last;
+    is_dirty_ = true;
+  }
+  return {};
+}
+
+Result<void> LogFollower::read() {
+  app::MeasurementService& log = around_.app.measurements();
+  if (pending_.size() >= kPage) {
+    const auto end = end_of_log(log);
+    if (!end) return end.error();
+    take_log_end(*end);
+    return {};
+  }
+  auto page = read_page(log, options_.filter, read_to_, kPage);
+  if (!page) return page.error();
+  std::move(page->measurements.begin(), page->measurements.end(), std::back_inserter(pending_));
+  take_log_end(page->end.as_of);
+  read_to_ = std::max(read_to_, page->end.next.value_or(page->end.as_of));
+  // What the filter lets pass by is dealt with.
+  if (pending_.empty() && progress_.position < read_to_) {
+    progress_.position = read_to_;
+    is_dirty_ = true;
+  }
+  return {};
+}
+
+void LogFollower::take_log_end(std::int64_t end) {
+  log_end_ = end;
+  if (events_behind_ == 0 && !pending_events_.empty()) events_behind_ = end;
+}
+
+bool LogFollower::has_events() const {
+  return !pending_events_.empty() && pending_.empty() && read_to_ >= events_behind_;
+}
+
+void LogFollower::deliver_events(const std::stop_token& stop) {
+  const Delivery delivery = outlet_->deliver_events(pending_events_, stop);
+  if (delivery.dealt_with > 0) progress_.event = pending_events_[delivery.dealt_with - 1].id;
+  pending_events_.erase(pending_events_.begin(),
+                        pending_events_.begin() + static_cast<std::ptrdiff_t>(delivery.dealt_with));
+  if (pending_events_.empty()) events_behind_ = 0;
+  if (!stop.stop_requested() || delivery.dealt_with > 0) take(delivery, 0);
+}
+
+std::size_t LogFollower::ripe() const {
+  if (pending_.empty()) return 0;
+  const std::int64_t age =
+      around_.clock.now().nanoseconds - (*pending_.front())->received_at.nanoseconds;
+  // After a kill what was decided before it goes out first, when all of it is read.
+  if (progress_.planned > progress_.position) {
+    const bool is_read = read_to_ >= progress_.planned || pending_.size() >= kPage;
+    return is_read ? pending_.size() : 0;
+  }
+  const bool is_ripe = pending_.size() >= kPage || std::chrono::nanoseconds(age) >= options_.gather;
+  return is_ripe ? pending_.size() : 0;
+}
+
+std::size_t LogFollower::planned(std::size_t count) {
+  if (!options_.plans || count == 0) return count;
+  if (progress_.planned <= progress_.position) {
+    count = std::min(count, kPage);
+    progress_.planned = (*pending_[count - 1])->row;
+    is_dirty_ = true;
+    if (!save(true)) {
+      progress_.planned = 0;
+      return 0;
+    }
+  }
+  return static_cast<std::size_t>(std::count_if(
+      pending_.begin(), pending_.end(),
+      [this](const Outgoing& outgoing) { return (*outgoing)->row <= progress_.planned; }));
+}
+
+void LogFollower::deliver(const std::stop_token& stop) {
+  if (stop.stop_requested()) return;
+  const std::size_t count = planned(ripe());
+  if (count == 0) {
+    if (has_events()) return deliver_events(stop);
+    const auto attempt = outlet_->idle(stop);
+    if (attempt && !stop.stop_requested()) take(*attempt, 0);
+    return;
+  }
+  const Delivery delivery = outlet_->deliver(std::span(pending_).first(count), stop);
+  if (delivery.dealt_with > 0) progress_.position = (*pending_[delivery.dealt_with - 1])->row;
+  pending_.erase(pending_.begin(),
+                 pending_.begin() + static_cast<std::ptrdiff_t>(delivery.dealt_with));
+  if (pending_.empty()) progress_.position = read_to_;
+  if (!stop.stop_requested() || delivery.dealt_with > 0) {
+    take(delivery, delivery.dealt_with - delivery.refused.size());
+  }
+}
+
+void LogFollower::take(const Delivery& delivery, std::size_t measurements) {
+  is_dirty_ = is_dirty_ || delivery.dealt_with > 0;
+  for (const app::DeadLetter& letter : delivery.refused) {
+    progress_.refuse(letter);
+    around_.tell("connection_refused",
+                 fmt::format("{}: {}: {}", options_.name, letter.measurement, letter.reason));
+  }
+  change([&](app::ConnectionState& state) {
+    state.measurements += measurements;
+    state.files += delivery.files;
+    state.bytes += delivery.bytes;
+    state.is_stopped = delivery.wants_no_more;
+  });
+  finish_attempt(delivery.failure);
+  if (!delivery.failure) {
+    pause_ = std::chrono::seconds(0);
+  } else {
+    const bool is_first = pause_.count() == 0 || delivery.dealt_with > 0;
+    pause_ = delivery.wait.value_or(is_first ? kFirstPause : 2 * pause_);
+    pause_ = std::clamp(pause_, kFirstPause, options_.longest_wait);
+  }
+  if (!delivery.refused.empty() || options_.plans) save(true);
+}
+
+void LogFollower::finish_attempt(const std::optional<std::string>& why) {
+  auto turn = app::AttemptTurn::None;
+  change([&](app::ConnectionState& state) {
+    turn = app::note_attempt(state, around_.clock.now(), why);
+  });
+  around_.tell_turn(turn, options_.name, why);
+}
+
+bool LogFollower::save(bool at_once) {
+  const Time now = std::chrono::steady_clock::now();
+  if (!is_dirty_) return true;
+  if (!at_once && now < saved_at_ + kBetweenSaves) return false;
+  saved_at_ = now;
+  // One that fails is made up for by the next.
+  is_dirty_ = !save_progress(around_.app.documents(), options_.name, progress_).has_value();
+  return !is_dirty_;
+}
+
+void LogFollower::show() {
+  change([&](app::ConnectionState& state) {
+    state.position = progress_.position;
+    state.behind = std::max<std::int64_t>(log_end_ - progress_.position, 0);
+    state.waits_since =
+        pending_.empty() ? std::nullopt : std::optional((*pending_.front())->received_at);
+    state.dead_letters = progress_.dead_letters;
+    state.refused = progress_.refused;
+  });
+}
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,158 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/thread.hpp"
+#include "plant/log_filter.hpp"
+#include "plant/progress.hpp"
+#include "plant/worker.hpp"
+#include "record/measurement.hpp"
+#include "service/events/event_service.hpp"
+
+namespace fitgauge::connections {
+
+/// A measurement on its way out.
+using Outgoing = std::unique_ptr<const app::KeptMeasurement>;
+
+/// An event that is no measurement, on its way out.
+using OutgoingEvent = app::EventService::Stored;
+
+/// The id of such an event on the outside. @param origin of the data folder
+std::string event_text(const OutgoingEvent& event, std::string_view origin);
+
+/// How far a delivery has come.
+struct Delivery {
+  std::size_t dealt_with = 0;              ///< of what was to go, from the first on
+  std::vector<app::DeadLetter> refused{};  ///< among these: for good
+  std::uint64_t files = 0;
+  std::uint64_t bytes = 0;
+  std::optional<std::string> failure{};        ///< why it went no further
+  std::optional<std::chrono::seconds> wait{};  ///< before the next attempt, as the other side asked
+  bool wants_no_more = false;                  ///< for ever
+};
+
+/// The other side of an outgoing connection. Used by one thread.
+class Outlet {
+ public:
+  Outlet() = default;
+  Outlet(const Outlet&) = delete;
+  Outlet& operator=(const Outlet&) = delete;
+  virtual ~Outlet() = default;
+
+  /// Delivers in order as much as it will, at least one or a failure; waits, and ends soon after a
+  /// stop. What is not dealt with comes again.
+  virtual Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) = 0;
+
+  /// The same of events, for outlets whose options ask for some.
+  virtual Delivery deliver_events(std::span<const OutgoingEvent> events, const std::stop_token&) {
+    return {.dealt_with = events.size()};
+  }
+
+  /// When there is nothing to go: at least every 30 s, and soon after `wake`. For what stays
+  /// connected. @returns an attempt, or none where there was nothing to do.
+  virtual std::optional<Delivery> idle(const std::stop_token&) { return std::nullopt; }
+  /// Before anything else. @param wake may be called on any thread, as long as the outlet is there.
+  virtual void wake_by(std::function<void()>) {}
+};
+
+/// What every outgoing connection has.
+struct FollowerOptions {
+  std::string name{};
+  LogFilter filter{};
+  std::set<std::string, std::less<>> events{};  ///< that go out beside measurements
+  bool from_beginning = false;                  ///< of the log; else from now on
+  std::chrono::seconds longest_wait{300};       ///< between two attempts in vain
+  std::chrono::seconds gather{0};               ///< what is younger waits for more
+  /// What goes out together is decided before, so that after a kill the same goes out together.
+  bool plans = false;
+};
+
+/// Reads `filter`, `start` (now or beginning) and `longest_wait_s`. What is wrong goes to `errors`.
+void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerOptions& options);
+
+/// Reads `events`, the types of what goes out: measurement.recorded, run.finished, table.changed
+/// and note.added; the first alone when absent. To be called behind read_follower().
+void read_events(api::FieldReader& fields, FollowerOptions& options);
+
+/// Decides where a connection that has not begun begins, so that it misses nothing from now on.
+/// Waits. @errors those of storage.
+Result<Progress> begin_progress(const FollowerOptions& options, app::Application& app);
+
+/// Follows the log of measurements and gives what passes the filter to an outlet, in order and at
+/// least once. How far it came is in the database at most a second later. An attempt in vain is
+/// repeated after 1 s, 2 s, 4 s and so on. Never waited for by a writer.
+class LogFollower final : public Worker {
+ public:
+  /// Waits for the storage, which says where it begins. @param around outlives it.
+  LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet, const Surroundings& around);
+  ~LogFollower() override;
+
+  void request_stop() override;
+  app::ConnectionState state() const override;
+
+ private:
+  using Time = std::chrono::steady_clock::time_point;
+  class Bell;
+
+  void run(bool& has_begun, const std::stop_token& stop);
+  bool begin();
+  /// Reads what comes next, if there is room. @errors those of storage.
+  Result<void> read();
+  /// Reads the events that come next, if there is room.
+  Result<void> read_events();
+  void take_log_end(std::int64_t end);
+  void deliver(const std::stop_token& stop);
+  /// Whether events go out now: when all measurements that were stored before them are dealt with.
+  bool has_events() const;
+  void deliver_events(const std::stop_token& stop);
+  /// How many of those that are pending go out now.
+  std::size_t ripe() const;
+  /// @returns how many go out together; none while that cannot be kept.
+  std::size_t planned(std::size_t count);
+  /// @param measurements of it that went out
+  void take(const Delivery& delivery, std::size_t measurements);
+  void finish_attempt(const std::optional<std::string>& why);
+  /// Unless it was saved less than a second ago. @returns whether nothing is left to save.
+  bool save(bool at_once);
+  void show();
+  void wait(const std::stop_token& stop, std::chrono::milliseconds most);
+
+  template <class Change>
+  void change(const Change& what) {
+    const std::lock_guard lock(mutex_);
+    what(state_);
+  }
+
+  const FollowerOptions options_;
+  const std::unique_ptr<Outlet> outlet_;
+  const Surroundings& around_;
+  const std::shared_ptr<Bell> bell_;
+
+  // Of the thread.
+  Progress progress_;
+  std::int64_t read_to_ = 0;  ///< all up to here is pending or dealt with
+  std::int64_t log_end_ = 0;  ///< of the log, when it was read last
+  std::vector<Outgoing> pending_;
+  std::vector<OutgoingEvent> pending_events_;
+  std::int64_t events_behind_ = 0;  ///< the measurement they come behind; 0: none is pending
+  std::chrono::seconds pause_{0};   ///< before the next attempt; 0: the last went well
+  bool is_dirty_ = false;
+  bool cannot_read_ = false;
+  Time saved_at_{};
+
+  mutable std::mutex mutex_;
+  app::ConnectionState state_;
+  Thread thread_;  // last: it uses all above
+};
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,270 @@
+#include "plant/lsv2/collected_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <map>
+#include <optional>
+
+#include "base/digest.hpp"
+#include "base/text.hpp"
+#include "formats/measuring_log/log_words.hpp"
+#include "formats/measuring_log/measuring_log.hpp"
+#include "tables/iso286/designation.hpp"
+
+namespace fitgauge::collector {
+namespace {
+
+using app::Measurement;
+using log_reader::LocalTime;
+using log_reader::LogValue;
+using log_reader::MeasuringLog;
+using log_reader::PatternResult;
+using log_reader::Role;
+
+/// As the fields of a measurement allow.
+constexpr std::size_t kLongestText = 200;
+constexpr std::size_t kLongestComment = 2000;
+
+/// A control's clock shows the time of the zone this service is in.
+Timestamp instant(const LocalTime& local) {
+  std::tm time{};
+  time.tm_year = local.year - 1900;
+  time.tm_mon = local.month - 1;
+  time.tm_mday = local.day;
+  time.tm_hour = local.hour;
+  time.tm_min = local.minute;
+  time.tm_sec = local.second;
+  time.tm_isdst = -1;
+  return Timestamp{std::int64_t{std::mktime(&time)} * kNanosecondsPerSecond};
+}
+
+/// A text that lives with the log, cut to what a field takes.
+std::string_view kept(CollectedLog& log, std::string_view text, std::size_t most = kLongestText) {
+  return log.texts.emplace_back(first_characters(text, most));
+}
+
+/// What every measurement of a file says.
+Measurement begun(CollectedLog& log, const Origin& origin) {
+  Measurement measurement;
+  measurement.received_at = origin.now;
+  measurement.measured_at = origin.now;
+  measurement.texts.machine = kept(log, origin.machine.machine);
+  measurement.texts.comment = kept(log, origin.path, kLongestComment);
+  measurement.caller = kept(log, origin.machine.name);
+  return measurement;
+}
+
+/// An angle or a figure of an axis has no place in a measurement.
+bool is_length(const LogValue& value) { return value.is_length && value.nominal.has_value(); }
+
+Measurement measurement_of(CollectedLog& log, const MeasuringLog& read, const LogValue& value,
+                           const Origin& origin) {
+  Measurement measurement = begun(log, origin);
+  if (read.time) measurement.measured_at = instant(*read.time);
+  measurement.cycle = read.cycle;
+  measurement.texts.characteristic = kept(log, value.name);
+  if (!read.program.empty()) measurement.texts.operation = kept(log, read.program);
+  app::CycleSize size{
+      .feature = value.role == Role::Shaft ? iso286::Feature::Shaft : iso286::Feature::Hole,
+      .is_position = value.role == Role::Position,
+      .nominal = *value.nominal,
+      .measured = value.measured};
+  if (value.upper) size.limits = {.upper = *value.upper, .lower = *value.lower};
+  judge_size(measurement, size);
+  return measurement;
+}
+
+std::shared_ptr<CollectedLog> collected(const MeasuringLog& read, const Origin& origin) {
+  auto log = std::make_shared<CollectedLog>();
+  log->text = read.text;
+  log->has_time = read.time.has_value();
+  const bool judges = std::any_of(read.values.begin(), read.values.end(),
+                                  [](const LogValue& value) { return value.upper.has_value(); });
+  for (const LogValue& value : read.values) {
+    if (judges ? !value.upper.has_value() : !log->measurements.empty()) continue;
+    if (is_length(value)) {
+      log->measurements.push_back(measurement_of(*log, read, value, origin));
+    } else {
+      ++log->values_kept;
+    }
+  }
+  return log;
+}
+
+/// The fields of one result, each asked for by its name.
+class Fields {
+ public:
+  explicit Fields(const PatternResult& result) : result_(result) {}
+
+  bool has(std::string_view name) const { return result_.fields.contains(name); }
+  std::string_view text(std::string_view name) const {
+    const auto found = result_.fields.find(name);
+    return found == result_.fields.end() ? std::string_view() : found->second;
+  }
+  Result<Length> length(std::string_view name) const {
+    return named(name, parse_length_mm(text(name), kSyntax));
+  }
+  Result<Length> micrometres(std::string_view name) const {
+    return named(name, parse_length_um(text(name), kSyntax));
+  }
+
+ private:
+  static constexpr LengthSyntax kSyntax{
+      .decimal_comma = true, .exponent = false, .round_to_nearest = true};
+
+  Result<Length> named(std::string_view name, Result<Length> read) const {
+    if (read || has(name)) return read;
+    return Error{ErrorCode::FieldMissing, fmt::format("the pattern has no {}", name)};
+  }
+
+  const PatternResult& result_;
+};
+
+Error field_error(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
+
+/// The limits of a class of the tables.
+Result<void> judge_by_class(Measurement& measurement, CollectedLog& log, const Fields& fields,
+                            const Origin& origin) {
+  const auto tables = origin.tables.tables();
+  if (!tables) return tables.error();
+  log.tables = *tables;
+  const auto nominal = fields.length("nominal_mm");
+  if (!nominal) return nominal.error();
+  const auto size = iso286::NominalSize::make(*nominal);
+  if (!size) return size.error();
+  const auto limits =
+      log.tables->limits_of_size(*size, std::string(fields.text("tolerance_class")));
+  if (!limits) return limits.error();
+  apply_limits(measurement, *limits, *log.tables);
+  judge(measurement);
+  return {};
+}
+
+/// `upper_um` and `lower_um` beside the nominal size, or `upper_mm` and `lower_mm` themselves.
+Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length nominal) {
+  for (const bool as_deviation : {true, false}) {
+    const char* const names[] = {as_deviation ? "upper_um" : "upper_mm",
+                                 as_deviation ? "lower_um" : "lower_mm"};
+    if (!fields.has(names[0]) && !fields.has(names[1])) continue;
+    const auto upper = as_deviation ? fields.micrometres(names[0]) : fields.length(names[0]);
+    if (!upper) return upper.error();
+    const auto lower = as_deviation ? fields.micrometres(names[1]) : fields.length(names[1]);
+    if (!lower) return lower.error();
+    const Length base = as_deviation ? nominal : Length();
+    if (*upper < *lower) return field_error("the upper limit is below the lower one");
+    return std::optional(app::SizeLimits{.upper = base + *upper, .lower = base + *lower});
+  }
+  return std::optional<app::SizeLimits>();
+}
+
+Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {
+  app::CycleSize size{.nominal = measurement.measured, .measured = measurement.measured};
+  if (fields.has("nominal_mm")) {
+    const auto nominal = fields.length("nominal_mm");
+    if (!nominal) return nominal.error();
+    size.nominal = *nominal;
+  }
+  const auto limits = drawn_limits(fields, size.nominal);
+  if (!limits) return limits.error();
+  size.limits = *limits;
+  const std::string_view feature = fields.text("feature");
+  if (!feature.empty() && feature != "hole" && feature != "shaft") {
+    return field_error(fmt::format("feature is hole or shaft, not '{}'", feature));
+  }
+  if (feature == "shaft") size.feature = iso286::Feature::Shaft;
+  judge_size(measurement, size);
+  return {};
+}
+
+Result<void> take_time(Measurement& measurement, CollectedLog& log, const Fields& fields) {
+  log.has_time = fields.has("date") && fields.has("time");
+  if (!log.has_time) return {};
+  LocalTime local;
+  if (!log_reader::read_date(fields.text("date"), local) ||
+      !log_reader::read_time(fields.text("time"), local)) {
+    return field_error(fmt::format("'{} {}' is no date and time: DD-MM-YYYY and H:MM:SS",
+                                   fields.text("date"), fields.text("time")));
+  }
+  measurement.measured_at = instant(local);
+  return {};
+}
+
+Result<std::shared_ptr<CollectedLog>> collected(const PatternResult& result, const Origin& origin) {
+  auto log = std::make_shared<CollectedLog>();
+  log->text = result.text;
+  const Fields fields(result);
+  Measurement measurement = begun(*log, origin);
+  const auto measured = fields.length("measured_mm");
+  if (!measured) return measured.error();
+  if (*measured <= Length()) return field_error("a measured size is above 0");
+  measurement.measured = *measured;
+  if (const auto taken = take_time(measurement, *log, fields); !taken) return taken.error();
+  for (const auto& [name, text] : app::kMeasurementTexts) {
+    if (!fields.has(name) || fields.text(name).empty()) continue;
+    measurement.texts.*text =
+        kept(*log, fields.text(name), name == "comment" ? kLongestComment : kLongestText);
+  }
+  const auto judged = fields.has("tolerance_class")
+                          ? judge_by_class(measurement, *log, fields, origin)
+                          : judge_by_drawing(measurement, fields);
+  if (!judged) return judged.error();
+  log->measurements.push_back(measurement);
+  return log;
+}
+
+std::string told(const log_reader::Unread& unread) {
+  return unread.line == 0 ? unread.why : fmt::format("line {}: {}", unread.line, unread.why);
+}
+
+void collect_by(const log_reader::PatternReading& reading, const Origin& origin, Collected& into) {
+  for (const auto& unread : reading.unread) into.unread.push_back(told(unread));
+  for (const PatternResult& result : reading.results) {
+    auto log = collected(result, origin);
+    if (log) {
+      into.logs.push_back(*std::move(log));
+    } else {
+      into.unread.push_back(
+          fmt::format("result {}: {}", into.logs.size() + 1, log.error().message));
+    }
+  }
+}
+
+/// A log with a time is told apart from its equals by their order. What has no time is told apart
+/// by all that stands before it: a file that is written anew has new results, one that grows has
+/// not.
+void number(std::vector<std::shared_ptr<CollectedLog>>& logs, const Origin& origin) {
+  std::map<Digest, std::size_t> seen;
+  std::string before;
+  for (const auto& log : logs) {
+    const std::size_t ordinal = seen[sha256(log->text)]++;
+    before = to_hex(sha256(before + log->text));
+    const std::string place = log->has_time ? std::to_string(ordinal) : before;
+    log->key = to_hex(sha256(
+        fmt::format("{}:{}{}:{}{}:{}{}", origin.machine.machine.size(), origin.machine.machine,
+                    origin.path.size(), ascii_lower(origin.path), place.size(), place, log->text)));
+  }
+}
+
+}  // namespace
+
+Collected collect(const Origin& origin, const std::string& bytes) {
+  Collected found;
+  const log_reader::Reading reading = log_reader::read_logs(bytes);
+  for (const MeasuringLog& log : reading.logs) found.logs.push_back(collected(log, origin));
+  for (const auto& unread : reading.unread) found.unread.push_back(told(unread));
+  if (reading.logs.empty() && !reading.is_unfinished) {
+    for (const NamedPattern& named : origin.machine.patterns) {
+      const auto by_pattern = named.pattern.read(bytes);
+      if (by_pattern.results.empty() && !by_pattern.is_unfinished) continue;
+      found.unread.clear();
+      collect_by(by_pattern, origin, found);
+      break;
+    }
+  }
+  number(found.logs, origin);
+  return found;
+}
+
+}  // namespace fitgauge::collector

@@ -1,0 +1,244 @@
+#include "plant/lsv2/collector.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include "base/digest.hpp"
+#include "base/guarded.hpp"
+#include "base/text.hpp"
+#include "base/thread.hpp"
+#include "plant/lsv2/intake.hpp"
+#include "plant/lsv2/link/link_client.hpp"
+
+namespace fitgauge::collector {
+namespace {
+
+using control_link::DirectoryEntry;
+using control_link::LinkClient;
+using control_link::LinkFailure;
+
+bool is_directory(const DirectoryEntry& entry) {
+  return (entry.flags & (control_link::FileInformation::kDirectory |
+                         control_link::FileInformation::kDirectoryOfItnc)) != 0;
+}
+
+/// A connection that may list and read.
+control_link::LinkResult<LinkClient> connect(const MachineOptions& machine,
+                                             const std::stop_token& stop) {
+  auto control = LinkClient::connect({.address = machine.address, .stop = stop});
+  if (!control) return control;
+  for (const char* login : {"INSPECT", "FILE"}) {
+    if (const auto done = control->login(login); !done) return done.error();
+    // Between them, since the buffer is among what INSPECT may ask.
+    if (login == std::string_view("INSPECT")) {
+      if (const auto agreed = control->agree_buffer(); !agreed) return agreed.error();
+    }
+  }
+  return control;
+}
+
+/// Each once.
+std::vector<std::string> folders_of(const MachineOptions& machine) {
+  std::vector<std::string> folders;
+  for (const WatchedPath& path : machine.paths) {
+    if (std::find(folders.begin(), folders.end(), path.folder) == folders.end())
+      folders.push_back(path.folder);
+  }
+  return folders;
+}
+
+}  // namespace
+
+class Collector::Machine {
+ public:
+  Machine(MachineOptions options, app::Application& app, const Clock& clock,
+          const CollectorHooks& hooks)
+      : options_(std::move(options)), intake_(app, clock), clock_(clock), hooks_(hooks) {
+    thread_ = Thread("a collector", [this](const std::stop_token& stop) { run(stop); });
+  }
+
+  void stop() { thread_.request_stop(); }
+
+  app::ConnectionState state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+  }
+
+ private:
+  /// As a file looked when it was last fetched.
+  struct Seen {
+    std::uint32_t bytes = 0;
+    std::uint32_t unix_time = 0;
+    Digest digest{};
+    /// Fetched twice alike: a control's time has whole seconds, and within one a file can change
+    /// again.
+    bool is_settled = false;
+  };
+
+  void run(const std::stop_token& stop);
+  /// One connection: everything that has changed. @returns why it failed.
+  std::optional<std::string> round(const std::stop_token& stop);
+  std::optional<std::string> read_folder(LinkClient& control, const std::string& folder);
+  std::optional<std::string> fetch(LinkClient& control, const std::string& path,
+                                   const DirectoryEntry& entry);
+  /// After anything but a refusal the talk is over.
+  std::string failed(const std::string& path, const LinkFailure& failure);
+  void finish_round(const std::optional<std::string>& why);
+
+  template <class Change>
+  void change(const Change& what) {
+    const std::lock_guard lock(mutex_);
+    what(state_);
+  }
+
+  const MachineOptions options_;
+  Intake intake_;
+  const Clock& clock_;
+  const CollectorHooks hooks_;
+  std::map<std::string, Seen> seen_;  ///< by path in lower case; of the thread alone
+  std::size_t round_bytes_ = 0;
+  bool is_away_ = false;  ///< the machine is not reached, or its connection broke
+  mutable std::mutex mutex_;
+  app::ConnectionState state_;
+  std::condition_variable_any woken_;
+  std::mutex waiting_;
+  Thread thread_;  // last: it uses all above
+};
+
+void Collector::Machine::run(const std::stop_token& stop) {
+  std::chrono::seconds wait = options_.interval;
+  while (!stop.stop_requested()) {
+    std::optional<std::string> why = "a defect of fitgauge ended the attempt";
+    guarded("collector", [&] { why = round(stop); });
+    if (stop.stop_requested()) return;
+    finish_round(why);
+    const auto most = std::max(options_.longest_wait, options_.interval);
+    wait = is_away_ ? std::min(2 * wait, most) : options_.interval;
+    std::unique_lock lock(waiting_);
+    woken_.wait_for(lock, stop, wait, [] { return false; });
+  }
+}
+
+void Collector::Machine::finish_round(const std::optional<std::string>& why) {
+  auto turn = app::AttemptTurn::None;
+  change([&](app::ConnectionState& state) { turn = app::note_attempt(state, clock_.now(), why); });
+  if (turn == app::AttemptTurn::Failing && hooks_.failed) hooks_.failed(options_.name, *why);
+  if (turn == app::AttemptTurn::Recovered && hooks_.recovered) hooks_.recovered(options_.name);
+}
+
+std::optional<std::string> Collector::Machine::round(const std::stop_token& stop) {
+  is_away_ = true;
+  auto control = connect(options_, stop);
+  if (!control) return control.error().message;
+  is_away_ = false;
+  round_bytes_ = 0;
+  std::optional<std::string> first;
+  for (const std::string& folder : folders_of(options_)) {
+    auto why = read_folder(*control, folder);
+    if (why && !first) first = std::move(why);
+    if (is_away_) break;
+  }
+  return first;
+}
+
+/// A folder or a file that cannot be read holds up no other, as long as the connection stands.
+std::optional<std::string> Collector::Machine::read_folder(LinkClient& control,
+                                                           const std::string& folder) {
+  auto entries = control.list(folder, options_.most_entries);
+  if (!entries) return failed(folder, entries.error());
+  std::optional<std::string> first;
+  for (const DirectoryEntry& entry : *entries) {
+    const bool is_watched =
+        !is_directory(entry) &&
+        std::any_of(options_.paths.begin(), options_.paths.end(), [&](const WatchedPath& watched) {
+          return watched.folder == folder && matches(watched, entry.name);
+        });
+    if (!is_watched) continue;
+    if (auto why = fetch(control, folder + entry.name, entry); why && !first)
+      first = std::move(why);
+    if (is_away_) break;
+  }
+  return first;
+}
+
+std::string Collector::Machine::failed(const std::string& path, const LinkFailure& failure) {
+  is_away_ = failure.kind != LinkFailure::Kind::Refused;
+  return path + ": " + failure.message;
+}
+
+std::optional<std::string> Collector::Machine::fetch(LinkClient& control, const std::string& path,
+                                                     const DirectoryEntry& entry) {
+  const std::string key = ascii_lower(path);
+  const auto known = seen_.find(key);
+  const bool is_known = known != seen_.end() && known->second.bytes == entry.bytes &&
+                        known->second.unix_time == entry.unix_time;
+  if (is_known && known->second.is_settled) return std::nullopt;
+  if (entry.bytes > options_.most_file_bytes) {
+    return fmt::format("{}: is longer than {} bytes: move it away on the control", path,
+                       options_.most_file_bytes);
+  }
+  if (round_bytes_ + entry.bytes > options_.most_round_bytes) return std::nullopt;
+  const auto bytes =
+      control.download(path, control_link::Transfer::Binary, options_.most_file_bytes);
+  if (!bytes) {
+    // Deleted since it was listed.
+    if (bytes.error().is_refusal(control_link::ControlError::NoFile)) return std::nullopt;
+    return failed(path, bytes.error());
+  }
+  round_bytes_ += bytes->size();
+  const Digest digest = sha256(*bytes);
+  if (known != seen_.end() && known->second.digest == digest) {
+    known->second = {entry.bytes, entry.unix_time, digest, is_known};
+    return std::nullopt;
+  }
+  const auto taken = intake_.take(options_, path, *bytes);
+  if (!taken) return path + ": " + taken.error().message;
+  seen_[key] = {entry.bytes, entry.unix_time, digest, false};
+  change([&](app::ConnectionState& state) {
+    ++state.files;
+    state.bytes += bytes->size();
+    state.logs += taken->logs;
+    state.measurements += taken->measurements;
+    state.values_kept += taken->values_kept;
+    state.unreadable += taken->unread.size();
+  });
+  if (!taken->unread.empty() && hooks_.unread) {
+    hooks_.unread(options_.name, path, taken->unread.front());
+  }
+  return std::nullopt;
+}
+
+Collector::Collector(MachineOptions machine, app::Application& app, const Clock& clock,
+                     CollectorHooks hooks)
+    : machine_(std::make_unique<Machine>(std::move(machine), app, clock, hooks)) {}
+
+Collector::~Collector() = default;
+
+void Collector::request_stop() { machine_->stop(); }
+
+app::ConnectionState Collector::state() const { return machine_->state(); }
+
+app::ConnectionTest test_machine(const MachineOptions& machine, const std::stop_token& stop) {
+  auto control = connect(machine, stop);
+  if (!control) return {.ok = false, .detail = control.error().message};
+  std::size_t files = 0;
+  for (const std::string& folder : folders_of(machine)) {
+    const auto entries = control->list(folder, machine.most_entries);
+    if (!entries) return {.ok = false, .detail = folder + ": " + entries.error().message};
+    files += static_cast<std::size_t>(
+        std::count_if(entries->begin(), entries->end(), [&](const DirectoryEntry& entry) {
+          return !is_directory(entry) &&
+                 std::any_of(machine.paths.begin(), machine.paths.end(), [&](const auto& watched) {
+                   return watched.folder == folder && matches(watched, entry.name);
+                 });
+        }));
+  }
+  return {.ok = true, .detail = fmt::format("logged in; {} files are watched", files)};
+}
+
+}  // namespace fitgauge::collector

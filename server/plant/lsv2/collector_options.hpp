@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "formats/measuring_log/pattern.hpp"
+#include "plant/lsv2/link/link_socket.hpp"
+
+namespace fitgauge::collector {
+
+/// Files that are watched: a folder of the control and a name that may have `*` and `?`.
+struct WatchedPath {
+  std::string folder{};  ///< TNC:\nc_prog\, with its last stroke
+  std::string name{};    ///< TCHPR*.TXT; letters count in either case
+};
+
+/// Reads `TNC:\nc_prog\TCHPR*.TXT`; `/` separates as `\` does. @errors ConfigInvalid
+Result<WatchedPath> parse_watched_path(std::string_view text);
+bool matches(const WatchedPath& watched, std::string_view file_name);
+
+/// A pattern of FN 16 files and the file that says it.
+struct NamedPattern {
+  std::string file{};
+  log_reader::Pattern pattern;
+};
+
+/// One machine. All bounds are of one round.
+struct MachineOptions {
+  std::string name{};  ///< of the connection
+  control_link::ControlAddress address{};
+  std::string machine{};  ///< of its measurements
+  std::vector<WatchedPath> paths{};
+  std::vector<NamedPattern> patterns{};
+  std::chrono::seconds interval{60};
+  std::chrono::seconds longest_wait{600};  ///< of the back-off
+  std::size_t most_file_bytes = std::size_t{8} << 20;
+  std::size_t most_round_bytes = std::size_t{64} << 20;  ///< the rest is for the next round
+  std::size_t most_entries = 10'000;                     ///< of a folder
+};
+
+}  // namespace fitgauge::collector

@@ -1,0 +1,109 @@
+#include "plant/lsv2/intake.hpp"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <future>
+#include <optional>
+
+#include "nc/program/control_path.hpp"
+#include "plant/lsv2/collected_log.hpp"
+
+namespace fitgauge::collector {
+namespace {
+
+constexpr std::size_t kMostUnderWay = 16;
+
+/// Answers nobody: it tells that the log was not there before.
+class NewLog final : public app::Rendering {
+ public:
+  explicit NewLog(std::shared_ptr<bool> is_new) : is_new_(std::move(is_new)) {}
+  void add(std::span<const app::Measurement>, std::string_view) override {}
+  app::Answer finish() override {
+    *is_new_ = true;
+    return {.status = 201, .content_type = "text/plain", .location = {}, .body = {}};
+  }
+
+ private:
+  std::shared_ptr<bool> is_new_;
+};
+
+/// A log on its way to the disk.
+struct UnderWay {
+  std::shared_ptr<CollectedLog> log;
+  std::shared_ptr<bool> is_new;  ///< set by the writer before the answer
+  std::future<Result<app::Answer>> stored;
+};
+
+UnderWay store(app::MeasurementService& measurements, const MachineOptions& machine,
+               std::shared_ptr<CollectedLog> log) {
+  const app::IdempotencyScope scope{.caller = machine.name,
+                                    .method = "COLLECT",
+                                    .path = "lsv2",
+                                    .key = log->key,
+                                    .body = log->text,
+                                    .is_kept_for_ever = true};
+  auto is_new = std::make_shared<bool>(false);
+  auto promise = std::make_shared<std::promise<Result<app::Answer>>>();
+  auto future = promise->get_future();
+  measurements.record(
+      log->measurements, scope, [is_new] { return std::make_unique<NewLog>(is_new); },
+      [promise, log](Result<app::Answer> answer) { promise->set_value(std::move(answer)); });
+  return {std::move(log), std::move(is_new), std::move(future)};
+}
+
+}  // namespace
+
+Result<Taken> Intake::take(const MachineOptions& machine, const std::string& path,
+                           const std::string& bytes) {
+  const Collected found = collect(
+      {.machine = machine, .path = path, .tables = app_.tables(), .now = clock_.now()}, bytes);
+  Taken taken{.logs = found.logs.size(), .unread = found.unread};
+  std::deque<UnderWay> under_way;
+  std::optional<Error> failed;
+  const auto finish_one = [&] {
+    UnderWay next = std::move(under_way.front());
+    under_way.pop_front();
+    const auto stored = next.stored.get();
+    if (!stored) {
+      failed = stored.error();
+    } else if (*next.is_new) {
+      taken.measurements += next.log->measurements.size();
+      taken.values_kept += next.log->values_kept;
+    }
+  };
+  for (const auto& log : found.logs) {
+    if (log->measurements.empty()) continue;
+    if (under_way.size() == kMostUnderWay) finish_one();
+    if (failed) break;
+    under_way.push_back(store(app_.measurements(), machine, log));
+  }
+  while (!under_way.empty()) finish_one();
+  if (failed) return *failed;
+  if (const auto done = keep(machine, path, bytes); !done) return done.error();
+  return taken;
+}
+
+Result<void> Intake::keep(const MachineOptions& machine, const std::string& path,
+                          const std::string& bytes) {
+  constexpr std::size_t kDrive = 5;  // TNC:\.
+  auto kept = interpreter::ControlPath::parse(
+      fmt::format("TNC:\\collected\\{}\\{}", machine.name, path.substr(kDrive)));
+  if (!kept) return kept.error();
+  std::promise<Result<app::DiskFile>> read;
+  auto found = read.get_future();
+  app_.files().read(*kept,
+                    [&read](Result<app::DiskFile> file) { read.set_value(std::move(file)); });
+  const auto there = found.get();
+  if (there && there->bytes == bytes) return {};
+  if (!there && there.error().code != ErrorCode::FileUnknown) return there.error();
+  std::promise<Result<app::FileService::Written>> write;
+  auto written = write.get_future();
+  app_.files().write(
+      *std::move(kept), bytes, machine.name, {},
+      [&write](Result<app::FileService::Written> done) { write.set_value(std::move(done)); });
+  if (const auto done = written.get(); !done) return done.error();
+  return {};
+}
+
+}  // namespace fitgauge::collector

@@ -1,0 +1,187 @@
+#include "plant/lsv2/link/link_client.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace fitgauge::control_link {
+namespace {
+
+using Kind = LinkFailure::Kind;
+
+/// The buffers that C_CC can ask for, the largest first.
+struct BufferCommand {
+  std::size_t bytes;
+  std::uint16_t command;
+};
+constexpr std::array kBuffers{BufferCommand{4096, 7}, BufferCommand{3072, 6},
+                              BufferCommand{2048, 5}, BufferCommand{1024, 3},
+                              BufferCommand{512, 4}};
+
+/// What a block is shorter than the buffer by, as all peers have it.
+constexpr std::size_t kBlockHead = kHeadBytes + 2;
+
+}  // namespace
+
+std::string_view refusal_text(std::uint8_t code) {
+  switch (static_cast<ControlError>(code)) {
+    case ControlError::BadFormat: return "it cannot read the telegram";
+    case ControlError::Unexpected: return "the telegram is out of order";
+    case ControlError::UnknownTelegram: return "it does not know this telegram";
+    case ControlError::NoPrivilege: return "the login does not allow it";
+    case ControlError::WrongParameter: return "it does not know this parameter";
+    case ControlError::BadFileName: return "this is no path of a control, or it is too long";
+    case ControlError::NoFile: return "there is no such file";
+    case ControlError::FileExists: return "a file of that name is there";
+    case ControlError::InUse: return "it is in use";
+    case ControlError::NoLogin: return "it does not allow this login";
+    case ControlError::BadAddress: return "there is no such address";
+    case ControlError::NoSpace: return "its disk is full, or the file too long";
+    case ControlError::DirectoryNotEmpty: return "the directory is not empty";
+    case ControlError::NoDirectory: return "there is no such directory";
+    case ControlError::WrongMode: return "it is in the wrong mode of operation";
+    case ControlError::NoNextError: return "there is no further error";
+    case ControlError::NoWriteAccess: return "it can only be read";
+    case ControlError::Failed: return "it failed";
+  }
+  return "it gives no reason that is known";
+}
+
+LinkResult<LinkClient> LinkClient::connect(LinkClientOptions options) {
+  auto socket = LinkSocket::connect(std::move(options));
+  if (!socket) return socket.error();
+  return LinkClient(*std::move(socket));
+}
+
+LinkFailure LinkClient::unexpected(const Telegram& telegram) const {
+  return {Kind::Broken, fmt::format("{} answers with {}, which is no answer to this",
+                                    to_text(socket_.address()), word(telegram.name))};
+}
+
+LinkResult<Telegram> LinkClient::ask_telegram(const Telegram& request) {
+  if (kHeadBytes + request.payload.size() >= buffer_) {
+    return LinkFailure(
+        Kind::Refused,
+        fmt::format("{} bytes are too long for a telegram of {}", request.payload.size(), buffer_),
+        static_cast<std::uint8_t>(ControlError::BadFileName));
+  }
+  if (const auto sent = socket_.send(request); !sent) return sent.error();
+  auto answer = socket_.receive();
+  if (!answer || answer->name != Refused::kName) return answer;
+  const auto refused = decode<Refused>(*answer);
+  if (!refused) return unexpected(*answer);
+  return LinkFailure(Kind::Refused,
+                     fmt::format("the control refuses with code {}: {}", refused->code,
+                                 refusal_text(refused->code)),
+                     refused->code);
+}
+
+LinkResult<void> LinkClient::login(std::string_view name) {
+  auto done = tell(Login{.name = std::string(name)});
+  if (done || done.error().kind != Kind::Refused) return done;
+  return LinkFailure(Kind::Refused,
+                     fmt::format("login {}: {}; is its option there, and does the machine builder "
+                                 "allow it?",
+                                 name, done.error().message),
+                     done.error().code);
+}
+
+LinkResult<ControlIdentity> LinkClient::identity() {
+  const auto versions = ask<Versions>(ReadVersion{});
+  if (!versions) return versions.error();
+  ControlIdentity identity;
+  PayloadReader texts(versions->texts.value);
+  texts.get(identity.control);
+  texts.get(identity.nc_software);
+  texts.get(identity.plc);
+  return identity;
+}
+
+LinkResult<void> LinkClient::agree_buffer() {
+  const auto parameters = ask<Parameters>(ReadParameters{});
+  if (!parameters) {
+    if (parameters.error().kind == Kind::Refused) return {};
+    return parameters.error();
+  }
+  for (const auto& [bytes, command] : kBuffers) {
+    if (bytes > parameters->largest_buffer) continue;
+    const auto agreed = tell(SystemCommand{.command = command});
+    if (agreed) {
+      buffer_ = bytes;
+      return {};
+    }
+    if (agreed.error().kind != Kind::Refused) return agreed;
+  }
+  return {};
+}
+
+LinkResult<std::vector<DirectoryEntry>> LinkClient::list(const std::string& directory,
+                                                         std::size_t most) {
+  if (const auto there = tell(ChangeDirectory{directory}); !there) return there.error();
+  std::vector<DirectoryEntry> entries;
+  auto answer = ask_telegram(encode(ListDirectory{}));
+  for (; answer && answer->name == DirectoryEntry::kName;
+       answer = ask_telegram(encode(Accepted{}))) {
+    auto entry = decode<DirectoryEntry>(*answer);
+    if (!entry) return unexpected(*answer);
+    if (entries.size() == most) {
+      return LinkFailure(Kind::Unfit, fmt::format("{} has more than {} entries", directory, most));
+    }
+    entries.push_back(*std::move(entry));
+  }
+  if (!answer) return answer.error();
+  if (answer->name != EndOfData::kName) return unexpected(*answer);
+  return entries;
+}
+
+LinkResult<FileInformation> LinkClient::file_information(const std::string& path) {
+  return ask<FileInformation>(ReadFileInformation{path});
+}
+
+LinkResult<std::string> LinkClient::download(const std::string& path, Transfer transfer,
+                                             std::size_t most) {
+  std::string bytes;
+  auto answer =
+      ask_telegram(encode(Download{.path = path, .binary = transfer == Transfer::Binary}));
+  for (; answer && answer->name == FileBlock::kName; answer = ask_telegram(encode(Accepted{}))) {
+    if (bytes.size() + answer->payload.size() > most) {
+      return LinkFailure(Kind::Unfit, fmt::format("{} is longer than {} bytes", path, most));
+    }
+    bytes += answer->payload;
+  }
+  if (!answer) return answer.error();
+  if (answer->name != EndOfData::kName) return unexpected(*answer);
+  if (transfer == Transfer::Lines) std::replace(bytes.begin(), bytes.end(), '\0', '\n');
+  return bytes;
+}
+
+LinkResult<void> LinkClient::upload(const std::string& path, std::string_view bytes,
+                                    Transfer transfer) {
+  std::string wire(bytes);
+  if (transfer == Transfer::Lines) {
+    if (wire.find('\0') != std::string::npos) {
+      return LinkFailure(Kind::Unfit, path + ": a text has no NUL; it cannot travel as lines");
+    }
+    std::erase(wire, '\r');
+    std::replace(wire.begin(), wire.end(), '\n', '\0');
+  }
+  // Without it the end is not answered, and whether the file was stored is not known.
+  const auto acknowledged = tell(SystemCommand{.command = SystemCommand::kAcknowledgeEnd});
+  if (!acknowledged && acknowledged.error().kind != Kind::Refused) return acknowledged;
+  auto begun = tell(Upload{.path = path, .binary = transfer == Transfer::Binary});
+  if (!begun) return begun;
+  const std::size_t step = buffer_ - kBlockHead;
+  for (std::size_t at = 0; at < wire.size(); at += step) {
+    auto taken = tell(FileBlock{.bytes = {wire.substr(at, step)}});
+    if (!taken) return taken;
+  }
+  if (acknowledged) return tell(EndOfData{});
+  if (auto sent = socket_.send(encode(EndOfData{})); !sent) return sent;
+  const auto stored = file_information(path);
+  if (!stored) return stored.error();
+  return {};
+}
+
+}  // namespace fitgauge::control_link

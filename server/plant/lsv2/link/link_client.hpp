@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plant/lsv2/link/answers.hpp"
+#include "plant/lsv2/link/link_socket.hpp"
+
+namespace fitgauge::control_link {
+
+/// What a control says it is.
+struct ControlIdentity {
+  std::string control{};      ///< TNC640
+  std::string nc_software{};  ///< 340595 08 SP1
+  std::string plc{};          ///< of the machine builder
+};
+
+/// The words for the code of a T_ER: "there is no such file".
+std::string_view refusal_text(std::uint8_t code);
+
+/// How a file travels: its bytes, or its lines as the control keeps programs and tables.
+enum class Transfer : bool { Lines, Binary };
+
+/// One talk with a control: each call sends a telegram and waits for its answer. For one thread.
+/// Without agree_buffer() no telegram is longer than 256 bytes. Paths are the control's.
+/// Every call fails with Broken or Stopped as the socket does, and with Refused; after a refusal
+/// the talk goes on, after anything else it is over.
+class LinkClient {
+ public:
+  /// @errors NotReached, Stopped
+  static LinkResult<LinkClient> connect(LinkClientOptions options);
+
+  /// INSPECT, FILE, DNC, ...
+  LinkResult<void> login(std::string_view name);
+  /// Needs INSPECT.
+  LinkResult<ControlIdentity> identity();
+  /// The largest buffer that the control offers; a control that refuses keeps 256 bytes.
+  /// Needs INSPECT.
+  LinkResult<void> agree_buffer();
+
+  /// Needs FILE. Changes the connection's directory. @errors Unfit beyond `most` entries.
+  LinkResult<std::vector<DirectoryEntry>> list(const std::string& directory, std::size_t most);
+  LinkResult<FileInformation> file_information(const std::string& path);
+  /// @errors Unfit beyond `most` bytes. Lines end with LF.
+  LinkResult<std::string> download(const std::string& path, Transfer transfer, std::size_t most);
+  /// Returns when the control has said that the file is whole. @errors Unfit: lines with a NUL.
+  LinkResult<void> upload(const std::string& path, std::string_view bytes, Transfer transfer);
+
+  /// Sends a request and reads its answer as a message.
+  template <class Answer, class Request>
+  LinkResult<Answer> ask(const Request& request) {
+    const auto telegram = ask_telegram(encode(request));
+    if (!telegram) return telegram.error();
+    auto answer = decode<Answer>(*telegram);
+    if (!answer) return unexpected(*telegram);
+    return *std::move(answer);
+  }
+  /// A request that is answered with T_OK.
+  template <class Request>
+  LinkResult<void> tell(const Request& request) {
+    const auto answer = ask<Accepted>(request);
+    if (!answer) return answer.error();
+    return {};
+  }
+
+  /// What both sides may send.
+  std::size_t buffer() const { return buffer_; }
+
+ private:
+  explicit LinkClient(LinkSocket socket) : socket_(std::move(socket)) {}
+
+  /// @errors Refused for T_ER.
+  LinkResult<Telegram> ask_telegram(const Telegram& request);
+  LinkFailure unexpected(const Telegram& telegram) const;
+
+  LinkSocket socket_;
+  std::size_t buffer_ = kSmallestBuffer;
+};
+
+}  // namespace fitgauge::control_link

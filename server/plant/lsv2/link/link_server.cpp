@@ -1,0 +1,192 @@
+#include "plant/lsv2/link/link_server.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "base/guarded.hpp"
+#include "base/thread.hpp"
+#include "plant/lsv2/link/link_connection.hpp"
+
+namespace fitgauge::control_link {
+namespace {
+
+using Time = Connection::Time;
+
+/// Out of descriptors, say: clients wait in the kernel's queue for so long.
+constexpr auto kAcceptPause = std::chrono::milliseconds(100);
+
+Error cannot_listen(const LinkServerOptions& options, std::string_view reason) {
+  return {ErrorCode::ListenFailed,
+          fmt::format("Cannot listen on {} port {}: {}.", options.host, options.port, reason)};
+}
+
+std::string address_of(const sockaddr_storage& peer, socklen_t length) {
+  std::array<char, NI_MAXHOST> host{};
+  if (getnameinfo(reinterpret_cast<const sockaddr*>(&peer), length, host.data(), host.size(),
+                  nullptr, 0, NI_NUMERICHOST) != 0) {
+    return "unknown";
+  }
+  return host.data();
+}
+
+}  // namespace
+
+class LinkServer::Loop {
+ public:
+  Loop(LinkServerOptions options, LinkServerHooks hooks)
+      : options_(std::move(options)), hooks_(std::move(hooks)) {}
+
+  Result<void> open() {
+    addrinfo hints{};
+    hints.ai_flags = AI_NUMERICHOST | AI_PASSIVE;
+    hints.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    if (const int failed = getaddrinfo(options_.host.c_str(), std::to_string(options_.port).c_str(),
+                                       &hints, &found)) {
+      return cannot_listen(options_, gai_strerror(failed));
+    }
+    const std::unique_ptr<addrinfo, void (*)(addrinfo*)> address(found, freeaddrinfo);
+    listener_ =
+        Descriptor(socket(address->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    wake_ = Descriptor(eventfd(0, EFD_CLOEXEC));
+    const int on = 1;
+    setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    if (wake_.get() < 0 || listener_.get() < 0 ||
+        bind(listener_.get(), address->ai_addr, address->ai_addrlen) != 0 ||
+        listen(listener_.get(), SOMAXCONN) != 0) {
+      return cannot_listen(options_, std::strerror(errno));
+    }
+    sockaddr_storage bound{};
+    socklen_t length = sizeof bound;
+    getsockname(listener_.get(), reinterpret_cast<sockaddr*>(&bound), &length);
+    port_ =
+        ntohs(bound.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6*>(&bound)->sin6_port
+                                          : reinterpret_cast<const sockaddr_in*>(&bound)->sin_port);
+    thread_ = Thread("the control's connections", [this](const auto&) { run(); });
+    return {};
+  }
+
+  void stop() {
+    if (!thread_.has_begun()) return;
+    const std::uint64_t one = 1;
+    static_cast<void>(!::write(wake_.get(), &one, sizeof one));
+    thread_.stop();
+  }
+
+  std::uint16_t port() const { return port_; }
+
+ private:
+  void run() {
+    for (;;) {
+      std::vector<pollfd> polled{{.fd = wake_.get(), .events = POLLIN, .revents = 0},
+                                 {.fd = listener_.get(), .events = POLLIN, .revents = 0}};
+      const Time now = std::chrono::steady_clock::now();
+      if (now < accept_after_) polled[1].fd = -1;
+      for (const auto& connection : connections_) polled.push_back(connection->interest());
+      if (poll(polled.data(), polled.size(), milliseconds_to_wait(now)) < 0 && errno != EINTR) {
+        report_bug("the control's connections", std::strerror(errno));
+        return;
+      }
+      if (polled[0].revents != 0) return;
+      serve(polled);
+      if (polled[1].revents != 0) accept();
+    }
+  }
+
+  int milliseconds_to_wait(Time now) const {
+    Time next = now + std::chrono::hours(1);
+    if (now < accept_after_) next = accept_after_;
+    for (const auto& connection : connections_) {
+      next = std::min(next, connection->deadline(options_).first);
+    }
+    const auto wait = std::chrono::ceil<std::chrono::milliseconds>(next - now);
+    return static_cast<int>(std::max<std::int64_t>(wait.count(), 0));
+  }
+
+  void serve(const std::vector<pollfd>& polled) {
+    constexpr std::size_t kOthers = 2;
+    for (std::size_t i = 0; i < connections_.size(); ++i) {
+      Connection& connection = *connections_[i];
+      const short ready = polled[kOthers + i].revents;
+      const Time now = std::chrono::steady_clock::now();
+      std::optional<Ending> ending;
+      // A bug in a conversation ends that one alone.
+      const bool well = guarded("a control's conversation", [&] {
+        if ((ready & POLLOUT) != 0) {
+          ending = connection.write(now);
+        } else if (ready != 0) {
+          ending = connection.read(now);
+        }
+      });
+      if (!well) ending = Ending{"the service failed"};
+      const auto [deadline, why] = connection.deadline(options_);
+      if (!ending && now >= deadline) ending = Ending{why};
+      if (!ending) continue;
+      send_away(connection.peer(), ending->why);
+      connections_[i].reset();
+    }
+    std::erase(connections_, nullptr);
+  }
+
+  void accept() {
+    sockaddr_storage peer{};
+    socklen_t length = sizeof peer;
+    Descriptor socket(accept4(listener_.get(), reinterpret_cast<sockaddr*>(&peer), &length,
+                              SOCK_NONBLOCK | SOCK_CLOEXEC));
+    const Time now = std::chrono::steady_clock::now();
+    if (socket.get() < 0) {
+      if (errno != EAGAIN && errno != ECONNABORTED) accept_after_ = now + kAcceptPause;
+      return;
+    }
+    const std::string address = address_of(peer, length);
+    if (connections_.size() >= options_.most_connections) {
+      return send_away(address, "as many clients are connected as the control takes");
+    }
+    const int on = 1;
+    setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    guarded("a control's conversation", [&] {
+      connections_.push_back(
+          std::make_unique<Connection>(std::move(socket), address, hooks_.converse(), now));
+    });
+  }
+
+  void send_away(std::string_view peer, std::string_view why) {
+    if (!why.empty() && hooks_.sent_away) hooks_.sent_away(peer, why);
+  }
+
+  const LinkServerOptions options_;
+  const LinkServerHooks hooks_;
+  Descriptor listener_;
+  Descriptor wake_;
+  std::uint16_t port_ = 0;
+  Time accept_after_{};
+  std::vector<std::unique_ptr<Connection>> connections_;
+  Thread thread_;
+};
+
+Result<std::unique_ptr<LinkServer>> LinkServer::start(LinkServerOptions options,
+                                                      LinkServerHooks hooks) {
+  auto loop = std::make_unique<Loop>(std::move(options), std::move(hooks));
+  if (const auto opened = loop->open(); !opened) return opened.error();
+  return std::unique_ptr<LinkServer>(new LinkServer(std::move(loop)));
+}
+
+LinkServer::LinkServer(std::unique_ptr<Loop> loop) : loop_(std::move(loop)) {}
+LinkServer::~LinkServer() { loop_->stop(); }
+std::uint16_t LinkServer::port() const { return loop_->port(); }
+
+}  // namespace fitgauge::control_link

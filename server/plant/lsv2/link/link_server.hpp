@@ -1,0 +1,69 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/result.hpp"
+#include "plant/lsv2/link/telegram.hpp"
+
+namespace fitgauge::control_link {
+
+/// One client's talk with a control. Lives on the server's thread.
+class Conversation {
+ public:
+  Conversation() = default;
+  Conversation(const Conversation&) = delete;
+  Conversation& operator=(const Conversation&) = delete;
+  virtual ~Conversation() = default;
+
+  /// What is sent for a telegram; nothing where the protocol has no answer. May wait for the disk:
+  /// the other clients wait meanwhile, as at a control.
+  virtual std::optional<Telegram> answer(const Telegram& telegram) = 0;
+  /// The agreed size; telegrams of both sides are shorter.
+  virtual std::size_t buffer() const = 0;
+};
+
+struct LinkServerOptions {
+  std::string host{};  ///< a numeric address
+  std::uint16_t port = 0;
+  std::size_t most_connections = 100;  ///< beyond it a client is closed at once
+  std::chrono::milliseconds telegram_timeout = std::chrono::seconds(60);  ///< begun, not whole
+  std::chrono::milliseconds idle_timeout = std::chrono::minutes(10);
+  std::chrono::milliseconds write_timeout = std::chrono::seconds(60);  ///< a reader takes nothing
+};
+
+struct LinkServerHooks {
+  std::function<std::unique_ptr<Conversation>()> converse;
+  /// A client was refused or sent away: its address and why.
+  std::function<void(std::string_view peer, std::string_view why)> sent_away{};
+};
+
+/// Serves LSV-2 on one thread of its own, which polls: a hundred connections of a protocol that
+/// answers one telegram at a time need no more. Each holds at most two buffers of 4096 bytes and
+/// what its conversation keeps.
+class LinkServer {
+ public:
+  /// Binds, listens and starts the thread. @errors ListenFailed.
+  static Result<std::unique_ptr<LinkServer>> start(LinkServerOptions options,
+                                                   LinkServerHooks hooks);
+  /// Closes every connection and ends the thread.
+  ~LinkServer();
+  LinkServer(const LinkServer&) = delete;
+  LinkServer& operator=(const LinkServer&) = delete;
+
+  /// The actual one where 0 was asked for.
+  std::uint16_t port() const;
+
+ private:
+  class Loop;
+  explicit LinkServer(std::unique_ptr<Loop> loop);
+
+  std::unique_ptr<Loop> loop_;
+};
+
+}  // namespace fitgauge::control_link

@@ -1,0 +1,104 @@
+#include "plant/lsv2/link/payload.hpp"
+
+#include <bit>
+
+namespace fitgauge::control_link {
+namespace {
+
+/// The next character of UTF-8 where Latin-1 has it, else `?`; moves `text` past it.
+char latin1_character(std::string_view& text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  text.remove_prefix(1);
+  if (first < 0x80) return static_cast<char>(first);
+  unsigned value = first;
+  std::size_t more = 0;
+  for (; !text.empty() && (static_cast<unsigned char>(text.front()) & 0xC0U) == 0x80; ++more) {
+    value = value << 6U | (static_cast<unsigned char>(text.front()) & 0x3FU);
+    text.remove_prefix(1);
+  }
+  const bool is_latin1 = more == 1 && (first == 0xC2 || first == 0xC3);
+  return is_latin1 ? static_cast<char>(value & 0xFFU) : '?';
+}
+
+std::string utf8_from_latin1(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      text += c;
+    } else {
+      text += static_cast<char>(0xC0U | byte >> 6U);
+      text += static_cast<char>(0x80U | (byte & 0x3FU));
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+void PayloadWriter::put(const std::string& utf8) {
+  for (std::string_view rest = utf8; !rest.empty();) bytes_ += latin1_character(rest);
+  bytes_ += '\0';
+}
+
+void PayloadWriter::put(const AxisTexts& axes) {
+  put(static_cast<std::uint8_t>(axes.names.size()));
+  for (const auto* texts : {&axes.positions, &axes.names}) {
+    for (const std::string& text : *texts) put(text);
+  }
+}
+
+void PayloadWriter::put(LittleEndianDouble number) {
+  const auto bits = std::bit_cast<std::uint64_t>(number.value);
+  for (unsigned shift = 0; shift < 64; shift += 8) {
+    put(static_cast<std::uint8_t>(bits >> shift & 0xFFU));
+  }
+}
+
+std::string_view PayloadReader::take(std::size_t count) {
+  if (failed_ || count > rest_.size()) {
+    failed_ = true;
+    return {};
+  }
+  const std::string_view taken = rest_.substr(0, count);
+  rest_.remove_prefix(count);
+  return taken;
+}
+
+void PayloadReader::get(bool& value) {
+  std::uint8_t byte = 0;
+  get(byte);
+  failed_ = failed_ || byte > 1;
+  value = byte == 1;
+}
+
+void PayloadReader::get(std::string& utf8) {
+  const std::size_t end = rest_.find('\0');
+  if (end == std::string_view::npos) {
+    failed_ = true;
+    return;
+  }
+  utf8 = utf8_from_latin1(take(end));
+  take(1);
+}
+
+void PayloadReader::get(AxisTexts& axes) {
+  std::uint8_t count = 0;
+  get(count);
+  for (auto* texts : {&axes.positions, &axes.names}) {
+    texts->clear();
+    for (std::uint8_t i = 0; i < count && !failed_; ++i) get(texts->emplace_back());
+  }
+}
+
+void PayloadReader::get(LittleEndianDouble& number) {
+  std::uint64_t bits = 0;
+  for (unsigned shift = 0; shift < 64; shift += 8) {
+    std::uint8_t byte = 0;
+    get(byte);
+    bits |= std::uint64_t{byte} << shift;
+  }
+  number.value = std::bit_cast<double>(bits);
+}
+
+}  // namespace fitgauge::control_link

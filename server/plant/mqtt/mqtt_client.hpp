@@ -1,0 +1,129 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/thread.hpp"
+#include "plant/lsv2/link/link_socket.hpp"
+
+struct mosquitto;
+
+namespace fitgauge::connections {
+
+/// A broker, and who we are to it.
+struct Broker {
+  control_link::ControlAddress address{};
+  bool tls = false;
+  std::filesystem::path ca_file{};  ///< who vouches for it; empty: the system's authorities
+  std::string user{};
+  std::string password{};
+  std::string client_id{};
+  bool version_5 = false;  ///< MQTT 5; else 3.1.1
+};
+
+struct MqttMessage {
+  std::string topic{};
+  std::string payload{};
+  int qos = 1;
+  bool retain = false;
+};
+
+/// One connection to a broker, from CONNECT to its end, on a thread of its own (libmosquitto). One
+/// that is lost stays lost: a new client begins anew, and knows of nothing that was not settled.
+/// Thread-safe.
+class MqttClient {
+ public:
+  using Ticket = std::uint64_t;  ///< of what was sent, from 1 on
+
+  /// Begins to connect.
+  /// @param will what the broker publishes when the connection ends without `leave`.
+  /// @param wake called on its thread when the connection is lost or a message has come.
+  MqttClient(Broker broker, std::optional<MqttMessage> will, std::function<void()> wake);
+  /// Ends the connection without a word.
+  ~MqttClient();
+  MqttClient(const MqttClient&) = delete;
+  MqttClient& operator=(const MqttClient&) = delete;
+
+  /// Waits until the broker has accepted. @returns why it has not.
+  std::optional<std::string> wait_connected(const std::stop_token& stop);
+  bool is_connected() const;
+  /// Why it was lost or never was.
+  std::string failure() const;
+
+  /// Sends in this order. What is sent over a connection that is lost is never settled.
+  Ticket publish(MqttMessage message);
+  Ticket subscribe(std::string topic, int qos);
+  Ticket unsubscribe(std::string topic);
+
+  /// The broker has acknowledged (of QoS 0: it went out). 0, a reason code of MQTT 5 from 128 on,
+  /// or kCannotBeSent; forgotten once it was told.
+  std::optional<int> settled(Ticket ticket);
+  /// The same, waited for. None: it was lost, the time is over, or a stop was asked for.
+  std::optional<int> wait_settled(Ticket ticket, std::chrono::milliseconds most,
+                                  const std::stop_token& stop);
+  static constexpr int kCannotBeSent = 256;  ///< the library refused it as it is
+
+  /// The oldest message that has come over a subscription.
+  std::optional<MqttMessage> take_arrived();
+
+  /// Ends the connection in good order: the broker keeps the will to itself. Waits at most 2 s.
+  void leave();
+
+ private:
+  struct Publish {
+    MqttMessage message;
+  };
+  struct Subscribe {
+    std::string topic;
+    int qos;
+  };
+  struct Unsubscribe {
+    std::string topic;
+  };
+  struct Leave {};
+  struct Order {
+    Ticket ticket;
+    std::variant<Publish, Subscribe, Unsubscribe, Leave> what;
+  };
+  class Descriptors;
+  class Loop;
+
+  void run(const std::optional<MqttMessage>& will, const std::stop_token& stop);
+  void wake() const noexcept;
+  template <class What>
+  Ticket order(What what);
+  template <class Until>
+  bool wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
+            std::chrono::milliseconds most, Until until) {
+    return changed_.wait_for(lock, stop, most, until);
+  }
+
+  const Broker broker_;
+  const std::function<void()> wake_;
+  int event_ = -1;  ///< wakes the loop (eventfd)
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  enum class State { Connecting, Connected, Ended } state_ = State::Connecting;
+  std::string failure_;
+  Ticket last_ticket_ = 0;
+  std::deque<Order> orders_;
+  std::map<Ticket, int> settled_;
+  std::deque<MqttMessage> arrived_;
+  std::size_t arrived_bytes_ = 0;
+
+  Thread thread_;  // last: it uses all above
+};
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,114 @@
+#include "plant/mtconnect/agent_session.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <boost/asio/write.hpp>
+#include <utility>
+
+namespace fitgauge::shdr {
+namespace {
+
+using http::error_code;
+
+/// Of a line that an agent sends; a command has a few words.
+constexpr std::size_t kLongestLine = 1024;
+constexpr std::string_view kPing = "* PING";
+/// An agent that has begun to ping is gone when so many are missing.
+constexpr int kMissingPings = 3;
+
+}  // namespace
+
+AgentSession::AgentSession(http::Socket socket, std::string peer, const SessionOptions& options,
+                           Hooks hooks)
+    : socket_(std::move(socket)),
+      peer_(std::move(peer)),
+      options_(options),
+      hooks_(std::move(hooks)),
+      full_(socket_.get_executor()),
+      silence_(socket_.get_executor()) {}
+
+void AgentSession::start() { read(); }
+
+void AgentSession::read() {
+  constexpr std::size_t kPiece = 512;
+  const std::size_t kept = input_.size();
+  input_.resize(kept + kPiece);
+  socket_.async_read_some(http::asio::buffer(input_.data() + kept, kPiece),
+                          [self = shared_from_this(), kept](error_code error, std::size_t count) {
+                            if (self->has_ended_) return;
+                            if (error) return self->end("");
+                            self->input_.resize(kept + count);
+                            self->take_lines();
+                            if (self->input_.size() > kLongestLine)
+                              return self->end("it sends no lines");
+                            if (!self->has_ended_) self->read();
+                          });
+}
+
+void AgentSession::take_lines() {
+  std::size_t from = 0;
+  for (std::size_t end = 0; (end = input_.find('\n', from)) != input_.npos; from = end + 1) {
+    const std::string_view line = std::string_view(input_).substr(from, end - from);
+    if (!line.starts_with(kPing)) continue;
+    // One that asks without listening is not answered without end.
+    if (is_full()) continue;
+    send(std::make_shared<const std::string>(
+        fmt::format("* PONG {}\n", options_.heartbeat.count())));
+    expect_sign_of_life();
+  }
+  input_.erase(0, from);
+}
+
+void AgentSession::expect_sign_of_life() {
+  silence_.expires_after(kMissingPings * options_.heartbeat);
+  silence_.async_wait([weak = weak_from_this()](error_code error) {
+    const auto self = weak.lock();
+    if (!error && self) self->end("its heartbeat has stopped");
+  });
+}
+
+void AgentSession::send(std::shared_ptr<const std::string> lines) {
+  if (has_ended_) return;
+  const bool was_full = is_full();
+  waiting_bytes_ += lines->size();
+  waiting_.push_back(std::move(lines));
+  if (!was_full && is_full()) {
+    full_.expires_after(options_.longest_full);
+    full_.async_wait([weak = weak_from_this()](error_code error) {
+      const auto self = weak.lock();
+      if (!error && self) self->end("it does not read what it is sent");
+    });
+  }
+  if (waiting_.size() == 1) write();
+}
+
+void AgentSession::write() {
+  http::asio::async_write(socket_, http::asio::buffer(*waiting_.front()),
+                          [self = shared_from_this()](error_code error, std::size_t) {
+                            if (self->has_ended_) return;
+                            if (error) return self->end("");
+                            self->written(self->waiting_.front()->size());
+                          });
+}
+
+void AgentSession::written(std::size_t bytes) {
+  const bool was_full = is_full();
+  waiting_bytes_ -= bytes;
+  waiting_.pop_front();
+  if (!waiting_.empty()) write();
+  if (!was_full || is_full()) return;
+  full_.cancel();
+  hooks_.has_room();
+}
+
+void AgentSession::end(std::string_view why) {
+  if (std::exchange(has_ended_, true)) return;
+  full_.cancel();
+  silence_.cancel();
+  error_code ignored;
+  socket_.close(ignored);
+  hooks_.ended(shared_from_this(), why);
+}
+
+}  // namespace fitgauge::shdr

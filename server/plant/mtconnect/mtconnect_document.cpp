@@ -1,0 +1,254 @@
+#include "plant/mtconnect/mtconnect_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/length.hpp"
+#include "base/text.hpp"
+#include "base/xml_text.hpp"
+
+namespace fitgauge::api::mtconnect {
+namespace {
+
+using gauging::Verdict;
+
+/// Nothing is ever dropped, since the log is kept for ever: the largest number the schema takes.
+constexpr std::string_view kBufferSize = "4294967294";
+
+/// A key is an NMTOKEN.
+std::string key_of(std::string_view characteristic) {
+  std::string key(characteristic.empty() ? std::string_view("size") : characteristic);
+  std::replace_if(
+      key.begin(), key.end(),
+      [](char c) {
+        return !is_ascii_alphanumeric(c) && c != '-' && c != '_' && c != '.' && c != ':';
+      },
+      '_');
+  return key;
+}
+
+std::string_view status_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Good: return "PASS";
+    case Verdict::Rework: return "REWORK";
+    case Verdict::Reject: return "FAIL";
+    case Verdict::Indeterminate: break;
+  }
+  return "INDETERMINATE";
+}
+
+/// From 1 on, the same for the same data folder.
+std::uint64_t instance_of(const Agent& agent) {
+  std::uint32_t number = 0;
+  const std::string_view digits = agent.origin.substr(0, 7);
+  std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  return std::uint64_t{number} + 1;
+}
+
+/// What the device is does not change.
+std::string model_change(const Agent& agent) {
+  return fmt::format(R"(deviceModelChangeTime="{}")", format_rfc3339(agent.began));
+}
+
+std::string head(const Agent& agent, std::string_view kind, std::string_view more) {
+  return fmt::format(
+      R"(<?xml version="1.0" encoding="UTF-8"?>
+<MTConnect{0} xmlns="urn:mtconnect.org:MTConnect{0}:2.4">
+<Header creationTime="{1}" sender="fitgauge" instanceId="{2}" version="2.4" {3}/>
+)",
+      kind, format_rfc3339(agent.now), instance_of(agent), more);
+}
+
+}  // namespace
+
+Counts counts_of(const std::vector<app::MeasurementGroup>& groups) {
+  Counts counts;
+  for (const app::MeasurementGroup& group : groups) {
+    counts.good += group.good;
+    counts.rework += group.rework;
+    counts.reject += group.reject;
+    counts.indeterminate += group.indeterminate;
+  }
+  return counts;
+}
+
+std::array<std::pair<std::string_view, std::int64_t>, 5> counts_by_item(const Counts& counts) {
+  return {{{"count1", counts.good + counts.rework + counts.reject + counts.indeterminate},
+           {"count2", counts.good},
+           {"count3", counts.reject},
+           {"count4", counts.rework},
+           {"count5", counts.indeterminate}}};
+}
+
+std::string entry_of(const app::Measurement& measurement) {
+  return key_of(measurement.texts.characteristic.value_or(""));
+}
+
+std::vector<std::pair<std::string_view, std::string>> cells_of(
+    const app::Measurement& measurement) {
+  std::vector<std::pair<std::string_view, std::string>> cells = {
+      {"MEASUREMENT_TYPE", "DIAMETER"},
+      {"MEASUREMENT_UNITS", "MILLIMETER"},
+      {"MEASUREMENT_VALUE", format_mm(measurement.measured)},
+      {"CHARACTERISTIC_STATUS", std::string(status_of(measurement.result.verdict))}};
+  if (measurement.standard_uncertainty) {
+    cells.emplace_back("UNCERTAINTY", format_mm(*measurement.standard_uncertainty));
+    cells.emplace_back("UNCERTAINTY_TYPE", "COMBINED");
+  }
+  return cells;
+}
+
+bool Streams::shows(std::string_view id) const {
+  const auto found = std::find_if(kDataItems.begin(), kDataItems.end(),
+                                  [id](const DataItem& item) { return item.id == id; });
+  return selection_.test(static_cast<std::size_t>(found - kDataItems.begin()));
+}
+
+void Streams::append(std::string observation) {
+  ++count_;
+  events_ += std::move(observation);
+  events_ += '\n';
+}
+
+void Streams::add_availability() {
+  if (!shows("avail")) return;
+  append(fmt::format(
+      R"(<Availability dataItemId="avail" sequence="1" timestamp="{0}">AVAILABLE</Availability>)",
+      format_rfc3339(agent_.began)));
+}
+
+void Streams::add(const app::Measurement& measurement, std::uint64_t sequence) {
+  const std::string at = format_rfc3339(measurement.received_at);
+  if (sequence == part_sequence(measurement.row)) {
+    if (!shows("part")) return;
+    const std::string part = xml_text(measurement.texts.part_id.value_or(""));
+    return append(
+        fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>)",
+                    sequence, at, part.empty() ? kUnavailable : part));
+  }
+  if (!shows("feature")) return;
+  std::string cells;
+  for (const auto& [key, text] : cells_of(measurement)) {
+    cells += fmt::format(R"(<Cell key="{}">{}</Cell>)", key, text);
+  }
+  append(fmt::format(
+      R"(<FeatureMeasurementTable dataItemId="feature" sequence="{}" timestamp="{}" count="1"><Entry key="{}">{}</Entry></FeatureMeasurementTable>)",
+      sequence, at, entry_of(measurement), cells));
+}
+
+void Streams::add_counts(const Counts& counts, std::int64_t newest, Timestamp at) {
+  for (const auto& [id, count] : counts_by_item(counts)) {
+    if (!shows(id)) continue;
+    const auto item = std::find_if(kDataItems.begin(), kDataItems.end(),
+                                   [&](const DataItem& other) { return other.id == id; });
+    append(fmt::format(
+        R"(<PartCount dataItemId="{}" subType="{}" sequence="{}" timestamp="{}">{}</PartCount>)",
+        id, item->sub_type, feature_sequence(newest), format_rfc3339(at), count));
+  }
+}
+
+void Streams::add_unavailable_part() {
+  if (!shows("part")) return;
+  append(
+      fmt::format(R"(<PartId dataItemId="part" sequence="1" timestamp="{}">UNAVAILABLE</PartId>)",
+                  format_rfc3339(agent_.began)));
+}
+
+void Streams::add_unavailable_feature() {
+  if (!shows("feature")) return;
+  append(fmt::format(
+      R"(<FeatureMeasurementTable dataItemId="feature" sequence="1" timestamp="{}" count="0">UNAVAILABLE</FeatureMeasurementTable>)",
+      format_rfc3339(agent_.began)));
+}
+
+void Streams::add_assets(std::int64_t newest, Timestamp at) {
+  if (shows("asset_changed")) {
+    append(fmt::format(
+        R"(<AssetChanged dataItemId="asset_changed" sequence="{}" timestamp="{}" assetType="{}">{}</AssetChanged>)",
+        feature_sequence(newest), format_rfc3339(at), newest > 0 ? "QIFDocumentWrapper" : "",
+        newest > 0 ? asset_id(agent_) : "UNAVAILABLE"));
+  }
+  if (shows("asset_removed")) {
+    append(fmt::format(
+        R"(<AssetRemoved dataItemId="asset_removed" sequence="1" timestamp="{}" assetType="">UNAVAILABLE</AssetRemoved>)",
+        format_rfc3339(agent_.began)));
+  }
+}
+
+std::string asset_id(const Agent& agent) {
+  return fmt::format("fitgauge-{}-results", agent.origin);
+}
+
+std::string assets_document(const Agent& agent, std::string_view qif, Timestamp at) {
+  std::string asset;
+  if (!qif.empty()) {
+    asset = fmt::format(
+        R"(<QIFDocumentWrapper assetId="{}" deviceUuid="fitgauge-{}" timestamp="{}" qifDocumentType="RESULTS"><QIFDocument>
+{}</QIFDocument></QIFDocumentWrapper>)",
+        asset_id(agent), agent.origin, format_rfc3339(at), qif);
+  }
+  return head(agent, "Assets",
+              fmt::format(R"({} assetBufferSize="1" assetCount="{}")", model_change(agent),
+                          qif.empty() ? 0 : 1)) +
+         fmt::format("<Assets>{}</Assets>\n</MTConnectAssets>\n", asset);
+}
+
+std::string Streams::document(std::uint64_t next) const {
+  const std::string more =
+      fmt::format(R"({} bufferSize="{}" firstSequence="1" lastSequence="{}" nextSequence="{}")",
+                  model_change(agent_), kBufferSize, feature_sequence(agent_.newest), next);
+  return head(agent_, "Streams", more) +
+         fmt::format(R"(<Streams><DeviceStream name="Gauge" uuid="fitgauge-{}">
+<ComponentStream component="Device" componentId="gauge" name="Gauge">{}</ComponentStream>
+</DeviceStream></Streams>
+</MTConnectStreams>
+)",
+                     agent_.origin,
+                     events_.empty() ? std::string() : "<Events>\n" + events_ + "</Events>");
+}
+
+std::string devices_document(const Agent& agent) {
+  std::string items;
+  for (const DataItem& item : kDataItems) {
+    const bool is_table = item.id == "feature";
+    items +=
+        fmt::format(R"(<DataItem category="EVENT" id="{}" type="{}"{}{}{}>
+)",
+                    item.id, item.type,
+                    item.sub_type.empty() ? "" : fmt::format(R"( subType="{}")", item.sub_type),
+                    item.is_discrete ? R"( discrete="true")" : "",
+                    is_table ? R"( representation="TABLE")" : "/");
+  }
+  return head(agent, "Devices",
+              fmt::format(R"({} bufferSize="{}" assetBufferSize="1" assetCount="{}")",
+                          model_change(agent), kBufferSize, agent.has_asset ? 1 : 0)) +
+         fmt::format(R"(<Devices><Device id="gauge" name="Gauge" uuid="fitgauge-{}">
+<Description manufacturer="fitgauge">Measured sizes with their verdicts</Description>
+<DataItems>
+{}<Definition><CellDefinitions>
+<CellDefinition key="MEASUREMENT_TYPE" type="MEASUREMENT_TYPE"/>
+<CellDefinition key="MEASUREMENT_UNITS" type="MEASUREMENT_UNITS"/>
+<CellDefinition key="MEASUREMENT_VALUE" type="MEASUREMENT_VALUE"/>
+<CellDefinition key="CHARACTERISTIC_STATUS" type="CHARACTERISTIC_STATUS"/>
+<CellDefinition key="UNCERTAINTY" type="UNCERTAINTY"/>
+<CellDefinition key="UNCERTAINTY_TYPE" type="UNCERTAINTY_TYPE"/>
+</CellDefinitions></Definition>
+</DataItem>
+</DataItems>
+</Device></Devices>
+</MTConnectDevices>
+)",
+                     agent.origin, items);
+}
+
+std::string error_document(const Agent& agent, std::string_view code, std::string_view message) {
+  return head(agent, "Error", fmt::format(R"(bufferSize="{}")", kBufferSize)) +
+         fmt::format(R"(<Errors><Error errorCode="{}">{}</Error></Errors>
+</MTConnectError>
+)",
+                     code, xml_text(message));
+}
+
+}  // namespace fitgauge::api::mtconnect

@@ -1,0 +1,179 @@
+#include "plant/mtconnect/mtconnect_path.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/text.hpp"
+
+namespace fitgauge::api::mtconnect {
+namespace {
+
+/// The outer elements of MTConnectDevices; data items stand in the last.
+constexpr std::array<std::string_view, 4> kOuter = {"MTConnectDevices", "Devices", "Device",
+                                                    "DataItems"};
+constexpr std::size_t kDevice = 2;
+
+struct Condition {
+  std::string_view attribute;
+  std::string_view text;
+};
+
+struct Step {
+  bool is_anywhere = false;  ///< behind `//`
+  std::string_view name;
+  /// Any of these lists, each of which wants all of its conditions; empty: no condition.
+  std::vector<std::vector<Condition>> any{};
+};
+
+/// An element as a step sees it.
+struct Place {
+  std::string_view name;
+  const DataItem* item = nullptr;
+};
+
+class PathReader {
+ public:
+  explicit PathReader(std::string_view text) : rest_(text) {}
+
+  /// Nothing when it is no path.
+  std::optional<std::vector<Step>> read() {
+    std::vector<Step> steps;
+    while (!rest_.empty()) {
+      Step step;
+      if (!take("/")) return std::nullopt;
+      step.is_anywhere = take("/");
+      step.name = take("*") ? "*" : name();
+      if (step.name.empty()) return std::nullopt;
+      while (take("[")) {
+        if (!conditions(step)) return std::nullopt;
+      }
+      steps.push_back(std::move(step));
+    }
+    return steps.empty() ? std::nullopt : std::optional(std::move(steps));
+  }
+
+ private:
+  bool take(std::string_view text) {
+    if (!rest_.starts_with(text)) return false;
+    rest_.remove_prefix(text.size());
+    return true;
+  }
+  void blanks() {
+    while (take(" ")) {
+    }
+  }
+  /// A prefix, as in `m:DataItem`, is passed over.
+  std::string_view name() {
+    const auto word = [this] {
+      const auto end = std::find_if_not(
+          rest_.begin(), rest_.end(), [](char c) { return is_ascii_alphanumeric(c) || c == '_'; });
+      const std::string_view found = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
+      rest_.remove_prefix(found.size());
+      return found;
+    };
+    const std::string_view first = word();
+    return take(":") ? word() : first;
+  }
+  std::optional<Condition> condition() {
+    blanks();
+    if (!take("@")) return std::nullopt;
+    Condition read{.attribute = name(), .text = {}};
+    blanks();
+    if (!take("=")) return std::nullopt;
+    blanks();
+    const char quote = rest_.empty() ? '\0' : rest_.front();
+    const std::size_t end = quote == '"' || quote == '\'' ? rest_.find(quote, 1) : rest_.npos;
+    if (end == rest_.npos) return std::nullopt;
+    read.text = rest_.substr(1, end - 1);
+    rest_.remove_prefix(end + 1);
+    blanks();
+    return read;
+  }
+  bool conditions(Step& step) {
+    if (!step.any.empty()) return false;  // one pair of brackets a step
+    step.any.emplace_back();
+    for (;;) {
+      auto read = condition();
+      if (!read) return false;
+      step.any.back().push_back(*read);
+      if (take("]")) return true;
+      if (take("or ")) {
+        step.any.emplace_back();
+      } else if (!take("and ")) {
+        return false;
+      }
+    }
+  }
+
+  std::string_view rest_;
+};
+
+std::optional<std::string_view> attribute_of(const Place& place, std::string_view name) {
+  if (place.item == nullptr) {
+    if (place.name != kOuter[kDevice]) return std::nullopt;
+    if (name == "name") return "Gauge";
+    return name == "id" ? std::optional<std::string_view>("gauge") : std::nullopt;
+  }
+  if (name == "id") return place.item->id;
+  if (name == "type") return place.item->type;
+  if (name == "category") return "EVENT";
+  if (name == "subType" && !place.item->sub_type.empty()) return place.item->sub_type;
+  return std::nullopt;
+}
+
+bool is_met(const Step& step, const Place& place) {
+  if (step.name != "*" && step.name != place.name) return false;
+  return step.any.empty() ||
+         std::any_of(step.any.begin(), step.any.end(), [&place](const auto& all) {
+           return std::all_of(all.begin(), all.end(), [&place](const Condition& condition) {
+             return attribute_of(place, condition.attribute) == condition.text;
+           });
+         });
+}
+
+/// Whether the steps from `step` on lead from below `at` to the item, or to what holds it.
+bool leads(const std::vector<Step>& steps, std::size_t step, const std::array<Place, 5>& places,
+           std::size_t at) {
+  if (step == steps.size()) return true;
+  const std::size_t last =
+      steps[step].is_anywhere ? places.size() : std::min(at + 1, places.size());
+  for (std::size_t place = at; place < last; ++place) {
+    if (is_met(steps[step], places[place]) && leads(steps, step + 1, places, place + 1))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<Selection> select(std::string_view path) {
+  Selection selection;
+  for (std::string_view rest = path;;) {
+    const std::size_t bar = std::min(rest.find('|'), rest.size());
+    const auto steps = PathReader(trim(rest.substr(0, bar))).read();
+    if (!steps) {
+      return Error{ErrorCode::QueryInvalid,
+                   fmt::format("path takes XPath such as //DataItem[@type=\"PART_ID\"], not '{}'",
+                               first_characters(path, 100)),
+                   "path"};
+    }
+    for (std::size_t i = 0; i < kDataItems.size(); ++i) {
+      const std::array<Place, 5> places = {
+          {{kOuter[0]}, {kOuter[1]}, {kOuter[2]}, {kOuter[3]}, {"DataItem", &kDataItems.at(i)}}};
+      if (leads(*steps, 0, places, 0)) selection.set(i);
+    }
+    if (bar == rest.size()) break;
+    rest.remove_prefix(bar + 1);
+  }
+  if (selection.any()) return selection;
+  return Error{ErrorCode::QueryInvalid,
+               fmt::format("path '{}' names nothing of the device Gauge: see /mtconnect/probe",
+                           first_characters(path, 100)),
+               "path"};
+}
+
+}  // namespace fitgauge::api::mtconnect

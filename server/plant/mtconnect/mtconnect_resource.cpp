@@ -1,0 +1,293 @@
+#include "plant/mtconnect/mtconnect_resource.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "api/handlers.hpp"
+#include "api/measurements/measurement_qif.hpp"
+#include "plant/mtconnect/mtconnect_document.hpp"
+#include "plant/mtconnect/mtconnect_sample.hpp"
+#include "service/measurements/measurement_service.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using mtconnect::Agent;
+using mtconnect::Selection;
+using mtconnect::Streams;
+
+constexpr std::string_view kXml = "text/xml";
+constexpr std::size_t kResultsOfAsset = 100;
+
+/// What a document of one request is made of.
+struct Gathered {
+  SharedResponder responder;
+  Agent agent;
+  Selection selection = mtconnect::kEverything;
+  std::vector<std::unique_ptr<app::KeptMeasurement>> newest{};  ///< the newest first
+};
+using SharedGathered = std::shared_ptr<Gathered>;
+
+/// Reads the newest measurements, then goes on with `done`.
+void gather_newest(const Services& services, const SharedGathered& gathered, std::size_t count,
+                   std::function<void()> done) {
+  app::MeasurementQuery query;
+  query.newest_first = true;
+  services.measurements.list(
+      query, 0, count,
+      [gathered](const app::Measurement& measurement) {
+        gathered->newest.push_back(std::make_unique<app::KeptMeasurement>(measurement));
+      },
+      [gathered, done = std::move(done)](const Result<app::ListPage>& page) {
+        if (!page) return gathered->responder->fail(page.error());
+        gathered->agent.newest = page->as_of;
+        gathered->agent.has_asset = !gathered->newest.empty();
+        done();
+      });
+}
+
+SharedGathered gathered_for(const Services& services, http::Responder responder) {
+  return std::make_shared<Gathered>(
+      Gathered{.responder = share(std::move(responder)), .agent = mtconnect_agent(services)});
+}
+
+void probe(const Services& services, const http::Request&, http::Responder responder) {
+  const auto gathered = gathered_for(services, std::move(responder));
+  gather_newest(services, gathered, 1, [gathered] {
+    gathered->responder->answer(
+        mtconnect_response(200, mtconnect::devices_document(gathered->agent)));
+  });
+}
+
+/// What current shows: the newest of the log, or of the log as it was.
+struct Current {
+  SharedGathered gathered;
+  std::uint64_t at = 0;  ///< the last sequence that is seen
+  /// The newest measurement that is seen whole.
+  std::unique_ptr<app::KeptMeasurement> newest{};
+  /// The one after it, of which only the part is seen.
+  std::unique_ptr<app::KeptMeasurement> begun{};
+
+  /// All up to here are seen whole.
+  std::int64_t whole() const {
+    const std::int64_t last = mtconnect::measurement_at(at);
+    return at == mtconnect::feature_sequence(last) ? last : last - 1;
+  }
+};
+using SharedCurrent = std::shared_ptr<Current>;
+
+void answer_current(const Current& current, const std::vector<app::MeasurementGroup>& groups) {
+  Streams streams(current.gathered->agent, current.gathered->selection);
+  streams.add_availability();
+  const app::Measurement* const newest = current.newest ? &**current.newest : nullptr;
+  const Timestamp at = newest == nullptr ? current.gathered->agent.began : newest->received_at;
+  const std::int64_t seen = newest == nullptr ? 0 : current.whole();
+  streams.add_assets(seen, at);
+  if (const app::Measurement* const part = current.begun ? &**current.begun : newest) {
+    streams.add(*part, mtconnect::part_sequence(part->row));
+  } else {
+    streams.add_unavailable_part();
+  }
+  if (newest != nullptr) {
+    streams.add(*newest, mtconnect::feature_sequence(newest->row));
+  } else {
+    streams.add_unavailable_feature();
+  }
+  streams.add_counts(mtconnect::counts_of(groups), seen, at);
+  const std::uint64_t next = mtconnect::feature_sequence(current.gathered->agent.newest) + 1;
+  current.gathered->responder->answer(mtconnect_response(200, streams.document(next)));
+}
+
+/// Keeps the first measurement that a list shows, then goes on with `done`.
+void keep_first(const Services& services, const SharedCurrent& current,
+                const app::MeasurementQuery& query, std::int64_t behind,
+                std::unique_ptr<app::KeptMeasurement> Current::*where, std::function<void()> done) {
+  services.measurements.list(
+      query, behind, 1,
+      [current, where](const app::Measurement& measurement) {
+        (*current).*where = std::make_unique<app::KeptMeasurement>(measurement);
+      },
+      [current, done = std::move(done)](const Result<app::ListPage>& page) {
+        if (!page) return current->gathered->responder->fail(page.error());
+        done();
+      });
+}
+
+void count_and_answer(const Services& services, const SharedCurrent& current) {
+  app::MeasurementQuery counted;
+  counted.as_of = current->whole();
+  services.measurements.summary(
+      counted, "tolerance_class",
+      [current](const Result<std::vector<app::MeasurementGroup>>& groups) {
+        if (!groups) return current->gathered->responder->fail(groups.error());
+        answer_current(*current, *groups);
+      });
+}
+
+void read_current(const Services& services, const SharedCurrent& current) {
+  app::MeasurementQuery whole;
+  whole.newest_first = true;
+  whole.as_of = current->whole();
+  keep_first(services, current, whole, 0, &Current::newest, [current, &services] {
+    const std::int64_t last = mtconnect::measurement_at(current->at);
+    if (last == current->whole()) return count_and_answer(services, current);
+    app::MeasurementQuery part;
+    part.history = true;
+    part.as_of = last;
+    keep_first(services, current, part, last - 1, &Current::begun,
+               [current, &services] { count_and_answer(services, current); });
+  });
+}
+
+void current(const Services& services, const http::Request& request, http::Responder responder) {
+  Selection selection = mtconnect::kEverything;
+  if (const auto path = request.text("path")) {
+    const auto chosen = mtconnect::select(*path);
+    if (!chosen) return responder.fail(chosen.error());
+    selection = *chosen;
+  }
+  const auto current =
+      std::make_shared<Current>(Current{.gathered = gathered_for(services, std::move(responder))});
+  current->gathered->selection = selection;
+  const auto wanted = request.integer("at");
+  gather_newest(services, current->gathered, 1, [current, wanted, &services] {
+    const Gathered& gathered = *current->gathered;
+    const std::uint64_t last = mtconnect::feature_sequence(gathered.agent.newest);
+    current->at = wanted ? static_cast<std::uint64_t>(*wanted) : last;
+    if (current->at > last) {
+      return gathered.responder->fail(
+          {ErrorCode::NotFound, fmt::format("at goes from 1 to {}", last), "at"});
+    }
+    read_current(services, current);
+  });
+}
+
+void answer_assets(const Gathered& gathered) {
+  qif::QifWriter writer;
+  std::for_each(gathered.newest.rbegin(), gathered.newest.rend(), [&writer](const auto& kept) {
+    // What XML cannot hold is left out, as there is nobody to tell.
+    [[maybe_unused]] const auto added = add_to_qif(writer, **kept);
+  });
+  const Timestamp at =
+      gathered.newest.empty() ? gathered.agent.began : (*gathered.newest.front())->received_at;
+  gathered.responder->answer(mtconnect_response(
+      200, mtconnect::assets_document(gathered.agent,
+                                      writer.is_empty() ? std::string() : writer.element(), at)));
+}
+
+void assets(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto type = request.text("type");
+  const bool is_wanted = !type || *type == "QIFDocumentWrapper";
+  const auto gathered = gathered_for(services, std::move(responder));
+  gather_newest(services, gathered, is_wanted ? kResultsOfAsset : 1, [gathered, is_wanted] {
+    if (!is_wanted) gathered->newest.clear();
+    answer_assets(*gathered);
+  });
+}
+
+void asset(const Services& services, const http::Request& request, http::Responder responder) {
+  const std::string wanted(*request.text("id"));
+  const auto gathered = gathered_for(services, std::move(responder));
+  gather_newest(services, gathered, kResultsOfAsset, [gathered, wanted] {
+    const bool is_there =
+        gathered->agent.has_asset && wanted == mtconnect::asset_id(gathered->agent);
+    if (is_there) return answer_assets(*gathered);
+    gathered->responder->fail(
+        {ErrorCode::NotFound, "there is no asset of that id: see /mtconnect/assets", "id"});
+  });
+}
+
+/// As the standard has them.
+std::string_view code_of(const Error& error, int status) {
+  if (status == 401 || status == 403) return "UNAUTHORIZED";
+  if (error.code == ErrorCode::Overloaded) return "TOO_MANY";
+  if (status >= 500) return "INTERNAL_ERROR";
+  if (error.where == "path") return "INVALID_PATH";
+  if (error.where == "id") return "ASSET_NOT_FOUND";
+  for (const std::string_view name : {"at", "from", "count", "interval", "heartbeat"}) {
+    if (error.where == name) return "OUT_OF_RANGE";
+  }
+  if (status == 404) return "INVALID_URI";
+  return status == 405 || status == 406 ? "UNSUPPORTED" : "INVALID_REQUEST";
+}
+
+http::Route route(std::string_view name, std::string_view operation, http::Handler handler,
+                  std::string_view summary) {
+  return {
+      .pattern = fmt::format("/mtconnect/{}", name),
+      .handler = std::move(handler),
+      .summary = std::string(summary),
+      .response_types = {std::string(kXml), "application/xml"},
+      .access = "viewer",
+      .operation = std::string(operation),
+      .tag = "connections",
+      .outcomes = {{.meaning = "An MTConnect document", .media_types = {std::string(kXml)}}},
+  };
+}
+
+}  // namespace
+
+void add_mtconnect_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back(route("probe", "probeMtconnect", with(services, probe),
+                         "MTConnectDevices 2.4: the device Gauge and what it observes"));
+  routes.push_back(route("current", "currentMtconnect", with(services, current),
+                         "MTConnectStreams 2.4: the newest measurement, and counts by verdict"));
+  routes.back().parameters = {
+      {.name = "at",
+       .type = http::Integer{.min = 1, .max = kMostSequence},
+       .description = "The state when this sequence was the last"},
+      {.name = "path", .description = "Only what it names: `//DataItem[@type=\"PART_COUNT\"]`"}};
+  routes.back().outcomes.push_back({.status = 404,
+                                    .meaning = "MTConnectError: `at` is beyond the log",
+                                    .media_types = {std::string(kXml)}});
+  const auto open = std::make_shared<std::atomic<int>>(0);
+  routes.push_back(route("sample", "sampleMtconnect",
+                         http::AsyncHandler([&services, open](const http::Request& request,
+                                                              http::Responder responder) {
+                           sample_mtconnect(services, open, request, std::move(responder));
+                         }),
+                         "MTConnectStreams 2.4: measurements of the log, from a sequence on"));
+  routes.back().response_types.push_back("multipart/x-mixed-replace");
+  routes.back().outcomes.front().media_types.push_back("multipart/x-mixed-replace");
+  routes.back().parameters = sample_parameters();
+  routes.back().description =
+      "Measurement n has the sequences 2n (its part) and 2n + 1. With `interval` the answer is a "
+      "stream of documents; 32 may be open. Errors are MTConnectError documents.";
+  routes.back().outcomes.push_back({.status = 404,
+                                    .meaning = "MTConnectError: `from` is beyond the log",
+                                    .media_types = {std::string(kXml)}});
+  for (const std::string_view name : {"assets", "asset"}) {
+    routes.push_back(route(name, name == "asset" ? "listMtconnectAsset" : "listMtconnectAssets",
+                           with(services, assets),
+                           "MTConnectAssets 2.4: QIF results of the newest 100 measurements"));
+    routes.back().parameters = {
+        {.name = "type", .description = "Of the assets: QIFDocumentWrapper is the one there is"}};
+  }
+  routes.push_back(route("asset/{id}", "getMtconnectAsset", with(services, asset),
+                         "MTConnectAssets 2.4: the asset of that id"));
+  routes.back().parameters = {{.name = "id",
+                               .place = http::ParameterPlace::Path,
+                               .description = "As `AssetChanged` of current says it"}};
+  routes.back().outcomes.push_back({.status = 404,
+                                    .meaning = "MTConnectError: there is no such asset",
+                                    .media_types = {std::string(kXml)}});
+}
+
+bool is_of_mtconnect(const http::Request& request) {
+  return request.path().starts_with("/mtconnect/");
+}
+
+http::Response mtconnect_error(const Services& services, const Error& error,
+                               http::Response problem) {
+  const std::string_view said = error.code == ErrorCode::Internal
+                                    ? "the request failed: see the log"
+                                    : std::string_view(error.message);
+  problem.content_type = kXml;
+  problem.body =
+      mtconnect::error_document(mtconnect_agent(services), code_of(error, problem.status), said);
+  return problem;
+}
+
+}  // namespace fitgauge::api

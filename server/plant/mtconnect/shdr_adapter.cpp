@@ -1,0 +1,266 @@
+#include "plant/mtconnect/shdr_adapter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/asio/ip/address.hpp>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/guarded.hpp"
+#include "base/thread.hpp"
+#include "plant/mtconnect/mtconnect_shdr.hpp"
+#include "service/measurements/measurement_service.hpp"
+
+namespace fitgauge::shdr {
+namespace {
+
+namespace asio = http::asio;
+namespace mtconnect = api::mtconnect;
+using http::error_code;
+using Line = std::shared_ptr<const std::string>;
+
+constexpr std::size_t kPage = 256;
+constexpr int kSendBuffer = 64 << 10;
+/// Out of descriptors, say: agents wait in the kernel's queue for so long.
+constexpr std::chrono::milliseconds kAcceptPause{100};
+/// Counts are told when it is quiet for so long.
+constexpr std::chrono::milliseconds kCountPause{200};
+/// Before the storage is asked again.
+constexpr std::chrono::milliseconds kRetry{1000};
+
+Line shared(std::string line) { return std::make_shared<const std::string>(std::move(line)); }
+
+}  // namespace
+
+/// All but its calls from outside happens on its thread. What the storage answers is posted there.
+class ShdrAdapter::Loop final : public app::CommitListener,
+                                public std::enable_shared_from_this<Loop> {
+ public:
+  Loop(AdapterOptions options, app::Application& app, const Clock& clock)
+      : options_(std::move(options)), app_(app), clock_(clock) {}
+
+  Result<void> open() {
+    const auto failed = [&](const error_code& error) {
+      return Error{ErrorCode::ListenFailed,
+                   fmt::format("Cannot listen on {} port {} for SHDR: {}.", options_.listen.host,
+                               options_.listen.port, error.message())};
+    };
+    error_code error;
+    const auto address = asio::ip::make_address(options_.listen.host, error);
+    if (error) return failed(error);
+    const asio::ip::tcp::endpoint endpoint(address, options_.listen.port);
+    acceptor_.open(endpoint.protocol(), error);
+    if (!error) acceptor_.set_option(http::Acceptor::reuse_address(true), error);
+    if (!error) acceptor_.bind(endpoint, error);
+    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    if (!error) port_ = acceptor_.local_endpoint(error).port();
+    if (error) return failed(error);
+    accept();
+    app_.events().add(shared_from_this());
+    thread_ = Thread("the SHDR adapter", [this](const auto&) { io_.run(); });
+    return {};
+  }
+
+  void stop() {
+    app_.events().remove(shared_from_this());
+    io_.stop();
+    thread_.stop();
+    agents_.clear();
+  }
+
+  std::uint16_t port() const { return port_; }
+
+  void committed() override {
+    if (committed_.exchange(true)) return;
+    post([](Loop& loop) {
+      loop.committed_ = false;
+      loop.follow();
+    });
+  }
+
+ private:
+  enum class Phase { Idle, Beginning, Following };
+
+  /// Does `work` on the thread, unless the adapter is gone.
+  template <class Work>
+  void post(Work work) {
+    asio::post(io_, [weak = weak_from_this(), work = std::move(work)]() mutable {
+      if (const auto self = weak.lock()) work(*self);
+    });
+  }
+
+  void accept() {
+    acceptor_.async_accept([this](error_code error, http::Socket socket) {
+      if (!error) {
+        // What is out of memory here must not be the last agent that is taken in.
+        guarded("an agent that connects", [&] { take_in(std::move(socket)); });
+        return accept();
+      }
+      accept_pause_.expires_after(kAcceptPause);
+      accept_pause_.async_wait([this](error_code cancelled) {
+        if (!cancelled) accept();
+      });
+    });
+  }
+
+  void take_in(http::Socket socket) {
+    error_code ignored;
+    const auto peer = socket.remote_endpoint(ignored).address().to_string();
+    if (agents_.size() >= options_.most_agents) {
+      return tell(peer, "as many agents are connected as the adapter takes");
+    }
+    // What waits in the kernel is bounded as well.
+    socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+    socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+    socket.set_option(asio::socket_base::keep_alive(true), ignored);
+    const auto agent = std::make_shared<AgentSession>(
+        std::move(socket), peer, options_.session,
+        AgentSession::Hooks{
+            .ended =
+                [this](const std::shared_ptr<AgentSession>& gone, std::string_view why) {
+                  agents_.erase(gone);
+                  if (agents_.empty()) phase_ = Phase::Idle;
+                  tell(gone->peer(), why);
+                  follow();
+                },
+            .has_room = [this] { follow(); }});
+    agents_.insert(agent);
+    agent->start();
+    agent->send(shared(mtconnect::shdr_availability(clock_.now())));
+    if (phase_ == Phase::Idle) return begin();
+    // One that comes while the newest is read gets it with the others.
+    if (phase_ == Phase::Following) greet(*agent);
+  }
+
+  void tell(const std::string& peer, std::string_view why) {
+    if (!why.empty() && options_.sent_away) options_.sent_away(peer, why);
+  }
+
+  void greet(AgentSession& agent) {
+    if (newest_) agent.send(newest_);
+    if (counts_) agent.send(counts_);
+  }
+
+  /// Reads where the log ends, for the first agent.
+  void begin() {
+    if (is_reading_) return;
+    phase_ = Phase::Beginning;
+    app::MeasurementQuery query;
+    query.history = true;
+    query.newest_first = true;
+    list(query, 0, 1, [](Loop& loop, const std::vector<Line>& lines, const app::ListPage& page) {
+      if (loop.phase_ != Phase::Beginning) return loop.follow();
+      loop.newest_ = lines.empty() ? nullptr : lines.front();
+      loop.counts_ = nullptr;
+      loop.position_ = page.as_of;
+      loop.phase_ = Phase::Following;
+      for (const auto& agent : loop.agents_) loop.greet(*agent);
+      loop.count_soon();
+      loop.follow();
+    });
+  }
+
+  /// Reads what is behind the position, unless an agent is full.
+  void follow() {
+    if (is_reading_ || agents_.empty()) return;
+    if (phase_ != Phase::Following) return begin();
+    if (std::any_of(agents_.begin(), agents_.end(), [](const auto& a) { return a->is_full(); })) {
+      return;
+    }
+    app::MeasurementQuery query;
+    query.history = true;
+    list(query, position_, kPage,
+         [](Loop& loop, const std::vector<Line>& lines, const app::ListPage& page) {
+           const std::int64_t before = loop.position_;
+           loop.position_ = page.next.value_or(std::max(page.as_of, before));
+           for (const Line& line : lines) loop.send(loop.newest_ = line);
+           if (loop.position_ > before) loop.count_soon();
+           if (page.next) loop.follow();
+         });
+  }
+
+  void send(const Line& line) {
+    for (const auto& agent : agents_) agent->send(line);
+  }
+
+  template <class Take>
+  void list(const app::MeasurementQuery& query, std::int64_t after, std::size_t limit, Take take) {
+    is_reading_ = true;
+    const auto lines = std::make_shared<std::vector<Line>>();
+    app_.measurements().list(
+        query, after, limit,
+        [lines](const app::Measurement& measurement) {
+          lines->push_back(shared(mtconnect::shdr_line(measurement)));
+        },
+        [self = shared_from_this(), lines, take](const Result<app::ListPage>& page) {
+          self->post([lines, page, take](Loop& loop) {
+            loop.is_reading_ = false;
+            if (!page) return loop.try_again();
+            take(loop, *lines, *page);
+          });
+        });
+  }
+
+  void try_again() {
+    retry_.expires_after(kRetry);
+    retry_.async_wait([this](error_code cancelled) {
+      if (!cancelled) follow();
+    });
+  }
+
+  void count_soon() {
+    if (std::exchange(counts_soon_, true)) return;
+    count_pause_.expires_after(kCountPause);
+    count_pause_.async_wait([this](error_code cancelled) {
+      if (!cancelled) count();
+    });
+  }
+
+  void count() {
+    counts_soon_ = false;
+    app_.measurements().summary(
+        {}, "tolerance_class",
+        [self = shared_from_this(),
+         at = clock_.now()](const Result<std::vector<app::MeasurementGroup>>& groups) {
+          if (!groups) return;  // the next measurement brings the next counts
+          self->post([line = shared(mtconnect::shdr_line(mtconnect::counts_of(*groups), at))](
+                         Loop& loop) { loop.send(loop.counts_ = line); });
+        });
+  }
+
+  const AdapterOptions options_;
+  app::Application& app_;
+  const Clock& clock_;
+  std::uint16_t port_ = 0;
+  std::atomic<bool> committed_ = false;  ///< is on its way to the thread
+
+  asio::io_context io_{1};
+  http::Acceptor acceptor_{io_};
+  http::Timer accept_pause_{io_};
+  http::Timer retry_{io_};
+  http::Timer count_pause_{io_};
+  std::set<std::shared_ptr<AgentSession>> agents_;
+  Phase phase_ = Phase::Idle;
+  std::int64_t position_ = 0;  ///< all up to here is told
+  bool is_reading_ = false;
+  bool counts_soon_ = false;
+  Line newest_;
+  Line counts_;
+  Thread thread_;
+};
+
+Result<std::unique_ptr<ShdrAdapter>> ShdrAdapter::start(AdapterOptions options,
+                                                        app::Application& app, const Clock& clock) {
+  auto loop = std::make_shared<Loop>(std::move(options), app, clock);
+  if (const auto opened = loop->open(); !opened) return opened.error();
+  return std::unique_ptr<ShdrAdapter>(new ShdrAdapter(std::move(loop)));
+}
+
+ShdrAdapter::ShdrAdapter(std::shared_ptr<Loop> loop) : loop_(std::move(loop)) {}
+ShdrAdapter::~ShdrAdapter() { loop_->stop(); }
+std::uint16_t ShdrAdapter::port() const { return loop_->port(); }
+
+}  // namespace fitgauge::shdr

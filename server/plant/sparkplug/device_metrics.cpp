@@ -1,0 +1,59 @@
+#include "plant/sparkplug/device_metrics.hpp"
+
+#include <optional>
+
+namespace fitgauge::connections {
+namespace {
+
+using app::Measurement;
+using app::MeasurementTexts;
+using Type = SparkplugType;
+using Value = SparkplugValue;
+
+Value text_or_null(const std::optional<std::string_view>& text) {
+  return text ? Value(std::string(*text)) : Value();
+}
+
+template <std::optional<std::string_view> MeasurementTexts::*kText>
+Value text(const Measurement& measurement) {
+  return text_or_null(measurement.texts.*kText);
+}
+
+/// The nearest double: from nanometres, so that 13 µm are 13 and not 13.000000000000002.
+double um(Length length) { return static_cast<double>(length.count()) / 1e3; }
+
+}  // namespace
+
+const std::array<DeviceMetric, 17> kDeviceMetrics = {{
+    {"id", Type::String,
+     [](const Measurement& m) { return Value(app::measurement_id_text(m.id, m.origin)); }},
+    {"measured_mm", Type::Double, [](const Measurement& m) { return Value(m.measured.to_mm()); }},
+    {"verdict", Type::String,
+     [](const Measurement& m) { return Value(std::string(word(m.result.verdict))); }},
+    {"deviation_um", Type::Double,
+     [](const Measurement& m) { return Value(um(m.decisive() - m.nominal_size)); }},
+    {"excess_um", Type::Double, [](const Measurement& m) { return Value(um(m.result.excess)); }},
+    {"nominal_mm", Type::Double,
+     [](const Measurement& m) { return Value(m.nominal_size.to_mm()); }},
+    {"upper_limit_mm", Type::Double,
+     [](const Measurement& m) {
+       return m.has_upper_limit() ? Value(m.upper_limit().to_mm()) : Value();
+     }},
+    {"lower_limit_mm", Type::Double,
+     [](const Measurement& m) {
+       return m.has_lower_limit() ? Value(m.lower_limit().to_mm()) : Value();
+     }},
+    {"tolerance_class", Type::String,
+     [](const Measurement& m) { return text_or_null(m.class_name); }},
+    {"measured_at", Type::DateTime,
+     [](const Measurement& m) { return Value(milliseconds(m.measured_at)); }},
+    {"part_id", Type::String, text<&MeasurementTexts::part_id>},
+    {"characteristic", Type::String, text<&MeasurementTexts::characteristic>},
+    {"order", Type::String, text<&MeasurementTexts::order>},
+    {"operation", Type::String, text<&MeasurementTexts::operation>},
+    {"machine", Type::String, text<&MeasurementTexts::machine>},
+    {"operator", Type::String, text<&MeasurementTexts::operator_id>},
+    {"gauge", Type::String, text<&MeasurementTexts::gauge>},
+}};
+
+}  // namespace fitgauge::connections

@@ -1,0 +1,224 @@
+// The part of a conversation about directories and files: those of the disk, and their transfers.
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "plant/virtual_control/control_conversation.hpp"
+#include "plant/virtual_control/disk_path.hpp"
+#include "plant/virtual_control/screen_dump.hpp"
+
+namespace fitgauge::virtual_control {
+
+using namespace control_link;
+
+namespace {
+
+/// The login that files ask for.
+constexpr std::string_view kFile = "FILE";
+/// The longest file, as over HTTP.
+constexpr std::size_t kLongestFile = std::size_t{8} << 20;
+/// What a name in a list holds beside its letters.
+constexpr std::size_t kEntryBytes = sizeof(DiskEntry);
+/// What R_DI says is free, whatever the host has.
+constexpr std::uint32_t kFreeBytes = 0x7FFFFFFF;
+
+/// What a mode that sends lines puts in place of a line's end.
+std::string lines_on_the_wire(std::string_view bytes) {
+  std::string wire;
+  wire.reserve(bytes.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const bool is_crlf = bytes[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n';
+    if (is_crlf) ++i;
+    wire += bytes[i] == '\n' ? '\0' : bytes[i];
+  }
+  return wire;
+}
+
+std::uint32_t unix_time(Timestamp time) {
+  return static_cast<std::uint32_t>(time.nanoseconds / 1'000'000'000);
+}
+
+}  // namespace
+
+ControlConversation::Reply ControlConversation::reply(const ChangeDirectory& request) {
+  if (auto may = needs({kFile}); !may) return may.error();
+  auto directory = directory_path(request.path, directory_);
+  if (!directory) return directory.error();
+  if (!state_.disk.has_directory(*directory)) return ControlError::NoDirectory;
+  directory_ = *std::move(directory);
+  return encode(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::reply(const ReadDirectory&) {
+  if (auto may = needs({kFile}); !may) return may.error();
+  if (!state_.disk.has_directory(directory_)) return ControlError::NoDirectory;
+  return encode(DirectoryInformation{.free_bytes = kFreeBytes, .path = directory_});
+}
+
+DirectoryEntry ControlConversation::listed(const DiskEntry& entry) const {
+  const std::uint32_t directory =
+      state_.model.is_itnc ? FileInformation::kDirectoryOfItnc : FileInformation::kDirectory;
+  return {.bytes = static_cast<std::uint32_t>(entry.size),
+          .unix_time = unix_time(entry.modified_at),
+          .flags = entry.is_directory ? directory : FileInformation::kChangeable,
+          .name = entry.name};
+}
+
+ControlConversation::Reply ControlConversation::reply(const ListDirectory& request) {
+  if (auto may = needs({kFile}); !may) return may.error();
+  Sending sending{.share = ByteShare(state_.transfers)};
+  if (request.mode == ListDirectory::kDrives) {
+    sending.entries.push_back({.name = "TNC:", .is_directory = true});
+  } else if (request.mode == ListDirectory::kEntries) {
+    auto entries = state_.disk.list(directory_);
+    if (!entries) return entries.error();
+    std::size_t bytes = 0;
+    for (const DiskEntry& entry : *entries) bytes += kEntryBytes + entry.name.size();
+    if (!sending.share.take(bytes)) return ControlError::NoSpace;
+    sending.entries = *std::move(entries);
+  } else {
+    return ControlError::WrongParameter;
+  }
+  transfer_ = std::move(sending);
+  return reply(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::reply(const MakeDirectory& request) {
+  if (auto may = needs_to_write(kFile); !may) return may.error();
+  const auto directory = directory_path(request.path, directory_);
+  if (!directory) return directory.error();
+  if (auto made = state_.disk.make_directory(*directory); !made) return made.error();
+  return encode(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::reply(const DeleteDirectory& request) {
+  if (auto may = needs_to_write(kFile); !may) return may.error();
+  const auto directory = directory_path(request.path, directory_);
+  if (!directory) return directory.error();
+  if (!state_.model.is_itnc && ascii_iequals(*directory, directory_)) return ControlError::InUse;
+  if (auto removed = state_.disk.remove_directory(*directory); !removed) return removed.error();
+  return encode(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::reply(const ReadFileInformation& request) {
+  if (auto may = needs({kFile}); !may) return may.error();
+  DiskEntry entry;
+  const auto directory = directory_path(request.path, directory_);
+  if (directory && state_.disk.has_directory(*directory)) {
+    entry = {.name = *directory, .is_directory = true};
+  } else {
+    const auto path = file_path(request.path, directory_);
+    if (!path) return ControlError::NoFile;
+    auto found = state_.disk.find(*path);
+    if (!found) return found.error();
+    entry = *std::move(found);
+  }
+  const DirectoryEntry shown = listed(entry);
+  return encode(FileInformation{shown.bytes, shown.unix_time, shown.flags, shown.name});
+}
+
+ControlConversation::Reply ControlConversation::reply(const DeleteFile& request) {
+  if (auto may = needs_to_write(kFile); !may) return may.error();
+  const auto path = file_path(request.path, directory_);
+  if (!path) return path.error();
+  if (auto removed = state_.disk.remove(*path); !removed) return removed.error();
+  return encode(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::copy(const std::string& source,
+                                                     const std::string& target, bool moves) {
+  if (auto may = needs_to_write(kFile); !may) return may.error();
+  const auto from = file_path(source, directory_);
+  if (!from) return from.error();
+  const auto to = file_path(target, directory_);
+  if (!to) return to.error();
+  const auto done = moves ? state_.disk.rename(*from, *to) : state_.disk.copy(*from, *to);
+  if (!done) return done.error();
+  return encode(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::reply(const CopyFile& request) {
+  return copy(request.source, request.target, false);
+}
+
+ControlConversation::Reply ControlConversation::reply(const RenameFile& request) {
+  return copy(request.source, request.target, true);
+}
+
+ControlConversation::Reply ControlConversation::reply(const Upload& request) {
+  if (auto may = needs_to_write(kFile); !may) return may.error();
+  auto path = file_path(request.path, directory_);
+  if (!path) return path.error();
+  if (!state_.disk.has_directory(path->directory())) return ControlError::NoDirectory;
+  transfer_ = Receiving{.path = *std::move(path),
+                        .binary = request.binary.value_or(false),
+                        .bytes = {},
+                        .share = ByteShare(state_.transfers)};
+  return encode(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::reply(const FileBlock& block) {
+  auto* const receiving = std::get_if<Receiving>(&transfer_);
+  if (receiving == nullptr) return ControlError::Unexpected;
+  const std::string& bytes = block.bytes.value;
+  if (receiving->bytes.size() + bytes.size() > kLongestFile ||
+      !receiving->share.take(bytes.size())) {
+    return ControlError::NoSpace;
+  }
+  receiving->bytes += bytes;
+  return encode(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::reply(const EndOfData&) {
+  auto* const receiving = std::get_if<Receiving>(&transfer_);
+  if (receiving == nullptr) return ControlError::Unexpected;
+  std::string& bytes = receiving->bytes;
+  if (!receiving->binary) std::replace(bytes.begin(), bytes.end(), '\0', '\n');
+  const auto written = state_.disk.write(receiving->path, bytes);
+  transfer_ = std::monostate();
+  if (!acknowledges_end_) return std::optional<Telegram>();
+  if (!written) return written.error();
+  return encode(control_link::Accepted{});
+}
+
+ControlConversation::Reply ControlConversation::reply(const Download& request) {
+  if (auto may = needs({kFile}); !may) return may.error();
+  const auto path = file_path(request.path, directory_);
+  if (!path) return path.error();
+  const auto bytes = state_.disk.read(*path);
+  if (!bytes) return bytes.error();
+  Sending sending{.is_file = true, .share = ByteShare(state_.transfers)};
+  if (!sending.share.take((*bytes)->size())) return ControlError::NoSpace;
+  sending.bytes = request.binary.value_or(false) ? **bytes : lines_on_the_wire(**bytes);
+  transfer_ = std::move(sending);
+  return reply(control_link::Accepted{});
+}
+
+/// The next part of what is sent; of an empty file one empty block.
+ControlConversation::Reply ControlConversation::reply(const control_link::Accepted&) {
+  auto* const sending = std::get_if<Sending>(&transfer_);
+  if (sending == nullptr) return ControlError::Unexpected;
+  const std::size_t sent = sending->sent;
+  if (sending->is_file && (sent < sending->bytes.size() || sent == 0)) {
+    // As its peers do: a block is ten bytes shorter than the buffer.
+    std::string block = sending->bytes.substr(sent, buffer_ - kHeadBytes - 2);
+    sending->sent += std::max<std::size_t>(block.size(), 1);
+    return encode(FileBlock{.bytes = {std::move(block)}});
+  }
+  if (!sending->is_file && sent < sending->entries.size()) {
+    return encode(listed(sending->entries[sending->sent++]));
+  }
+  transfer_ = std::monostate();
+  return encode(EndOfData{});
+}
+
+ControlConversation::Reply ControlConversation::dump_screen(const std::string& path) {
+  if (auto may = needs_to_write(kFile); !may) return may.error();
+  const auto file = file_path(path, directory_);
+  if (!file) return file.error();
+  const auto written = state_.disk.write(*file, screen_dump(state_.machine.state()));
+  if (!written) return written.error();
+  return encode(control_link::Accepted{});
+}
+
+}  // namespace fitgauge::virtual_control

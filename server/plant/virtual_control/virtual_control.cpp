@@ -1,0 +1,113 @@
+#include "plant/virtual_control/virtual_control.hpp"
+
+#include <fmt/format.h>
+
+#include <future>
+
+#include "plant/virtual_control/control_conversation.hpp"
+#include "plant/virtual_control/example_programs.hpp"
+
+namespace fitgauge::virtual_control {
+namespace {
+
+/// Of what all transfers of all clients hold.
+constexpr std::size_t kTransferBytes = std::size_t{24} << 20;
+
+std::string mdi_program() { return "BEGIN PGM $MDI MM\nEND PGM $MDI MM\n"; }
+
+std::string tool_table(const machine::Setup& setup) {
+  std::string text =
+      fmt::format("BEGIN TOOL .T MM\n{:<8}{:<33}{:<12}{:<12}TP_NO\n", "T", "NAME", "L", "R");
+  for (const machine::ToolSetup& tool : setup.machine.tools) {
+    text += fmt::format("{:<8}{:<33}{:<+12.4f}{:<+12.4f}{}\n", tool.row.number, tool.row.name,
+                        tool.row.l, tool.row.r, tool.row.probe);
+  }
+  return text + "[END]\n";
+}
+
+/// Stores a file where none of that name is.
+Result<void> bring(app::FileService& files, std::string_view path, const std::string& bytes) {
+  auto parsed = interpreter::ControlPath::parse(path);
+  if (!parsed) return parsed.error();
+  std::promise<Result<app::FileService::Written>> promise;
+  auto written = promise.get_future();
+  files.write(
+      *std::move(parsed), bytes, std::nullopt,
+      [](std::optional<std::int64_t> revision) { return !revision; },
+      [&promise](Result<app::FileService::Written> done) { promise.set_value(std::move(done)); });
+  const auto done = written.get();
+  if (!done && done.error().code != ErrorCode::PreconditionFailed) return done.error();
+  return {};
+}
+
+/// The files of every control of that model, and the example programs.
+Result<void> bring_files(app::FileService& files, const ControlModel& model,
+                         const machine::Setup& setup) {
+  std::vector<std::pair<std::string, std::string>> brought{
+      {std::string(model.mdi_program()), mdi_program()},
+      {std::string(model.tool_table()), tool_table(setup)}};
+  for (const ExampleProgram& example : example_programs()) {
+    brought.emplace_back(fmt::format("TNC:\\nc_prog\\{}", example.path), example.text);
+  }
+  for (const auto& [path, bytes] : brought) {
+    if (const auto done = bring(files, path, bytes); !done) return done.error();
+  }
+  return {};
+}
+
+/// What a run has written lies on the disk when it is over, as at a control.
+void keep_files(app::FileService& files, const std::shared_ptr<app::ActiveRun>& run) {
+  run->on_end([&files, run](const Result<app::FinishedRun>&) {
+    const auto written = run->look(app::Look::StateAndFiles, {}).files;
+    if (written == nullptr) return;
+    for (const interpreter::WrittenFile& file : *written) {
+      files.write(file.path, file.bytes, std::nullopt, {},
+                  [written](const Result<app::FileService::Written>&) {});
+    }
+  });
+}
+
+}  // namespace
+
+struct VirtualControl::Parts {
+  ControlState state;
+  std::unique_ptr<control_link::LinkServer> server{};  // ends first
+};
+
+Result<std::unique_ptr<VirtualControl>> VirtualControl::start(VirtualControlOptions options,
+                                                              app::Application& app) {
+  const ControlModel* const model = find_model(options.model);
+  if (model == nullptr) {
+    return Error{ErrorCode::ConfigInvalid, "there is no control model '" + options.model + "'"};
+  }
+  if (const auto brought = bring_files(app.files(), *model, options.setup); !brought) {
+    return brought.error();
+  }
+  app::FileService& files = app.files();
+  auto start = [&files, begin = std::move(options.start)](const interpreter::ControlPath& path) {
+    auto run = begin(path);
+    if (run) keep_files(files, *run);
+    return run;
+  };
+  auto parts = std::unique_ptr<Parts>(new Parts{
+      .state = {.model = *model,
+                .is_writable = options.is_writable,
+                .disk = VirtualDisk(files, app.runs()),
+                .machine = MachineView(app.runs(), std::move(options.setup), std::move(start)),
+                .transfers = ByteBudget(kTransferBytes)}});
+  parts->state.parameters.emplace(model->language_parameter(), model->language());
+  auto server = control_link::LinkServer::start(
+      std::move(options.link),
+      {.converse = [state =
+                        &parts->state] { return std::make_unique<ControlConversation>(*state); },
+       .sent_away = std::move(options.sent_away)});
+  if (!server) return server.error();
+  parts->server = *std::move(server);
+  return std::unique_ptr<VirtualControl>(new VirtualControl(std::move(parts)));
+}
+
+VirtualControl::VirtualControl(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+VirtualControl::~VirtualControl() = default;
+std::uint16_t VirtualControl::port() const { return parts_->server->port(); }
+
+}  // namespace fitgauge::virtual_control

@@ -1,0 +1,102 @@
+#include "proof/note.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/base64.hpp"
+#include "base/text.hpp"
+
+namespace fitgauge::tlog {
+namespace {
+
+constexpr std::string_view kDash = "\xE2\x80\x94 ";  // an em dash and a blank
+constexpr std::size_t kIdBytes = 4;
+
+Error bad_note(std::string_view what) {
+  return {ErrorCode::NoteMalformed, fmt::format("This is no signed note: {}", what)};
+}
+
+bool has_control_character(std::string_view text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return (static_cast<unsigned char>(c) < ' ' && c != '\n'); });
+}
+
+struct SignatureLine {
+  std::string_view name;
+  std::uint32_t id = 0;
+  std::vector<std::uint8_t> signature{};
+};
+
+Result<SignatureLine> read_signature(std::string_view line) {
+  if (!line.starts_with(kDash)) return bad_note("a signature line begins with an em dash");
+  line.remove_prefix(kDash.size());
+  const std::size_t blank = line.find(' ');
+  if (blank == line.npos) return bad_note("a signature line has a name and a signature");
+  SignatureLine read{.name = line.substr(0, blank)};
+  if (!is_key_name(read.name)) return bad_note("a signature line names no key");
+  const auto bytes = from_base64(line.substr(blank + 1));
+  if (!bytes || bytes->size() <= kIdBytes) return bad_note("a signature is not base64");
+  for (std::size_t i = 0; i < kIdBytes; ++i) read.id = read.id << 8U | (*bytes)[i];
+  read.signature.assign(bytes->begin() + kIdBytes, bytes->end());
+  return read;
+}
+
+bool is_signed(std::string_view text, const SignatureLine& line, const VerifierKey& key) {
+  VerifierKey::Signature signature{};
+  if (line.signature.size() != signature.size()) return false;
+  std::copy(line.signature.begin(), line.signature.end(), signature.begin());
+  return key.verifies(text, signature);
+}
+
+}  // namespace
+
+std::string sign_note(std::string_view text, std::span<const SigningKey* const> keys) {
+  std::string note = fmt::format("{}\n", text);
+  for (const SigningKey* key : keys) {
+    const VerifierKey& verifier = key->verifier();
+    std::vector<std::uint8_t> bytes;
+    for (unsigned shift = 32; shift != 0; shift -= 8) {
+      bytes.push_back(static_cast<std::uint8_t>(verifier.id() >> (shift - 8)));
+    }
+    const VerifierKey::Signature signature = key->sign(text);
+    bytes.insert(bytes.end(), signature.begin(), signature.end());
+    note += fmt::format("{}{} {}\n", kDash, verifier.name(), to_base64(bytes));
+  }
+  return note;
+}
+
+Result<Note> open_note(std::string_view note, std::span<const VerifierKey> keys) {
+  if (note.size() > kLongestNote) return bad_note("it is longer than a megabyte");
+  if (!is_utf8(note) || has_control_character(note)) return bad_note("it is not plain UTF-8");
+  const std::size_t split = note.rfind("\n\n");
+  if (split == note.npos) return bad_note("no blank line stands before its signatures");
+  Note read{.text = std::string(note.substr(0, split + 1)), .signers = {}};
+  std::string_view rest = note.substr(split + 2);
+  if (rest.empty() || !rest.ends_with('\n')) return bad_note("its last line is cut");
+
+  for (std::size_t lines = 0; !rest.empty(); ++lines) {
+    if (lines == kMostSignatures) return bad_note("it has more than 100 signatures");
+    const std::size_t end = rest.find('\n');
+    const auto line = read_signature(rest.substr(0, end));
+    if (!line) return line.error();
+    rest.remove_prefix(end + 1);
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const VerifierKey& known) {
+      return known.name() == line->name && known.id() == line->id;
+    });
+    if (key == keys.end() || std::count(read.signers.begin(), read.signers.end(), &*key) != 0) {
+      continue;
+    }
+    if (!is_signed(read.text, *line, *key)) {
+      return Error{ErrorCode::NoteUnverified,
+                   fmt::format("The signature of {} does not belong to the note", key->name())};
+    }
+    read.signers.push_back(&*key);
+  }
+  if (read.signers.empty()) {
+    return Error{ErrorCode::NoteUnverified, "None of the known keys signed the note"};
+  }
+  return read;
+}
+
+}  // namespace fitgauge::tlog

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "proof/note_key.hpp"
+
+namespace fitgauge::tlog {
+
+/// The most a note may have in all, and its signatures.
+inline constexpr std::size_t kLongestNote = 1'000'000;
+inline constexpr std::size_t kMostSignatures = 100;
+
+/// Signs `text` with each key and returns the note: text, blank line, one line for each signature.
+/// @pre text is UTF-8 without control characters but the newline it ends in.
+std::string sign_note(std::string_view text, std::span<const SigningKey* const> keys);
+
+/// A note that was read, and which of the known keys signed it.
+struct Note {
+  std::string text;                         ///< with its last newline
+  std::vector<const VerifierKey*> signers;  ///< of the keys given to open_note
+};
+
+/// Reads a note and checks the signatures of the keys that are known; those of others are skipped.
+/// @errors NoteMalformed when it is not a note; NoteUnverified when a known key's signature is
+/// wrong
+///   or no known key signed.
+Result<Note> open_note(std::string_view note, std::span<const VerifierKey> keys);
+
+}  // namespace fitgauge::tlog

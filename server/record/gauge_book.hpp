@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/clock.hpp"
+#include "base/length.hpp"
+
+namespace fitgauge::api {
+
+/// What a gauge in use says of the measurements that name it.
+struct GaugeInUse {
+  std::string budget{};  ///< its name; empty: none
+  /// Of the budget, whose figures are in µm, rounded up to the nanometre; none where there is no
+  /// such budget any more.
+  std::optional<Length> standard_uncertainty{};
+  std::string calibration_due{};  ///< as it was given
+  Timestamp due{};                ///< the same; a date lasts to its end in UTC
+
+  bool is_overdue(Timestamp at) const { return due < at; }
+};
+
+/// The gauges in use, by name.
+using GaugeBook = std::map<std::string, GaugeInUse, std::less<>>;
+
+/// When a calibration is due: a date to its end in UTC, or an RFC 3339 time. None for other texts.
+std::optional<Timestamp> parse_due(std::string_view text);
+
+/// A standard uncertainty in µm as measurements have it: rounded up to the nanometre. None where it
+/// is no length.
+std::optional<Length> rounded_up(double micrometres);
+
+}  // namespace fitgauge::api

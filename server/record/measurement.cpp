@@ -1,0 +1,179 @@
+#include "record/measurement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/text.hpp"
+#include "record/origins.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr char kMeasurementPrefix = 'm';
+constexpr char kRunPrefix = 'r';
+
+std::string id_text(char prefix, std::int64_t id, std::string_view origin) {
+  const fmt::format_int digits(id);  // each record has one: a format string to read costs more
+  std::string text;
+  text.reserve(2 + digits.size() + origin.size());
+  text += prefix;
+  text.append(digits.data(), digits.size());
+  text += '-';
+  return text += origin;
+}
+
+std::optional<std::int64_t> parse_number(char prefix, std::string_view text) {
+  std::int64_t id = 0;
+  const char* const end = text.data() + text.size();
+  const bool readable = text.size() > 1 && text.front() == prefix && text[1] != '0' &&
+                        text[1] != '-' && std::from_chars(text.data() + 1, end, id).ptr == end &&
+                        id > 0;
+  return readable ? std::optional(id) : std::nullopt;
+}
+
+std::optional<RecordName> parse_id(char prefix, std::string_view text, const Origins& origins) {
+  const std::size_t dash = std::min(text.find('-', 2), text.size());
+  const auto number = parse_number(prefix, text.substr(0, dash));
+  const auto origin =
+      dash == text.size() ? std::optional<std::int64_t>(0) : origins.number(text.substr(dash + 1));
+  if (!number || !origin) return std::nullopt;
+  return RecordName{.origin = *origin, .number = *number};
+}
+
+Error unknown_run(std::string_view text) {
+  return {ErrorCode::RunUnknown,
+          "there is no run '" + std::string(first_characters(text, 40)) + "'"};
+}
+
+}  // namespace
+
+std::string_view word(Source source) { return source == Source::Gauge ? "gauge" : "simulation"; }
+
+std::string_view word(LimitsBasis basis) {
+  switch (basis) {
+    case LimitsBasis::Iso286: return "iso286";
+    case LimitsBasis::Custom: return "custom";
+    case LimitsBasis::Explicit: return "explicit";
+    case LimitsBasis::Standard: return "standard";
+  }
+  return "";
+}
+
+std::optional<Source> source_from_word(std::string_view text) {
+  if (text == word(Source::Gauge)) return Source::Gauge;
+  if (text == word(Source::Simulation)) return Source::Simulation;
+  return std::nullopt;
+}
+
+KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(measurement) {
+  measurement_.notes = {};
+  const auto keep = [this](std::optional<std::string_view>& text) {
+    if (text) text = texts_.emplace_back(*text);
+  };
+  for (const auto& [name, text] : kMeasurementTexts) keep(measurement_.texts.*text);
+  keep(measurement_.expansions.part_material);
+  keep(measurement_.expansions.scale_material);
+  keep(measurement_.uncertainty_budget);
+  keep(measurement_.calibration_due);
+  keep(measurement_.class_name);
+  keep(measurement_.caller);
+  keep(measurement_.correction_reason);
+}
+
+void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
+                  const iso286::ToleranceTables& tables) {
+  measurement.nominal_size = limits.nominal_size.length();
+  measurement.class_name = tables.class_name(limits.class_id);
+  measurement.feature = limits.feature;
+  measurement.deviations = limits.deviations;
+  measurement.size_range = limits.size_range;
+  measurement.basis =
+      limits.basis == iso286::Basis::Custom ? LimitsBasis::Custom : LimitsBasis::Iso286;
+  measurement.table_revision = tables.revision().id;
+}
+
+void apply_limits(Measurement& measurement, const standards::DesignatedLimits& limits) {
+  measurement.nominal_size = limits.nominal;
+  measurement.class_name = limits.tolerance_class;
+  measurement.feature = limits.feature;
+  measurement.deviations = limits.deviations;
+  measurement.size_range = limits.size_range;
+  measurement.basis = LimitsBasis::Standard;
+  measurement.table_revision = limits.standard->revision;
+}
+
+void apply_limits(Measurement& measurement, const Measurement& other) {
+  measurement.nominal_size = other.nominal_size;
+  measurement.class_name = other.class_name;
+  measurement.feature = other.feature;
+  measurement.deviations = other.deviations;
+  measurement.size_range = other.size_range;
+  measurement.basis = other.basis;
+  measurement.table_revision = other.table_revision;
+  measurement.revision_number = other.revision_number;
+}
+
+void judge(Measurement& measurement) {
+  measurement.result =
+      gauging::gauge(measurement.feature, measurement.upper_limit(), measurement.lower_limit(),
+                     measurement.decisive(), measurement.rule);
+  if (measurement.rule.kind() != gauging::DecisionRule::Kind::Conformance) return;
+  measurement.conformance = gauging::conformance_figures(
+      {.upper = measurement.upper_limit(), .lower = measurement.lower_limit()},
+      measurement.decisive(), measurement.rule.standard_uncertainty(),
+      measurement.rule.probability().value());
+}
+
+void judge_size(Measurement& measurement, const CycleSize& size) {
+  const SizeLimits limits = size.limits.value_or(SizeLimits{.upper = kLongest, .lower = -kLongest});
+  measurement.nominal_size = size.nominal;
+  measurement.feature = !size.is_position              ? size.feature
+                        : size.measured > limits.upper ? iso286::Feature::Hole
+                                                       : iso286::Feature::Shaft;
+  measurement.deviations = {.upper = limits.upper - size.nominal,
+                            .lower = limits.lower - size.nominal};
+  measurement.basis = LimitsBasis::Explicit;
+  measurement.measured = size.measured;
+  if (!size.limits) {
+    // Nothing judges it: an uncertainty as wide as its limits makes it indeterminate.
+    measurement.rule = gauging::DecisionRule::guard_band(kLongest).value();
+    measurement.standard_uncertainty = kLongest;
+    measurement.coverage_factor = measurement.rule.coverage_factor();
+  }
+  judge(measurement);
+}
+
+std::string measurement_id_text(std::int64_t id, std::string_view origin) {
+  return id_text(kMeasurementPrefix, id, origin);
+}
+
+std::string run_id_text(std::int64_t id, std::string_view origin) {
+  return id_text(kRunPrefix, id, origin);
+}
+
+std::string corrected_id_text(const Measurement& m) {
+  return measurement_id_text(*m.correction_of,
+                             m.corrected_elsewhere ? m.corrected_elsewhere->digits : m.origin);
+}
+
+Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins) {
+  if (const auto name = parse_id(kMeasurementPrefix, text, origins)) return *name;
+  return Error{ErrorCode::MeasurementUnknown,
+               "there is no measurement '" + std::string(first_characters(text, 40)) + "'"};
+}
+
+Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin) {
+  const std::size_t dash = std::min(text.find('-', 2), text.size());
+  const auto number = parse_number(kRunPrefix, text.substr(0, dash));
+  if (!number || (dash < text.size() && text.substr(dash + 1) != origin)) return unknown_run(text);
+  return *number;
+}
+
+Result<RecordName> parse_run_id(std::string_view text, const Origins& origins) {
+  if (const auto name = parse_id(kRunPrefix, text, origins)) return *name;
+  return unknown_run(text);
+}
+
+}  // namespace fitgauge::app

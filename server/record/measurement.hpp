@@ -1,0 +1,216 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/clock.hpp"
+#include "metrology/gauging/conformance.hpp"
+#include "metrology/gauging/gauge.hpp"
+#include "record/note.hpp"
+#include "tables/iso286/nominal_size.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
+#include "tables/standards/designated_limits.hpp"
+
+namespace fitgauge::app {
+
+class Origins;
+
+/// Who measured: a gauge at a part, or the simulated machine.
+enum class Source : std::uint8_t { Gauge, Simulation };
+/// Where the limits come from: a class of the tables, a column of the shop's own, the drawing, or a
+/// designation of another standard.
+enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard };
+
+std::string_view word(Source source);
+std::string_view word(LimitsBasis basis);
+std::optional<Source> source_from_word(std::string_view text);
+
+/// What a caller may say about a measured value beside the value itself. Views; see Measurement.
+struct MeasurementTexts {
+  std::optional<std::string_view> part_id;
+  std::optional<std::string_view> characteristic;
+  std::optional<std::string_view> order;
+  std::optional<std::string_view> operation;
+  std::optional<std::string_view> machine;
+  std::optional<std::string_view> operator_id;
+  std::optional<std::string_view> gauge;
+  std::optional<std::string_view> unit;
+  std::optional<std::string_view> comment;
+  std::optional<std::string_view> subgroup;
+};
+
+/// Every text with its name.
+inline constexpr std::array<
+    std::pair<std::string_view, std::optional<std::string_view> MeasurementTexts::*>, 10>
+    kMeasurementTexts = {{
+        {"part_id", &MeasurementTexts::part_id},
+        {"characteristic", &MeasurementTexts::characteristic},
+        {"order", &MeasurementTexts::order},
+        {"operation", &MeasurementTexts::operation},
+        {"machine", &MeasurementTexts::machine},
+        {"operator", &MeasurementTexts::operator_id},
+        {"gauge", &MeasurementTexts::gauge},
+        {"unit", &MeasurementTexts::unit},
+        {"comment", &MeasurementTexts::comment},
+        {"subgroup", &MeasurementTexts::subgroup},
+    }};
+
+inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them
+inline constexpr int kPicometreDecimals = 6;    ///< of a micrometre
+
+/// The deviation of a limit that a drawing does not have: beyond every length.
+inline constexpr Length kNoLimit = Length::nanometres(2 * kLongest.count());
+
+/// What a reading is corrected to 20 °C with, beside the temperature of the part, as it was given.
+struct Expansions {
+  std::optional<std::int64_t> scale_temperature;  ///< in millionths of a degree Celsius
+  std::optional<std::int64_t> part;               ///< in millionths of µm/(m·K)
+  std::optional<std::int64_t> scale;
+  std::optional<std::string_view> part_material;  ///< instead of the number
+  std::optional<std::string_view> scale_material;
+  // Standard uncertainties, in the units of what they are of:
+  std::optional<std::int64_t> temperature_uncertainty{};
+  std::optional<std::int64_t> scale_temperature_uncertainty{};
+  std::optional<std::int64_t> part_uncertainty{};
+  std::optional<std::int64_t> scale_uncertainty{};
+};
+
+/// A record that another folder has stored, and where it stands in this one.
+struct Elsewhere {
+  std::int64_t row = 0;
+  std::int64_t origin = 0;    ///< as Origins numbers them
+  std::string_view digits{};  ///< what its ids end with
+};
+
+/// One judged measurement, before and after it is stored. Its texts are views of the memory it was
+/// read from: the request's body, or the database's own page while a visitor runs.
+struct Measurement {
+  std::int64_t id = 0;      ///< the number in its id; 0 before it is stored
+  std::string_view origin;  ///< where it was stored: what its ids end with
+  // Once it is read from the store:
+  std::int64_t row = 0;            ///< where it stands in this folder
+  std::int64_t origin_number = 0;  ///< of the folder that has stored it; 0 is this one
+  Source source = Source::Gauge;
+  Timestamp measured_at;
+  Timestamp received_at;
+
+  Length nominal_size;
+  std::optional<std::string_view> class_name;  ///< none when the basis is Explicit
+  iso286::Feature feature = iso286::Feature::Hole;
+  iso286::LimitDeviations deviations;
+  std::optional<iso286::NominalSizeRange> size_range;
+  LimitsBasis basis = LimitsBasis::Iso286;
+  std::string_view table_revision;  ///< of the standard's numbers; empty when the basis is Explicit
+  std::optional<std::int64_t> revision_number;  ///< of table_revision, once number_revisions has it
+
+  Length measured;
+  gauging::GaugingResult result;
+  gauging::DecisionRule rule;
+  std::optional<Length> standard_uncertainty;  ///< as given, also under the simple rule
+  std::optional<gauging::CoverageFactor> coverage_factor;
+  std::optional<std::string_view> uncertainty_budget;  ///< of the gauge, where it gave the above
+  std::optional<std::string_view> calibration_due;     ///< of the gauge, as given, where overdue
+
+  std::optional<gauging::ConformanceFigures> conformance;  ///< of that rule
+
+  MeasurementTexts texts;
+  std::optional<std::int64_t> temperature;  ///< in millionths of a degree Celsius
+  Expansions expansions;
+  std::optional<Length> corrected;  ///< the size at 20 °C, where it decides
+  /// The standard uncertainty that the correction adds, in pm; `rule` decides with both.
+  std::optional<std::int64_t> added_uncertainty;
+
+  std::optional<std::string_view> caller;
+  std::optional<std::int64_t> run_id;
+  std::optional<std::int64_t> cycle;
+  std::optional<std::int64_t> correction_of;     ///< the number in the id of the one it replaces
+  std::optional<Elsewhere> corrected_elsewhere;  ///< where that one is of another folder
+  std::optional<std::string_view> correction_reason;
+  std::optional<std::int64_t> corrected_by;  ///< known where one measurement was asked for
+  std::string_view corrected_by_origin{};    ///< empty: that of this one
+  /// Another correction of the same record was made apart from this one. Known as corrected_by, and
+  /// in lists.
+  bool conflict = false;
+  std::span<const Note> notes{};  ///< known where a list was asked to show them
+
+  Length upper_limit() const { return nominal_size + deviations.upper; }
+  Length lower_limit() const { return nominal_size + deviations.lower; }
+  bool has_upper_limit() const { return deviations.upper < kNoLimit; }
+  bool has_lower_limit() const { return -kNoLimit < deviations.lower; }
+  /// What is compared with the limits.
+  Length decisive() const { return corrected.value_or(measured); }
+};
+
+/// A measurement with texts of its own, to be kept after the visitor's call.
+class KeptMeasurement {
+ public:
+  explicit KeptMeasurement(const Measurement& measurement);
+  KeptMeasurement(const KeptMeasurement&) = delete;
+  KeptMeasurement& operator=(const KeptMeasurement&) = delete;
+
+  const Measurement& operator*() const { return measurement_; }
+  const Measurement* operator->() const { return &measurement_; }
+
+ private:
+  std::deque<std::string> texts_;
+  Measurement measurement_;
+};
+
+/// Takes the limits of a class of the tables.
+void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
+                  const iso286::ToleranceTables& tables);
+
+/// Takes the limits of a designation of another standard.
+void apply_limits(Measurement& measurement, const standards::DesignatedLimits& limits);
+
+/// Takes the limits that stand in another measurement, as they were applied there.
+void apply_limits(Measurement& measurement, const Measurement& other);
+
+/// Judges the value by the limits and the rule that stand in the record.
+/// @pre a rule of conformance can accept some value
+void judge(Measurement& measurement);
+
+struct SizeLimits {
+  Length upper;
+  Length lower;
+};
+
+/// A size, or the position of a centre, as a measuring cycle tells it.
+struct CycleSize {
+  iso286::Feature feature = iso286::Feature::Hole;
+  bool is_position = false;  ///< out of its limits it is scrap on either side
+  Length nominal;
+  Length measured;
+  std::optional<SizeLimits> limits{};
+};
+
+/// Takes the size with the limits of its drawing and judges it; without limits it is indeterminate.
+void judge_size(Measurement& measurement, const CycleSize& size);
+
+/// The ids of measurements and runs as the outside sees them, opaque: `m17-5f0c9a3e77d21b40`. The
+/// origin makes them unique over all data folders. Without it (`m17`, as folders gave them before
+/// they had one) an id is one of this folder.
+/// @param origin of the data folder: 16 hexadecimal digits.
+std::string measurement_id_text(std::int64_t id, std::string_view origin);
+std::string run_id_text(std::int64_t id, std::string_view origin);
+/// The id of the record that this one replaces. @pre there is one.
+std::string corrected_id_text(const Measurement& measurement);
+/// @errors RunUnknown, also for the ids of another origin.
+Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin);
+
+/// A measurement or a run as its id names it.
+struct RecordName {
+  std::int64_t origin = 0;  ///< as Origins numbers them
+  std::int64_t number = 0;
+};
+/// @errors MeasurementUnknown, RunUnknown, also for the ids of origins that are not known.
+Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins);
+Result<RecordName> parse_run_id(std::string_view text, const Origins& origins);
+
+}  // namespace fitgauge::app

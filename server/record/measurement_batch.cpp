@@ -1,0 +1,182 @@
+#include "record/measurement_batch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/csv_cell.hpp"
+#include "base/csv_reader.hpp"
+#include "base/json/json_value.hpp"
+#include "record/measurement_row_reader.hpp"
+#include "record/measurement_simdjson.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+Error too_many_rows() {
+  return {ErrorCode::RequestInvalid,
+          fmt::format("a request takes at most {} rows: send the rest in another", kMostRows)};
+}
+
+Error no_rows(std::string_view what) {
+  return {ErrorCode::RequestInvalid, fmt::format("{} holds no measurement", what)};
+}
+
+/// The members of a parsed object as one row.
+void read_row(const JsonValue& object, MeasurementRowReader& reader, MeasurementBatch& batch) {
+  if (!object.is(JsonValue::Kind::Object)) {
+    reader.report_row(ErrorCode::FieldType,
+                      fmt::format("a measurement is an object, not {}", name_of(object.kind)));
+    return;
+  }
+  for (const auto& [name, value] : object.members) {
+    RawValue raw = raw_value(value);
+    if (value.is(JsonValue::Kind::String)) raw.text = batch.keep(raw.text);
+    if (!reader.field(name, raw)) reader.report_unknown(name);
+  }
+  if (const app::Measurement* row = reader.end()) batch.rows.push_back(*row);
+}
+
+Result<void> finish(FieldErrors& errors) {
+  if (auto error = errors.take()) return *std::move(error);
+  return {};
+}
+
+/// Any JSON, with every error in its place: what the fast reader does not take ends here.
+Result<void> decode_json(std::string_view body, const BatchContext& context,
+                         MeasurementBatch& batch) {
+  FieldErrors errors;
+  MeasurementRowReader reader(context, errors);
+  batch.rows.clear();
+  std::size_t row = 0;
+  const auto parsed = parse_json(body, [&](const JsonValue& item) {
+    if (row == kMostRows) return false;
+    reader.begin(row++);
+    read_row(item, reader, batch);
+    take_full(batch, context, errors);
+    return true;
+  });
+  if (!parsed && row == kMostRows) return too_many_rows();
+  if (!parsed) return parsed.error();
+  batch.single = !parsed->is(JsonValue::Kind::Array);
+  if (batch.single) {
+    reader.begin(std::nullopt);
+    read_row(*parsed, reader, batch);
+  } else if (row == 0) {
+    return no_rows("the array");
+  }
+  return finish(errors);
+}
+
+/// A row that cannot be read is listed as a wrong field is: by its number, with its line.
+Error at_row(Error error, std::size_t row, std::size_t line) {
+  FieldErrors listed;
+  listed.add(error.code, pointer_to("", row), error.message, line);
+  error.details = listed.take()->details;
+  return error;
+}
+
+Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
+                           MeasurementBatch& batch) {
+  FieldErrors errors;
+  MeasurementRowReader reader(context, errors);
+  std::size_t row = 0;
+  std::size_t line = 0;
+  for (std::string_view rest = body; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    std::string_view text = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    ++line;
+    if (text.ends_with('\r')) text.remove_suffix(1);
+    if (text.find_first_not_of(" \t") == std::string_view::npos) continue;
+    if (row == kMostRows) return too_many_rows();
+    reader.begin(row, line);
+    const FieldErrors::Mark mark = errors.mark();
+    if (read_object_fast(text, reader, batch)) {
+      ++row;
+      take_full(batch, context, errors);
+      continue;
+    }
+    errors.rollback(mark);
+    auto parsed = parse_json(text);
+    if (!parsed) {
+      Error error = std::move(parsed).error();
+      error.message = fmt::format("line {}: {}", line, error.message);
+      error.where = fmt::format("line {}", line);
+      return at_row(std::move(error), row, line);
+    }
+    reader.begin(row++, line);
+    read_row(*parsed, reader, batch);
+    take_full(batch, context, errors);
+  }
+  if (row == 0) return no_rows("the file");
+  return finish(errors);
+}
+
+/// The header names fields once each; a name that is none is reported for every row it stands in.
+Result<void> check_header(std::vector<std::string> header) {
+  std::sort(header.begin(), header.end());
+  const auto name = std::adjacent_find(header.begin(), header.end());
+  if (name == header.end()) return {};
+  return Error{ErrorCode::CsvMalformed, fmt::format("the header line names {} twice", *name),
+               "line 1"};
+}
+
+Result<void> decode_csv(std::string_view body, const BatchContext& context,
+                        MeasurementBatch& batch) {
+  auto opened = CsvReader::open(body);
+  if (!opened) return opened.error();
+  const auto csv = std::make_shared<CsvReader>(*std::move(opened));
+  if (const auto checked = check_header(csv->header()); !checked) return checked.error();
+  FieldErrors errors;
+  MeasurementRowReader reader(context, errors);
+  batch.texts = csv;
+  const bool semicolon = csv->separator() == ';';
+  for (const std::string& name : csv->header()) {
+    if (MeasurementRowReader::knows(name)) continue;
+    reader.begin(std::nullopt, 1);
+    reader.report_unknown(name);
+  }
+  std::size_t row = 0;
+  for (;; ++row) {
+    const auto cells = csv->next();
+    if (!cells) return at_row(cells.error(), row, csv->line());
+    if (*cells == nullptr) break;
+    if (row == kMostRows) return too_many_rows();
+    reader.begin(row, csv->line());
+    for (std::size_t i = 0; i < (*cells)->size(); ++i) {
+      const CsvCell& cell = (**cells)[i];
+      // An empty cell is a field that is not given; unknown names were reported once.
+      if (cell.text.empty() || !MeasurementRowReader::knows(csv->header()[i])) continue;
+      reader.field(csv->header()[i], {.kind = RawValue::Kind::String,
+                                      .text = sheet::without_formula_guard(cell.text),
+                                      .decimal_comma = semicolon || cell.quoted});
+    }
+    if (const app::Measurement* m = reader.end()) batch.rows.push_back(*m);
+    take_full(batch, context, errors);
+  }
+  if (row == 0) return no_rows("the file");
+  return finish(errors);
+}
+
+}  // namespace
+
+void take_full(MeasurementBatch& batch, const BatchContext& context, const FieldErrors& errors) {
+  if (!context.take || batch.rows.size() < kRowsAtATime || !errors.empty()) return;
+  batch.is_begun = true;
+  context.take(std::exchange(batch.rows, {}));
+  batch.rows.reserve(kRowsAtATime);
+}
+
+Result<void> decode_measurements(std::string_view body, std::string_view media_type,
+                                 const BatchContext& context, MeasurementBatch& batch) {
+  if (media_type == "text/csv") return decode_csv(body, context, batch);
+  if (media_type == "application/x-ndjson") return decode_ndjson(body, context, batch);
+  FieldErrors errors;
+  if (read_body_fast(body, context, batch, errors)) return finish(errors);
+  batch.wants_whole = batch.is_begun;
+  if (batch.wants_whole) return Error{ErrorCode::RequestInvalid, "the body is to be read whole"};
+  return decode_json(body, context, batch);
+}
+
+}  // namespace fitgauge::api

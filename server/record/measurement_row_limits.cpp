@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include "record/measurement_row_fields.hpp"
+#include "record/measurement_row_reader.hpp"
+#include "record/verdict_codec.hpp"
+#include "tables/iso286/designation.hpp"
+#include "tables/standards/designated_limits.hpp"
+
+// How a row says its limits: a designation, a class with its nominal size, or those of a drawing.
+
+namespace fitgauge::api {
+
+void MeasurementRowReader::take_limits(const app::Measurement& other) {
+  app::apply_limits(draft_.measurement, other);
+  draft_.has_limits = true;
+}
+
+void MeasurementRowReader::resolve_limits() {
+  const bool by_designation = given(RowField::Designation);
+  const bool by_class = given(RowField::Class);
+  // A general tolerance does not say whether its dimension is inside or outside.
+  const bool open_feature = is_open_designation() || is_open_class();
+  const bool by_drawing = given(RowField::Upper) || given(RowField::Lower) ||
+                          (given(RowField::Feature) && !open_feature);
+  const int ways = int{by_designation} + int{by_class} + int{by_drawing};
+  if (ways > 1 || (by_designation && given(RowField::Nominal))) {
+    const std::size_t second = by_designation ? (given(RowField::Nominal) ? RowField::Nominal
+                                                 : by_class               ? RowField::Class
+                                                                          : RowField::Feature)
+                                              : RowField::Class;
+    report(ErrorCode::FieldConflict, kRowFields[second].name,
+           "give the limits once: designation, or nominal_mm with tolerance_class, or nominal_mm "
+           "with feature, and upper_um, lower_um or both");
+    return;
+  }
+  if (by_designation) return resolve_designation();
+  if (!given(RowField::Nominal)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Nominal].name,
+           "nominal_mm is required, or a designation");
+  }
+  if (by_drawing) return resolve_explicit();
+  if (by_class) return resolve_class();
+  report(ErrorCode::FieldMissing, kRowFields[RowField::Class].name,
+         "tolerance_class is required, or feature with upper_um, lower_um or both");
+}
+
+bool MeasurementRowReader::is_open_designation() const {
+  return draft_.designation && standards::is_class(*draft_.designation);
+}
+bool MeasurementRowReader::is_open_class() const {
+  return draft_.class_name && standards::is_class(*draft_.class_name);
+}
+
+void MeasurementRowReader::take_limits(Result<standards::DesignatedLimits> limits,
+                                       std::string_view field) {
+  if (!limits) return report(limits.error().code, field, limits.error().message);
+  if (limits->feature_is_open && draft_.feature) limits->feature = *draft_.feature;
+  app::apply_limits(draft_.measurement, *limits);
+}
+
+Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) {
+  if (last_class_id_ && name == last_class_) return *last_class_id_;
+  const auto found = tables_.find_class(name);
+  if (!found) return found.error();
+  last_class_ = name;
+  last_class_id_ = *found;
+  return *found;
+}
+
+void MeasurementRowReader::take_limits(const Result<iso286::LimitsOfSize>& limits,
+                                       std::string_view field) {
+  if (limits) {
+    app::apply_limits(draft_.measurement, *limits, tables_);
+  } else {
+    report(limits.error().code, field, limits.error().message);
+  }
+}
+
+void MeasurementRowReader::resolve_class() {
+  if (is_open_class()) {
+    if (!draft_.nominal) return;
+    return take_limits(standards::limits_of(*draft_.nominal, *draft_.class_name),
+                       kRowFields[RowField::Class].name);
+  }
+  std::optional<iso286::NominalSize> size;
+  if (draft_.nominal) {
+    const auto made = iso286::NominalSize::make(*draft_.nominal);
+    if (made) {
+      size = *made;
+    } else {
+      report(made.error().code, kRowFields[RowField::Nominal].name, made.error().message);
+    }
+  }
+  if (!draft_.class_name) return;
+  const auto id = find_class(*draft_.class_name);
+  if (!id) {
+    report(ErrorCode::ClassUnknown, kRowFields[RowField::Class].name, id.error().message);
+  } else if (size) {
+    take_limits(tables_.limits_of_size(*size, *id), kRowFields[RowField::Class].name);
+  }
+}
+
+void MeasurementRowReader::resolve_designation() {
+  if (!draft_.designation) return;
+  const std::string_view field = kRowFields[RowField::Designation].name;
+  if (standards::is_designation(*draft_.designation)) {
+    return take_limits(standards::limits_of(*draft_.designation), field);
+  }
+  const auto designation = iso286::parse_designation(*draft_.designation);
+  if (!designation) return report(designation.error().code, field, designation.error().message);
+  const auto id = find_class(designation->class_name);
+  if (!id) return report(id.error().code, field, id.error().message);
+  take_limits(tables_.limits_of_size(designation->nominal_size, *id), field);
+}
+
+void MeasurementRowReader::resolve_explicit() {
+  if (!given(RowField::Feature)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Feature].name,
+           "feature is required beside the limits of a drawing");
+  }
+  const bool one_given = given(RowField::Upper) || given(RowField::Lower);
+  if (!one_given) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Upper].name,
+           "upper_um is required beside feature, or lower_um, or both");
+  }
+  if (!draft_.nominal || !draft_.feature || !one_given || draft_.failed) return;
+  const Length upper = draft_.upper.value_or(app::kNoLimit);
+  const Length lower = draft_.lower.value_or(-app::kNoLimit);
+  app::Measurement& m = draft_.measurement;
+  if (*draft_.nominal <= Length() || *draft_.nominal > kLargestMeasured) {
+    report(ErrorCode::LengthOutOfRange, kRowFields[RowField::Nominal].name,
+           "nominal_mm is above 0 and at most 100000000");
+  }
+  if (upper < lower) {
+    report(ErrorCode::LimitsInvalid, kRowFields[RowField::Upper].name,
+           "upper_um is below lower_um");
+  } else if (draft_.lower && *draft_.nominal + lower <= Length()) {
+    report(ErrorCode::LimitsInvalid, kRowFields[RowField::Lower].name,
+           "the lower limit would be 0 or less");
+  }
+  m.basis = app::LimitsBasis::Explicit;
+  m.nominal_size = *draft_.nominal;
+  m.feature = *draft_.feature;
+  m.deviations = {.upper = upper, .lower = lower};
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,350 @@
+#include "record/measurement_row_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/decimal.hpp"
+#include "record/measurement_row_fields.hpp"
+#include "record/thermal_codec.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::int64_t kMillion = 1'000'000;
+constexpr std::int64_t kLargestCoverage = 100 * kMillion;
+
+std::size_t search_field(std::string_view name) {
+  const auto found = std::find_if(kRowFields.begin(), kRowFields.end(),
+                                  [&](const RowField& field) { return field.name == name; });
+  return static_cast<std::size_t>(found - kRowFields.begin());
+}
+
+std::string_view name_of(RawValue::Kind kind) {
+  static_assert(static_cast<int>(RawValue::Kind::Object) ==
+                static_cast<int>(JsonValue::Kind::Object));
+  return fitgauge::name_of(static_cast<JsonValue::Kind>(kind));
+}
+
+}  // namespace
+
+RawValue raw_value(const JsonValue& value) {
+  return {.kind = static_cast<RawValue::Kind>(value.kind), .text = value.text};
+}
+
+bool MeasurementRowReader::knows(std::string_view name) {
+  return search_field(name) < RowField::Count;
+}
+
+// Rows have their fields in one order, those of one request and mostly those of the next: the n-th
+// is most likely what it was before.
+std::size_t MeasurementRowReader::find_field(std::string_view name) {
+  static thread_local std::array<std::uint8_t, 32> order{};
+  std::uint8_t& expected = order[position_++ % order.size()];
+  if (kRowFields[expected].name == name) return expected;
+  const std::size_t field = search_field(name);
+  if (field < RowField::Count) expected = static_cast<std::uint8_t>(field);
+  return field;
+}
+
+void MeasurementRowReader::begin(std::optional<std::size_t> row, std::optional<std::size_t> line) {
+  row_ = row;
+  line_ = line;
+  position_ = 0;
+  draft_ = {};
+}
+
+void MeasurementRowReader::report(ErrorCode code, std::string_view field, std::string message) {
+  draft_.failed = true;
+  std::string pointer = row_ ? pointer_to("", *row_) : std::string();
+  if (!field.empty()) pointer = pointer_to(pointer, field);
+  errors_.add(code, std::move(pointer), std::move(message), line_);
+}
+
+void MeasurementRowReader::report_unknown(std::string_view name) {
+  report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));
+}
+
+void MeasurementRowReader::report_row(ErrorCode code, std::string message) {
+  report(code, "", std::move(message));
+}
+
+bool MeasurementRowReader::field(std::string_view name, const RawValue& value) {
+  const std::size_t field = find_field(name);
+  if (field == RowField::Count || given(field)) return false;
+  draft_.given |= 1U << field;
+  assign(field, value);
+  return true;
+}
+
+void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
+  app::Measurement& m = draft_.measurement;
+  const auto temperature = [this](std::size_t of, const RawValue& given_value) {
+    return decimal_in(of, given_value, gauging::kColdest, gauging::kHottest,
+                      "lies from -273.15 to 10000");
+  };
+  const auto expansion = [this](std::size_t of, const RawValue& given_value) {
+    return decimal_in(of, given_value, 0, gauging::kLargestExpansion, "lies from 0 to 1000");
+  };
+  const auto uncertainty = [this](std::size_t of, const RawValue& given_value) {
+    return decimal_in(of, given_value, 0, gauging::kLargestUncertainty, "lies from 0 to 1000");
+  };
+  switch (field) {
+    case RowField::Measured:
+      if (const auto measured = length(field, value, false, true)) {
+        m.measured = *measured;
+        if (const auto checked = check_measured(*measured); !checked) {
+          report(checked.error().code, kRowFields[field].name, checked.error().message);
+        }
+      }
+      break;
+    case RowField::Nominal: draft_.nominal = length(field, value, false); break;
+    case RowField::Class: draft_.class_name = text(field, value); break;
+    case RowField::Designation: draft_.designation = text(field, value); break;
+    case RowField::Feature:
+      if (const auto given_word = text(field, value)) {
+        draft_.feature = iso286::feature_from_word(*given_word);
+        if (!draft_.feature) {
+          report(ErrorCode::FieldInvalid, kRowFields[field].name, "feature is hole or shaft");
+        }
+      }
+      break;
+    case RowField::Upper: draft_.upper = length(field, value, true); break;
+    case RowField::Lower: draft_.lower = length(field, value, true); break;
+    case RowField::MeasuredAt:
+      if (const auto time = text(field, value)) {
+        const auto parsed = parse_rfc3339(*time);
+        if (parsed) {
+          m.measured_at = *parsed;
+        } else {
+          report(parsed.error().code, kRowFields[field].name, parsed.error().message);
+        }
+      }
+      break;
+    case RowField::Uncertainty:
+      m.standard_uncertainty = length(field, value, true);
+      if (!m.standard_uncertainty) break;
+      if (const auto checked = check_uncertainty(*m.standard_uncertainty); !checked) {
+        report(checked.error().code, kRowFields[field].name, checked.error().message);
+      }
+      break;
+    case RowField::Coverage:
+      draft_.rule.coverage_millionths =
+          decimal_in(field, value, 1, kLargestCoverage, "is above 0 and at most 100");
+      break;
+    case RowField::Rule:
+      if (const auto rule = text(field, value)) {
+        const auto kind = gauging::rule_from_word(*rule);
+        draft_.rule.kind = kind.value_or(draft_.rule.kind);
+        if (!kind) {
+          report(ErrorCode::FieldInvalid, kRowFields[field].name,
+                 "rule is simple, guard_band or conformance");
+        }
+      }
+      break;
+    case RowField::Probability:
+      draft_.rule.probability_millionths =
+          decimal_in(field, value, kMillion / 2, kMillion - 1, "is at least 0.5 and below 1");
+      break;
+    case RowField::Temperature: m.temperature = temperature(field, value); break;
+    case RowField::ScaleTemperature:
+      m.expansions.scale_temperature = temperature(field, value);
+      break;
+    case RowField::PartExpansion: m.expansions.part = expansion(field, value); break;
+    case RowField::ScaleExpansion: m.expansions.scale = expansion(field, value); break;
+    case RowField::PartMaterial: m.expansions.part_material = text(field, value); break;
+    case RowField::ScaleMaterial: m.expansions.scale_material = text(field, value); break;
+    case RowField::TemperatureUncertainty:
+      m.expansions.temperature_uncertainty = uncertainty(field, value);
+      break;
+    case RowField::ScaleTemperatureUncertainty:
+      m.expansions.scale_temperature_uncertainty = uncertainty(field, value);
+      break;
+    case RowField::PartUncertainty:
+      m.expansions.part_uncertainty = uncertainty(field, value);
+      break;
+    case RowField::ScaleUncertainty:
+      m.expansions.scale_uncertainty = uncertainty(field, value);
+      break;
+    default: m.texts.*kRowFields[field].text = text(field, value); break;
+  }
+}
+
+std::optional<Length> MeasurementRowReader::length(std::size_t field, const RawValue& value,
+                                                   bool micrometres, bool round) {
+  if (value.kind != RawValue::Kind::Number && value.kind != RawValue::Kind::String) {
+    report(ErrorCode::FieldType, kRowFields[field].name,
+           fmt::format("{} takes a number, not {}", kRowFields[field].name, name_of(value.kind)));
+    return std::nullopt;
+  }
+  const LengthSyntax syntax{.decimal_comma = value.decimal_comma,
+                            .exponent = value.kind == RawValue::Kind::Number,
+                            .round_to_nearest = round};
+  const auto parsed =
+      micrometres ? parse_length_um(value.text, syntax) : parse_length_mm(value.text, syntax);
+  if (parsed) return *parsed;
+  report(parsed.error().code, kRowFields[field].name, parsed.error().message);
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> MeasurementRowReader::decimal(std::size_t field,
+                                                          const RawValue& value) {
+  if (value.kind != RawValue::Kind::Number && value.kind != RawValue::Kind::String) {
+    report(ErrorCode::FieldType, kRowFields[field].name,
+           fmt::format("{} takes a number, not {}", kRowFields[field].name, name_of(value.kind)));
+    return std::nullopt;
+  }
+  const auto parsed = parse_decimal(value.text, {.scale = 6,
+                                                 .decimal_comma = value.decimal_comma,
+                                                 .exponent = value.kind == RawValue::Kind::Number});
+  if (parsed) return *parsed;
+  const bool too_fine = parsed.error().code == ErrorCode::LengthTooFine;
+  report(too_fine ? ErrorCode::FieldInvalid : parsed.error().code, kRowFields[field].name,
+         parsed.error().message);
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> MeasurementRowReader::decimal_in(std::size_t field,
+                                                             const RawValue& value,
+                                                             std::int64_t least, std::int64_t most,
+                                                             std::string_view range) {
+  const auto number = decimal(field, value);
+  if (number && (*number < least || *number > most)) {
+    report(ErrorCode::NumberOutOfRange, kRowFields[field].name,
+           fmt::format("{} {}", kRowFields[field].name, range));
+  }
+  return number;
+}
+
+std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
+                                                           const RawValue& value) {
+  const std::string_view name = kRowFields[field].name;
+  const std::size_t longest = kRowFields[field].longest;
+  if (value.kind != RawValue::Kind::String) {
+    report(ErrorCode::FieldType, name,
+           fmt::format("{} takes a string, not {}", name, name_of(value.kind)));
+    return std::nullopt;
+  }
+  if (value.text.size() > longest) {
+    report(ErrorCode::FieldTooLong, name, fmt::format("{} takes at most {} bytes", name, longest));
+    return std::nullopt;
+  }
+  if (value.text.find('\0') != std::string_view::npos) {
+    report(ErrorCode::FieldInvalid, name, fmt::format("{} holds a NUL character", name));
+    return std::nullopt;
+  }
+  return value.text;
+}
+
+void MeasurementRowReader::take_gauge(const app::Measurement& other) { draft_.gauge_of = &other; }
+
+const GaugeInUse* MeasurementRowReader::find_gauge(std::string_view name) {
+  if (name == last_gauge_) return last_gauge_in_use_;
+  const auto found = context_.gauges->find(name);
+  last_gauge_ = name;
+  last_gauge_in_use_ = found == context_.gauges->end() ? nullptr : &found->second;
+  return last_gauge_in_use_;
+}
+
+/// What a gauge in use says: its uncertainty where the rule needs one that was not given, and that
+/// its calibration was overdue. @pre measured_at stands
+void MeasurementRowReader::apply_gauge() {
+  app::Measurement& m = draft_.measurement;
+  const bool needs = draft_.rule.kind != gauging::DecisionRule::Kind::Simple;
+  if (const app::Measurement* other = draft_.gauge_of) {
+    m.calibration_due = other->calibration_due;
+    if (needs && !m.standard_uncertainty) {
+      m.standard_uncertainty = other->standard_uncertainty;
+      m.uncertainty_budget = other->uncertainty_budget;
+    }
+  }
+  if (context_.gauges == nullptr || !m.texts.gauge) return;
+  const GaugeInUse* gauge = find_gauge(*m.texts.gauge);
+  if (gauge == nullptr) return;
+  if (draft_.gauge_of == nullptr && gauge->is_overdue(m.measured_at)) {
+    m.calibration_due = gauge->calibration_due;
+  }
+  if (needs && !m.standard_uncertainty && !given(RowField::Uncertainty) &&
+      gauge->standard_uncertainty) {
+    m.standard_uncertainty = gauge->standard_uncertainty;
+    m.uncertainty_budget = gauge->budget;
+  }
+}
+
+/// @pre every field is valid by itself, and a rule that needs the uncertainty has it
+void MeasurementRowReader::apply_rule() {
+  app::Measurement& m = draft_.measurement;
+  draft_.rule.standard_uncertainty = m.standard_uncertainty;
+  if (m.standard_uncertainty && m.added_uncertainty) {
+    draft_.rule.standard_uncertainty =
+        gauging::combined_uncertainty(*m.standard_uncertainty, *m.added_uncertainty);
+  }
+  const auto rule = make_rule(draft_.rule);
+  if (!rule) {
+    const std::string_view field = kRowFields[RowField::Uncertainty].name;
+    return report(rule.error().code, rule.error().where.empty() ? field : rule.error().where,
+                  rule.error().message);
+  }
+  const auto checked =
+      check_acceptance(*rule, {.upper = m.upper_limit(), .lower = m.lower_limit()});
+  if (!checked) {
+    return report(checked.error().code, kRowFields[RowField::Uncertainty].name,
+                  checked.error().message);
+  }
+  m.rule = *rule;
+  if (rule->kind() == gauging::DecisionRule::Kind::GuardBand) {
+    m.coverage_factor = rule->coverage_factor();
+  } else if (const auto given_factor = draft_.rule.coverage_millionths) {
+    m.coverage_factor = gauging::CoverageFactor::from_millionths(*given_factor).value();
+  }
+}
+
+/// @pre every field is valid by itself
+void MeasurementRowReader::apply_correction() {
+  app::Measurement& m = draft_.measurement;
+  const app::Expansions& of = m.expansions;
+  const auto correction =
+      make_correction({.temperature = m.temperature,
+                       .scale_temperature = of.scale_temperature,
+                       .part_expansion = of.part,
+                       .scale_expansion = of.scale,
+                       .part_material = of.part_material,
+                       .scale_material = of.scale_material,
+                       .temperature_uncertainty = of.temperature_uncertainty,
+                       .scale_temperature_uncertainty = of.scale_temperature_uncertainty,
+                       .part_uncertainty = of.part_uncertainty,
+                       .scale_uncertainty = of.scale_uncertainty});
+  if (!correction) {
+    return report(correction.error().code, correction.error().where, correction.error().message);
+  }
+  if (!*correction) return;
+  m.corrected = (**correction)(m.measured);
+  m.added_uncertainty = (*correction)->added_uncertainty(*m.corrected);
+}
+
+const app::Measurement* MeasurementRowReader::end() {
+  app::Measurement& m = draft_.measurement;
+  if (!given(RowField::Measured)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Measured].name, "measured_mm is required");
+  }
+  if (!draft_.has_limits) resolve_limits();
+  if (!given(RowField::MeasuredAt)) m.measured_at = context_.received_at;
+  apply_gauge();
+  if (draft_.rule.kind != gauging::DecisionRule::Kind::Simple && !m.standard_uncertainty &&
+      !given(RowField::Uncertainty)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
+           fmt::format("rule {} needs uncertainty_um, the standard uncertainty, or a gauge in use "
+                       "that has an uncertainty budget",
+                       word(draft_.rule.kind)));
+  }
+  if (!draft_.failed) apply_correction();
+  if (!draft_.failed) apply_rule();
+  if (draft_.failed) return nullptr;
+  m.received_at = context_.received_at;
+  m.caller = context_.caller;
+  app::judge(m);
+  return &m;
+}
+
+}  // namespace fitgauge::api

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/json/field_reader.hpp"
+#include "record/measurement.hpp"
+#include "record/measurement_batch.hpp"
+#include "record/verdict_codec.hpp"
+
+namespace fitgauge::api {
+
+/// One value as its format has it, before the field says what it must be.
+struct RawValue {
+  enum class Kind : std::uint8_t { Null, Boolean, Number, String, Array, Object };
+
+  Kind kind = Kind::Null;
+  std::string_view text{};     ///< digits of a number, characters of a string
+  bool decimal_comma = false;  ///< CSV with `;` or quotes
+};
+
+/// A parsed JSON value as one. @returns a view of it.
+RawValue raw_value(const JsonValue& value);
+
+/// Turns the fields of one row into a judged measurement, whichever format they came in: begin()
+/// the row, give it every field, end() it. What is wrong goes to the FieldErrors. Remembers the
+/// last class, so that a batch of one class looks it up once. Refers to all it is given.
+class MeasurementRowReader {
+ public:
+  MeasurementRowReader(const BatchContext& context, FieldErrors& errors)
+      : tables_(context.tables), context_(context), errors_(errors) {}
+
+  /// @param row the index of the row, from 0; none for a single object.
+  /// @param line the line it stands on, from 1; none where lines mean nothing.
+  void begin(std::optional<std::size_t> row, std::optional<std::size_t> line = {});
+
+  /// @returns false, and reports nothing, when there is no such field or it was given before.
+  bool field(std::string_view name, const RawValue& value);
+  void report_unknown(std::string_view name);
+
+  /// Gives the row the limits of another measurement as they were applied there; then it has no
+  /// field of its own that says limits.
+  void take_limits(const app::Measurement& other);
+
+  /// Gives the row what the gauge of another measurement said there; then it is not asked again.
+  void take_gauge(const app::Measurement& other);
+
+  /// The judged measurement, until the next row begins; null when the row has errors.
+  const app::Measurement* end();
+
+  /// Reports a row that is no object.
+  void report_row(ErrorCode code, std::string message);
+
+  /// Whether a row has a field of that name.
+  static bool knows(std::string_view name);
+
+ private:
+  /// What a row may say before it is known how its limits are given.
+  struct Draft {
+    app::Measurement measurement{};
+    std::uint32_t given = 0;  ///< a bit a field
+    std::optional<Length> nominal{};
+    std::optional<std::string_view> class_name{};
+    std::optional<std::string_view> designation{};
+    std::optional<iso286::Feature> feature{};
+    std::optional<Length> upper{};
+    std::optional<Length> lower{};
+    RuleWords rule{};
+    bool has_limits = false;                     ///< taken from another measurement
+    const app::Measurement* gauge_of = nullptr;  ///< of take_gauge
+    bool failed = false;
+  };
+
+  std::size_t find_field(std::string_view name);
+  void assign(std::size_t field, const RawValue& value);
+  std::optional<Length> length(std::size_t field, const RawValue& value, bool micrometres,
+                               bool round = false);
+  std::optional<std::int64_t> decimal(std::size_t field, const RawValue& value);
+  /// A decimal number between the two, in millionths; `range` says so.
+  std::optional<std::int64_t> decimal_in(std::size_t field, const RawValue& value,
+                                         std::int64_t least, std::int64_t most,
+                                         std::string_view range);
+  std::optional<std::string_view> text(std::size_t field, const RawValue& value);
+  bool given(std::size_t field) const { return (draft_.given >> field & 1U) != 0; }
+
+  void apply_gauge();
+  const GaugeInUse* find_gauge(std::string_view name);
+  void apply_rule();
+  void apply_correction();
+  void resolve_limits();
+  void resolve_class();
+  void resolve_designation();
+  void resolve_explicit();
+  void take_limits(const Result<iso286::LimitsOfSize>& limits, std::string_view field);
+  void take_limits(Result<standards::DesignatedLimits> limits, std::string_view field);
+  bool is_open_designation() const;
+  bool is_open_class() const;
+  Result<iso286::ClassId> find_class(std::string_view name);
+  void report(ErrorCode code, std::string_view field, std::string message);
+
+  const iso286::ToleranceTables& tables_;
+  const BatchContext& context_;
+  FieldErrors& errors_;
+  std::optional<std::size_t> row_;
+  std::optional<std::size_t> line_;
+  Draft draft_;
+  std::size_t position_ = 0;  ///< fields of the row so far
+  std::string last_gauge_;
+  const GaugeInUse* last_gauge_in_use_ = nullptr;
+  std::string last_class_;
+  std::optional<iso286::ClassId> last_class_id_;  ///< none before the first: "" is no class
+};
+
+}  // namespace fitgauge::api

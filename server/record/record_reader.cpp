@@ -1,0 +1,216 @@
+#include "record/record_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "base/decimal.hpp"
+#include "metrology/gauging/reference_temperature.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+using app::Measurement;
+
+constexpr int kMmDecimals = 6;
+constexpr int kUmDecimals = 3;
+constexpr int kBillionths = 9;
+
+/// The members of a record, which are looked up by name; the first that is wrong is kept.
+class Record {
+ public:
+  Record(const JsonValue& json, TextArena& texts) : json_(json), texts_(texts) {}
+
+  std::optional<std::string_view> text(std::string_view name) {
+    const JsonValue* value = json_.find(name);
+    if (value == nullptr) return std::nullopt;
+    return texts_.keep(value->text);
+  }
+
+  std::optional<std::int64_t> decimal(std::string_view name, int scale) {
+    const JsonValue* value = json_.find(name);
+    if (value == nullptr) return std::nullopt;
+    return taken(name, parse_decimal(value->text, {.scale = scale, .exponent = true}));
+  }
+
+  std::optional<Length> length(std::string_view name, int scale) {
+    // So near that no sum of such lengths overflows.
+    constexpr std::int64_t kFarthest = 1'000'000'000'000'000'000;
+    const auto nanometres = decimal(name, scale);
+    if (!nanometres) return std::nullopt;
+    if (*nanometres < -kFarthest || *nanometres > kFarthest) wrong(name);
+    return Length::nanometres(std::clamp(*nanometres, -kFarthest, kFarthest));
+  }
+  std::optional<Length> mm(std::string_view name) { return length(name, kMmDecimals); }
+  std::optional<Length> um(std::string_view name) { return length(name, kUmDecimals); }
+
+  template <class T>
+  T required(std::string_view name, const std::optional<T>& value) {
+    if (!value) wrong(name);
+    return value.value_or(T());
+  }
+
+  template <class T>
+  std::optional<T> taken(std::string_view name, const Result<T>& value) {
+    if (value) return *value;
+    wrong(name);
+    return std::nullopt;
+  }
+
+  void wrong(std::string_view name) {
+    if (!error_) {
+      error_ = Error{ErrorCode::LogRecordInvalid,
+                     fmt::format("a record of the batch cannot be read: its {}", name)};
+    }
+  }
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  const JsonValue& json_;
+  TextArena& texts_;
+  std::optional<Error> error_;
+};
+
+/// `m17-5f0c9a3e77d21b40`: the letter, the number and the digits.
+struct IdParts {
+  std::int64_t number = 0;
+  std::string_view digits{};
+};
+
+std::optional<IdParts> parts_of(char letter, std::string_view id) {
+  const std::size_t dash = id.find('-', 2);
+  if (id.size() < 2 || id.front() != letter || dash == id.npos) return std::nullopt;
+  IdParts parts{.digits = id.substr(dash + 1)};
+  const char* const end = id.data() + dash;
+  const auto read = std::from_chars(id.data() + 1, end, parts.number);
+  if (read.ptr != end || read.ec != std::errc() || parts.number < 1) return std::nullopt;
+  return parts;
+}
+
+Timestamp time_of(Record& record, std::string_view name) {
+  const auto text = record.required(name, record.text(name));
+  return record.required(name, record.taken(name, parse_rfc3339(text)));
+}
+
+void read_ids(Record& record, Measurement& m) {
+  const auto part = [&record](std::string_view name, char letter) -> std::optional<IdParts> {
+    const auto text = record.text(name);
+    if (!text) return std::nullopt;
+    const auto parts = parts_of(letter, *text);
+    if (!parts) record.wrong(name);
+    return parts;
+  };
+  const IdParts id = record.required("id", part("id", 'm'));
+  m.id = id.number;
+  m.origin = id.digits;
+  if (const auto run = part("run_id", 'r')) m.run_id = run->number;
+  if (const auto corrected = part("correction_of", 'm')) {
+    m.correction_of = corrected->number;
+    m.corrected_elsewhere = app::Elsewhere{.digits = corrected->digits};
+  }
+  m.correction_reason = record.text("reason");
+}
+
+void read_limits(Record& record, const JsonValue& json, Measurement& m) {
+  m.nominal_size = record.required("nominal_mm", record.mm("nominal_mm"));
+  m.class_name = record.text("tolerance_class");
+  const auto feature = iso286::feature_from_word(record.text("feature").value_or(""));
+  m.feature = record.required("feature", feature);
+  m.deviations = {.upper = record.um("upper_deviation_um").value_or(app::kNoLimit),
+                  .lower = record.um("lower_deviation_um").value_or(-app::kNoLimit)};
+  const std::string_view basis = record.text("basis").value_or("");
+  if (basis == word(app::LimitsBasis::Custom)) {
+    m.basis = app::LimitsBasis::Custom;
+  } else if (basis == word(app::LimitsBasis::Explicit)) {
+    m.basis = app::LimitsBasis::Explicit;
+  } else if (basis == word(app::LimitsBasis::Standard)) {
+    m.basis = app::LimitsBasis::Standard;
+  } else if (basis != word(app::LimitsBasis::Iso286)) {
+    record.wrong("basis");
+  }
+  m.table_revision = record.text("table_revision").value_or("");
+  if (const JsonValue* range = json.find("size_range_mm")) {
+    TextArena unused;
+    Record inner(*range, unused);
+    m.size_range = iso286::NominalSizeRange{.over = inner.required("over", inner.mm("over")),
+                                            .up_to = inner.required("up_to", inner.mm("up_to"))};
+    if (inner.error()) record.wrong("size_range_mm");
+  }
+}
+
+void read_rule(Record& record, Measurement& m) {
+  m.standard_uncertainty = record.um("uncertainty_um");
+  m.added_uncertainty = record.decimal("added_uncertainty_um", app::kPicometreDecimals);
+  m.uncertainty_budget = record.text("uncertainty");
+  if (const auto k = record.decimal("coverage_factor", 6)) {
+    m.coverage_factor =
+        record.taken("coverage_factor", gauging::CoverageFactor::from_millionths(*k));
+  }
+  using Kind = gauging::DecisionRule::Kind;
+  const Length u = gauging::combined_uncertainty(m.standard_uncertainty.value_or(Length()),
+                                                 m.added_uncertainty.value_or(0));
+  const auto kind = gauging::rule_from_word(record.text("rule").value_or(""));
+  if (record.required("rule", kind) == Kind::GuardBand) {
+    const auto rule =
+        gauging::DecisionRule::guard_band(u, m.coverage_factor.value_or(gauging::CoverageFactor()));
+    m.rule = record.required("rule", record.taken("rule", rule));
+  } else if (kind == Kind::Conformance) {
+    const auto p = gauging::ConformanceProbability::from_millionths(
+        record.decimal("probability", 6).value_or(0));
+    if (!p) return record.wrong("probability");
+    m.rule =
+        record.required("rule", record.taken("rule", gauging::DecisionRule::conformance(u, *p)));
+    m.conformance = gauging::ConformanceFigures{
+        .probability = record.required("conformance_probability",
+                                       record.decimal("conformance_probability", kBillionths)),
+        .guard_band =
+            record.required("guard_band_um", record.decimal("guard_band_um", kBillionths))};
+  }
+}
+
+void read_expansions(Record& record, Measurement& m) {
+  const auto millionths = [&record](std::string_view name) {
+    return record.decimal(name, app::kTemperatureDecimals);
+  };
+  m.temperature = millionths("temperature_c");
+  m.expansions = {.scale_temperature = millionths("scale_temperature_c"),
+                  .part = millionths("part_expansion_um_per_m_k"),
+                  .scale = millionths("scale_expansion_um_per_m_k"),
+                  .part_material = record.text("part_material"),
+                  .scale_material = record.text("scale_material"),
+                  .temperature_uncertainty = millionths("temperature_uncertainty_c"),
+                  .scale_temperature_uncertainty = millionths("scale_temperature_uncertainty_c"),
+                  .part_uncertainty = millionths("part_expansion_uncertainty_um_per_m_k"),
+                  .scale_uncertainty = millionths("scale_expansion_uncertainty_um_per_m_k")};
+}
+
+}  // namespace
+
+Result<Measurement> read_record(const JsonValue& json, TextArena& texts) {
+  Record record(json, texts);
+  Measurement m;
+  read_ids(record, m);
+  const auto source = app::source_from_word(record.text("source").value_or(""));
+  m.source = record.required("source", source);
+  m.measured_at = time_of(record, "measured_at");
+  m.received_at = time_of(record, "received_at");
+  read_limits(record, json, m);
+  m.measured = record.required("measured_mm", record.mm("measured_mm"));
+  m.corrected = record.mm("corrected_mm");
+  read_rule(record, m);
+  read_expansions(record, m);
+  for (const auto& [name, field] : app::kMeasurementTexts) m.texts.*field = record.text(name);
+  m.calibration_due = record.text("calibration_due");
+  m.caller = record.text("caller");
+  m.cycle = record.decimal("cycle", 0);
+  const auto verdict = gauging::verdict_from_word(record.text("verdict").value_or(""));
+  if (!verdict) record.wrong("verdict");
+  if (record.error()) return *record.error();
+  m.result = gauging::gauge(m.feature, m.upper_limit(), m.lower_limit(), m.decisive());
+  m.result.verdict = *verdict;
+  return m;
+}
+
+}  // namespace fitgauge::api

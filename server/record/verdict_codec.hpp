@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/json/json_writer.hpp"
+#include "base/result.hpp"
+#include "metrology/gauging/conformance.hpp"
+#include "metrology/gauging/gauge.hpp"
+
+namespace fitgauge::api {
+
+/// The largest measured value: 100 km.
+inline constexpr Length kLargestMeasured = Length::millimetres(100'000'000);
+
+/// @errors LengthOutOfRange unless 0 < measured <= kLargestMeasured.
+Result<void> check_measured(Length measured);
+/// @errors LengthOutOfRange where it is negative.
+Result<void> check_uncertainty(Length uncertainty);
+
+/// A decision rule as it is written, in the query as in a body.
+struct RuleWords {
+  gauging::DecisionRule::Kind kind = gauging::DecisionRule::Kind::Simple;
+  std::optional<Length> standard_uncertainty{};
+  std::optional<std::int64_t> coverage_millionths{};
+  std::optional<std::int64_t> probability_millionths{};
+};
+/// @errors RuleInvalid when a guard band or conformance has no uncertainty, or a number is none of
+///   the rule's.
+Result<gauging::DecisionRule> make_rule(const RuleWords& words);
+
+/// @errors RuleNoAcceptance where conformance leaves no value that could be good.
+Result<void> check_acceptance(const gauging::DecisionRule& rule,
+                              const gauging::ConformanceLimits& limits);
+
+/// A measured value: what was read, and its size at 20 °C where that decides.
+struct MeasuredSize {
+  Length reading;
+  std::optional<Length> corrected{};
+  std::optional<std::int64_t> added_uncertainty{};  ///< by the correction, in pm
+
+  Length decisive() const { return corrected.value_or(reading); }
+};
+
+/// Writes measured_mm, corrected_mm, added_uncertainty_um, deviation_um, verdict and excess_um.
+void write_verdict_members(JsonWriter& json, Length nominal_size, const MeasuredSize& measured,
+                           const gauging::GaugingResult& result);
+
+/// Writes the rule with its numbers: uncertainty_um, coverage_factor of a guard band, probability,
+/// conformance_probability and guard_band_um of conformance; nothing for the simple rule.
+/// @param given of uncertainty_um; the rule has it with what a correction adds
+void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule,
+                        std::optional<Length> given, const gauging::ConformanceLimits& limits,
+                        Length measured);
+
+}  // namespace fitgauge::api

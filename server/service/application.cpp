@@ -1,0 +1,363 @@
+#include "service/application.hpp"
+
+#include <fmt/format.h>
+
+#include "db/postgres/database.hpp"
+#include "db/sqlite/data_directory.hpp"
+#include "db/sqlite/database.hpp"
+#include "db/store/database.hpp"
+#include "proof/tile.hpp"
+#include "service/log/log_check.hpp"
+#include "service/log/log_keys.hpp"
+#include "service/measurements/mapping.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::int64_t kForEverDays = 100'000;
+
+store::OpenOptions options_of_store(const ApplicationOptions& options) {
+  store::OpenOptions open;
+  open.directory = options.directory;
+  open.address = options.address;
+  open.access = options.attach ? store::Access::Attach : store::Access::Serve;
+  open.synchronous = options.durable ? store::Synchronous::Full : store::Synchronous::Off;
+  open.commit_each = options.commit_each;
+  open.queue_limit = options.write_queue;
+  open.readers = options.readers;
+  open.idempotency_retention = std::chrono::days(options.idempotency_days);
+  open.run_retention = std::chrono::days(
+      options.run_retention_days == 0 ? kForEverDays : options.run_retention_days);
+  open.event_retention = options.event_retention;
+  open.around_outcomes = options.around_outcomes;
+  if (options.health_changed) {
+    open.health_changed = [tell = options.health_changed](const store::Health& health) {
+      tell(word(health.state), health.reason);
+    };
+  }
+  if (options.job_threw) {
+    open.job_threw = [tell = options.job_threw](const Error& bug) { tell(bug.message); };
+  }
+  return open;
+}
+
+/// Whether the limits of a designation of another standard are those that it gives, where this
+/// build has that edition.
+bool has_limits_of_its_standard(const Measurement& m) {
+  if (m.basis != LimitsBasis::Standard) return true;
+  std::string designation;
+  standards::append_designation(designation, m.nominal_size, *m.class_name);
+  const auto limits = standards::limits_of(designation);
+  const auto is_of = [&](const standards::Standard& standard) {
+    return standard.revision == m.table_revision;
+  };
+  const auto editions = standards::all();
+  if (std::none_of(editions.begin(), editions.end(), is_of)) return true;
+  return limits && limits->deviations == m.deviations && limits->nominal == m.nominal_size;
+}
+
+/// Judges a stored measurement again by the limits and the rule stored with it.
+std::optional<std::string> check_verdict(const store::MeasurementRow& row, const RowNames& names) {
+  Measurement again = from_store(row, names);
+  if (!has_limits_of_its_standard(again)) {
+    return fmt::format("m{} has limits that {} does not give by {}", row.id, *again.class_name,
+                       again.table_revision);
+  }
+  const gauging::Verdict stored = again.result.verdict;
+  judge(again);
+  if (again.result.verdict == stored) return std::nullopt;
+  return fmt::format("m{} is stored as {} but its limits make it {}", row.id, word(stored),
+                     word(again.result.verdict));
+}
+
+constexpr std::string_view kOfNoOrigin = "is of a folder that is not known: its origin was altered";
+
+/// What rows are called, also by what a daemon beside this process has stored since it was
+/// attached. One thread at a time.
+class LaterNames {
+ public:
+  LaterNames(store::Database& database, const TableCatalog& tables, const Origins& origins)
+      : database_(database), tables_(tables), origins_(origins) {}
+
+  RowNames names() const {
+    return {.revision_id =
+                [this](std::int64_t number) {
+                  const std::string_view known = tables_.revision_id(number);
+                  return known.empty() ? find(revisions_, number) : known;
+                },
+            .origin =
+                [this](std::int64_t number) {
+                  const std::string_view known = origins_.digits(number);
+                  return known.empty() ? find(digits_, number) : known;
+                }};
+  }
+
+ private:
+  using Names = std::map<std::int64_t, std::string>;
+
+  std::string_view find(const Names& names, std::int64_t number) const {
+    if (!names.contains(number)) read();
+    const auto found = names.find(number);
+    return found == names.end() ? std::string_view() : found->second;
+  }
+
+  void read() const {
+    (void)database_.readers().wait([this](const store::Stores& stores) -> Result<bool> {
+      for (const store::TableRevision& revision : stores.tables.list()) {
+        revisions_.emplace(revision.number, revision.id);
+      }
+      for (const auto& revision : stores.origins.revisions()) {
+        revisions_.emplace(-revision.number, revision.id);
+      }
+      for (const auto& origin : stores.origins.list()) {
+        digits_.emplace(origin.number, origin.digits);
+      }
+      return true;
+    });
+  }
+
+  store::Database& database_;
+  const TableCatalog& tables_;
+  const Origins& origins_;
+  mutable Names revisions_;
+  mutable Names digits_;
+};
+
+/// The log that a checkpoint is of; that of this folder, where it is of none that is here.
+std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
+  const auto checkpoint = tlog::parse_checkpoint(note);
+  for (const auto& [origin, facts] : logs) {
+    if (checkpoint && checkpoint->origin == facts.name) return origin;
+  }
+  return 0;
+}
+
+/// What verify says of a measurement that is altered, has a wrong verdict, or both.
+std::optional<std::string> finding_of(const std::optional<std::string>& altered,
+                                      const std::optional<std::string>& verdict) {
+  if (!verdict) return altered;
+  return fmt::format("{}: {}", altered.value_or("is wrong"), *verdict);
+}
+
+}  // namespace
+
+Application::Application() = default;
+
+/// Who calls the services goes before them: the runs, the listeners of commits, the storage jobs.
+Application::~Application() {
+  stage_ = Stage::Closing;
+  stage_.notify_all();
+  if (runs_) runs_->stop();
+  committed_.stop();
+  if (log_) log_->stop();
+  if (database_) database_->drain();
+}
+
+Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions& options,
+                                                       const Clock& clock) {
+  std::unique_ptr<Application> app(new Application);
+  store::OpenOptions open_options = options_of_store(options);
+  open_options.committed = [app = app.get()] {
+    app->committed_.raise();
+    if (app->stage_ == Stage::Open) app->log_->committed();
+  };
+  if (!options.attach) {
+    open_options.check_measurement = [app = app.get()](const store::MeasurementRow& row) {
+      app->stage_.wait(Stage::Opening);
+      return app->stage_ == Stage::Open ? app->check_leaf(row) : std::nullopt;
+    };
+  }
+  app->directory_ = options.directory;
+  app->is_on_server_ = !options.address.empty();
+  open_options.names_changed = [app = app.get()](const store::Stores& stores) {
+    return app->stage_ == Stage::Open && app->take_names(stores);
+  };
+  if (!options.address.empty() && !options.attach) {
+    auto held = store::DirectoryLock::acquire(options.directory);
+    if (!held) return held.error();
+    app->folder_ = std::make_unique<store::DirectoryLock>(*std::move(held));
+  }
+  auto database = options.address.empty() ? store::sqlite::open_database(open_options, clock)
+                                          : store::postgres::open_database(open_options, clock);
+  if (!database) return database.error();
+  app->database_ = *std::move(database);
+  auto tables = TableCatalog::open(*app->database_, clock, options.has_centre);
+  if (!tables) return tables.error();
+  app->tables_ = *std::move(tables);
+  if (!options.attach) {
+    if (const auto numbered = app->tables_->number_standards(); !numbered) return numbered.error();
+  }
+  auto log = LogService::open(*app->database_, *app->tables_, clock,
+                              {.directory = options.directory,
+                               .name = options.origin_name,
+                               .shares = !options.address.empty(),
+                               .attach = options.attach,
+                               .tell = options.log_told});
+  if (!log) return log.error();
+  app->log_ = *std::move(log);
+  const Origins& origins = app->log_->origins();
+  app->intake_ = std::make_unique<LogIntake>(
+      *app->database_, *app->tables_, app->log_->origins(), clock,
+      [tell = options.log_told](std::string_view event, const std::string& detail) {
+        if (tell) tell(event, detail);
+      });
+  app->clock_ = &clock;
+  app->revisions_ = std::make_unique<RevisionFeed>(*app->database_, *app->tables_, origins);
+  auto keys = KeyService::open(*app->database_, clock);
+  if (!keys) return keys.error();
+  app->keys_ = *std::move(keys);
+  app->measurements_ = std::make_unique<MeasurementService>(
+      *app->database_, *app->tables_, origins,
+      MeasurementServiceOptions{.most_waiting = options.write_queue,
+                                .commit_each = options.commit_each});
+  app->files_ = std::make_unique<FileService>(*app->database_, clock);
+  app->documents_ = std::make_unique<DocumentService>(*app->database_, clock, options.has_centre);
+  if (!options.attach) {
+    app->runs_ =
+        std::make_unique<RunService>(*app->database_, *app->tables_, clock, origins.own(),
+                                     RunServiceOptions{.workers = options.run_workers,
+                                                       .shares = !options.address.empty(),
+                                                       .keeps_newest = options.keeps_newest_run});
+  }
+  app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origins,
+                                                app->committed_, options.event_retention);
+  if (!options.attach) {
+    app->log_->start();
+  }
+  app->stage_ = Stage::Open;
+  app->stage_.notify_all();
+  return app;
+}
+
+/// What other daemons have added.
+bool Application::take_names(const store::Stores& stores) {
+  tables_->take(stores);
+  log_->take_names(stores);
+  return true;
+}
+
+std::optional<tlog::Hash> Application::kept_node(std::int64_t origin,
+                                                 const tlog::Node& node) const {
+  std::optional<tlog::Hash> kept;
+  const auto read = database_->readers().wait([&](const store::Stores& stores) -> Result<bool> {
+    const int level = static_cast<int>(node.level / tlog::kTileHeight);
+    const auto index = static_cast<std::int64_t>(node.index);
+    const auto take = [&](const Digest& hash) { kept = hash; };
+    if (origin == 0) {
+      stores.log.nodes(level, index, 1, take);
+    } else {
+      stores.origins.nodes(origin, level, index, 1, take);
+    }
+    return true;
+  });
+  return read ? kept : std::nullopt;
+}
+
+WriterFigures Application::writer() const {
+  const store::WriterCounters& counters = database_->writer_counters();
+  return {.queued = database_->writer_queue(),
+          .commit_seconds = counters.commit_seconds,
+          .batch_jobs = counters.batch_jobs,
+          .failures = counters.failed_commits,
+          .log_pages = counters.log_pages};
+}
+
+StorageFigures Application::storage() const {
+  StorageFigures figures{.readers_queued = database_->reader_queue(),
+                         .is_on_server = is_on_server_};
+  if (const auto server = database_->server_figures()) {
+    figures.server_bytes = server->database_bytes;
+    figures.standbys = server->standbys;
+    figures.standby_behind_bytes = server->standby_behind_bytes;
+  }
+  return figures;
+}
+
+Readiness Application::readiness() const { return app::readiness(*database_, *tables_, *log_); }
+
+Result<std::optional<Timestamp>> Application::newest_measurement() const {
+  return database_->readers().wait(
+      [](const store::Stores& stores) -> Result<std::optional<Timestamp>> {
+        std::optional<Timestamp> newest;
+        stores.measurements.find(
+            stores.measurements.last_id(),
+            [&](const store::MeasurementRow& row) { newest = Timestamp{row.received_at_ns}; });
+        return newest;
+      });
+}
+
+Result<void> Application::backup(const std::filesystem::path& file) const {
+  // The checkpoint first: the copy that is made after it has all that it covers.
+  const auto checkpoint = read_small_file(directory_ / kCheckpointFile);
+  if (const auto copied = database_->backup(file); !copied) return copied;
+  if (!checkpoint || !*checkpoint) return {};
+  auto beside = file;
+  return replace_file(beside += ".checkpoint", **checkpoint, true);
+}
+
+RevisionIntake Application::revision_intake(RevisionIntake::Tell tell) {
+  return {*database_, *tables_, log_->origins(), *clock_, std::move(tell)};
+}
+
+std::optional<std::string> Application::check_leaf(const store::MeasurementRow& row) const {
+  const Digest leaf = LeafMaker()(from_store(row, row_names(*tables_, log_->origins())));
+  return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
+}
+
+Result<Application::Verification> Application::verify(
+    const std::map<std::string, std::string>& checkpoints) const {
+  // The daemon's own checkpoint is read before the rows, so that they have all that it covers.
+  const auto own = read_small_file(directory_ / kCheckpointFile);
+  const LaterNames later(*database_, *tables_, log_->origins());
+  const RowNames names = later.names();
+  const auto logs = LogService::logs(*database_);
+  if (!logs && logs.error().code != ErrorCode::StorageCorrupt) return logs.error();
+  if (!logs) {  // what the log says of itself is damaged: that is a finding, and there may be more
+    return verification_of(database_->verify([&](const store::MeasurementRow& row) {
+      return finding_of(std::nullopt, check_verdict(row, names));
+    }));
+  }
+  std::map<std::int64_t, LogCheck> checks;
+  for (const auto& [origin, facts] : *logs) {
+    const auto kept = [this, number = origin](const tlog::Node& node) {
+      return kept_node(number, node);
+    };
+    LogCheck& check = checks.try_emplace(origin, facts, names, kept).first->second;
+    if (!facts.checkpoint.empty()) check.expect("its newest checkpoint", facts.checkpoint);
+  }
+  if (own && *own && !(*own)->empty()) {
+    checks.at(0).expect(std::string(kCheckpointFile), **own);
+  }
+  for (const auto& [place, note] : checkpoints) {
+    checks.at(origin_of(note, *logs)).expect(place, note);
+  }
+  auto report = database_->verify([&](const store::MeasurementRow& row) {
+    const auto check = checks.find(row.origin.value_or(0));
+    const auto altered =
+        check != checks.end() ? check->second.add(row) : std::optional<std::string>(kOfNoOrigin);
+    return finding_of(altered, check_verdict(row, names));
+  });
+  auto verification = verification_of(std::move(report));
+  if (!verification) return verification;
+  for (auto& [origin, check] : checks) {
+    if (origin != 0) verification->head += '\n';
+    verification->head += check.head_text();
+    for (std::string& finding : check.finish()) {
+      verification->findings.push_back(std::move(finding));
+    }
+  }
+  return verification;
+}
+
+Result<Application::Verification> Application::verification_of(
+    Result<store::VerifyReport> report) const {
+  if (!report) return report.error();
+  Verification verification{
+      .measurements = report->measurements, .findings = std::move(report->findings), .head = {}};
+  for (const Error& finding : tables_->state()->findings) {
+    verification.findings.push_back(finding.message);
+  }
+  return verification;
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "service/documents/document_service.hpp"
+#include "service/documents/key_service.hpp"
+#include "service/events/commit_signal.hpp"
+#include "service/events/event_service.hpp"
+#include "service/files/file_service.hpp"
+#include "service/log/log_intake.hpp"
+#include "service/log/log_outbox.hpp"
+#include "service/log/log_service.hpp"
+#include "service/measurements/measurement_service.hpp"
+#include "service/revisions/revision_feed.hpp"
+#include "service/revisions/revision_intake.hpp"
+#include "service/runs/run_service.hpp"
+#include "service/state/readiness.hpp"
+#include "service/state/storage_figures.hpp"
+#include "service/state/writer_figures.hpp"
+#include "service/tables/table_catalog.hpp"
+
+namespace fitgauge::store {
+class Database;
+class DirectoryLock;
+struct MeasurementRow;
+struct Stores;
+struct VerifyReport;
+}  // namespace fitgauge::store
+
+namespace fitgauge::app {
+
+struct ApplicationOptions {
+  std::filesystem::path directory;  ///< of the database; on a server, of the log's key alone
+  std::string address{};            ///< `postgresql://…`: a server that several daemons share
+  bool attach = false;              ///< beside a running daemon: nothing is created or upgraded
+  bool durable = true;              ///< false only as a test's negative control
+  bool commit_each = false;         ///< every write its own commit: the benchmark's peer
+  std::size_t write_queue = 4096;
+  unsigned readers = 2;
+  unsigned run_workers = 2;
+  bool keeps_newest_run = false;  ///< see RunServiceOptions
+  std::int64_t idempotency_days = 30;
+  std::int64_t run_retention_days = 90;  ///< 0: for ever
+  std::int64_t event_retention = 100'000;
+  bool has_centre = false;              ///< what came from a centre is changed there alone
+  std::string origin_name = "station";  ///< of the log of a new data folder
+  /// Calls what it is given, on the writer thread: the `done` of everything a commit has stored.
+  std::function<void(const std::function<void()>&)> around_outcomes{};
+  /// The storage's health has changed: `ok`, `checking`, `writes_failing` or `damaged`, and why.
+  /// Called on a storage thread; must not block.
+  std::function<void(std::string_view state, const std::string& reason)> health_changed{};
+  /// A storage job threw, which is a bug. As above.
+  std::function<void(const std::string& what)> job_threw{};
+  /// What happens to the log: the event's name and a sentence. As above.
+  std::function<void(std::string_view event, const std::string& detail)> log_told{};
+};
+
+/// The service without its network: the database and one object per use case. Thread-safe once
+/// open. Destroying it finishes what is queued, commits, checkpoints and closes.
+class Application {
+ public:
+  /// @errors those of the database's opening (DatabaseInUse, DatabaseForeign, DatabaseNewer,
+  ///   StorageCorrupt, StorageUnavailable). Tables that fail their audit are no error here.
+  static Result<std::unique_ptr<Application>> open(const ApplicationOptions& options,
+                                                   const Clock& clock);
+  ~Application();
+
+  TableCatalog& tables() { return *tables_; }
+  LogService& log() { return *log_; }
+  LogIntake& intake() { return *intake_; }
+  RevisionFeed& revisions() { return *revisions_; }
+  /// Takes what the centre hands on. @param tell as that of the log.
+  RevisionIntake revision_intake(RevisionIntake::Tell tell);
+  LogOutbox outbox() { return {*database_, *tables_, *log_}; }
+  MeasurementService& measurements() { return *measurements_; }
+  EventService& events() { return *events_; }
+  KeyService& keys() { return *keys_; }
+  FileService& files() { return *files_; }
+  DocumentService& documents() { return *documents_; }
+  /// @pre not attached.
+  RunService& runs() { return *runs_; }
+
+  Readiness readiness() const;
+  WriterFigures writer() const;
+  StorageFigures storage() const;
+
+  // These block: for the start and for commands.
+
+  /// When the newest measurement was received; none before the first. @errors StorageUnavailable.
+  Result<std::optional<Timestamp>> newest_measurement() const;
+
+  /// A consistent copy of the live database, and beside it (`FILE.checkpoint`) the newest
+  /// checkpoint, which the copy covers. @errors StorageUnavailable, also when the file exists.
+  Result<void> backup(const std::filesystem::path& file) const;
+
+  struct Verification {
+    std::int64_t measurements = 0;
+    std::vector<std::string> findings;  ///< empty: all is well
+    std::string head;  ///< the logs as they were found: name, size and root of each
+  };
+  /// Checks the file, the schema, every table revision, the log against what this folder and
+  /// `checkpoints` (notes by what they are called) have signed, and that each verdict follows from
+  /// the stored limits.
+  Result<Verification> verify(const std::map<std::string, std::string>& checkpoints = {}) const;
+
+ private:
+  Application();
+  Result<Verification> verification_of(Result<store::VerifyReport> report) const;
+  bool take_names(const store::Stores& stores);
+  std::optional<std::string> check_leaf(const store::MeasurementRow& row) const;
+  std::optional<tlog::Hash> kept_node(std::int64_t origin, const tlog::Node& node) const;
+  struct LogChecks;
+
+  // Declared in the order of construction: each member uses only those above it.
+  std::filesystem::path directory_;
+  bool is_on_server_ = false;
+  CommitSignal committed_;
+  enum class Stage { Opening, Open, Closing };
+  std::atomic<Stage> stage_ = Stage::Opening;
+  std::unique_ptr<store::DirectoryLock> folder_;  ///< of a daemon whose database is on a server
+  std::unique_ptr<store::Database> database_;
+  std::unique_ptr<TableCatalog> tables_;
+  std::unique_ptr<LogService> log_;
+  std::unique_ptr<LogIntake> intake_;
+  std::unique_ptr<RevisionFeed> revisions_;
+  const Clock* clock_ = nullptr;
+  std::unique_ptr<MeasurementService> measurements_;
+  std::unique_ptr<EventService> events_;
+  std::unique_ptr<KeyService> keys_;
+  std::unique_ptr<FileService> files_;
+  std::unique_ptr<DocumentService> documents_;
+  std::unique_ptr<RunService> runs_;
+};
+
+}  // namespace fitgauge::app

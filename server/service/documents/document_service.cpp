@@ -1,0 +1,179 @@
+#include "service/documents/document_service.hpp"
+
+#include <fmt/format.h>
+
+#include <future>
+
+#include "db/store/database.hpp"
+#include "service/revisions/centre_decides.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+/// What differs between the kinds.
+struct Facts {
+  store::DocumentKind stored;
+  std::string_view noun;
+  ErrorCode unknown;
+};
+
+Facts facts_of(DocumentKind kind) {
+  using Stored = store::DocumentKind;
+  switch (kind) {
+    case DocumentKind::Uncertainty:
+      return {Stored::Uncertainty, "uncertainty budget", ErrorCode::UncertaintyUnknown};
+    case DocumentKind::GaugeInUse:
+      return {Stored::GaugeInUse, "gauge in use", ErrorCode::GaugeUnknown};
+    case DocumentKind::Setup: return {Stored::Setup, "setup", ErrorCode::SetupUnknown};
+    case DocumentKind::Connection:
+      return {Stored::Connection, "connection", ErrorCode::ConnectionUnknown};
+    case DocumentKind::ConnectionProgress:
+      return {Stored::ConnectionProgress, "progress of a connection", ErrorCode::ConnectionUnknown};
+    case DocumentKind::Catalogue:
+      return {Stored::Catalogue, "catalogue", ErrorCode::CatalogueUnknown};
+    case DocumentKind::Plan: break;
+  }
+  return {Stored::Plan, "plan", ErrorCode::PlanUnknown};
+}
+
+store::DocumentKind stored_kind(DocumentKind kind) { return facts_of(kind).stored; }
+
+std::string called(DocumentKind kind, const std::string& name) {
+  return fmt::format("{} '{}'", facts_of(kind).noun, name);
+}
+
+Error unknown_document(DocumentKind kind, const std::string& name) {
+  return {facts_of(kind).unknown, "there is no " + called(kind, name)};
+}
+
+/// Whether the document may be changed. @errors PreconditionFailed
+Result<void> check_change(const DocumentService::Precondition& precondition, DocumentKind kind,
+                          const std::string& name, const std::optional<store::Document>& current) {
+  if (!precondition ||
+      precondition(current ? std::optional<std::string_view>(current->text) : std::nullopt)) {
+    return {};
+  }
+  return Error{ErrorCode::PreconditionFailed,
+               called(kind, name) +
+                   " is not in the state that the request's precondition names: read it again"};
+}
+
+/// What a centre has given is changed there. @errors Forbidden
+Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const std::string& name) {
+  if (kind != DocumentKind::Setup && kind != DocumentKind::Plan &&
+      kind != DocumentKind::Catalogue) {
+    return {};
+  }
+  const auto as = static_cast<store::RevisionKind>(stored_kind(kind));
+  if (!stores.revisions.received(as, name)) return {};
+  return centre_decides(called(kind, name));
+}
+
+NamedDocument named_document(store::Document document) {
+  return {.name = std::move(document.name),
+          .text = std::move(document.text),
+          .modified_at = {document.modified_at_ns}};
+}
+
+Result<NamedDocument> find(const store::Stores& stores, DocumentKind kind,
+                           const std::string& name) {
+  auto found = stores.documents.find(stored_kind(kind), name);
+  if (!found) return unknown_document(kind, name);
+  return named_document(*std::move(found));
+}
+
+Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentKind kind) {
+  std::vector<NamedDocument> documents;
+  for (store::Document& document : stores.documents.list(stored_kind(kind))) {
+    documents.push_back(named_document(std::move(document)));
+  }
+  return documents;
+}
+
+/// Waits for what `begin` gives to its argument.
+template <class T, class Begin>
+Result<T> waited(const Begin& begin) {
+  std::promise<Result<T>> promise;
+  auto future = promise.get_future();
+  begin([&promise](Result<T> result) { promise.set_value(std::move(result)); });
+  return future.get();
+}
+
+}  // namespace
+
+void DocumentService::write(Change change, Done<bool> done) {
+  database_.writer().submit(
+      [change = std::move(change), at = clock_.now().nanoseconds,
+       has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
+        const store::DocumentKind kind = stored_kind(change.kind);
+        if (has_centre) {
+          if (const auto own = check_owner(stores, change.kind, change.name); !own) {
+            return own.error();
+          }
+        }
+        const auto allowed = check_change(change.precondition, change.kind, change.name,
+                                          stores.documents.find(kind, change.name));
+        if (!allowed) return allowed.error();
+        if (change.uncertainty &&
+            !stores.documents.find(store::DocumentKind::Uncertainty, *change.uncertainty)) {
+          return unknown_document(DocumentKind::Uncertainty, *change.uncertainty);
+        }
+        return stores.documents.put({.kind = kind,
+                                     .name = change.name,
+                                     .text = change.text,
+                                     .modified_at_ns = at,
+                                     .caller = change.caller});
+      },
+      std::move(done));
+}
+
+void DocumentService::read(DocumentKind kind, std::string name, Done<NamedDocument> done) {
+  database_.readers().submit([kind, name = std::move(name)](
+                                 const store::Stores& stores) { return find(stores, kind, name); },
+                             std::move(done));
+}
+
+void DocumentService::remove(DocumentKind kind, std::string name, Precondition precondition,
+                             Done<bool> done) {
+  database_.writer().submit(
+      [kind, name = std::move(name), precondition = std::move(precondition),
+       has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
+        if (has_centre) {
+          if (const auto own = check_owner(stores, kind, name); !own) return own.error();
+        }
+        const auto current = stores.documents.find(stored_kind(kind), name);
+        if (!current) return unknown_document(kind, name);
+        if (const auto allowed = check_change(precondition, kind, name, current); !allowed) {
+          return allowed.error();
+        }
+        return stores.documents.remove(stored_kind(kind), name);
+      },
+      std::move(done));
+}
+
+void DocumentService::list(DocumentKind kind, Done<std::vector<NamedDocument>> done) {
+  database_.readers().submit([kind](const store::Stores& stores) { return all_of(stores, kind); },
+                             std::move(done));
+}
+
+Result<NamedDocument> DocumentService::wait_for(DocumentKind kind, const std::string& name) {
+  return database_.readers().wait(
+      [kind, &name](const store::Stores& stores) { return find(stores, kind, name); });
+}
+
+Result<std::vector<NamedDocument>> DocumentService::wait_for_list(DocumentKind kind) {
+  return database_.readers().wait(
+      [kind](const store::Stores& stores) { return all_of(stores, kind); });
+}
+
+Result<bool> DocumentService::write_and_wait(Change change) {
+  return waited<bool>([&](Done<bool> done) { write(std::move(change), std::move(done)); });
+}
+
+Result<bool> DocumentService::remove_and_wait(DocumentKind kind, const std::string& name,
+                                              Precondition precondition) {
+  return waited<bool>(
+      [&](Done<bool> done) { remove(kind, name, std::move(precondition), std::move(done)); });
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,127 @@
+#include "service/documents/key_service.hpp"
+
+#include <chrono>
+
+#include "db/store/database.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::chrono::seconds kReloadInterval{2};
+
+static_assert(kShortestToken == store::kShortestToken);
+static_assert(static_cast<int>(Role::Station) == static_cast<int>(store::Role::Station));
+
+}  // namespace
+
+std::string_view word(Role role) {
+  switch (role) {
+    case Role::Viewer: return "viewer";
+    case Role::Operator: return "operator";
+    case Role::Admin: return "admin";
+    case Role::Station: return "station";
+  }
+  return "";
+}
+
+bool may(Role role, Role needed) {
+  switch (needed) {
+    case Role::Viewer: return true;
+    case Role::Operator: return role == Role::Operator || role == Role::Admin;
+    case Role::Station: return role == Role::Station || role == Role::Admin;
+    case Role::Admin: break;
+  }
+  return role == Role::Admin;
+}
+
+std::optional<Role> role_from_word(std::string_view text) {
+  for (const Role role : {Role::Viewer, Role::Operator, Role::Admin, Role::Station}) {
+    if (text == word(role)) return role;
+  }
+  return std::nullopt;
+}
+
+KeyService::KeyService(store::Database& database, const Clock& clock)
+    : database_(database), clock_(clock) {}
+
+KeyService::~KeyService() = default;
+
+Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database,
+                                                     const Clock& clock) {
+  std::unique_ptr<KeyService> service(new KeyService(database, clock));
+  if (const auto loaded = service->reload(); !loaded) return loaded.error();
+  service->loader_ = Thread("the loader of keys", [raw = service.get()](const auto& stop) {
+    std::unique_lock lock(raw->mutex_);
+    while (!raw->wake_.wait_for(lock, stop, kReloadInterval, [] { return false; }) &&
+           !stop.stop_requested()) {
+      // Storage that fails for a while leaves the keys that were loaded last in force.
+      static_cast<void>(raw->reload());
+    }
+  });
+  return service;
+}
+
+Result<void> KeyService::reload() {
+  auto ring = database_.readers().wait(
+      [](const store::Stores& stores) -> Result<store::KeyRing> { return stores.keys.ring(); });
+  if (!ring) return ring.error();
+  ring_.set(std::make_shared<const store::KeyRing>(*std::move(ring)));
+  return {};
+}
+
+std::optional<KnownCaller> KeyService::find(std::string_view token) const {
+  const auto ring = ring_.get();
+  const store::ApiKey* key = ring->find(token);
+  if (key == nullptr) return std::nullopt;
+  return KnownCaller{key->name, static_cast<Role>(key->role)};
+}
+
+Result<std::string> KeyService::create(const std::string& name, Role role, std::string token) {
+  if (token.empty()) token = store::new_token();
+  const auto created = database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
+    return stores.keys.create(name, static_cast<store::Role>(role), token,
+                              clock_.now().nanoseconds);
+  });
+  if (!created) return created.error();
+  if (const auto loaded = reload(); !loaded) return loaded.error();
+  return token;
+}
+
+Result<std::string> KeyService::replace(const std::string& name, const std::string& token) {
+  const std::int64_t now = clock_.now().nanoseconds;
+  const auto replaced =
+      database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
+        if (const auto revoked = stores.keys.revoke(name, now); !revoked) return revoked.error();
+        return stores.keys.create(name, store::Role::Admin, token, now);
+      });
+  if (!replaced) return replaced.error();
+  if (const auto loaded = reload(); !loaded) return loaded.error();
+  return token;
+}
+
+Result<void> KeyService::revoke(const std::string& name) {
+  const auto revoked = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    if (const auto done = stores.keys.revoke(name, clock_.now().nanoseconds); !done) {
+      return done.error();
+    }
+    return true;
+  });
+  if (!revoked) return revoked.error();
+  return reload();
+}
+
+Result<std::vector<KeyEntry>> KeyService::list() const {
+  return database_.readers().wait([](const store::Stores& stores) -> Result<std::vector<KeyEntry>> {
+    std::vector<KeyEntry> entries;
+    for (const store::ApiKey& key : stores.keys.list()) {
+      KeyEntry& entry = entries.emplace_back();
+      entry.name = key.name;
+      entry.role = static_cast<Role>(key.role);
+      entry.created_at = {key.created_at_ns};
+      if (key.revoked_at_ns) entry.revoked_at = Timestamp{*key.revoked_at_ns};
+    }
+    return entries;
+  });
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,179 @@
+#include "service/events/event_service.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <utility>
+
+#include "base/guarded.hpp"
+#include "db/store/database.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/tables/table_catalog.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::size_t kRowsAPage = 200;
+
+/// Takes a whole number from the front of `text`.
+std::optional<std::int64_t> take_number(std::string_view& text) {
+  std::int64_t number = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (failure != std::errc() || number < 0) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return number;
+}
+
+bool take(std::string_view& text, std::string_view prefix) {
+  if (!text.starts_with(prefix)) return false;
+  text.remove_prefix(prefix.size());
+  return true;
+}
+
+/// Walks one page of events in one state of the database.
+class EventReader {
+ public:
+  EventReader(const store::Stores& stores, EventService::Write write)
+      : stores_(stores), write_(write) {}
+
+  EventPosition newest() const {
+    return {.measurement = stores_.measurements.last_id(), .stored = stores_.events.kept().newest};
+  }
+
+  /// Whether what follows `after` can still be told. A position of the future is of another
+  /// database.
+  bool can_go_on(const EventPosition& after, std::int64_t retention) const {
+    const EventPosition end = newest();
+    const store::EventsStore::Kept kept = stores_.events.kept();
+    return after.measurement <= end.measurement && after.stored <= end.stored &&
+           end.measurement - after.measurement <= retention && after.stored + 1 >= kept.oldest;
+  }
+
+  EventService::Page read(const EventPosition& after, std::optional<Source> source,
+                          const RowNames& names) {
+    page_.position = after;
+    read_measurements(source, names);
+    const auto stored = stores_.events.after(page_.position.stored, kRowsAPage);
+    for (const store::Event& event : stored) {
+      page_.position.stored = event.id;
+      put({.type = event.type, .id = page_.position, .payload = event.payload});
+    }
+    page_.more = page_.more || stored.size() == kRowsAPage;
+    return std::move(page_);
+  }
+
+ private:
+  void read_measurements(std::optional<Source> source, const RowNames& names) {
+    store::MeasurementFilter filter;
+    filter.source = source ? std::optional(to_store(*source)) : std::nullopt;
+    filter.history = true;
+    EventPosition& position = page_.position;
+    const auto end = stores_.measurements.last_id();
+    const auto after = position.measurement - (position.reject_is_due ? 1 : 0);
+    const auto next = stores_.measurements.list(
+        filter, after, kRowsAPage,
+        [&](const store::MeasurementRow& row) { tell(from_store(row, names)); });
+    page_.more = next.has_value();
+    // Rows of another source that were passed over need not be looked at again.
+    position.measurement = next.value_or(end);
+    position.reject_is_due = false;
+  }
+
+  void tell(const Measurement& measurement) {
+    EventPosition& position = page_.position;
+    const bool told = position.reject_is_due && position.measurement == measurement.row;
+    const bool rejected = measurement.result.verdict == gauging::Verdict::Reject;
+    position.measurement = measurement.row;
+    position.reject_is_due = rejected;
+    if (!told) {
+      put({.type = "measurement.recorded", .id = position, .measurement = &measurement});
+    }
+    position.reject_is_due = false;
+    if (rejected) put({.type = "verdict.reject", .id = position, .measurement = &measurement});
+  }
+
+  void put(const Event& event) { write_(page_.text, event); }
+
+  const store::Stores& stores_;
+  const EventService::Write write_;
+  EventService::Page page_;
+};
+
+}  // namespace
+
+std::string event_id_text(const EventPosition& position) {
+  return fmt::format("m{}{}.e{}", position.measurement, position.reject_is_due ? "r" : "",
+                     position.stored);
+}
+
+std::optional<EventPosition> parse_event_id(std::string_view text) {
+  EventPosition position;
+  if (!take(text, "m")) return std::nullopt;
+  const auto measurement = take_number(text);
+  position.reject_is_due = take(text, "r");
+  if (!measurement || !take(text, ".e")) return std::nullopt;
+  const auto stored = take_number(text);
+  if (!stored || !text.empty()) return std::nullopt;
+  position.measurement = *measurement;
+  position.stored = *stored;
+  return position;
+}
+
+/// A page for all who ask for it until the transaction begins: who asks later may ask for what is
+/// committed later.
+struct EventService::PageWork {
+  EventService& service;
+  Place place;
+  Write write;
+  std::shared_ptr<Readers> readers;
+
+  void prepare() const {
+    const std::lock_guard lock(service.mutex_);
+    *readers = std::move(service.waiting_.extract(place).mapped());
+  }
+
+  Result<Page> operator()(const store::Stores& stores) const {
+    EventReader reader(stores, write);
+    if (!place.after) return Page{.position = reader.newest()};
+    if (!reader.can_go_on(*place.after, service.retention_)) {
+      return Page{.position = reader.newest(), .gap = true};
+    }
+    return reader.read(*place.after, place.source, row_names(service.tables_, service.origins_));
+  }
+};
+
+void EventService::read(const Place& place, Write write, PageDone done) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [waiting, is_first] = waiting_.try_emplace(place);
+    waiting->second.push_back(std::move(done));
+    if (!is_first) return;
+  }
+  PageWork work{*this, place, write, std::make_shared<Readers>()};
+  auto tell = [work](const Result<Page>& page) {
+    if (work.readers->empty()) work.prepare();  // refused before it began
+    for (const PageDone& reader : *work.readers) {
+      guarded("a reader of events", [&] { reader(page); });
+    }
+  };
+  database_.readers().submit(std::move(work), std::move(tell));
+}
+
+void EventService::read_stored(std::int64_t after, std::size_t limit,
+                               std::function<void(Result<StoredPage>)> done) {
+  database_.readers().submit(
+      [after, limit](const store::Stores& stores) -> Result<StoredPage> {
+        const store::EventsStore::Kept kept = stores.events.kept();
+        StoredPage page{.newest = kept.newest, .gap = after + 1 < kept.oldest};
+        for (store::Event& event : stores.events.after(after, limit)) {
+          page.events.push_back({.id = event.id,
+                                 .type = std::move(event.type),
+                                 .payload = std::move(event.payload),
+                                 .at = Timestamp{event.created_at_ns}});
+        }
+        return page;
+      },
+      std::move(done));
+}
+
+}  // namespace fitgauge::app

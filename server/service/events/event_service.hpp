@@ -1,0 +1,120 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/measurement.hpp"
+#include "service/events/commit_signal.hpp"
+
+namespace fitgauge::store {
+class Database;
+}
+
+namespace fitgauge::app {
+
+class TableCatalog;
+
+/// How far a reader of events has come. The measurements themselves are the log of what was
+/// recorded; only events that are in no other table are stored as such.
+struct EventPosition {
+  std::int64_t measurement = 0;
+  bool reject_is_due = false;  ///< this measurement was told as recorded, not yet as rejected
+  std::int64_t stored = 0;
+
+  friend auto operator<=>(const EventPosition&, const EventPosition&) = default;
+};
+
+/// The id of an event, opaque to the outside: a reader that stopped there goes on with the next.
+std::string event_id_text(const EventPosition& position);
+std::optional<EventPosition> parse_event_id(std::string_view text);
+
+/// One event, with a measurement or a payload; views, valid during the call it is given to.
+struct Event {
+  /// `measurement.recorded`, `verdict.reject`, `run.finished`, `table.changed`,
+  /// `note.added`
+  std::string_view type;
+  EventPosition id;
+  const Measurement* measurement = nullptr;
+  std::string_view payload{};  ///< JSON
+};
+
+/// What happened, in order, for readers that come back. Thread-safe; nothing here blocks.
+class EventService {
+ public:
+  /// @param retention how many measurements and how many stored events a reader may be behind.
+  /// @param origins outlive the service.
+  EventService(store::Database& database, const TableCatalog& tables, const Origins& origins,
+               CommitSignal& signal, std::int64_t retention)
+      : database_(database),
+        tables_(tables),
+        origins_(origins),
+        signal_(signal),
+        retention_(retention) {}
+
+  /// What a reader reads from: those at the same place get the same page.
+  struct Place {
+    std::optional<EventPosition> after{};  ///< none: from now on, so that there is no event
+    std::optional<Source> source{};        ///< of the measurements; none: all
+
+    friend auto operator<=>(const Place&, const Place&) = default;
+  };
+  struct Page {
+    EventPosition position;  ///< where the reader is now
+    bool gap = false;        ///< what came next is gone; the position is the newest
+    bool more = false;       ///< than fits into a page
+    std::string text{};
+  };
+  /// Writes an event at the end of a page's text.
+  using Write = void (*)(std::string& text, const Event& event);
+  using PageDone = std::function<void(const Result<Page>&)>;
+
+  /// The events of up to 200 measurements and as many stored ones, written by a reader thread.
+  /// Whoever asks for a page that no thread has begun to read shares it.
+  /// @param write the same for all. @errors StorageUnavailable, StorageBusy.
+  void read(const Place& place, Write write, PageDone done);
+
+  /// An event that is in no other table, on its own.
+  struct Stored {
+    std::int64_t id = 0;
+    std::string type{};
+    std::string payload{};  ///< JSON
+    Timestamp at{};
+  };
+  struct StoredPage {
+    std::vector<Stored> events{};  ///< oldest first
+    std::int64_t newest = 0;       ///< of all that there are
+    bool gap = false;              ///< some that came next are gone
+  };
+  /// Reads up to `limit` stored events behind `after`, on a reader thread.
+  /// @errors StorageUnavailable, StorageBusy.
+  void read_stored(std::int64_t after, std::size_t limit,
+                   std::function<void(Result<StoredPage>)> done);
+
+  /// A listener is told when there may be new events.
+  void add(std::shared_ptr<CommitListener> listener) { signal_.add(std::move(listener)); }
+  void remove(const std::shared_ptr<CommitListener>& listener) { signal_.remove(listener); }
+  std::size_t readers() const { return signal_.listeners(); }
+
+ private:
+  using Readers = std::vector<PageDone>;
+  struct PageWork;
+
+  store::Database& database_;
+  const TableCatalog& tables_;
+  const Origins& origins_;
+  CommitSignal& signal_;
+  std::int64_t retention_;
+  std::mutex mutex_;
+  std::map<Place, Readers> waiting_;  ///< for pages that no thread has begun to read
+};
+
+}  // namespace fitgauge::app

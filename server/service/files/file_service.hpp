@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/result.hpp"
+#include "nc/program/control_path.hpp"
+
+namespace fitgauge::store {
+class Database;
+}
+
+namespace fitgauge::app {
+
+/// A file of the control's disk.
+struct DiskFile {
+  std::string path;           ///< TNC:\..., as it was last written
+  std::int64_t revision = 0;  ///< rises with every write
+  std::int64_t size = 0;      ///< bytes
+  Timestamp modified_at;
+  std::string bytes{};  ///< empty in lists
+};
+
+/// The files of the control's disk. Nothing here blocks; `done` comes exactly once, on a storage
+/// thread or, when refused at once, on the caller's. Thread-safe.
+class FileService {
+ public:
+  template <class T>
+  using Done = std::function<void(Result<T>)>;
+
+  FileService(store::Database& database, const Clock& clock) : database_(database), clock_(clock) {}
+
+  struct Written {
+    bool created = false;  ///< false: an existing file was replaced
+    std::int64_t revision = 0;
+  };
+  /// Decides on the current revision, none where there is no file, whether a change is made; called
+  /// in the transaction that makes it. An empty one allows every change.
+  using Precondition = std::function<bool(std::optional<std::int64_t> revision)>;
+
+  /// @param bytes stays alive until `done`.
+  /// @errors PreconditionFailed, StorageUnavailable, StorageBusy.
+  void write(interpreter::ControlPath path, std::string_view bytes,
+             std::optional<std::string> caller, Precondition precondition, Done<Written> done);
+
+  /// @errors FileUnknown, StorageUnavailable.
+  void read(interpreter::ControlPath path, Done<DiskFile> done);
+
+  /// @errors FileUnknown, PreconditionFailed, StorageUnavailable, StorageBusy.
+  void remove(interpreter::ControlPath path, std::optional<std::string> caller,
+              Precondition precondition, Done<bool> done);
+
+  /// Every file whose path begins so, by path.
+  void list(std::string prefix, Done<std::vector<DiskFile>> done);
+
+ private:
+  store::Database& database_;
+  const Clock& clock_;
+};
+
+}  // namespace fitgauge::app

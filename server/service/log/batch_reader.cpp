@@ -1,0 +1,109 @@
+#include "service/log/batch_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "base/json/json_value.hpp"
+#include "record/json_members.hpp"
+#include "record/record_reader.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+/// More often than a key is renewed.
+constexpr std::size_t kMostHandOvers = 100;
+
+Error missing(std::string_view what) {
+  return {ErrorCode::RequestInvalid, fmt::format("the batch has no {}", what)};
+}
+
+Result<void> read_heading(const JsonValue& json, app::ForwardedBatch& batch) {
+  batch.checkpoint = text_of(json, "checkpoint");
+  batch.key = text_of(json, "key");
+  if (batch.checkpoint.empty()) return missing("checkpoint in its first line");
+  if (batch.key.empty()) return missing("key in its first line");
+  if (const JsonValue* notes = json.find("hand_overs")) {
+    if (notes->items.size() > kMostHandOvers) {
+      return Error{ErrorCode::RequestInvalid,
+                   fmt::format("hand_overs takes at most {} checkpoints", kMostHandOvers)};
+    }
+    for (const JsonValue& note : notes->items) batch.hand_overs.push_back(note.text);
+  }
+  return {};
+}
+
+/// An answer that the store keeps: what it refuses is refused here.
+Result<app::ForwardedBatch::Answer> read_answer(const JsonValue& json) {
+  app::ForwardedBatch::Answer answer{.caller = text_of(json, "caller"),
+                                     .method = text_of(json, "method"),
+                                     .path = text_of(json, "path"),
+                                     .key = text_of(json, "key"),
+                                     .content_type = text_of(json, "content_type"),
+                                     .location = text_of(json, "location"),
+                                     .answer = text_of(json, "body"),
+                                     .expires_at = {}};
+  const auto digest = digest_from_hex(text_of(json, "request_sha256"));
+  const JsonValue* status = json.find("status");
+  if (digest) answer.body = *digest;
+  if (status != nullptr) {
+    const char* const end = status->text.data() + status->text.size();
+    std::from_chars(status->text.data(), end, answer.status);
+  }
+  const auto expires_at = parse_rfc3339(text_of(json, "expires_at"));
+  if (json.find("expires_at") != nullptr && expires_at) answer.expires_at = *expires_at;
+  const bool readable = digest && answer.method == "POST" && !answer.key.empty() &&
+                        answer.path.starts_with("/v1/measurements") && answer.status >= 200 &&
+                        answer.status <= 299 &&
+                        (json.find("expires_at") == nullptr || expires_at.has_value());
+  if (readable) return answer;
+  return Error{ErrorCode::LogRecordInvalid, "an answer of the batch cannot be read"};
+}
+
+Result<void> read_line(std::string_view line, bool is_first, ReadBatch& read) {
+  auto json = parse_json(line);
+  if (!json) return json.error();
+  if (!json->is(JsonValue::Kind::Object)) return missing("object in a line");
+  if (is_first) return read_heading(*json, read.batch);
+  if (const JsonValue* kept = json->find("answer"); kept != nullptr && json->members.size() == 1) {
+    auto answer = read_answer(*kept);
+    if (!answer) return answer.error();
+    read.batch.answers.push_back(*std::move(answer));
+    return {};
+  }
+  auto measurement = read_record(*json, read.texts);
+  if (!measurement) return measurement.error();
+  if (read.batch.rows.size() == app::LogIntake::kMostRows || !read.batch.answers.empty()) {
+    return Error{ErrorCode::RequestInvalid,
+                 fmt::format("a batch has at most {} records, and answers behind them",
+                             app::LogIntake::kMostRows)};
+  }
+  read.batch.rows.push_back({.measurement = *std::move(measurement), .record = line});
+  return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ReadBatch>> read_batch(std::string_view origin, std::int64_t from,
+                                              std::string_view body) {
+  auto read = std::make_unique<ReadBatch>();
+  read->batch.origin = origin;
+  read->batch.from = from;
+  for (std::size_t number = 1; !body.empty(); ++number) {
+    const std::size_t end = std::min(body.find('\n'), body.size());
+    const std::string_view line = body.substr(0, end);
+    body.remove_prefix(std::min(end + 1, body.size()));
+    if (auto taken = read_line(line, number == 1, *read); !taken) {
+      Error error = taken.error();
+      error.message = fmt::format("line {}: {}", number, error.message);
+      return error;
+    }
+  }
+  if (read->batch.checkpoint.empty()) return missing("first line");
+  return read;
+}
+
+}  // namespace fitgauge::api

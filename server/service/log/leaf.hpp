@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "proof/tree_hash.hpp"
+#include "record/measurement.hpp"
+
+namespace fitgauge::app {
+
+/// Makes the leaves of the log: SHA-256(0x00 || the record as its POST answers it). The records are
+/// written once, for the leaves and for the answer. Not thread-safe.
+class LeafMaker {
+ public:
+  /// @param measurements with their ids. @returns a leaf for each, valid until the next call.
+  std::span<const tlog::Hash> operator()(std::span<const Measurement> measurements);
+  tlog::Hash operator()(const Measurement& measurement) {
+    return (*this)({&measurement, 1}).front();
+  }
+  /// The records of the last call, with commas between them; valid until the next.
+  std::string_view records() const { return records_; }
+  /// Those of some of its measurements.
+  std::string_view records(std::size_t first, std::size_t count) const {
+    return records().substr(begins_[first], begins_[first + count] - 1 - begins_[first]);
+  }
+
+ private:
+  std::string records_;
+  std::vector<std::size_t> begins_;  ///< of each record, and of the one that would follow
+  std::vector<tlog::Hash> leaves_;
+  tlog::TreeHasher hasher_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,96 @@
+#include "service/log/log_check.hpp"
+
+#include <fmt/format.h>
+
+#include "base/base64.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr unsigned kKeptLevels = 8;
+
+}  // namespace
+
+std::string altered_finding() { return "was altered: its record no longer gives its leaf"; }
+
+void LogCheck::expect(const std::string& place, std::string_view note) {
+  const auto checkpoint = tlog::open_checkpoint(note, facts_.keys);
+  if (!checkpoint) {
+    findings_.push_back(
+        fmt::format("{} is no checkpoint of this log: {}", place, checkpoint.error().message));
+  } else if (checkpoint->origin != facts_.name) {
+    findings_.push_back(
+        fmt::format("{} is of the log {}, not of {}", place, checkpoint->origin, facts_.name));
+  } else if (checkpoint->size == 0) {
+    return;  // every log begins so
+  } else {
+    expected_.emplace(checkpoint->size, Expected{place, *checkpoint});
+  }
+}
+
+std::optional<std::string> LogCheck::add(const store::MeasurementRow& row) {
+  const Measurement measurement = from_store(row, names_);
+  const tlog::Hash leaf = leaf_(measurement);
+  if (facts_.is_partial) {
+    ++partial_rows_;
+    return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
+  }
+  const auto expected = static_cast<std::int64_t>(frontier_.size()) + 1;
+  if (whole_ && row.place_in_log() != expected) {
+    whole_ = false;
+    // Where its place is its id, the gap before it is named by that.
+    if (row.origin || row.seq) {
+      return fmt::format("stands at {} in the log {}, where {} comes next", row.place_in_log(),
+                         facts_.name, expected);
+    }
+  }
+  if (whole_) {
+    compare_nodes(frontier_.append(leaf));
+    const auto [first, last] = expected_.equal_range(frontier_.size());
+    for (auto at = first; at != last; ++at) {
+      if (at->second.checkpoint.root == frontier_.root()) continue;
+      findings_.push_back(fmt::format("measurements up to {} are not those that {} has signed",
+                                      row.id, at->second.place));
+    }
+  }
+  return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
+}
+
+/// A record that was altered together with its leaf shows in the nodes above.
+void LogCheck::compare_nodes(unsigned completed) {
+  for (unsigned level = kKeptLevels; level < completed; level += kKeptLevels) {
+    const tlog::Node node{.level = level, .index = (frontier_.size() >> level) - 1};
+    if (((node.index + 1) << level) > static_cast<std::uint64_t>(facts_.size)) continue;
+    const auto kept = kept_(node);
+    if (kept && *kept == frontier_.completed(level)) continue;
+    findings_.push_back(fmt::format("measurements {} to {} are not those that the log has hashed",
+                                    (node.index << level) + 1, frontier_.size()));
+  }
+}
+
+std::vector<std::string> LogCheck::finish() {
+  if (!whole_) return std::move(findings_);  // the rows that are missing have been named
+  const std::uint64_t size = frontier_.size();
+  if (size < static_cast<std::uint64_t>(facts_.size)) {
+    findings_.push_back(fmt::format(
+        "the log has {} measurements, {} are there: the newest were cut off", facts_.size, size));
+  }
+  for (auto at = expected_.upper_bound(size); at != expected_.end(); ++at) {
+    findings_.push_back(fmt::format(
+        "{} has signed {} measurements, {} are there: the newest were cut off, or an older copy "
+        "was put back",
+        at->second.place, at->first, size));
+  }
+  return std::move(findings_);
+}
+
+std::string LogCheck::head_text() {
+  if (facts_.is_partial) {
+    return fmt::format("{}: {} corrections by the centre, which has its log", facts_.name,
+                       partial_rows_);
+  }
+  return fmt::format("{}: {} measurements, root {}", facts_.name, frontier_.size(),
+                     tlog::to_base64(frontier_.root()));
+}
+
+}  // namespace fitgauge::app

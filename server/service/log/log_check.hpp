@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "db/store/verify.hpp"
+#include "proof/frontier.hpp"
+#include "service/log/leaf.hpp"
+#include "service/log/log_service.hpp"
+#include "service/measurements/mapping.hpp"
+
+namespace fitgauge::app {
+
+/// What is said of a measurement whose record no longer gives its leaf.
+std::string altered_finding();
+
+/// Makes a log again, that of this folder or one that was forwarded, from its records while they
+/// are read in their order, and holds it against what was stored and what was signed.
+class LogCheck {
+ public:
+  /// Gives the kept hash of a node of level 8, 16, …; none where there is none.
+  using KeptNodes = std::function<std::optional<tlog::Hash>(const tlog::Node&)>;
+
+  LogCheck(LogService::Facts facts, RowNames names, KeptNodes kept)
+      : facts_(std::move(facts)), names_(std::move(names)), kept_(std::move(kept)) {}
+
+  /// Takes a checkpoint to compare with. @param place what a finding calls it.
+  void expect(const std::string& place, std::string_view note);
+
+  /// What is wrong with the next measurement of this log, if anything.
+  std::optional<std::string> add(const store::MeasurementRow& row);
+
+  /// What is wrong with the whole, after the last measurement.
+  std::vector<std::string> finish();
+
+  /// The size and the root of what was read, for people.
+  std::string head_text();
+
+ private:
+  struct Expected {
+    std::string place;
+    tlog::Checkpoint checkpoint;
+  };
+  void compare_nodes(unsigned completed);
+
+  const LogService::Facts facts_;
+  const RowNames names_;
+  const KeptNodes kept_;
+  LeafMaker leaf_;
+  std::int64_t partial_rows_ = 0;
+  tlog::Frontier frontier_;
+  std::multimap<std::uint64_t, Expected> expected_;  ///< by size
+  std::vector<std::string> findings_;
+  bool whole_ = true;  ///< no row was missing so far
+};
+
+}  // namespace fitgauge::app

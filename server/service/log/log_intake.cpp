@@ -1,0 +1,353 @@
+#include "service/log/log_intake.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "db/store/database.hpp"
+#include "proof/tile.hpp"
+#include "service/log/forwarded_record.hpp"
+#include "service/log/log_keys.hpp"
+#include "service/log/log_reader.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_storage.hpp"
+#include "service/tables/table_catalog.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::size_t kDigitsOfOrigin = 16;
+constexpr std::size_t kDigitsOfName = 8;
+
+/// Whether a log of this name is of that origin: `fitgauge/NAME/` and its first eight digits.
+bool is_name_of(std::string_view name, std::string_view origin) {
+  return name.starts_with("fitgauge/") &&
+         name.ends_with(fmt::format("/{}", origin.substr(0, kDigitsOfName)));
+}
+
+bool is_digits(std::string_view text) {
+  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  return text.size() == kDigitsOfOrigin && std::all_of(text.begin(), text.end(), is_digit);
+}
+
+Error invalid(std::size_t row, std::string_view what) {
+  return {ErrorCode::LogRecordInvalid, fmt::format("row {} of the batch {}", row + 1, what)};
+}
+
+/// The row in the batch of the record with this number, if it has one.
+std::optional<std::size_t> row_in(const ForwardedBatch& batch, std::int64_t number) {
+  const auto found = std::lower_bound(batch.rows.begin(), batch.rows.end(), number,
+                                      [](const ForwardedBatch::Row& row, std::int64_t wanted) {
+                                        return row.measurement.id < wanted;
+                                      });
+  if (found == batch.rows.end() || found->measurement.id != number) return std::nullopt;
+  return static_cast<std::size_t>(found - batch.rows.begin());
+}
+
+store::IdempotencyStore::Forwarded to_store(const ForwardedBatch::Answer& answer) {
+  return {.request = {.caller = answer.caller,
+                      .method = answer.method,
+                      .path = answer.path,
+                      .key = answer.key,
+                      .body = answer.body},
+          .answer = {.status = answer.status,
+                     .content_type = answer.content_type,
+                     .location = answer.location,
+                     .body = answer.answer},
+          .expires_at_ns = answer.expires_at ? answer.expires_at->nanoseconds
+                                             : std::numeric_limits<std::int64_t>::max()};
+}
+
+}  // namespace
+
+/// What stands here of a batch's log.
+struct LogIntake::Known {
+  std::int64_t number = 0;  ///< 0: nothing yet
+  Head head{.size = 0, .root = tlog::empty_root()};
+  std::vector<tlog::VerifierKey> keys{};
+  std::vector<tlog::VerifierKey> new_keys{};  ///< that this batch has brought
+  tlog::Frontier before{};                    ///< of the rows before the batch
+  std::optional<tlog::Hash> root_at_end{};    ///< where the batch ends within what is here
+};
+
+/// What the tree says of a batch.
+struct LogIntake::Judged {
+  Outcome outcome = Outcome::Taken;
+  std::vector<tlog::Hash> leaves{};
+  std::vector<store::LogStore::Node> nodes{};
+  tlog::Hash root{};
+};
+
+Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
+  if (!is_digits(batch.origin) || batch.from < 1 || batch.rows.size() > kMostRows) {
+    return Error{ErrorCode::RequestInvalid,
+                 fmt::format("an origin has {} hexadecimal digits, a place counts from 1, and a "
+                             "batch has at most {} rows",
+                             kDigitsOfOrigin, kMostRows)};
+  }
+  auto known = read(batch);
+  if (!known) return known.error();
+  if (const auto trusted = trust(batch, *known); !trusted) return trusted.error();
+  if (batch.rows.empty()) {
+    return Error{ErrorCode::RequestInvalid, "the batch has no record"};
+  }
+  if (batch.from > static_cast<std::int64_t>(known->head.size) + 1) {
+    return Answer{.outcome = Outcome::Elsewhere, .head = known->head};
+  }
+  auto judged = judge_tree(batch, *known);
+  if (!judged) return judged.error();
+  if (judged->outcome == Outcome::Forked) fork(batch, *known);
+  if (judged->outcome != Outcome::Taken) {
+    return Answer{.outcome = judged->outcome, .head = known->head};
+  }
+  if (const auto checked = check_rows(batch); !checked) return checked.error();
+  if (const auto prepared = prepare(batch, *known); !prepared) return prepared.error();
+  const auto stored = database_.writer().wait(
+      [&](store::Stores& stores) { return store_rows(stores, batch, *known, *judged); });
+  if (!stored) return stored.error();
+  if (!*stored) {  // another batch of this log was faster
+    const auto now = read(batch);
+    if (!now) return now.error();
+    return Answer{.outcome = Outcome::Elsewhere, .head = now->head};
+  }
+  for (const tlog::VerifierKey& key : known->new_keys) {
+    tell_("log_origin_key", fmt::format("{} signs with {} from now on", key.name(), key.text()));
+  }
+  return Answer{.outcome = Outcome::Taken,
+                .head = {.size = known->before.size() + batch.rows.size(), .root = judged->root}};
+}
+
+Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
+  return database_.readers().wait([&](const store::Stores& stores) -> Result<Known> {
+    Known known;
+    const auto origin = stores.origins.find(batch.origin);
+    if (!origin) return known;
+    known.number = origin->number;
+    for (const std::string& text : stores.origins.keys(origin->number)) {
+      auto key = tlog::VerifierKey::parse(text);
+      if (!key) return key.error();
+      known.keys.push_back(*std::move(key));
+    }
+    if (origin->size == 0 && origin->first_row) {
+      return Error{ErrorCode::RequestInvalid,
+                   fmt::format("{} is the centre of this folder: it cannot be its station too",
+                               batch.origin)};
+    }
+    if (origin->size == 0) return known;
+    const auto checkpoint = tlog::parse_checkpoint(origin->checkpoint);
+    if (!checkpoint) return checkpoint.error();
+    known.head = {.size = checkpoint->size, .root = checkpoint->root};
+    const auto before = static_cast<std::uint64_t>(batch.from - 1);
+    if (before > known.head.size) return known;
+    const RowNames names = row_names(tables_, origins_);
+    LogReader reader(stores, names, origin->number);
+    known.before = reader.frontier(before);
+    const std::uint64_t end = before + batch.rows.size();
+    if (end <= known.head.size) known.root_at_end = reader.frontier(end).root();
+    return known;
+  });
+}
+
+/// Adds the keys that the batch brings with it: the first one on trust, each further one signed for
+/// by one before it.
+Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
+  const auto key = tlog::VerifierKey::parse(batch.key);
+  if (!key) return key.error();
+  if (batch.origin == origins_.own()) {
+    return Error{
+        ErrorCode::LogForked,
+        fmt::format("{} is the log of this centre itself: one of the two folders is a copy "
+                    "of the other. Give the station a folder of its own",
+                    key->name())};
+  }
+  if (!is_name_of(key->name(), batch.origin)) {
+    return Error{ErrorCode::LogKeyUnknown,
+                 fmt::format("{} is no key of the origin {}", key->name(), batch.origin)};
+  }
+  const auto add = [&known](const tlog::VerifierKey& next) {
+    known.keys.push_back(next);
+    known.new_keys.push_back(next);
+  };
+  const auto is_known = [&known](const tlog::VerifierKey& wanted) {
+    return std::find(known.keys.begin(), known.keys.end(), wanted) != known.keys.end();
+  };
+  if (known.keys.empty()) add(*key);
+  // Whatever order they come in: a key may be signed for by one that another note has brought.
+  for (bool more = true; more;) {
+    more = false;
+    for (const std::string& note : batch.hand_overs) {
+      const auto next = next_key_of(note);
+      if (!next || is_known(*next) || next->name() != known.keys.front().name()) continue;
+      if (!tlog::open_note(note, known.keys) || !tlog::open_note(note, {&*next, 1})) continue;
+      add(*next);
+      more = true;
+    }
+  }
+  if (is_known(*key)) return {};
+  return Error{ErrorCode::LogKeyUnknown,
+               fmt::format("{} has another key than the one that was seen first, and no checkpoint "
+                           "signed by both hands over to it: {}",
+                           key->name(), batch.key)};
+}
+
+/// Holds the batch against its checkpoint and against what is here.
+Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
+                                                const Known& known) const {
+  const auto checkpoint = tlog::open_checkpoint(batch.checkpoint, known.keys);
+  if (!checkpoint) return checkpoint.error();
+  const std::uint64_t end = known.before.size() + batch.rows.size();
+  if (checkpoint->origin != known.keys.front().name() || checkpoint->size != end) {
+    return Error{ErrorCode::RequestInvalid,
+                 fmt::format("the checkpoint is of {} rows of {}, the batch ends at {} of {}",
+                             checkpoint->size, checkpoint->origin, end, known.keys.front().name())};
+  }
+  Judged judged;
+  const auto is_other = [&](const tlog::Hash& here, const tlog::Hash& there) {
+    if (here != there) judged.outcome = Outcome::Forked;
+  };
+  if (known.root_at_end) is_other(*known.root_at_end, checkpoint->root);
+  tlog::Frontier grown = known.before;
+  judged.leaves.reserve(batch.rows.size());
+  bool fits = true;
+  for (const ForwardedBatch::Row& row : batch.rows) {
+    judged.leaves.push_back(tlog::leaf_hash(row.record));
+    const unsigned completed = grown.append(judged.leaves.back());
+    for (unsigned level = tlog::kTileHeight; level < completed; level += tlog::kTileHeight) {
+      judged.nodes.push_back({.level = static_cast<int>(level / tlog::kTileHeight),
+                              .index = static_cast<std::int64_t>((grown.size() >> level) - 1),
+                              .hash = grown.completed(level)});
+    }
+    if (grown.size() == known.head.size) fits = grown.root() == known.head.root;
+  }
+  judged.root = grown.root();
+  if (known.root_at_end) {  // all of it is here already, or contradicts what is
+    if (judged.outcome == Outcome::Taken) judged.outcome = Outcome::Elsewhere;
+    return judged;
+  }
+  if (judged.root != checkpoint->root) {
+    return Error{
+        ErrorCode::LogRootMismatch,
+        fmt::format("the rows do not give the root that {} has signed for {} of them: they "
+                    "were altered on the way, or follow others than those that are here",
+                    checkpoint->origin, checkpoint->size)};
+  }
+  if (!fits) judged.outcome = Outcome::Forked;
+  if (fits && known.before.size() != known.head.size) judged.outcome = Outcome::Elsewhere;
+  return judged;
+}
+
+/// A row is taken only if this version reads all of it: it has to give its own text again.
+Result<void> LogIntake::check_rows(const ForwardedBatch& batch) const {
+  std::int64_t before = batch.from - 1;
+  for (std::size_t i = 0; i < batch.rows.size(); ++i) {
+    const Measurement& m = batch.rows[i].measurement;
+    if (m.origin != batch.origin) return invalid(i, "has the id of another folder");
+    if (m.id <= before || m.id < batch.from + static_cast<std::int64_t>(i)) {
+      return invalid(i, "has an id that does not follow the one before");
+    }
+    before = m.id;
+    if (m.corrected_elsewhere && !origins_.number(m.corrected_elsewhere->digits) &&
+        m.corrected_elsewhere->digits != batch.origin) {
+      return invalid(i, "corrects a record of a folder that is not known here");
+    }
+    if (const std::string_view finding = finding_in(m, batch.rows[i].record); !finding.empty()) {
+      return invalid(i, finding);
+    }
+  }
+  return {};
+}
+
+/// Gives the folder and the table revisions their numbers, in a commit before the rows: whoever
+/// reads a row knows what it is called.
+Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
+  std::set<std::string_view> revisions;
+  for (const ForwardedBatch::Row& row : batch.rows) {
+    const std::string_view id = row.measurement.table_revision;
+    if (!id.empty() && !tables_.revision_number(id)) revisions.insert(id);
+  }
+  if (known.number != 0 && revisions.empty()) return {};
+  const bool is_new = known.number == 0;
+  std::vector<std::pair<std::int64_t, std::string_view>> numbers;
+  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    numbers.clear();
+    for (const std::string_view id : revisions) {
+      numbers.emplace_back(-stores.origins.add_revision(id), id);
+    }
+    if (is_new) {
+      const auto found = stores.origins.find(batch.origin);
+      known.number = found ? found->number : stores.origins.add(batch.origin);
+    }
+    return true;
+  });
+  if (!stored) return stored.error();
+  for (const auto& [number, id] : numbers) tables_.remember(number, id);
+  origins_.remember(known.number, batch.origin);
+  return {};
+}
+
+/// @returns false: the log has grown meanwhile.
+Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& batch,
+                                   const Known& known, const Judged& judged) const {
+  auto origin = stores.origins.find(known.number);
+  if (!origin || origin->size != batch.from - 1) return false;
+  const std::int64_t first = stores.measurements.last_id() + 1;
+  std::vector<store::MeasurementRow> rows;
+  for (std::size_t i = 0; i < batch.rows.size(); ++i) {
+    const Measurement& m = batch.rows[i].measurement;
+    const std::int64_t place = batch.from + static_cast<std::int64_t>(i);
+    store::MeasurementRow& row = rows.emplace_back(app::to_store(m));
+    if (!m.table_revision.empty()) row.table_revision = tables_.revision_number(m.table_revision);
+    row.id = first + static_cast<std::int64_t>(i);
+    row.origin = known.number;
+    row.seq = place;
+    if (m.id != place) row.number = m.id;
+    row.hash = judged.leaves[i];
+    if (m.corrected_elsewhere) {
+      const std::int64_t number = *m.correction_of;
+      const std::int64_t of = *origins_.number(m.corrected_elsewhere->digits);
+      row.corrected_origin = of;
+      const auto in_batch = of == known.number ? row_in(batch, number) : std::nullopt;
+      row.correction_of = in_batch  ? std::optional(first + static_cast<std::int64_t>(*in_batch))
+                          : of == 0 ? std::optional(number)
+                                    : stores.measurements.find_forwarded(of, number);
+      if (!row.correction_of || *row.correction_of >= row.id) {
+        return invalid(i, "corrects a record that is not here");
+      }
+    }
+    if (rows.size() == kRowsAtATime || i + 1 == batch.rows.size()) {
+      stores.measurements.append_forwarded(rows);
+      rows.clear();
+    }
+  }
+  for (const ForwardedBatch::Answer& answer : batch.answers) {
+    stores.idempotency.keep(to_store(answer));
+  }
+  const std::int64_t now = clock_.now().nanoseconds;
+  for (const tlog::VerifierKey& key : known.new_keys) {
+    stores.origins.add_key(known.number, key.text(), now);
+  }
+  stores.origins.keep_nodes(known.number, judged.nodes);
+  if (!origin->first_row && !batch.rows.empty()) origin->first_row = first;
+  origin->size += static_cast<std::int64_t>(batch.rows.size());
+  origin->checkpoint = batch.checkpoint;
+  stores.origins.set_head(*origin);
+  return true;
+}
+
+/// Keeps the signed proof that there are two histories of one log.
+void LogIntake::fork(const ForwardedBatch& batch, const Known& known) {
+  const auto is_new = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    return stores.origins.add_fork(known.number, batch.checkpoint, clock_.now().nanoseconds);
+  });
+  if (!is_new || !*is_new) return;
+  tell_("log_forked",
+        fmt::format("{} has two histories: its folder was copied and started twice, or an older "
+                    "copy was put back. The one that came first goes on; the other stays where it "
+                    "is, and its checkpoint is kept here",
+                    known.keys.front().name()));
+}
+
+}  // namespace fitgauge::app

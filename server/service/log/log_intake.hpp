@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/digest.hpp"
+#include "base/result.hpp"
+#include "proof/checkpoint.hpp"
+#include "proof/frontier.hpp"
+#include "record/measurement.hpp"
+#include "record/origins.hpp"
+
+namespace fitgauge::store {
+class Database;
+struct Stores;
+}  // namespace fitgauge::store
+
+namespace fitgauge::app {
+
+class TableCatalog;
+
+/// Rows of a station's log on their way to the centre, with the signed head that they lead to.
+/// Texts are views of memory that outlives the batch.
+struct ForwardedBatch {
+  struct Row {
+    /// As its station has answered it. What it corrects is named by `correction_of` and the digits
+    /// of `corrected_elsewhere`.
+    Measurement measurement;
+    std::string_view record;  ///< its text, which is the leaf
+  };
+  /// An answer that was kept for an idempotency key when one of the rows was stored.
+  struct Answer {
+    std::string caller;
+    std::string method;
+    std::string path;
+    std::string key;
+    Digest body{};  ///< of the request
+    int status = 200;
+    std::string content_type;
+    std::string location;
+    std::string answer;
+    std::optional<Timestamp> expires_at;  ///< none: never
+  };
+
+  std::string origin;     ///< 16 hexadecimal digits
+  std::int64_t from = 1;  ///< the place of the first row in its log
+  std::string key;        ///< the vkey of the station
+  std::string checkpoint;
+  std::vector<std::string> hand_overs;  ///< checkpoints that hand over from a key to the next
+  std::vector<Row> rows;
+  std::vector<Answer> answers;
+};
+
+/// Takes what stations forward: each batch that continues exactly where its log ends here, whole or
+/// not at all. Thread-safe.
+class LogIntake {
+ public:
+  /// Most rows of a batch.
+  static constexpr std::size_t kMostRows = 10'000;
+
+  /// The event's name and a sentence, for the log of the service.
+  using Tell = std::function<void(std::string_view event, const std::string& detail)>;
+
+  LogIntake(store::Database& database, TableCatalog& tables, Origins& origins, const Clock& clock,
+            Tell tell)
+      : database_(database),
+        tables_(tables),
+        origins_(origins),
+        clock_(clock),
+        tell_(std::move(tell)) {}
+
+  /// What the centre has of a log.
+  struct Head {
+    std::uint64_t size = 0;
+    tlog::Hash root{};
+  };
+  enum class Outcome { Taken, Elsewhere, Forked };
+  struct Answer {
+    /// Elsewhere: the batch does not begin where the log ends here, and nothing was taken. Forked:
+    /// its checkpoint contradicts what is here; it is kept, and named from then on.
+    Outcome outcome = Outcome::Taken;
+    Head head;
+  };
+
+  /// Blocks: for threads that may.
+  /// @errors LogKeyUnknown, NoteMalformed, NoteUnverified, KeyMalformed, LogRootMismatch,
+  ///   LogRecordInvalid, RequestInvalid; those of storage.
+  Result<Answer> take(const ForwardedBatch& batch);
+
+ private:
+  struct Known;
+  struct Judged;
+
+  Result<Known> read(const ForwardedBatch& batch) const;
+  Result<void> trust(const ForwardedBatch& batch, Known& known) const;
+  Result<void> check_rows(const ForwardedBatch& batch) const;
+  Result<Judged> judge_tree(const ForwardedBatch& batch, const Known& known) const;
+  Result<void> prepare(const ForwardedBatch& batch, Known& known);
+  Result<bool> store_rows(store::Stores& stores, const ForwardedBatch& batch, const Known& known,
+                          const Judged& judged) const;
+  void fork(const ForwardedBatch& batch, const Known& known);
+
+  store::Database& database_;
+  TableCatalog& tables_;
+  Origins& origins_;
+  const Clock& clock_;
+  const Tell tell_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,125 @@
+#include "service/log/log_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+
+#include "db/sqlite/data_directory.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::string_view kNextKey = "\nnext key ";
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestName = 64;
+
+Error failed(std::string_view doing, const fs::path& file) {
+  return {ErrorCode::StorageUnavailable, fmt::format("cannot {} {}", doing, file.string())};
+}
+
+Result<void> replace(const fs::path& file, std::string_view content, fs::perms rights,
+                     bool durably) {
+  fs::path draft = file;
+  draft += ".new";
+  std::error_code failure;
+  fs::remove(draft, failure);
+  if (const auto reserved = store::reserve_name(draft); !reserved) return reserved;
+  fs::permissions(draft, rights, failure);
+  if (failure) return failed("protect", draft);
+  std::ofstream out(draft, std::ios::binary);
+  if (!(out << content).flush()) return failed("write", draft);
+  out.close();
+  if (durably) {
+    if (const auto synced = store::sync_file(draft); !synced) return synced;
+  }
+  fs::rename(draft, file, failure);
+  if (failure) return failed("replace", file);
+  return durably ? store::sync_file(file) : Result<void>();
+}
+
+}  // namespace
+
+bool is_origin_name(std::string_view name) {
+  const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+  return !name.empty() && name.size() <= kLongestName && is_plain(name.front()) &&
+         std::all_of(name.begin(), name.end(),
+                     [&](char c) { return is_plain(c) || c == '.' || c == '/' || c == '-'; });
+}
+
+Result<std::vector<tlog::SigningKey>> read_log_keys(const fs::path& folder) {
+  const fs::path file = folder / kLogKeyFile;
+  std::vector<tlog::SigningKey> keys;
+  const auto text = read_small_file(file);
+  if (!text) return text.error();
+  if (!*text) return keys;
+  std::string_view rest = **text;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const auto key = tlog::SigningKey::parse(rest.substr(0, end));
+    if (!key) {
+      return Error{
+          ErrorCode::KeyMalformed,
+          fmt::format("{}: {}; put the key back, or move the file away to begin with a new "
+                      "key",
+                      file.string(), key.error().message)};
+    }
+    keys.push_back(*key);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return keys;
+}
+
+Result<void> write_log_keys(const fs::path& folder, const std::vector<tlog::SigningKey>& keys) {
+  std::string text;
+  for (const tlog::SigningKey& key : keys) text += key.text() + "\n";
+  return replace(folder / kLogKeyFile, text, fs::perms::owner_read | fs::perms::owner_write, true);
+}
+
+Result<std::string> renew_log_key(const fs::path& folder) {
+  auto keys = read_log_keys(folder);
+  if (!keys) return keys.error();
+  if (keys->empty()) {
+    return Error{
+        ErrorCode::StorageUnavailable,
+        fmt::format("{} has no {}: start fitgauged once to make it", folder.string(), kLogKeyFile)};
+  }
+  const tlog::SigningKey used = keys->back();  // a new one that no start has taken yet goes again
+  const auto made = tlog::SigningKey::make(used.verifier().name());
+  if (const auto written = write_log_keys(folder, {made, used}); !written) return written.error();
+  return made.verifier().text();
+}
+
+std::string next_key_line(const tlog::VerifierKey& key) {
+  return fmt::format("{}{}\n", kNextKey.substr(1), key.text());
+}
+
+std::optional<tlog::VerifierKey> next_key_of(std::string_view text) {
+  const std::size_t at = text.find(kNextKey);
+  if (at == text.npos) return std::nullopt;
+  const std::size_t begin = at + kNextKey.size();
+  const auto key = tlog::VerifierKey::parse(
+      text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin));
+  return key ? std::optional(*key) : std::nullopt;
+}
+
+Result<void> replace_file(const fs::path& file, std::string_view content, bool durably) {
+  return replace(file, content,
+                 fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read, durably);
+}
+
+Result<std::optional<std::string>> read_small_file(const fs::path& file) {
+  std::error_code failure;
+  if (!fs::exists(file, failure) && !failure) return std::optional<std::string>();
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in.is_open() || in.bad()) return failed("read", file);
+  return std::optional(std::move(text));
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "proof/note_key.hpp"
+
+namespace fitgauge::app {
+
+/// The names of the log's files in the data folder.
+inline constexpr std::string_view kLogKeyFile = "fitgauge.log.key";
+inline constexpr std::string_view kCheckpointFile = "fitgauge.checkpoint";
+
+/// Whether a log may have this name: `[a-z0-9][a-z0-9./-]{0,63}`.
+bool is_origin_name(std::string_view name);
+
+/// The private keys of the file, one a line, the one in use first; none where there is no file.
+/// @errors KeyMalformed; StorageUnavailable when it cannot be read.
+Result<std::vector<tlog::SigningKey>> read_log_keys(const std::filesystem::path& folder);
+
+/// Replaces the file in one step; only its owner may read it.
+/// @errors StorageUnavailable.
+Result<void> write_log_keys(const std::filesystem::path& folder,
+                            const std::vector<tlog::SigningKey>& keys);
+
+/// Makes a new key, which signs from the next start on; the old one signs with it once more.
+/// @returns the new public key. @errors StorageUnavailable when there is none yet; KeyMalformed.
+Result<std::string> renew_log_key(const std::filesystem::path& folder);
+
+/// The line below a checkpoint's root that hands over to another key: `next key VKEY`.
+std::string next_key_line(const tlog::VerifierKey& key);
+/// The key that a note's text hands over to, if it does.
+std::optional<tlog::VerifierKey> next_key_of(std::string_view text);
+
+/// Replaces a small file in one step. @param durably it is on disk when this returns.
+/// @errors StorageUnavailable.
+Result<void> replace_file(const std::filesystem::path& file, std::string_view content,
+                          bool durably);
+
+/// @errors StorageUnavailable when it is there and cannot be read. None where there is no file.
+Result<std::optional<std::string>> read_small_file(const std::filesystem::path& file);
+
+}  // namespace fitgauge::app

@@ -1,0 +1,115 @@
+#include "service/log/log_outbox.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "db/store/database.hpp"
+#include "record/record.hpp"
+#include "service/log/log_reader.hpp"
+#include "service/log/log_service.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/tables/table_catalog.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::int64_t kRowsAPage = 500;
+
+LogOutbox::KeptAnswer kept_answer(const store::IdempotencyStore::Forwarded& kept) {
+  const bool for_ever = kept.expires_at_ns == std::numeric_limits<std::int64_t>::max();
+  return {.caller = kept.request.caller,
+          .method = kept.request.method,
+          .path = kept.request.path,
+          .key = kept.request.key,
+          .request = kept.request.body,
+          .status = kept.answer.status,
+          .content_type = kept.answer.content_type,
+          .location = kept.answer.location,
+          .body = kept.answer.body,
+          .expires_at = for_ever ? std::nullopt : std::optional(Timestamp{kept.expires_at_ns})};
+}
+
+}  // namespace
+
+Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most) const {
+  return database_.readers().wait([&](const store::Stores& stores) -> Result<Batch> {
+    Batch batch{.from = after + 1};
+    const RowNames names = row_names(tables_, log_.origins());
+    const std::int64_t end = std::min(after + most, stores.log.state().size);
+    std::optional<std::int64_t> first_row;
+    std::int64_t last_row = 0;
+    std::size_t bytes = 0;
+    for (std::int64_t at = after; at < end && bytes < kMostBytes;) {
+      stores.measurements.list_log(
+          0, at, std::min(kRowsAPage, end - at), [&](const store::MeasurementRow& row) {
+            ++at;
+            if (bytes >= kMostBytes) return;
+            append_record(batch.records.emplace_back(), from_store(row, names));
+            bytes += batch.records.back().size();
+            first_row = first_row.value_or(row.id);
+            last_row = row.id;
+          });
+    }
+    if (!first_row) return batch;
+    batch.checkpoint =
+        log_.sign_at(stores, static_cast<std::uint64_t>(after) + batch.records.size());
+    batch.key = log_.verifier_keys();
+    batch.key.resize(std::min(batch.key.find('\n'), batch.key.size()));
+    batch.hand_overs = log_.hand_overs();
+    stores.idempotency.visit_forwarded(*first_row, last_row, [&](const auto& kept) {
+      batch.answers.push_back(kept_answer(kept));
+    });
+    return batch;
+  });
+}
+
+Result<std::optional<bool>> LogOutbox::begins_with(std::int64_t size,
+                                                   const tlog::Hash& root) const {
+  return database_.readers().wait([&](const store::Stores& stores) -> Result<std::optional<bool>> {
+    if (size > stores.log.state().size) return std::optional<bool>();
+    const RowNames names = row_names(tables_, log_.origins());
+    LogReader reader(stores, names);
+    return std::optional(reader.frontier(static_cast<std::uint64_t>(size)).root() == root);
+  });
+}
+
+Result<std::int64_t> LogOutbox::confirmed(std::string_view centre) const {
+  return database_.readers().wait([&](const store::Stores& stores) -> Result<std::int64_t> {
+    const auto forwarded = stores.origins.forwarded();
+    return forwarded && forwarded->centre == centre ? forwarded->size : 0;
+  });
+}
+
+Result<void> LogOutbox::confirm(std::string_view centre, std::int64_t size) const {
+  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    stores.origins.set_forwarded({.centre = std::string(centre), .size = size});
+    return true;
+  });
+  if (!stored) return stored.error();
+  return {};
+}
+
+Result<void> LogOutbox::compare(std::string_view centre, std::int64_t size) const {
+  const auto behind = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    if (size <= stores.measurements.log_size()) return false;
+    stores.origins.set_forwarded({.centre = std::string(centre), .size = size});
+    return true;
+  });
+  if (!behind) return behind.error();
+  if (*behind) log_.set_behind(size);
+  return {};
+}
+
+std::int64_t LogOutbox::committed() const { return database_.writer_counters().own_rows; }
+
+Result<LogOutbox::Waiting> LogOutbox::waiting(std::int64_t confirmed) const {
+  return database_.readers().wait([&](const store::Stores& stores) -> Result<Waiting> {
+    Waiting waiting{.rows = std::max<std::int64_t>(0, stores.measurements.log_size() - confirmed)};
+    stores.measurements.list_log(0, confirmed, 1, [&](const store::MeasurementRow& row) {
+      waiting.oldest = Timestamp{row.received_at_ns};
+    });
+    return waiting;
+  });
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/digest.hpp"
+#include "base/result.hpp"
+#include "proof/tree_hash.hpp"
+
+namespace fitgauge::store {
+class Database;
+}
+
+namespace fitgauge::app {
+
+class LogService;
+class TableCatalog;
+
+/// What of this folder's log a centre does not have yet. The log itself is the outbox: kept beside
+/// it is only how far the centre has confirmed it. Everything here blocks. Thread-safe.
+class LogOutbox {
+ public:
+  static constexpr std::int64_t kMostRows = 10'000;
+  static constexpr std::size_t kMostBytes = std::size_t{8} << 20;
+
+  LogOutbox(store::Database& database, const TableCatalog& tables, LogService& log)
+      : database_(database), tables_(tables), log_(log) {}
+
+  struct KeptAnswer {
+    std::string caller;
+    std::string method;
+    std::string path;
+    std::string key;
+    Digest request{};  ///< SHA-256 of its body
+    int status = 200;
+    std::string content_type;
+    std::string location;
+    std::string body;
+    std::optional<Timestamp> expires_at;  ///< none: never
+  };
+  struct Batch {
+    std::int64_t from = 1;  ///< the place of its first record
+    std::string checkpoint{};
+    std::string key{};  ///< the vkey
+    std::vector<std::string> hand_overs{};
+    std::vector<std::string> records{};
+    std::vector<KeptAnswer> answers{};
+  };
+  /// What follows the first `after` records, at most `most`; no record where nothing does.
+  /// @errors those of storage.
+  Result<Batch> next(std::int64_t after, std::int64_t most) const;
+
+  /// Whether the first `size` records of this folder have that root; none while it has fewer.
+  Result<std::optional<bool>> begins_with(std::int64_t size, const tlog::Hash& root) const;
+
+  /// How many records this centre has confirmed. @errors those of storage.
+  Result<std::int64_t> confirmed(std::string_view centre) const;
+  Result<void> confirm(std::string_view centre, std::int64_t size) const;
+
+  /// What the centre says at the start that it has. Where that is more than there is here, this
+  /// folder is an older copy and takes no measurement any more.
+  Result<void> compare(std::string_view centre, std::int64_t size) const;
+
+  struct Waiting {
+    std::int64_t rows = 0;
+    std::optional<Timestamp> oldest{};  ///< when the first of them was received
+  };
+  Result<Waiting> waiting(std::int64_t confirmed) const;
+
+  /// How many records there were after the last commit; 0 before the first one since the start.
+  /// Does not block.
+  std::int64_t committed() const;
+
+ private:
+  store::Database& database_;
+  const TableCatalog& tables_;
+  LogService& log_;
+};
+
+}  // namespace fitgauge::app

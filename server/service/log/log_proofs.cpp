@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/guarded.hpp"
+#include "db/store/database.hpp"
+#include "proof/note.hpp"
+#include "proof/proof.hpp"
+#include "service/log/log_reader.hpp"
+#include "service/log/log_service.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_storage.hpp"
+#include "service/tables/table_catalog.hpp"
+
+// What the log answers: proofs, of forwarded records under a signature of this folder too, and
+// tiles. How it grows stands in log_service.cpp.
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{1'100};
+
+Error unknown_tile(std::string_view path) {
+  return {ErrorCode::NotFound,
+          fmt::format("the log has no tile '{}'; its size is in /v1/log/checkpoint",
+                      path.substr(0, 60))};
+}
+
+}  // namespace
+
+void LogService::prove(const RecordName& name, Done<Proof> done) {
+  const auto asked = Steady::now();
+  database_.readers().submit(
+      [this, name](const store::Stores& stores) { return read_proof(stores, name); },
+      [this, name, asked, done = std::move(done)](Result<Proof> proof) mutable {
+        if (!proof || proof->index < proof->head->checkpoint.size) return done(std::move(proof));
+        std::unique_lock lock(mutex_);
+        if (!stopped_) {
+          waiters_.push_back({.name = name,
+                              .index = proof->index,
+                              .deadline = asked + kPatience,
+                              .done = std::move(done)});
+          dirty_ = true;
+          return wake_.notify_one();
+        }
+        lock.unlock();
+        done(shutting_down());
+      });
+}
+
+Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
+                                                 const RecordName& name) {
+  // The state of the job's first statement is not older than a head that was taken before it.
+  Proof proof{.index = 0, .leaf = {}, .path = {}, .head = head_.get()};
+  const auto row = row_of(stores, name);
+  std::int64_t place = 0;
+  if (row) {
+    stores.measurements.find(
+        *row, [&](const store::MeasurementRow& found) { place = found.place_in_log(); });
+  }
+  if (place == 0) {
+    return Error{ErrorCode::MeasurementUnknown,
+                 fmt::format("there is no measurement '{}'",
+                             measurement_id_text(name.number, origins_.digits(name.origin)))};
+  }
+  proof.index = static_cast<std::uint64_t>(place - 1);
+  if (name.origin != 0) {
+    proof.head = countersigned(stores, name.origin);
+    if (!proof.head) {
+      return Error{ErrorCode::NotFound,
+                   fmt::format("{} was made at the centre: its log and its proof are there",
+                               measurement_id_text(name.number, origins_.digits(name.origin)))};
+    }
+  }
+  const std::uint64_t size = proof.head->checkpoint.size;
+  if (proof.index >= size) return proof;
+  const RowNames names = row_names(tables_, origins_);
+  LogReader reader(stores, names, name.origin);
+  proof.leaf = reader.node({.level = 0, .index = proof.index});
+  proof.path = tlog::inclusion_proof(proof.index, size,
+                                     [&](const tlog::Node& node) { return reader.node(node); });
+  return proof;
+}
+
+/// The head of a forwarded log, with a signature of this folder beside the station's; none of a
+/// log that is not here but for corrections.
+std::shared_ptr<const LogService::Head> LogService::countersigned(const store::Stores& stores,
+                                                                  std::int64_t origin) const {
+  auto head = std::make_shared<Head>();
+  if (stores.origins.find(origin)->size == 0) return nullptr;
+  head->note = stores.origins.find(origin)->checkpoint;
+  head->checkpoint = tlog::parse_checkpoint(head->note).value();
+  const std::string_view text = std::string_view(head->note).substr(0, head->note.find("\n\n") + 1);
+  const tlog::SigningKey* const key = &*signer_;
+  const std::string own = tlog::sign_note(text, {&key, 1});
+  head->note += own.substr(text.size() + 1);
+  return head;
+}
+
+/// Asks again for those whose measurement is covered now, and refuses those whose time is over.
+void LogService::end_waiters(std::unique_lock<std::mutex>& lock) {
+  const auto now = Steady::now();
+  const std::uint64_t size = head_.get()->checkpoint.size;
+  const auto first = std::stable_partition(
+      waiters_.begin(), waiters_.end(),
+      [&](const Waiter& waiter) { return waiter.index >= size && waiter.deadline > now; });
+  std::vector<Waiter> over(std::make_move_iterator(first), std::make_move_iterator(waiters_.end()));
+  waiters_.erase(first, waiters_.end());
+  lock.unlock();
+  for (Waiter& waiter : over) {
+    guarded("a proof that was waited for", [&] {
+      if (waiter.index < size) return prove(waiter.name, std::move(waiter.done));
+      waiter.done(Error{ErrorCode::StorageBusy,
+                        "no checkpoint covers the measurement yet; ask again in a second"});
+    });
+  }
+  lock.lock();
+}
+
+void LogService::tile(std::string_view path, Done<TileBytes> done) {
+  const auto tile = tlog::parse_tile(path);
+  if (!tile || !tlog::has_tile(head_.get()->checkpoint.size, *tile)) {
+    return done(unknown_tile(path));
+  }
+  database_.readers().submit(
+      [this, tile = *tile](const store::Stores& stores) -> Result<TileBytes> {
+        const RowNames names = row_names(tables_, origins_);
+        return TileBytes{.bytes = LogReader(stores, names).tile(tile),
+                         .is_full = tile.width == tlog::kTileWidth};
+      },
+      std::move(done));
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,87 @@
+#include "service/log/log_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "db/store/storage_failure.hpp"
+#include "record/record.hpp"
+
+namespace fitgauge::app {
+
+std::vector<tlog::Hash> LogReader::leaves(std::int64_t after, std::int64_t count) {
+  std::vector<tlog::Hash> leaves;
+  leaves.reserve(static_cast<std::size_t>(count));
+  stores_.measurements.log_hashes(origin_, after, count,
+                                  [&](const Digest& leaf) { leaves.push_back(leaf); });
+  return leaves;
+}
+
+std::vector<std::string> LogReader::records(std::int64_t after, std::int64_t count) const {
+  std::vector<std::string> records;
+  stores_.measurements.list_log(origin_, after, count, [&](const store::MeasurementRow& row) {
+    append_record(records.emplace_back(), from_store(row, names_));
+  });
+  return records;
+}
+
+std::vector<tlog::Hash> LogReader::hashes(unsigned tile_level, std::uint64_t first,
+                                          std::uint64_t count) {
+  const auto begin = static_cast<std::int64_t>(first);
+  const auto many = static_cast<std::int64_t>(count);
+  std::vector<tlog::Hash> hashes;
+  if (tile_level == 0) {
+    hashes = leaves(begin, many);
+  } else {
+    const auto take = [&](const Digest& hash) { hashes.push_back(hash); };
+    const int level = static_cast<int>(tile_level);
+    if (origin_ == 0) {
+      stores_.log.nodes(level, begin, many, take);
+    } else {
+      stores_.origins.nodes(origin_, level, begin, many, take);
+    }
+  }
+  if (hashes.size() != count) {
+    throw store::StorageFailure(
+        {ErrorCode::StorageCorrupt,
+         fmt::format("the log lacks hashes from {} on at level {}: restore a backup", first,
+                     tile_level * tlog::kTileHeight)});
+  }
+  return hashes;
+}
+
+tlog::Hash LogReader::node(const tlog::Node& node) {
+  const unsigned above = node.level % tlog::kTileHeight;
+  std::vector<tlog::Hash> level =
+      hashes(node.level / tlog::kTileHeight, node.index << above, std::uint64_t{1} << above);
+  for (; level.size() > 1; level.resize(level.size() / 2)) {
+    for (std::size_t i = 0; i < level.size() / 2; ++i) {
+      level[i] = hasher_.node(level[2 * i], level[2 * i + 1]);
+    }
+  }
+  return level.front();
+}
+
+tlog::Frontier LogReader::frontier(std::uint64_t size) {
+  std::vector<tlog::Hash> roots;
+  for (const tlog::Node& each : tlog::subtrees(0, size)) roots.push_back(node(each));
+  return {size, std::move(roots)};
+}
+
+std::string LogReader::tile(const tlog::Tile& tile) {
+  std::string bytes;
+  if (tile.kind == tlog::Tile::Kind::Hashes) {
+    for (const tlog::Hash& hash : hashes(tile.level, tile.begin(), tile.width)) {
+      bytes.append(reinterpret_cast<const char*>(hash.data()), hash.size());
+    }
+    return bytes;
+  }
+  for (const std::string& record : records(static_cast<std::int64_t>(tile.begin()), tile.width)) {
+    bytes += static_cast<char>(record.size() >> 8U);
+    bytes += static_cast<char>(record.size() & 0xFFU);
+    bytes += record;
+  }
+  return bytes;
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "db/store/stores.hpp"
+#include "proof/frontier.hpp"
+#include "proof/tile.hpp"
+#include "service/log/leaf.hpp"
+#include "service/measurements/mapping.hpp"
+
+namespace fitgauge::app {
+
+/// Reads the log of this folder, or that of one whose records were forwarded, in one state of the
+/// database: records, leaves and nodes. Used inside a read job.
+class LogReader {
+ public:
+  /// @param origin 0: this folder.
+  LogReader(const store::Stores& stores, const RowNames& names, std::int64_t origin = 0)
+      : stores_(stores), names_(names), origin_(origin) {}
+
+  /// The leaves of the rows after `after`, at most `count`.
+  std::vector<tlog::Hash> leaves(std::int64_t after, std::int64_t count);
+
+  /// The records those leaves are of.
+  std::vector<std::string> records(std::int64_t after, std::int64_t count) const;
+
+  /// @pre the subtree is complete and within the size of the stored tree.
+  /// @throws store::StorageFailure when a node is not there.
+  tlog::Hash node(const tlog::Node& node);
+
+  /// The right edge of the tree of the first `size` leaves. @pre as for node().
+  tlog::Frontier frontier(std::uint64_t size);
+
+  /// The bytes of a tile (C2SP tlog-tiles). @pre as for node().
+  std::string tile(const tlog::Tile& tile);
+
+ private:
+  std::vector<tlog::Hash> hashes(unsigned tile_level, std::uint64_t first, std::uint64_t count);
+
+  const store::Stores& stores_;
+  const RowNames& names_;
+  const std::int64_t origin_;
+  tlog::TreeHasher hasher_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/result.hpp"
+#include "base/snapshot.hpp"
+#include "base/thread.hpp"
+#include "proof/checkpoint.hpp"
+#include "proof/frontier.hpp"
+#include "record/measurement.hpp"
+#include "record/origins.hpp"
+
+namespace fitgauge::store {
+class Database;
+struct Stores;
+}  // namespace fitgauge::store
+
+namespace fitgauge::app {
+
+class TableCatalog;
+
+struct LogOptions {
+  std::filesystem::path
+      directory;                 ///< of the database; the key and the newest checkpoint lie there
+  std::string name = "station";  ///< of the log, if this is its first start
+  bool shares = false;           ///< one of several daemons that sign the same log
+  bool attach = false;           ///< beside a running daemon: nothing is signed and nothing written
+  /// The event's name and a sentence, for the log of the service; called on any thread.
+  std::function<void(std::string_view event, const std::string& detail)> tell{};
+};
+
+/// The log of the data folder: a Merkle tree over its measurements that grows behind the commits,
+/// and its head, signed at most once a second. Writers never wait for it. Thread-safe.
+class LogService {
+ public:
+  /// Reads the log's name and keys, makes them at the first start, and signs what the tree has.
+  /// What was stored and is not in it follows in the background.
+  /// @errors StorageUnavailable, StorageCorrupt, KeyMalformed.
+  static Result<std::unique_ptr<LogService>> open(store::Database& database,
+                                                  const TableCatalog& tables, const Clock& clock,
+                                                  LogOptions options);
+  ~LogService();
+
+  /// What the ids of this folder end with: the first 16 hexadecimal digits of its origin.
+  std::string_view origin() const { return origins_.own(); }
+  /// Of all folders whose records stand here.
+  Origins& origins() { return origins_; }
+
+  /// Starts the thread that lets the tree grow, and tells the head once a day from then on.
+  void start();
+  void stop();
+  /// There may be new measurements. Called after each commit; does not block.
+  void committed();
+
+  struct Head {
+    tlog::Checkpoint checkpoint;
+    std::string note;  ///< the checkpoint, signed
+  };
+  /// @pre not attached.
+  std::shared_ptr<const Head> head() const { return head_.get(); }
+  std::string head_text() const;  ///< for people
+
+  /// The centre has more of this log than this folder: an older copy was put back. Told, and a
+  /// finding from then on.
+  void set_behind(std::int64_t size_at_centre);
+  std::optional<Error> behind() const;
+
+  /// Takes note of origins and keys that other daemons have added. Used inside a job.
+  void take_names(const store::Stores& stores);
+
+  /// The public keys, one a line, the newest first.
+  std::string verifier_keys() const;
+
+  template <class T>
+  using Done = std::function<void(Result<T>)>;
+
+  struct Proof {
+    std::uint64_t index = 0;
+    tlog::Hash leaf{};
+    std::vector<tlog::Hash> path;
+    std::shared_ptr<const Head> head;
+  };
+  /// That a measurement stands in the tree of a signed head: its station's, countersigned here,
+  /// where it was forwarded. Waits up to 1.1 s for a head that has it.
+  /// @errors MeasurementUnknown, StorageUnavailable, StorageBusy.
+  void prove(const RecordName& name, Done<Proof> done);
+
+  struct TileBytes {
+    std::string bytes;
+    bool is_full = false;  ///< it never changes
+  };
+  /// @param path what stands behind `tile/`. @errors NotFound; those of storage.
+  void tile(std::string_view path, Done<TileBytes> done);
+
+  /// What verification needs to know of the log, as it is now.
+  struct Facts {
+    std::string name;
+    std::int64_t size = 0;
+    std::vector<tlog::VerifierKey> keys;
+    std::string checkpoint;  ///< the newest that is kept in the database; of forwarded logs
+    /// Of a centre: only its corrections of this folder's records are here.
+    bool is_partial = false;
+  };
+  /// By origin, of which 0 is this folder.
+  using Logs = std::map<std::int64_t, Facts>;
+  static Result<Logs> logs(store::Database& database);
+
+  /// The signed head of the first `size` measurements of this folder, which is not told to others
+  /// as the newest one is. @pre there are so many in the tree. Used inside a read job.
+  std::string sign_at(const store::Stores& stores, std::uint64_t size) const;
+
+  /// The checkpoints that hand over from a key to the next, as they are kept in the folder.
+  std::vector<std::string> hand_overs() const;
+
+ private:
+  using Steady = std::chrono::steady_clock;
+  struct Waiter {
+    RecordName name{};
+    std::uint64_t index = 0;
+    Steady::time_point deadline;
+    Done<Proof> done;
+  };
+
+  LogService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+             LogOptions options);
+
+  Result<void> load();
+  Result<void> load_keys(const std::vector<std::string>& known);
+  void set_aside(std::string_view name, std::string_view why);
+  void look_at_older_checkpoint();
+  void run(const std::stop_token& stop);
+  Steady::time_point next_wake() const;
+  Result<void> grow(const std::stop_token& stop);
+  struct Stretch;
+  Result<void> take_leaves(const std::stop_token& stop, Stretch& stretch);
+  void sign();
+  void tell(std::string_view event, const std::string& detail) const;
+  void end_waiters(std::unique_lock<std::mutex>& lock);
+  static Error shutting_down() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
+  Result<Proof> read_proof(const store::Stores& stores, const RecordName& name);
+  std::shared_ptr<const Head> countersigned(const store::Stores& stores, std::int64_t origin) const;
+
+  store::Database& database_;
+  const TableCatalog& tables_;
+  const Clock& clock_;
+  const LogOptions options_;
+  Origins origins_;
+  std::string name_;
+  std::atomic<std::int64_t> size_at_centre_{0};  ///< where that is more than there is here
+  std::vector<tlog::SigningKey> signers_;        ///< the key in use, and once the one before
+  std::optional<tlog::SigningKey> signer_;       ///< the key in use
+  Snapshot<std::string> verifier_keys_;
+  Snapshot<Head> head_;
+  tlog::Frontier frontier_;  ///< of the thread
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool dirty_ = true;
+  bool stopped_ = false;
+  Steady::time_point next_signing_{};
+  Steady::time_point next_telling_{};
+  std::vector<Waiter> waiters_;
+  Thread thread_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,135 @@
+#include "service/log/revisions_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "base/json/json_value.hpp"
+#include "record/json_members.hpp"
+#include "record/record_reader.hpp"
+#include "service/tables/custom_column.hpp"
+
+namespace fitgauge::api {
+namespace {
+
+constexpr std::size_t kDigitsOfOrigin = 16;
+
+bool is_true(const JsonValue& json, std::string_view name) {
+  const JsonValue* value = json.find(name);
+  return value != nullptr && value->is(JsonValue::Kind::Boolean) && value->boolean;
+}
+
+std::int64_t number_of(const JsonValue& json, std::string_view name) {
+  std::int64_t number = 0;
+  if (const JsonValue* value = json.find(name)) {
+    std::from_chars(value->text.data(), value->text.data() + value->text.size(), number);
+  }
+  return number;
+}
+
+Error unreadable(const app::Revision& revision) {
+  return {ErrorCode::RequestInvalid, fmt::format("revision {} of the centre cannot be read: a {}",
+                                                 revision.number, word(revision.kind))};
+}
+
+bool is_digits(std::string_view text) {
+  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  return text.size() == kDigitsOfOrigin && std::all_of(text.begin(), text.end(), is_digit);
+}
+
+Result<void> read_columns(const JsonValue& json, app::Revision& revision) {
+  revision.id = text_of(json, "table_revision");
+  const JsonValue* columns = json.find("columns");
+  if (revision.id.empty() || columns == nullptr) return unreadable(revision);
+  for (const JsonValue& column : columns->items) {
+    const auto feature = iso286::feature_from_word(text_of(column, "feature"));
+    const JsonValue* rows = column.find("rows");
+    if (!feature || rows == nullptr) return unreadable(revision);
+    JsonValue body{.kind = JsonValue::Kind::Object};
+    body.members.emplace_back("rows", *rows);
+    auto read = decode_custom_rows(body);
+    if (!read) return read.error();
+    revision.columns.push_back({.feature = *feature,
+                                .name = text_of(column, "tolerance_class"),
+                                .rows = *std::move(read)});
+  }
+  return {};
+}
+
+Result<void> read_key(const JsonValue& json, app::Revision& revision) {
+  if (revision.name.empty()) return unreadable(revision);
+  if (revision.is_removed) return {};
+  const auto role = app::role_from_word(text_of(json, "role"));
+  const auto hash = digest_from_hex(text_of(json, "token_sha256"));
+  // No centre makes administrators here.
+  if (!hash || (role != app::Role::Viewer && role != app::Role::Operator)) {
+    return unreadable(revision);
+  }
+  revision.role = *role;
+  revision.token_hash = *hash;
+  return {};
+}
+
+Result<void> read_correction(const JsonValue& json, app::Revision& revision,
+                             std::string_view origin, TextArena& texts) {
+  revision.text = text_of(json, "record");
+  revision.place = number_of(json, "place");
+  const auto record = parse_json(revision.text);
+  if (!record) return record.error();
+  auto measurement = read_record(*record, texts);
+  if (!measurement) return measurement.error();
+  if (measurement->origin != origin || !measurement->corrected_elsewhere || revision.place < 1) {
+    return unreadable(revision);
+  }
+  revision.measurement = *measurement;
+  return {};
+}
+
+Result<void> read_revision(const JsonValue& json, ReadRevisions& read) {
+  const auto kind = app::revision_kind_from_word(text_of(json, "kind"));
+  if (!kind) return {};
+  app::Revision revision{.number = number_of(json, "number"),
+                         .kind = *kind,
+                         .name = text_of(json, "name"),
+                         .is_removed = is_true(json, "removed")};
+  Result<void> done;
+  switch (*kind) {
+    case app::RevisionKind::Tables: done = read_columns(json, revision); break;
+    case app::RevisionKind::Key: done = read_key(json, revision); break;
+    case app::RevisionKind::Correction:
+      done = read_correction(json, revision, read.page.origin, read.texts);
+      break;
+    default:
+      revision.text = text_of(json, "text");
+      if (revision.name.empty() || revision.text.empty() != revision.is_removed) {
+        done = unreadable(revision);
+      }
+  }
+  if (done) read.page.revisions.push_back(std::move(revision));
+  return done;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body) {
+  const auto json = parse_json(body);
+  if (!json) return json.error();
+  auto read = std::make_unique<ReadRevisions>();
+  read->page.origin = text_of(*json, "origin");
+  read->page.size = number_of(*json, "size");
+  read->page.position = text_of(*json, "position");
+  read->page.more = is_true(*json, "more");
+  const JsonValue* revisions = json->find("revisions");
+  if (!is_digits(read->page.origin) || read->page.position.empty() || revisions == nullptr) {
+    return Error{ErrorCode::RequestInvalid, "this is no answer of a centre"};
+  }
+  for (const JsonValue& revision : revisions->items) {
+    if (const auto done = read_revision(revision, *read); !done) return done.error();
+  }
+  return read;
+}
+
+}  // namespace fitgauge::api

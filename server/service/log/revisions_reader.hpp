@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "base/json/text_arena.hpp"
+#include "base/result.hpp"
+#include "service/revisions/revision.hpp"
+
+namespace fitgauge::api {
+
+/// A page and the texts its measurements have views of.
+struct ReadRevisions {
+  app::RevisionPage page;
+  TextArena texts;
+};
+
+/// Reads what `GET /v1/log/revisions` answers. A kind that is not known here is left out.
+/// @errors those of JSON; RequestInvalid, LogRecordInvalid.
+Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body);
+
+}  // namespace fitgauge::api

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "base/result.hpp"
+#include "base/snapshot.hpp"
+#include "record/gauge_book.hpp"
+
+namespace fitgauge::app {
+class DocumentService;
+}
+
+namespace fitgauge::api {
+
+/// The gauges in use with what their budgets come to, as the stored documents have them.
+/// Thread-safe.
+class GaugesInUse {
+ public:
+  explicit GaugesInUse(app::DocumentService& documents) : documents_(documents) {}
+
+  std::shared_ptr<const GaugeBook> book() const { return book_.get(); }
+
+  /// Reads them again after a change. `done` comes when book() has that change, on a storage
+  /// thread.
+  /// @errors StorageUnavailable, StorageBusy.
+  void reload(std::function<void(Result<void>)> done);
+  /// The same for a thread that may wait.
+  Result<void> load();
+
+ private:
+  void show(std::uint64_t number, GaugeBook book);
+
+  app::DocumentService& documents_;
+  Snapshot<GaugeBook> book_{std::make_shared<const GaugeBook>()};
+  std::mutex mutex_;
+  std::uint64_t begun_ = 0;  ///< reloads; a later one has seen all that an earlier one has
+  std::uint64_t shown_ = 0;
+};
+
+}  // namespace fitgauge::api

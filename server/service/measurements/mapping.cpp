@@ -1,0 +1,303 @@
+#include "service/measurements/mapping.hpp"
+
+#include <array>
+#include <map>
+#include <utility>
+
+#include "metrology/gauging/reference_temperature.hpp"
+#include "record/origins.hpp"
+#include "service/tables/table_catalog.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using Text = std::optional<std::string_view>;
+
+/// The texts of a measurement, in the service and in the store.
+constexpr std::array<std::pair<Text MeasurementTexts::*, Text store::MeasurementRow::*>,
+                     kMeasurementTexts.size()>
+    kTextColumns = {{
+        {&MeasurementTexts::part_id, &store::MeasurementRow::part_id},
+        {&MeasurementTexts::characteristic, &store::MeasurementRow::characteristic},
+        {&MeasurementTexts::order, &store::MeasurementRow::order},
+        {&MeasurementTexts::operation, &store::MeasurementRow::operation},
+        {&MeasurementTexts::machine, &store::MeasurementRow::machine},
+        {&MeasurementTexts::operator_id, &store::MeasurementRow::operator_id},
+        {&MeasurementTexts::gauge, &store::MeasurementRow::gauge},
+        {&MeasurementTexts::unit, &store::MeasurementRow::unit},
+        {&MeasurementTexts::comment, &store::MeasurementRow::comment},
+        {&MeasurementTexts::subgroup, &store::MeasurementRow::subgroup},
+    }};
+
+template <class T>
+std::optional<std::int64_t> count_of(const std::optional<T>& length) {
+  return length ? std::optional(length->count()) : std::nullopt;
+}
+
+std::optional<Length> length_of(std::optional<std::int64_t> nanometres) {
+  return nanometres ? std::optional(Length::nanometres(*nanometres)) : std::nullopt;
+}
+
+iso286::NominalSizeRange range_of(std::int64_t over_nm, std::int64_t up_to_nm) {
+  return {.over = Length::nanometres(over_nm), .up_to = Length::nanometres(up_to_nm)};
+}
+
+store::Rule code_of(gauging::DecisionRule::Kind rule) {
+  switch (rule) {
+    case gauging::DecisionRule::Kind::Simple: return store::Rule::Simple;
+    case gauging::DecisionRule::Kind::GuardBand: return store::Rule::GuardBand;
+    case gauging::DecisionRule::Kind::Conformance: break;
+  }
+  return store::Rule::Conformance;
+}
+
+/// The rule of a row. @throws boost::system::system_error for numbers that no rule has.
+gauging::DecisionRule rule_of(const store::MeasurementRow& row) {
+  const Length u = gauging::combined_uncertainty(Length::nanometres(row.uncertainty_nm.value_or(0)),
+                                                 row.added_uncertainty.value_or(0));
+  switch (row.rule) {
+    case store::Rule::Simple: return {};
+    case store::Rule::GuardBand:
+      return gauging::DecisionRule::guard_band(
+                 u,
+                 gauging::CoverageFactor::from_millionths(row.coverage_factor.value_or(0)).value())
+          .value();
+    case store::Rule::Conformance: break;
+  }
+  return gauging::DecisionRule::conformance(
+             u,
+             gauging::ConformanceProbability::from_millionths(row.probability.value_or(0)).value())
+      .value();
+}
+
+}  // namespace
+
+store::TableContent to_store(const iso286::TableData& data) {
+  store::TableContent content;
+  for (const iso286::TableCell& cell : data.cells) {
+    content.cells.push_back({.table = std::string(name(cell.table)),
+                             .column = cell.column,
+                             .over_nm = cell.range.over.count(),
+                             .up_to_nm = cell.range.up_to.count(),
+                             .value_nm = count_of(cell.value)});
+  }
+  for (const iso286::CustomColumn& column : data.custom_columns) {
+    for (const iso286::CustomRow& row : column.rows) {
+      content.custom.push_back({.table = std::string(word(column.feature)),
+                                .column = column.name,
+                                .over_nm = row.range.over.count(),
+                                .up_to_nm = row.range.up_to.count(),
+                                .upper_nm = row.deviations.upper.count(),
+                                .lower_nm = row.deviations.lower.count()});
+    }
+  }
+  return content;
+}
+
+Result<iso286::TableData> from_store(const store::TableContent& content) {
+  iso286::TableData data;
+  for (const store::TableCell& cell : content.cells) {
+    const auto table = iso286::table_from_name(cell.table);
+    if (!table) {
+      return Error{ErrorCode::TablesInconsistent, "there is no table " + cell.table, cell.table};
+    }
+    data.cells.push_back({.table = *table,
+                          .range = range_of(cell.over_nm, cell.up_to_nm),
+                          .column = cell.column,
+                          .value = length_of(cell.value_nm)});
+  }
+  std::map<std::pair<iso286::Feature, std::string>, std::vector<iso286::CustomRow>> columns;
+  for (const store::CustomCell& cell : content.custom) {
+    const auto feature = iso286::feature_from_word(cell.table);
+    if (!feature) {
+      return Error{ErrorCode::TablesInconsistent, "there is no table " + cell.table, cell.table};
+    }
+    columns[{*feature, cell.column}].push_back(
+        {.range = range_of(cell.over_nm, cell.up_to_nm),
+         .deviations = {.upper = Length::nanometres(cell.upper_nm),
+                        .lower = Length::nanometres(cell.lower_nm)}});
+  }
+  for (auto& [key, rows] : columns) {
+    data.custom_columns.push_back(
+        {.feature = key.first, .name = key.second, .rows = std::move(rows)});
+  }
+  return data;
+}
+
+store::Verdict to_store(gauging::Verdict verdict) {
+  switch (verdict) {
+    case gauging::Verdict::Good: return store::Verdict::Good;
+    case gauging::Verdict::Rework: return store::Verdict::Rework;
+    case gauging::Verdict::Reject: return store::Verdict::Reject;
+    case gauging::Verdict::Indeterminate: break;
+  }
+  return store::Verdict::Indeterminate;
+}
+
+gauging::Verdict from_store(store::Verdict verdict) {
+  switch (verdict) {
+    case store::Verdict::Good: return gauging::Verdict::Good;
+    case store::Verdict::Rework: return gauging::Verdict::Rework;
+    case store::Verdict::Reject: return gauging::Verdict::Reject;
+    case store::Verdict::Indeterminate: break;
+  }
+  return gauging::Verdict::Indeterminate;
+}
+
+store::Source to_store(Source source) {
+  return source == Source::Gauge ? store::Source::Gauge : store::Source::Simulation;
+}
+
+store::IdempotentRequest to_store(const IdempotencyScope& scope) {
+  return {.caller = scope.caller,
+          .method = scope.method,
+          .path = scope.path,
+          .key = scope.key,
+          .body = sha256(scope.body),
+          .is_kept_for_ever = scope.is_kept_for_ever};
+}
+
+Answer from_store(store::StoredAnswer stored) {
+  return {.status = stored.status,
+          .content_type = std::move(stored.content_type),
+          .location = std::move(stored.location),
+          .body = std::move(stored.body)};
+}
+
+store::StoredAnswer to_store(Answer answer) {
+  return {.status = answer.status,
+          .content_type = std::move(answer.content_type),
+          .location = std::move(answer.location),
+          .body = std::move(answer.body)};
+}
+
+RowNames row_names(const TableCatalog& tables, const Origins& origins) {
+  return {.revision_id = [&tables](std::int64_t number) { return tables.revision_id(number); },
+          .origin = [&origins](std::int64_t number) { return origins.digits(number); }};
+}
+
+store::MeasurementRow to_store(const Measurement& m) {
+  store::MeasurementRow row;
+  row.id = m.id;
+  row.source = to_store(m.source);
+  row.measured_at_ns = m.measured_at.nanoseconds;
+  row.received_at_ns = m.received_at.nanoseconds;
+  row.nominal_nm = m.nominal_size.count();
+  row.tolerance_class = m.class_name;
+  row.feature = m.feature == iso286::Feature::Hole ? store::Feature::Hole : store::Feature::Shaft;
+  row.upper_deviation_nm = m.deviations.upper.count();
+  row.lower_deviation_nm = m.deviations.lower.count();
+  if (m.size_range) {
+    row.size_over_nm = m.size_range->over.count();
+    row.size_up_to_nm = m.size_range->up_to.count();
+  }
+  switch (m.basis) {
+    case LimitsBasis::Iso286: row.basis = store::Basis::Iso286; break;
+    case LimitsBasis::Custom: row.basis = store::Basis::Custom; break;
+    case LimitsBasis::Explicit: row.basis = store::Basis::Explicit; break;
+    case LimitsBasis::Standard: row.basis = store::Basis::Standard; break;
+  }
+  row.table_revision = m.revision_number;
+  row.measured_nm = m.measured.count();
+  row.verdict = to_store(m.result.verdict);
+  row.rule = code_of(m.rule.kind());
+  row.uncertainty_nm = count_of(m.standard_uncertainty);
+  if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
+  row.uncertainty_budget = m.uncertainty_budget;
+  row.calibration_due = m.calibration_due;
+  for (const auto& [text, column] : kTextColumns) row.*column = m.texts.*text;
+  if (m.conformance) {
+    row.probability = m.rule.probability().millionths();
+    row.conformance = m.conformance->probability;
+    row.guard_band = m.conformance->guard_band;
+  }
+  row.temperature = m.temperature;
+  row.corrected_nm = count_of(m.corrected);
+  row.scale_temperature = m.expansions.scale_temperature;
+  row.part_expansion = m.expansions.part;
+  row.scale_expansion = m.expansions.scale;
+  row.part_material = m.expansions.part_material;
+  row.scale_material = m.expansions.scale_material;
+  row.temperature_uncertainty = m.expansions.temperature_uncertainty;
+  row.scale_temperature_uncertainty = m.expansions.scale_temperature_uncertainty;
+  row.part_expansion_uncertainty = m.expansions.part_uncertainty;
+  row.scale_expansion_uncertainty = m.expansions.scale_uncertainty;
+  row.added_uncertainty = m.added_uncertainty;
+  row.caller = m.caller;
+  row.run_id = m.run_id;
+  row.cycle = m.cycle;
+  row.correction_of = m.correction_of;
+  if (m.corrected_elsewhere) {
+    row.correction_of = m.corrected_elsewhere->row;
+    row.corrected_origin = m.corrected_elsewhere->origin;
+    row.corrected_number = m.correction_of;
+  }
+  row.correction_reason = m.correction_reason;
+  return row;
+}
+
+Measurement from_store(const store::MeasurementRow& row, const RowNames& names) {
+  Measurement m;
+  m.id = row.public_number();
+  m.origin_number = row.origin.value_or(0);
+  m.origin = names.origin(m.origin_number);
+  m.row = row.id;
+  m.source = row.source == store::Source::Gauge ? Source::Gauge : Source::Simulation;
+  m.measured_at = {row.measured_at_ns};
+  m.received_at = {row.received_at_ns};
+  m.nominal_size = Length::nanometres(row.nominal_nm);
+  m.class_name = row.tolerance_class;
+  m.feature = row.feature == store::Feature::Hole ? iso286::Feature::Hole : iso286::Feature::Shaft;
+  m.deviations = {.upper = Length::nanometres(row.upper_deviation_nm),
+                  .lower = Length::nanometres(row.lower_deviation_nm)};
+  if (row.size_over_nm && row.size_up_to_nm) {
+    m.size_range = range_of(*row.size_over_nm, *row.size_up_to_nm);
+  }
+  switch (row.basis) {
+    case store::Basis::Iso286: m.basis = LimitsBasis::Iso286; break;
+    case store::Basis::Custom: m.basis = LimitsBasis::Custom; break;
+    case store::Basis::Explicit: m.basis = LimitsBasis::Explicit; break;
+    case store::Basis::Standard: m.basis = LimitsBasis::Standard; break;
+  }
+  m.revision_number = row.table_revision;
+  if (row.table_revision) m.table_revision = names.revision_id(*row.table_revision);
+  m.measured = Length::nanometres(row.measured_nm);
+  m.standard_uncertainty = length_of(row.uncertainty_nm);
+  if (row.coverage_factor) {
+    m.coverage_factor = gauging::CoverageFactor::from_millionths(*row.coverage_factor).value();
+  }
+  m.rule = rule_of(row);
+  m.corrected = length_of(row.corrected_nm);
+  m.result = gauging::gauge(m.feature, m.upper_limit(), m.lower_limit(), m.decisive());
+  m.result.verdict = from_store(row.verdict);  // the excess is not stored
+  if (row.conformance && row.guard_band) {
+    m.conformance = {.probability = *row.conformance, .guard_band = *row.guard_band};
+  }
+  m.uncertainty_budget = row.uncertainty_budget;
+  m.calibration_due = row.calibration_due;
+  for (const auto& [text, column] : kTextColumns) m.texts.*text = row.*column;
+  m.temperature = row.temperature;
+  m.expansions = {.scale_temperature = row.scale_temperature,
+                  .part = row.part_expansion,
+                  .scale = row.scale_expansion,
+                  .part_material = row.part_material,
+                  .scale_material = row.scale_material,
+                  .temperature_uncertainty = row.temperature_uncertainty,
+                  .scale_temperature_uncertainty = row.scale_temperature_uncertainty,
+                  .part_uncertainty = row.part_expansion_uncertainty,
+                  .scale_uncertainty = row.scale_expansion_uncertainty};
+  m.added_uncertainty = row.added_uncertainty;
+  m.caller = row.caller;
+  m.run_id = row.run_id;
+  m.cycle = row.cycle;
+  m.correction_of = row.corrected_number ? row.corrected_number : row.correction_of;
+  if (row.corrected_origin && row.correction_of) {
+    m.corrected_elsewhere = {.row = *row.correction_of,
+                             .origin = *row.corrected_origin,
+                             .digits = names.origin(*row.corrected_origin)};
+  }
+  m.correction_reason = row.correction_reason;
+  return m;
+}
+
+}  // namespace fitgauge::app

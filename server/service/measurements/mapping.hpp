@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "db/store/idempotency_store.hpp"
+#include "db/store/measurement_row.hpp"
+#include "db/store/tables_store.hpp"
+#include "record/measurement.hpp"
+#include "service/measurements/measurement_service.hpp"
+#include "tables/iso286/table_data.hpp"
+
+namespace fitgauge::app {
+
+/// Table content between the field's types and the store's plain integers.
+store::TableContent to_store(const iso286::TableData& data);
+/// @errors TablesInconsistent for a table or column the standard does not know.
+Result<iso286::TableData> from_store(const store::TableContent& content);
+
+/// @pre it has the number of its revision, if it names one
+store::MeasurementRow to_store(const Measurement& measurement);
+
+/// What the numbers in a row are called outside; valid as long as the catalog and the origins.
+struct RowNames {
+  std::function<std::string_view(std::int64_t number)> revision_id;
+  std::function<std::string_view(std::int64_t number)> origin;  ///< the digits
+};
+RowNames row_names(const TableCatalog& tables, const Origins& origins);
+Measurement from_store(const store::MeasurementRow& row, const RowNames& names);
+
+store::Verdict to_store(gauging::Verdict verdict);
+gauging::Verdict from_store(store::Verdict verdict);
+store::Source to_store(Source source);
+
+store::IdempotentRequest to_store(const IdempotencyScope& scope);
+store::StoredAnswer to_store(Answer answer);
+Answer from_store(store::StoredAnswer stored);
+
+}  // namespace fitgauge::app

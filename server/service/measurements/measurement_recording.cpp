@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "base/worker_pool.hpp"
+#include "db/store/database.hpp"
+#include "record/origins.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_feed.hpp"
+#include "service/measurements/measurement_notes.hpp"
+#include "service/measurements/measurement_queue.hpp"
+#include "service/measurements/measurement_service.hpp"
+#include "service/measurements/measurement_storage.hpp"
+
+// How measurements get into the store; how they are read stands in measurement_service.cpp.
+
+namespace fitgauge::app {
+namespace {
+
+/// Long requests that are read at once. Only one of them can be stored at a time: the other is
+/// there to have its first measurements ready.
+constexpr unsigned kLongRequests = 2;
+
+constexpr std::string_view kNoteEvent = "note.added";
+
+/// Stores the pieces of a long request, from the thread that reads it.
+Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed) {
+  feed.begin(stores.measurements.last_id());
+  while (true) {
+    const auto piece = feed.take();
+    if (!piece) return piece.error();
+    if (piece->empty()) return feed.take_answer();
+    const auto appended = stores.measurements.append(*piece);
+    if (!appended) return appended.error();
+  }
+}
+
+Error internal_error(const std::exception& bug) {
+  return {ErrorCode::Internal, fmt::format("reading a request failed: {}", bug.what())};
+}
+
+}  // namespace
+
+MeasurementService::MeasurementService(store::Database& database, const TableCatalog& tables,
+                                       const Origins& origins,
+                                       const MeasurementServiceOptions& options)
+    : database_(database),
+      tables_(tables),
+      origins_(origins),
+      queue_(std::make_shared<MeasurementQueue>(database, origins.own(), options.most_waiting,
+                                                options.commit_each)),
+      long_requests_(
+          std::make_unique<WorkerPool>("a long request", kLongRequests, options.most_waiting)) {}
+MeasurementService::~MeasurementService() = default;
+
+void MeasurementService::find_answer(const IdempotencyScope& scope,
+                                     Done<std::optional<Answer>> done) {
+  database_.readers().submit(
+      // The digest of a long body is nothing for the thread that asks.
+      [scope](const store::Stores& stores) -> Result<std::optional<Answer>> {
+        auto found = stores.idempotency.find(to_store(scope));
+        if (!found) return found.error();
+        if (!*found) return std::optional<Answer>();
+        return std::optional(from_store(**std::move(found)));
+      },
+      std::move(done));
+}
+
+template <class Work>
+void MeasurementService::submit(const std::optional<IdempotencyScope>& scope, Work work,
+                                Done<Answer> done) {
+  auto store = [work =
+                    std::move(work)](store::Stores& stores) mutable -> Result<store::StoredAnswer> {
+    Result<Answer> answer = work(stores);
+    if (!answer) return answer.error();
+    return to_store(*std::move(answer));
+  };
+  auto deliver = [done = std::move(done)](Result<store::StoredAnswer> answer) {
+    if (!answer) return done(answer.error());
+    done(from_store(*std::move(answer)));
+  };
+  if (scope) {
+    database_.writer().submit_once(to_store(*scope), std::move(store), std::move(deliver));
+  } else {
+    database_.writer().submit(std::move(store), std::move(deliver));
+  }
+}
+
+void MeasurementService::record(std::vector<Measurement> measurements,
+                                const std::optional<IdempotencyScope>& scope, Render render,
+                                Done<Answer> done) {
+  number_revisions(measurements, tables_);
+  const bool is_small = measurements.size() <= kRowsAtATime;
+  if (is_small && !scope && !measurements.front().correction_of) {
+    return queue_->record(measurements, std::move(render), std::move(done));
+  }
+  auto work = [measurements = std::move(measurements), origin = origins_.own(),
+               render = std::move(render)](store::Stores& stores) mutable -> Result<Answer> {
+    const auto rendering = render();
+    const auto first = append(stores, measurements, origin, rendering.get());
+    if (!first) return first.error();
+    return rendering->finish();
+  };
+  submit(scope, std::move(work), std::move(done));
+}
+
+void MeasurementService::add_note(const RecordName& name, Note note,
+                                  const std::optional<IdempotencyScope>& scope, NoteForm form,
+                                  Done<Answer> done) {
+  auto work = [this, name, note = std::move(note),
+               form = std::move(form)](store::Stores& stores) mutable -> Result<Answer> {
+    const auto row = existing_row_of(stores, name, origins_);
+    if (!row) return row.error();
+    note.measurement = measurement_id_text(name.number, origins_.digits(name.origin));
+    append_note(stores, *row, origins_.own(), note);
+    stores.events.append(kNoteEvent, form.event(note), note.received_at.nanoseconds);
+    return form.answer(note);
+  };
+  submit(scope, std::move(work), std::move(done));
+}
+
+Result<Answer> MeasurementService::record_while_reading(
+    const Read& read, const std::optional<IdempotencyScope>& scope, Rendering& rendering) {
+  const auto feed = std::make_shared<MeasurementFeed>();
+  std::optional<std::int64_t> next_id;
+  LeafMaker leaves;
+  const auto begin = [&] {
+    submit(
+        scope, [feed](store::Stores& stores) { return append_pieces(stores, *feed); },
+        [feed](Result<Answer> outcome) { feed->end(std::move(outcome)); });
+    if (const auto last_id = feed->last_id()) next_id = *last_id + 1;
+  };
+  bool begun = false;
+  const auto take = [&](std::vector<Measurement> measurements) {
+    if (!std::exchange(begun, true)) begin();
+    if (!next_id) return;  // refused before a row was stored
+    number_revisions(measurements, tables_);
+    next_id = number_from(*next_id, origins_.own(), measurements);
+    MeasurementFeed::Piece piece;
+    piece.reserve(measurements.size());
+    append_rows(piece, measurements, leaves);
+    feed->put(std::move(piece));
+    rendering.add(measurements, leaves.records());
+  };
+  Result<void> complete;
+  try {
+    complete = read(take);
+    if (complete && next_id) feed->finish(rendering.finish());
+  } catch (const std::exception& bug) {
+    complete = internal_error(bug);
+  }
+  if (!begun) return complete.error();
+  if (!complete) feed->fail(complete.error());
+  return feed->outcome();
+}
+
+void MeasurementService::run(std::function<void()> work, const std::function<void(Error)>& failed) {
+  auto job = [work = std::move(work), failed] {
+    try {
+      work();
+    } catch (const std::exception& bug) {
+      failed(internal_error(bug));
+    }
+  };
+  if (!long_requests_->submit(std::move(job))) failed(too_much_work());
+}
+
+}  // namespace fitgauge::app

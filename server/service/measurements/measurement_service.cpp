@@ -1,0 +1,229 @@
+#include "service/measurements/measurement_service.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "db/store/database.hpp"
+#include "record/origins.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_notes.hpp"
+#include "service/measurements/measurement_storage.hpp"
+#include "service/tables/table_catalog.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
+  store::MeasurementFilter filter;
+  filter.texts = query.texts;
+  if (query.designation) {
+    filter.designation = {.nominal_nm = query.designation->nominal.count(),
+                          .tolerance_class = query.designation->tolerance_class};
+  }
+  if (query.run_id) {
+    filter.run_id = query.run_id->number;
+    filter.run_origin = query.run_id->origin;
+  }
+  if (query.verdict) filter.verdict = to_store(*query.verdict);
+  filter.source = query.source ? std::optional(to_store(*query.source)) : std::nullopt;
+  if (query.from) filter.from_ns = query.from->nanoseconds;
+  if (query.to) filter.to_ns = query.to->nanoseconds;
+  if (query.received_from) filter.received_from_ns = query.received_from->nanoseconds;
+  if (query.received_to) filter.received_to_ns = query.received_to->nanoseconds;
+  filter.cause = query.cause;
+  filter.has_notes = query.has_notes;
+  filter.history = query.history;
+  filter.as_of_id = query.as_of;
+  return filter;
+}
+
+Error unknown_cursor() {
+  return {ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
+}
+
+static_assert(kTextFilters.size() == store::kTextColumns.size(),
+              "the names stand in the order of store::TextField");
+
+MeasurementGroup measurement_group(store::SummaryGroup group) {
+  return {.value = std::move(group.value),
+          .count = group.count,
+          .good = group.verdict_count(store::Verdict::Good),
+          .rework = group.verdict_count(store::Verdict::Rework),
+          .reject = group.verdict_count(store::Verdict::Reject),
+          .indeterminate = group.verdict_count(store::Verdict::Indeterminate),
+          .mean_mm = std::move(group.mean_mm),
+          .standard_deviation_mm = std::move(group.standard_deviation_mm),
+          .min = Length::nanometres(group.min_nm),
+          .max = Length::nanometres(group.max_nm)};
+}
+
+/// None for that of a drawing without it, which lies beyond every length.
+std::optional<Length> limit_of(std::int64_t nanometres) {
+  const Length limit = Length::nanometres(nanometres);
+  return -kLongest <= limit && limit <= kLongest ? std::optional(limit) : std::nullopt;
+}
+
+bool is_in_conflict(const store::Stores& stores, const store::MeasurementRow& row) {
+  return row.correction_of && stores.measurements.has_rivals(*row.correction_of);
+}
+
+}  // namespace
+
+void MeasurementService::find(const RecordName& name, Visitor visit, Done<std::int64_t> done) {
+  database_.readers().submit(
+      [this, name, visit = std::move(visit)](const store::Stores& stores) -> Result<std::int64_t> {
+        const RowNames names = row_names(tables_, origins_);
+        const auto row = row_of(stores, name);
+        const auto newer = row ? stores.measurements.corrected_by(*row) : std::nullopt;
+        std::optional<Measurement> correction;
+        if (newer) {
+          stores.measurements.find(*newer, [&](const store::MeasurementRow& found) {
+            correction = from_store(found, names);
+          });
+        }
+        const bool found =
+            row && stores.measurements.find(*row, [&](const store::MeasurementRow& original) {
+              Measurement measurement = from_store(original, names);
+              if (correction) {
+                measurement.corrected_by = correction->id;
+                measurement.corrected_by_origin = correction->origin;
+              }
+              measurement.conflict = is_in_conflict(stores, original);
+              visit(measurement);
+            });
+        if (found) return *row;
+        return unknown_measurement(name, origins_);
+      },
+      std::move(done));
+}
+
+void MeasurementService::list_notes(const RecordName& name, Done<std::vector<Note>> done) {
+  database_.readers().submit(
+      [this, name](const store::Stores& stores) -> Result<std::vector<Note>> {
+        const auto row = existing_row_of(stores, name, origins_);
+        if (!row) return row.error();
+        return notes_of(stores, *row,
+                        measurement_id_text(name.number, origins_.digits(name.origin)),
+                        origins_.own());
+      },
+      std::move(done));
+}
+
+void MeasurementService::list(const MeasurementQuery& query, std::int64_t after, std::size_t limit,
+                              Visitor visit, Done<ListPage> done) {
+  database_.readers().submit(
+      [this, filter = measurement_filter(query), after, limit, last = query.last,
+       behind = query.after, shows_notes = query.shows_notes,
+       order = query.newest_first ? store::ListOrder::NewestFirst : store::ListOrder::OldestFirst,
+       visit = std::move(visit)](const store::Stores& stores) mutable -> Result<ListPage> {
+        if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
+        if (behind) {
+          const auto row = row_of(stores, *behind);
+          if (!row) return unknown_cursor();
+          after = *row;
+        }
+        if (last) {
+          limit = *last;
+          const auto first = stores.measurements.first_of_newest(filter, limit);
+          if (!first) return ListPage{.next = std::nullopt, .as_of = *filter.as_of_id};
+          if (order == store::ListOrder::OldestFirst) after = *first - 1;
+        }
+        const RowNames names = row_names(tables_, origins_);
+        const auto next = stores.measurements.list(
+            filter, after, limit,
+            [&](const store::MeasurementRow& row) {
+              Measurement measurement = from_store(row, names);
+              measurement.conflict = is_in_conflict(stores, row);
+              std::vector<Note> notes;
+              if (shows_notes) {
+                notes = notes_of(stores, row.id,
+                                 measurement_id_text(measurement.id, measurement.origin),
+                                 origins_.own());
+              }
+              measurement.notes = notes;
+              visit(measurement);
+            },
+            order);
+        return ListPage{.next = last ? std::nullopt : next, .as_of = *filter.as_of_id};
+      },
+      std::move(done));
+}
+
+Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query,
+                                                   const RunVisitor& visit) {
+  constexpr std::size_t kRowsAJob = 20'000;  // other readers get their turn between two jobs
+  store::MeasurementFilter filter = measurement_filter(query);
+  std::optional<std::int64_t> after = 0;
+  std::string newest = measurement_id_text(query.as_of.value_or(0), origins_.own());
+  std::int64_t origin = 0;  // of the run before, mostly that of the next
+  std::string_view digits = origins_.digits(origin);
+  CorrectedPlaces places;
+  std::vector<MeasuredRun::Value> values;
+  while (after) {
+    auto next = database_.readers().wait(
+        [&](const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
+          if (!filter.as_of_id) {
+            filter.as_of_id = stores.measurements.last_id();
+            stores.measurements.find(*filter.as_of_id, [&](const store::MeasurementRow& row) {
+              newest = measurement_id_text(row.public_number(),
+                                           origins_.digits(row.is_forwarded() ? *row.origin : 0));
+            });
+            stores.measurements.list_corrections(
+                *filter.as_of_id, [&](std::int64_t id, std::int64_t of) { places.add(id, of); });
+            places.finish_adding();
+            if (query.last) {
+              const auto first = stores.measurements.first_of_newest(filter, *query.last);
+              if (!first) return std::optional<std::int64_t>();
+              after = *first - 1;
+            }
+          }
+          Result<void> taken;
+          const auto more = stores.measurements.list_values(
+              filter, *after, kRowsAJob, [&](const store::MeasuredRun& run) {
+                if (!taken) return;
+                values.clear();
+                for (const auto& value : run.values) {
+                  places.pass(value.id);
+                  values.push_back({value.number, Length::nanometres(value.measured_nm)});
+                }
+                if (run.origin != origin) digits = origins_.digits(origin = run.origin);
+                taken = visit({.origin = digits,
+                               .lower_limit = limit_of(run.lower_limit_nm),
+                               .upper_limit = limit_of(run.upper_limit_nm),
+                               .subgroup = run.subgroup,
+                               .values = values});
+              });
+          if (!taken) return taken.error();
+          return more;
+        });
+    if (!next) return next.error();
+    after = *next;
+  }
+  return ReadValues{.as_of = std::move(newest), .moves = places.moves()};
+}
+
+void MeasurementService::summary(const MeasurementQuery& query, std::string_view group_by,
+                                 Done<std::vector<MeasurementGroup>> done) {
+  const auto field = std::find(kTextFilters.begin(), kTextFilters.end(), group_by);
+  if (field == kTextFilters.end()) {
+    return done(Error{ErrorCode::QueryInvalid, "group_by names no field to group by"});
+  }
+  const auto number = static_cast<std::size_t>(field - kTextFilters.begin());
+  const store::TextField group = store::kTextColumns.at(number).field;
+  database_.readers().submit(
+      [filter = measurement_filter(query),
+       group](const store::Stores& stores) -> Result<std::vector<MeasurementGroup>> {
+        auto groups = stores.measurements.summary(filter, group);
+        if (!groups) return groups.error();
+        std::vector<MeasurementGroup> mapped;
+        mapped.reserve(groups->size());
+        for (store::SummaryGroup& found : *groups) {
+          mapped.push_back(measurement_group(std::move(found)));
+        }
+        return mapped;
+      },
+      std::move(done));
+}
+
+}  // namespace fitgauge::app

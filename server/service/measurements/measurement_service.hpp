@@ -1,0 +1,241 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/measurement.hpp"
+#include "service/measurements/corrected_places.hpp"
+
+namespace fitgauge::store {
+class Database;
+}
+
+namespace fitgauge {
+class WorkerPool;
+}
+
+namespace fitgauge::app {
+
+class MeasurementQueue;
+class Origins;
+class TableCatalog;
+
+/// An answer that can be kept under an idempotency key and given again.
+struct Answer {
+  int status = 200;
+  std::string content_type;
+  std::string location;  ///< empty: none
+  std::string body;
+};
+
+/// What makes a request the same as an earlier one.
+struct IdempotencyScope {
+  std::string caller;
+  std::string method;
+  std::string path;
+  std::string key;
+  std::string_view body;          ///< alive until the answer
+  bool is_kept_for_ever = false;  ///< not only for the days of the service
+};
+
+/// The texts of a measurement that lists filter and summaries group by.
+inline constexpr std::array<std::string_view, 11> kTextFilters = {
+    "part_id", "order", "characteristic",  "machine", "operation", "operator",
+    "gauge",   "unit",  "tolerance_class", "caller",  "subgroup"};
+
+/// A nominal size and the class of one standard or another.
+struct DesignationQuery {
+  Length nominal;
+  std::string tolerance_class;
+};
+
+/// Which measurements a list shows.
+struct MeasurementQuery {
+  std::array<std::optional<std::string>, kTextFilters.size()> texts;
+  std::optional<DesignationQuery> designation;
+  std::optional<RecordName> run_id;
+  std::optional<gauging::Verdict> verdict;
+  std::optional<Source> source = Source::Gauge;  ///< none: all
+  std::optional<Timestamp> from;                 ///< from <= measured_at
+  std::optional<Timestamp> to;                   ///< measured_at < to
+  std::optional<Timestamp> received_from;        ///< from <= received_at
+  std::optional<Timestamp> received_to;          ///< received_at < to
+  std::optional<std::string> cause;              ///< named by a note
+  bool has_notes = false;                        ///< only rows with a note
+  bool history = false;                          ///< corrected rows too
+  std::optional<std::int64_t> as_of;             ///< the state when this id was the newest
+
+  // Of lists.
+  bool newest_first = false;
+  bool shows_notes = false;
+  std::optional<std::size_t> last;  ///< only so many of the newest that match, on one page
+  std::optional<RecordName> after;  ///< begins behind this one, instead of a cursor
+};
+
+/// How a list goes on after a page.
+struct ListPage {
+  std::optional<std::int64_t> next;  ///< the last row of the page; none when nothing follows
+  std::int64_t as_of = 0;            ///< the state all pages of the list are read in
+};
+
+/// What figures are computed from. The text is valid during the visitor's call.
+struct MeasuredRun {
+  struct Value {
+    std::int64_t id = 0;
+    Length measured;
+  };
+
+  std::string_view origin{};  ///< where they were stored; outlives the run
+  std::optional<Length> lower_limit;
+  std::optional<Length> upper_limit;
+  std::optional<std::string_view> subgroup;
+  std::span<const Value> values{};
+};
+
+/// What is said of values when all of them are read.
+struct ReadValues {
+  std::string as_of;              ///< the id of the newest measurement there was
+  std::vector<MovedValue> moves;  ///< of corrections, to the places of what they replace
+};
+
+/// Counts and statistics of one group; texts are exact decimals in mm.
+struct MeasurementGroup {
+  std::optional<std::string> value;
+  std::int64_t count = 0;
+  std::int64_t good = 0;
+  std::int64_t rework = 0;
+  std::int64_t reject = 0;
+  std::int64_t indeterminate = 0;
+  std::string mean_mm;
+  std::optional<std::string> standard_deviation_mm;
+  Length min;
+  Length max;
+};
+
+struct MeasurementServiceOptions {
+  std::size_t most_waiting = 4096;  ///< requests; one more is StorageBusy
+  bool commit_each = false;         ///< every request its own commit: the benchmark's peer
+};
+
+/// Makes the answer to a request from its measurements, which may come in pieces. Used by one
+/// thread.
+class Rendering {
+ public:
+  Rendering() = default;
+  Rendering(const Rendering&) = delete;
+  Rendering& operator=(const Rendering&) = delete;
+  virtual ~Rendering() = default;
+
+  /// The next measurements, with their ids.
+  /// @param records what is stored of them: their JSON, with commas between them.
+  virtual void add(std::span<const Measurement> measurements, std::string_view records) = 0;
+  virtual Answer finish() = 0;
+};
+
+/// Stores and reads measurements. Nothing here blocks but what says so; `done` comes exactly once,
+/// on a storage thread or, when refused at once, on the caller's. Thread-safe.
+class MeasurementService {
+ public:
+  /// @param origins outlive the service.
+  MeasurementService(store::Database& database, const TableCatalog& tables, const Origins& origins,
+                     const MeasurementServiceOptions& options);
+  ~MeasurementService();
+
+  /// @errors MeasurementUnknown.
+  Result<RecordName> parse_id(std::string_view text) const {
+    return parse_measurement_id(text, origins_);
+  }
+  /// @errors RunUnknown.
+  Result<RecordName> parse_run(std::string_view text) const { return parse_run_id(text, origins_); }
+
+  template <class T>
+  using Done = std::function<void(Result<T>)>;
+  /// Begins an answer; called on the writer thread, and again if the storing is tried again.
+  using Render = std::function<std::unique_ptr<Rendering>()>;
+
+  /// The answer kept for this request, or none. @errors IdempotencyKeyReused, StorageUnavailable.
+  void find_answer(const IdempotencyScope& scope, Done<std::optional<Answer>> done);
+
+  /// Stores judged measurements, all or none; `done` comes when they are durable. The texts of the
+  /// measurements stay alive until then.
+  /// @param scope keeps the answer for repeats, in the same transaction.
+  /// @errors StorageUnavailable, StorageBusy, IdempotencyKeyReused, IdempotencyInProgress,
+  ///   MeasurementUnknown and MeasurementCorrected of a correction.
+  void record(std::vector<Measurement> measurements, const std::optional<IdempotencyScope>& scope,
+              Render render, Done<Answer> done);
+
+  /// Takes the next measurements of a request.
+  using Take = std::function<void(std::vector<Measurement>)>;
+  /// Reads a request to its end, at least one measurement or an error. What was taken stays unkept
+  /// when there is one.
+  using Read = std::function<Result<void>(const Take&)>;
+
+  /// Stores judged measurements while `read` goes on reading, all or none. Blocks until they are
+  /// durable: for the threads of run(). The texts of the measurements stay alive until it returns.
+  /// @errors those of `read` and of record().
+  Result<Answer> record_while_reading(const Read& read,
+                                      const std::optional<IdempotencyScope>& scope,
+                                      Rendering& rendering);
+
+  /// Called on a reader thread; the measurement's texts are valid during the call.
+  using Visitor = std::function<void(const Measurement&)>;
+
+  /// Visits one measurement; `corrected_by` is set if it was. @returns where it stands in this
+  /// folder. @errors MeasurementUnknown.
+  void find(const RecordName& name, Visitor visit, Done<std::int64_t> done);
+
+  /// Makes the answer to a note that is stored, and what the event `note.added` says of it; called
+  /// on the writer thread.
+  struct NoteForm {
+    std::function<Answer(const Note&)> answer;
+    std::function<std::string(const Note&)> event;
+  };
+  /// Keeps a note beside a measurement. @param note has its time
+  /// @errors MeasurementUnknown, and those of record().
+  void add_note(const RecordName& name, Note note, const std::optional<IdempotencyScope>& scope,
+                NoteForm form, Done<Answer> done);
+
+  /// The notes beside a measurement, oldest first. @errors MeasurementUnknown.
+  void list_notes(const RecordName& name, Done<std::vector<Note>> done);
+
+  /// Visits up to `limit` matching measurements that come after the cursor `after`, in storage
+  /// order or the other way round. A query without `as_of` is read in the newest state; the pages
+  /// that follow name the one it gives, so that the list is of one piece however much is recorded
+  /// and corrected meanwhile.
+  void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
+            Done<ListPage> done);
+
+  /// Visits what figures are computed from of all that match, in storage order and in one state,
+  /// and ends with the first error the visitor gives. Blocks: for threads that take long requests.
+  /// @errors StorageBusy, StorageUnavailable, ShuttingDown
+  using RunVisitor = std::function<Result<void>(const MeasuredRun&)>;
+  Result<ReadValues> read_values(const MeasurementQuery& query, const RunVisitor& visit);
+
+  /// Groups by one of kTextFilters. @errors QueryInvalid for another field or too many groups.
+  void summary(const MeasurementQuery& query, std::string_view group_by,
+               Done<std::vector<MeasurementGroup>> done);
+
+  /// Runs `work` on a thread for long requests, which may block. Calls `failed` when it throws, or
+  /// at once when too many wait. @errors Internal, StorageBusy.
+  void run(std::function<void()> work, const std::function<void(Error)>& failed);
+
+ private:
+  template <class Work>
+  void submit(const std::optional<IdempotencyScope>& scope, Work work, Done<Answer> done);
+
+  store::Database& database_;
+  const TableCatalog& tables_;
+  const Origins& origins_;
+  const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs
+  const std::unique_ptr<WorkerPool> long_requests_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "db/store/stores.hpp"
+#include "record/measurement.hpp"
+#include "service/log/leaf.hpp"
+
+namespace fitgauge::app {
+
+class Origins;
+class Rendering;
+class TableCatalog;
+
+/// Few enough that their rows stay in the processor's cache.
+inline constexpr std::size_t kRowsAtATime = 128;
+
+/// Sets in each measurement the number of the table revision that judged it, before it is stored.
+void number_revisions(std::span<Measurement> measurements, const TableCatalog& tables);
+
+/// Gives the measurements their ids. @returns the next id.
+std::int64_t number_from(std::int64_t first, std::string_view origin,
+                         std::span<Measurement> measurements);
+
+/// Adds a row for each measurement. @pre they have their ids. The rows view their texts.
+void append_rows(std::vector<store::MeasurementRow>& rows,
+                 std::span<const Measurement> measurements, LeafMaker& leaves);
+
+/// Numbers and stores measurements.
+/// @param rendering takes them, if there is one. @returns the id of the first.
+/// @errors MeasurementUnknown and MeasurementCorrected of a correction.
+Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
+                            std::string_view origin, Rendering* rendering = nullptr);
+
+/// The row of a measurement in this folder; none when there is no such measurement.
+std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name);
+
+/// The same, where it must be there. @errors MeasurementUnknown.
+Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordName& name,
+                                     const Origins& origins);
+
+Error unknown_measurement(const RecordName& name, const Origins& origins);
+
+/// The error when the queue of writes is full.
+Error too_much_work();
+
+}  // namespace fitgauge::app

@@ -1,0 +1,237 @@
+#include "service/revisions/revision_intake.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "db/store/database.hpp"
+#include "proof/tree_hash.hpp"
+#include "record/origins.hpp"
+#include "service/log/forwarded_record.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/tables/table_catalog.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+/// Keeps what this folder has made itself under a name that is free.
+std::string keep_own(store::Stores& stores, store::Document own) {
+  const std::string name = own.name;
+  own.name = name + " (local)";
+  for (int i = 2; stores.documents.find(own.kind, own.name); ++i) {
+    own.name = fmt::format("{} (local {})", name, i);
+  }
+  stores.documents.put(own);
+  return own.name;
+}
+
+}  // namespace
+
+/// A page in its transaction.
+struct RevisionIntake::Job {
+  store::Stores& stores;
+  TableCatalog& tables;
+  const Origins& origins;
+  const RevisionPage& page;
+  std::int64_t now;
+
+  Outcome outcome{};
+  std::optional<TableCatalog::Received> received{};
+  std::vector<std::pair<std::string_view, std::string>> told{};
+
+  void refuse(std::string detail) {
+    ++outcome.refused;
+    told.emplace_back("revision_refused", std::move(detail));
+  }
+
+  std::optional<store::RevisionsStore::Received> received_of(const Revision& revision) const {
+    return stores.revisions.received(static_cast<store::RevisionKind>(revision.kind),
+                                     revision.name);
+  }
+  void set_received(const Revision& revision, const Digest& digest) {
+    stores.revisions.set_received(static_cast<store::RevisionKind>(revision.kind), revision.name,
+                                  {.number = revision.number, .digest = digest});
+  }
+
+  void take(const Revision& revision) {
+    switch (revision.kind) {
+      case RevisionKind::Tables: return take_tables(revision);
+      case RevisionKind::Key: return take_key(revision);
+      case RevisionKind::Setup:
+      case RevisionKind::Plan:
+      case RevisionKind::Catalogue:
+        return take_document(revision, static_cast<store::DocumentKind>(revision.kind));
+      case RevisionKind::Correction: break;
+    }
+    take_correction(revision);
+  }
+
+  void take_tables(const Revision& revision) {
+    auto taken = tables.receive(stores, revision.id, revision.columns, now);
+    if (!taken) {
+      return refuse(fmt::format("tables {}: {}", revision.id, taken.error().message));
+    }
+    const auto before = received_of(revision);
+    set_received(revision, taken->digest);
+    if (!taken->state) return;  // they are in force
+    ++outcome.taken;
+    if (taken->replaced_own && !(before && before->digest == taken->replaced_digest)) {
+      told.emplace_back("revision_replaced",
+                        fmt::format("the centre's tables {} take the place of {}, which has "
+                                    "columns of this folder: it is still read by its name",
+                                    revision.id, taken->replaced_id));
+    }
+    received = *std::move(taken);
+  }
+
+  void take_document(const Revision& revision, store::DocumentKind kind) {
+    auto current = stores.documents.find(kind, revision.name);
+    const auto before = received_of(revision);
+    const bool is_own = current && current->text != revision.text &&
+                        !(before && before->digest == sha256(current->text));
+    if (revision.is_removed) {
+      if (current && before && !is_own) {
+        stores.documents.remove(kind, revision.name);
+        ++outcome.taken;
+      }
+      if (before) {
+        stores.revisions.forget_received(static_cast<store::RevisionKind>(revision.kind),
+                                         revision.name);
+      }
+      return;
+    }
+    if (is_own) {
+      const std::string kept = keep_own(stores, *current);
+      told.emplace_back("revision_replaced",
+                        fmt::format("the centre's {} '{}' takes the place of one of this folder, "
+                                    "which is called '{}' now",
+                                    word(revision.kind), revision.name, kept));
+    }
+    if (!current || current->text != revision.text) {
+      stores.documents.put({.kind = kind,
+                            .name = revision.name,
+                            .text = revision.text,
+                            .modified_at_ns = now,
+                            .caller = {}});
+      ++outcome.taken;
+    }
+    set_received(revision, sha256(revision.text));
+  }
+
+  void take_key(const Revision& revision) {
+    const auto current = stores.keys.newest(revision.name);
+    const auto before = received_of(revision);
+    const bool is_valid = current && !current->revoked_at_ns;
+    const bool is_received = before && is_valid && before->digest == current->token_hash;
+    if (revision.is_removed || (is_received && current->token_hash != revision.token_hash)) {
+      if (is_received && stores.keys.revoke(revision.name, now)) ++outcome.taken;
+      if (revision.is_removed) return;
+    } else if (is_valid && current->token_hash == revision.token_hash) {
+      return set_received(revision, revision.token_hash);
+    }
+    if (!stores.keys.receive(revision.name, static_cast<store::Role>(revision.role),
+                             revision.token_hash, now)) {
+      return refuse(
+          fmt::format("the centre's key '{}': this folder has a valid key of its own of "
+                      "that name, or has revoked this one",
+                      revision.name));
+    }
+    ++outcome.taken;
+    set_received(revision, revision.token_hash);
+  }
+
+  void take_correction(const Revision& revision) {
+    const Measurement& m = *revision.measurement;
+    const std::int64_t centre = *origins.number(page.origin);
+    if (stores.measurements.find_forwarded(centre, m.id)) return;
+    if (const std::string_view finding = finding_in(m, revision.text); !finding.empty()) {
+      return refuse(fmt::format("the centre's correction {} {}",
+                                measurement_id_text(m.id, page.origin), finding));
+    }
+    const auto of = origins.number(m.corrected_elsewhere->digits);
+    const auto target = !of        ? std::nullopt
+                        : *of == 0 ? m.correction_of
+                                   : stores.measurements.find_forwarded(*of, *m.correction_of);
+    if (!target || !stores.measurements.find(*target, [](const auto&) {})) {
+      return refuse(fmt::format("the centre's correction {}: what it corrects is not here",
+                                measurement_id_text(m.id, page.origin)));
+    }
+    store::MeasurementRow row = to_store(m);
+    if (!m.table_revision.empty()) row.table_revision = tables.revision_number(m.table_revision);
+    row.id = stores.measurements.last_id() + 1;
+    row.origin = centre;
+    row.seq = revision.place;
+    if (m.id != revision.place) row.number = m.id;
+    row.hash = tlog::leaf_hash(revision.text);
+    row.corrected_origin = of;
+    row.corrected_number = m.correction_of;
+    row.correction_of = target;
+    auto origin = *stores.origins.find(centre);
+    if (!origin.first_row) {
+      origin.first_row = row.id;
+      stores.origins.set_head(origin);
+    }
+    stores.measurements.append_forwarded(std::span(&row, 1));
+    ++outcome.taken;
+  }
+};
+
+Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
+  if (page.revisions.empty()) return Outcome{};
+  if (const auto prepared = prepare(page); !prepared) return prepared.error();
+  struct Taken {
+    Outcome outcome;
+    std::optional<TableCatalog::Received> received;
+    std::vector<std::pair<std::string_view, std::string>> told;
+  };
+  auto taken = database_.writer().wait([&](store::Stores& stores) -> Result<Taken> {
+    Job job{.stores = stores,
+            .tables = tables_,
+            .origins = origins_,
+            .page = page,
+            .now = clock_.now().nanoseconds};
+    for (const Revision& revision : page.revisions) job.take(revision);
+    return Taken{job.outcome, std::move(job.received), std::move(job.told)};
+  });
+  if (!taken) return taken.error();
+  if (taken->received) tables_.put_in_force(*taken->received);
+  for (const auto& [event, detail] : taken->told) tell_once(event, detail);
+  return taken->outcome;
+}
+
+/// Gives the centre and the table revisions of its corrections their numbers, in a commit before
+/// the rows: whoever reads a row knows what it is called.
+Result<void> RevisionIntake::prepare(const RevisionPage& page) {
+  std::set<std::string_view> revisions;
+  bool has_corrections = false;
+  for (const Revision& revision : page.revisions) {
+    if (!revision.measurement) continue;
+    has_corrections = true;
+    const std::string_view id = revision.measurement->table_revision;
+    if (!id.empty() && !tables_.revision_number(id)) revisions.insert(id);
+  }
+  if (!has_corrections || (revisions.empty() && origins_.number(page.origin))) return {};
+  std::int64_t centre = 0;
+  std::vector<std::pair<std::int64_t, std::string_view>> numbers;
+  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    numbers.clear();
+    for (const std::string_view id : revisions) {
+      numbers.emplace_back(-stores.origins.add_revision(id), id);
+    }
+    const auto found = stores.origins.find(page.origin);
+    centre = found ? found->number : stores.origins.add(page.origin);
+    return true;
+  });
+  if (!stored) return stored.error();
+  for (const auto& [number, id] : numbers) tables_.remember(number, id);
+  origins_.remember(centre, page.origin);
+  return {};
+}
+
+void RevisionIntake::tell_once(std::string_view event, const std::string& detail) {
+  if (tell_ && told_.insert(detail).second) tell_(event, detail);
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "service/runs/live_state.hpp"
+#include "service/runs/run_report.hpp"
+
+namespace fitgauge::app {
+
+/// How a run ended, for those who wait for it.
+struct FinishedRun {
+  RunState state = RunState::Failed;
+  std::string report;  ///< as it is stored
+};
+
+/// A run that is queued or under way: what it has printed so far, who follows it, and the way to
+/// cancel it. Thread-safe. Callbacks come on the run's thread, without a lock held;
+/// what one throws is reported and stops neither the run nor the others.
+class ActiveRun {
+ public:
+  ActiveRun(std::int64_t id, std::string_view origin, std::shared_ptr<const RunOrder> order,
+            Timestamp created_at)
+      : id_(id), origin_(origin), order_(std::move(order)), created_at_(created_at) {}
+  ActiveRun(const ActiveRun&) = delete;
+  ActiveRun& operator=(const ActiveRun&) = delete;
+
+  std::int64_t id() const { return id_; }
+  std::string id_text() const { return run_id_text(id_, origin_); }
+  const RunOrder& order() const { return *order_; }
+  const std::string& program() const { return order_->program.text(); }
+  Timestamp created_at() const { return created_at_; }
+  RunState state() const;
+  /// Its end is being stored: from now on the store knows more than this.
+  bool is_being_stored() const { return being_stored_; }
+
+  /// Seen within a few thousand blocks; a run that is over does not mind.
+  void cancel() { stop_.request_stop(); }
+  std::stop_token stop_token() const { return stop_.get_token(); }
+
+  // For those who follow it.
+
+  /// What is new since a follower last looked.
+  struct News {
+    std::uint64_t version = 0;  ///< rises with every change
+    RunState state = RunState::Queued;
+    std::uint64_t blocks = 0;
+    std::vector<std::string> lines;  ///< printed after the first `seen_lines`
+    /// Set once the run is over; an Error when it could not be stored.
+    std::optional<Result<FinishedRun>> end;
+  };
+  News news(std::size_t seen_lines) const;
+
+  using Ticket = std::uint64_t;
+  /// Calls `wake` once, as soon as the version differs from `seen`; at once if it does already.
+  Ticket await(std::uint64_t seen, std::function<void()> wake);
+  /// `wake` is no longer wanted.
+  void forget(Ticket ticket);
+
+  /// Calls `done` once when the run is over; at once if it is.
+  void on_end(std::function<void(const Result<FinishedRun>&)> done);
+
+  /// The state of the machine now, as far as the run tells it within `patience`; else the last one
+  /// it told, as are the files where they are not asked for. A run that is over has told its last.
+  /// Waits.
+  LiveState look(Look what, std::chrono::milliseconds patience);
+
+  // For the thread that runs or ends it.
+
+  /// What a reader waits for.
+  Look wanted() const { return wanted_.load(std::memory_order_relaxed); }
+  void show(LiveState state);
+
+  void started();
+  void progressed(std::uint64_t blocks);
+  void printed(std::string_view line);
+  /// Before its end is stored.
+  void being_stored() { being_stored_ = true; }
+  void finished(Result<FinishedRun> end);
+
+ private:
+  template <class Change>
+  void change(const Change& change);
+
+  const std::int64_t id_;
+  const std::string_view origin_;
+  const std::shared_ptr<const RunOrder> order_;
+  const Timestamp created_at_;
+  std::stop_source stop_;
+  std::atomic<bool> being_stored_{false};
+
+  mutable std::mutex mutex_;
+  std::uint64_t version_ = 1;
+  RunState state_ = RunState::Queued;
+  std::uint64_t blocks_ = 0;
+  std::vector<std::string> lines_;
+  std::optional<Result<FinishedRun>> end_;
+  Ticket next_ticket_ = 1;
+  std::map<Ticket, std::function<void()>> waiting_;
+  std::vector<std::function<void(const Result<FinishedRun>&)>> at_end_;
+
+  std::atomic<Look> wanted_{Look::Nothing};
+  std::condition_variable shown_;
+  std::uint64_t shows_ = 0;           ///< counts the states shown
+  std::uint64_t shows_of_files_ = 0;  ///< of them those with files
+  LiveState live_;
+};
+
+}  // namespace fitgauge::app

@@ -1,0 +1,208 @@
+#include "service/runs/control_tables.hpp"
+
+#include <array>
+#include <map>
+#include <utility>
+
+#include "service/runs/machine_table.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using machine::Preset;
+using machine::ProbeRow;
+using machine::ProbeSetup;
+using machine::Tool;
+using machine::ToolSetup;
+using Row = MachineTableRow;
+
+constexpr const char* kProbeTable = "tchprobe.tp";
+constexpr const char* kToolTable = "tool.t";
+constexpr const char* kPresetTable = "preset.pr";
+constexpr std::array kTables = {kProbeTable, kToolTable, kPresetTable};
+
+template <class Owner>
+using Column = std::pair<std::string_view, double Owner::*>;
+
+constexpr Column<Tool> kToolLengths[] = {
+    {"L", &Tool::l},
+    {"R", &Tool::r},
+    {"R2", &Tool::r2},
+    {"DL", &Tool::dl},
+    {"DR", &Tool::dr},
+    {"DR2", &Tool::dr2},
+    {"LCUTS", &Tool::cutting_length},
+    {"LTOL", &Tool::l_tolerance},
+    {"RTOL", &Tool::r_tolerance},
+    {"R2TOL", &Tool::r2_tolerance},
+    {"R-OFFS", &Tool::r_offset},
+    {"L-OFFS", &Tool::l_offset},
+    {"LBREAK", &Tool::l_breakage},
+    {"RBREAK", &Tool::r_breakage},
+    {"PITCH", &Tool::pitch},
+};
+constexpr Column<Tool> kToolNumbers[] = {
+    {"TIME1", &Tool::time1},        {"TIME2", &Tool::time2},  {"CUR_TIME", &Tool::current_time},
+    {"ANGLE", &Tool::plunge_angle}, {"NMAX", &Tool::max_rpm}, {"T-ANGLE", &Tool::point_angle},
+};
+constexpr Column<ProbeRow> kProbeLengths[] = {
+    {"CAL_OF1", &ProbeRow::cal_of1}, {"CAL_OF2", &ProbeRow::cal_of2}, {"F", &ProbeRow::feed},
+    {"FMAX", &ProbeRow::rapid},      {"DIST", &ProbeRow::distance},   {"SET_UP", &ProbeRow::set_up},
+};
+
+void read(Row& row, Tool& tool) {
+  tool.number = row.number();
+  tool.name = row.text("NAME");
+  for (const auto& [column, value] : kToolLengths) row.length(column, tool.*value);
+  for (const auto& [column, value] : kToolNumbers) row.number(column, tool.*value);
+  tool.locked = row.text("TL") == "L";
+  tool.clockwise = row.text("DIRECT") != "+";
+  row.whole("RT", tool.replacement);
+  row.whole("CUT", tool.teeth);
+  row.whole("TP_NO", tool.probe);
+  // TYP is the number of a type, on newer controls its name, which FN 18 does not give.
+  const std::string_view type = row.text("TYP");
+  if (!type.empty() && type.front() >= '0' && type.front() <= '9') row.whole("TYP", tool.type);
+}
+
+void read(Row& row, ProbeRow& probe) {
+  probe.number = row.number();
+  probe.type = row.text("TYPE");
+  for (const auto& [column, value] : kProbeLengths) row.length(column, probe.*value);
+  row.number("CAL_ANG", probe.cal_ang);
+  if (row.text("F_PREPOS") == "FMAX_MACHINE") {
+    probe.prepositioning = machine::PrePositioning::MachineRapid;
+  }
+  probe.track = row.text("TRACK") == "ON";
+  if (row.text("REACTION") == "EMERGSTOP") {
+    probe.reaction = machine::CollisionReaction::EmergencyStop;
+  }
+}
+
+void read(Row& row, Preset& preset) {
+  preset.number = row.number();
+  preset.comment = row.text("DOC");
+  machine::PresetFrame& frame = preset.frame;
+  constexpr std::array<std::string_view, 3> kLinear = {"X", "Y", "Z"};
+  constexpr std::array<std::string_view, 3> kSpatial = {"SPA", "SPB", "SPC"};
+  // The iTNC 530 calls the basic rotation ROT, and the offsets of the rotary axes as these.
+  constexpr std::array<std::string_view, 3> kRotary = {"A", "B", "C"};
+  constexpr std::array<std::string_view, 3> kOffsets = {"A_OFFS", "B_OFFS", "C_OFFS"};
+  constexpr std::array<std::string_view, 3> kShifts = {"X_OFFS", "Y_OFFS", "Z_OFFS"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    row.length(kLinear[i], frame.origin[i]);
+    row.number(kSpatial[i], frame.basic_rotation_deg[i]);
+    row.number(kRotary[i], frame.rotary_offsets_deg[i]);
+    row.number(kOffsets[i], frame.rotary_offsets_deg[i]);
+    double shift = 0;
+    row.number(kShifts[i], shift);
+    if (shift != 0) row.fail(kShifts[i], "offsets of the linear axes are not available");
+  }
+  row.number("ROT", frame.basic_rotation_deg.z);
+  const std::string_view locked = row.text("LOCKED");
+  preset.locked = !locked.empty() && locked != "0";
+}
+
+/// Calls `read_row` for each row of a table of that name, if there is one.
+template <class ReadRow>
+Result<void> for_each_row(const interpreter::ControlDisk& disk, std::string_view name,
+                          Allowance& allowance, const ReadRow& read_row) {
+  const auto table = MachineTable::find(disk, name, allowance);
+  if (!table) return table.error();
+  if (!*table) return {};
+  for (std::size_t i = 0; i < (*table)->table.row_count(); ++i) {
+    const auto number = (*table)->number_of(i);
+    if (!number) return number.error();
+    if (!*number) continue;
+    Row row(**table, **number);
+    read_row(row);
+    if (row.error()) return *row.error();
+  }
+  return {};
+}
+
+Result<void> read_probes(const interpreter::ControlDisk& disk, Allowance& allowance,
+                         ControlTables& tables) {
+  return for_each_row(disk, kProbeTable, allowance, [&tables](Row& row) {
+    ProbeSetup& probe = tables.probes.emplace_back();
+    read(row, probe.row);
+    machine::Setup setup;
+    setup.machine.tools.clear();
+    setup.machine.probes = {probe};
+    row.check(setup);
+  });
+}
+
+/// @pre the probes are read: a tool may refer to one.
+Result<void> read_tools(const interpreter::ControlDisk& disk, Allowance& allowance,
+                        ControlTables& tables) {
+  machine::Setup setup;
+  add_rows(tables, {}, setup.machine);
+  return for_each_row(disk, kToolTable, allowance, [&](Row& row) {
+    if (row.number() == 0) return;  // no tool
+    ToolSetup& tool = tables.tools.emplace_back();
+    read(row, tool.row);
+    setup.machine.tools = {tool};
+    row.check(setup);
+  });
+}
+
+Result<void> read_presets(const interpreter::ControlDisk& disk, Allowance& allowance,
+                          ControlTables& tables) {
+  return for_each_row(disk, kPresetTable, allowance, [&tables](Row& row) {
+    Preset& preset = tables.presets.emplace_back();
+    read(row, preset);
+    machine::Setup setup;
+    setup.machine.presets = {preset};
+    setup.machine.active_preset = preset.number;
+    row.check(setup);
+  });
+}
+
+int number_of(const ToolSetup& tool) { return tool.row.number; }
+int number_of(const ProbeSetup& probe) { return probe.row.number; }
+int number_of(const Preset& preset) { return preset.number; }
+
+template <class SetupRow>
+void add(const std::vector<SetupRow>& added, bool given, std::vector<SetupRow>& rows) {
+  std::map<int, std::size_t> places;
+  for (std::size_t i = 0; i < rows.size(); ++i) places.emplace(number_of(rows[i]), i);
+  for (const SetupRow& row : added) {
+    const auto known = places.find(number_of(row));
+    if (known == places.end()) {
+      rows.push_back(row);
+    } else if (!given) {
+      rows[known->second] = row;
+    }
+  }
+}
+
+}  // namespace
+
+Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk,
+                                          Allowance& allowance) {
+  ControlTables tables;
+  for (const auto& read_table : {read_probes, read_tools, read_presets}) {
+    if (const auto done = read_table(disk, allowance, tables); !done) return done.error();
+  }
+  return tables;
+}
+
+Result<std::shared_ptr<const ControlTables>> ControlTablesCache::read(Allowance& allowance) {
+  std::string revisions;
+  for (const auto name : kTables) revisions += MachineTable::revision(disk_, name);
+  if (tables_ != nullptr && revisions == revisions_) return tables_;
+  auto tables = read_control_tables(disk_, allowance);
+  if (!tables) return tables.error();
+  tables_ = std::make_shared<const ControlTables>(*std::move(tables));
+  revisions_ = std::move(revisions);
+  return tables_;
+}
+
+void add_rows(const ControlTables& tables, const GivenTables& given, machine::MachineSetup& setup) {
+  add(tables.tools, given.tools, setup.tools);
+  add(tables.probes, given.probes, setup.probes);
+  add(tables.presets, given.presets, setup.presets);
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/allowance.hpp"
+#include "nc/machine/machine_setup.hpp"
+#include "nc/program/control_disk.hpp"
+
+namespace fitgauge::app {
+
+/// The rows of the control's own tool, probe and preset tables.
+struct ControlTables {
+  std::vector<machine::ToolSetup> tools;
+  std::vector<machine::ProbeSetup> probes;
+  std::vector<machine::Preset> presets;
+};
+
+/// Reads `tool.t`, `tchprobe.tp` and `preset.pr` of the control's disk, each where it exists: in
+/// `TNC:\table\`, else in `TNC:\`. A column that a table lacks and a blank cell have the value of a
+/// new row; lengths of a table in inches become millimetres. Indexed tools (5.1) are left out, as
+/// no tool call reaches them.
+/// @errors TableFileMalformed, which names the file and its line or row.
+Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk,
+                                          Allowance& allowance);
+
+/// The tables of one disk as they were read last: read again only where a file has changed. For one
+/// thread.
+class ControlTablesCache {
+ public:
+  /// @param disk outlives the cache
+  explicit ControlTablesCache(const interpreter::ControlDisk& disk) : disk_(disk) {}
+  /// @errors as read_control_tables.
+  Result<std::shared_ptr<const ControlTables>> read(Allowance& allowance);
+
+ private:
+  const interpreter::ControlDisk& disk_;
+  std::string revisions_;
+  std::shared_ptr<const ControlTables> tables_;
+};
+
+/// Which tables a setup gives itself; of the others it has the default rows.
+struct GivenTables {
+  bool tools = false;
+  bool probes = false;
+  bool presets = false;
+};
+
+/// Adds the control's rows to those of a setup. Of two with the same number the setup's counts,
+/// unless it is a default row.
+void add_rows(const ControlTables& tables, const GivenTables& given, machine::MachineSetup& setup);
+
+}  // namespace fitgauge::app

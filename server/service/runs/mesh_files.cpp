@@ -1,0 +1,78 @@
+#include "service/runs/mesh_files.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "nc/machine/stl_file.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using machine::Mesh;
+using machine::Triangle;
+using machine::TriangleTree;
+using machine::Vec3;
+
+Error refused(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
+
+Result<std::shared_ptr<const TriangleTree>> read_body(std::string_view bytes, double unit) {
+  auto triangles = machine::read_stl(bytes);
+  if (!triangles) return triangles.error();
+  if (auto closed = machine::check_closed(*triangles); !closed) return closed.error();
+  for (Triangle& triangle : *triangles) {
+    for (Vec3& corner : triangle) corner = corner * unit;
+  }
+  return std::make_shared<const TriangleTree>(*std::move(triangles));
+}
+
+}  // namespace
+
+Result<MeshFiles::Body> MeshFiles::body_of(const Mesh& mesh) {
+  const auto path = interpreter::ControlPath::parse(mesh.file).value();
+  const auto revision = disk_.revision(path);
+  if (!revision) return Error{ErrorCode::FileUnknown, mesh.file + " is not on the control's disk"};
+  std::erase_if(known_, [](const auto& entry) { return entry.second.expired(); });
+  const std::string key = fmt::format("{} {} {}", path.key(), *revision, mesh.unit);
+  // The last order that holds it may end at any moment.
+  if (const auto known = known_.find(key); known != known_.end()) {
+    if (Body body = known->second.lock()) return body;
+  }
+  const auto file = disk_.find(path);
+  if (!file) return Error{ErrorCode::FileUnknown, mesh.file + " is not on the control's disk"};
+  auto body = read_body(*file->bytes, mesh.unit);
+  if (!body) return refused(mesh.file + " " + body.error().message);
+  known_[key] = *body;
+  return body;
+}
+
+Result<void> MeshFiles::load(machine::Setup& setup, std::string_view pointer,
+                             MissingFiles missing) {
+  std::vector<Error> found;
+  std::size_t triangles = 0;
+  for (std::size_t k = 0; k < setup.features.size(); ++k) {
+    Mesh* const mesh = std::get_if<Mesh>(&setup.features[k]);
+    if (mesh == nullptr) continue;
+    auto body = body_of(*mesh);
+    if (body && (triangles += (*body)->triangles().size()) > kMostTriangles) {
+      body = refused(fmt::format(
+          "the meshes of a workpiece have at most {} triangles together, with {} there are {}: "
+          "export it with a coarser tolerance",
+          kMostTriangles, mesh->file, triangles));
+    }
+    if (body) {
+      mesh->body = *std::move(body);
+    } else if (body.error().code != ErrorCode::FileUnknown || missing == MissingFiles::Refused) {
+      found.push_back(body.error());
+      found.back().where = fmt::format("{}/workpiece/features/{}/file", pointer, k);
+    }
+  }
+  if (found.empty()) return {};
+  return Error{
+      ErrorCode::RequestInvalid,
+      fmt::format("{} file(s) of the workpiece cannot be used; each is listed.", found.size()),
+      {},
+      std::move(found)};
+}
+
+}  // namespace fitgauge::app

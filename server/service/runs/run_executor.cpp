@@ -1,0 +1,170 @@
+#include "service/runs/run_executor.hpp"
+
+#include <fmt/format.h>
+
+#include "nc/machine/simulated_machine.hpp"
+#include "nc/run/run_files.hpp"
+#include "service/runs/run_trace.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using interpreter::MessageKind;
+using interpreter::RunStatus;
+
+/// Moves that are kept: about 50 MB as text, which is packed.
+constexpr std::size_t kLongestTrace = 100'000;
+
+/// Passes on what a run prints and remembers which block is commanding the machine.
+class Follower final : public interpreter::RunObserver {
+ public:
+  Follower(ActiveRun& active, Allowance& allowance, bool shows_last)
+      : active_(active), allowance_(allowance), shows_last_(shows_last) {}
+
+  /// @param machine outlives the run.
+  void follow(const machine::Machine& machine) { machine_ = &machine; }
+
+  void begins(const interpreter::RunFiles& files) override { files_ = &files; }
+  void entered(const interpreter::Place& place) override {
+    place_ = place;
+    answer_look();
+  }
+  void moved_by_cycle(int number) override { cycle_ = number; }
+  void progressed(std::uint64_t blocks) override {
+    active_.progressed(blocks);
+    answer_look();
+  }
+  void reported(const interpreter::RunMessage& message) override {
+    if (message.kind == MessageKind::Error) errors_.push_back(message);
+  }
+  void printed(std::string_view line) override { active_.printed(line); }
+
+  void ends() override {
+    if (shows_last_) show(Look::StateAndFiles);
+  }
+
+  /// The block, or the cycle, that commands the machine now.
+  TracePlace place() const {
+    if (place_.program == nullptr) return {};  // a move before the first block
+    return {place_.path(), place_.line(), place_.block(), cycle_};
+  }
+
+ private:
+  void answer_look() {
+    if (const Look wanted = active_.wanted(); wanted != Look::Nothing) show(wanted);
+  }
+
+  void show(Look wanted) {
+    // It outlives the run, and another thread frees it.
+    allowance_.uncounted([&] {
+      LiveState state = live();
+      if (wanted == Look::StateAndFiles && files_ != nullptr) {
+        state.files =
+            std::make_shared<const std::vector<interpreter::WrittenFile>>(files_->copies());
+      }
+      active_.show(std::move(state));
+      return 0;
+    });
+  }
+
+  LiveState live() const {
+    LiveState live{.errors = errors_};
+    if (place_.program != nullptr) {
+      live.program = place_.path();
+      live.block = place_.block();
+    }
+    const machine::MachineState& state = machine_->state();
+    const machine::Position position = state.position();
+    for (const machine::Axis axis : machine::kAllAxes) {
+      if (state.ranges[machine::index(axis)]) live.axes.emplace_back(axis, position[axis]);
+    }
+    live.tool = state.tool.number;
+    live.tool_axis = state.tool_axis();
+    live.tool_length = state.tool_length();
+    live.tool_radius = state.tool_radius();
+    return live;
+  }
+
+  ActiveRun& active_;
+  Allowance& allowance_;
+  const bool shows_last_;
+  const machine::Machine* machine_ = nullptr;
+  const interpreter::RunFiles* files_ = nullptr;
+  std::vector<interpreter::RunMessage> errors_;
+  interpreter::Place place_;
+  int cycle_ = 0;
+};
+
+std::vector<machine::Axis> axes_of(const machine::Setup& setup) {
+  std::vector<machine::Axis> axes;
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (setup.machine.axes[machine::index(axis)]) axes.push_back(axis);
+  }
+  return axes;
+}
+
+}  // namespace
+
+interpreter::RunResult unstarted(RunStatus status, MessageKind kind, std::string text,
+                                 std::string program) {
+  interpreter::RunResult result;
+  result.status = status;
+  result.messages.push_back({.kind = kind,
+                             .text = std::move(text),
+                             .program = std::move(program),
+                             .line = 1,
+                             .block = 0});  // BEGIN PGM
+  return result;
+}
+
+ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
+  const RunOrder& order = active.order();
+  const std::string& program = active.program();
+  if (active.stop_token().stop_requested()) {
+    return {unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
+                      "the run was cancelled before its first block", program),
+            empty_trace(surroundings.trace)};
+  }
+  const auto main = surroundings.programs.get(surroundings.disk, order.program);
+  const auto linked = main == nullptr ? nullptr : main->runnable(order.options.keeps_unreadable);
+  if (linked == nullptr) {
+    return {unstarted(RunStatus::Failed, MessageKind::Error,
+                      "the program was deleted or replaced by one with errors before the run began",
+                      program),
+            empty_trace(surroundings.trace)};
+  }
+  const interpreter::RunLimits& limits = order.options.limits;
+  Allowance allowance(limits.time, limits.memory_bytes, active.stop_token());
+  allowance.share(main->memory_bytes);
+  Follower follower(active, allowance, surroundings.shows_last);
+  std::optional<machine::SimulatedMachine> simulated;
+  std::optional<machine::ScriptedMachine> scripted;
+  machine::Machine* actual = nullptr;
+  if (order.contacts) {
+    actual = &scripted.emplace(order.setup.machine, *order.contacts, &allowance);
+  } else {
+    actual = &simulated.emplace(order.setup, &allowance);
+  }
+  TraceWriter trace(surroundings.trace, axes_of(order.setup));
+  const auto keep = [&](const machine::TracedMove& move) { trace.add(move, follower.place()); };
+  machine::TracingMachine machine(*actual, {.keep = keep, .longest = kLongestTrace});
+  follower.follow(machine);
+  ExecutedRun executed;
+  executed.result = interpreter::run(
+      linked,
+      {machine, surroundings.disk, surroundings.programs, surroundings.clock, follower, &allowance},
+      order.options);
+  if (scripted && scripted->remaining() > 0) {
+    executed.result.messages.push_back(
+        {.kind = MessageKind::Note,
+         .text = fmt::format("{} of {} contacts were not used", scripted->remaining(),
+                             order.contacts->size()),
+         .program = program,
+         .line = 1,
+         .block = 0});
+  }
+  executed.trace = trace.finish(machine.dropped());
+  return executed;
+}
+
+}  // namespace fitgauge::app

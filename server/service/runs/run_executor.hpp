@@ -1,0 +1,31 @@
+#pragma once
+
+#include "service/runs/active_run.hpp"
+#include "service/runs/run_report.hpp"
+
+namespace fitgauge::app {
+
+/// What a run needs beside its order; shared by all runs.
+struct RunSurroundings {
+  const interpreter::ControlDisk& disk;
+  interpreter::ProgramCache& programs;
+  const Clock& clock;
+  const TraceFormat& trace;
+  bool shows_last = false;  ///< whether the run's last state is shown, with its files
+};
+
+struct ExecutedRun {
+  interpreter::RunResult result;
+  std::string trace;  ///< packed: TraceReader reads it
+};
+
+/// Builds the machine of the run's setup and runs its program on it, on the calling thread;
+/// `active` is told of the progress. Whatever the program does is in the result.
+/// @throws when the storage fails, or for a bug.
+ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active);
+
+/// The result of a run that did not come to its first block.
+interpreter::RunResult unstarted(interpreter::RunStatus status, interpreter::MessageKind kind,
+                                 std::string text, std::string program);
+
+}  // namespace fitgauge::app

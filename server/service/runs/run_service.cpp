@@ -1,0 +1,218 @@
+#include "service/runs/run_service.hpp"
+
+#include "base/guarded.hpp"
+#include "db/store/database.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/runs/run_trace.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using interpreter::MessageKind;
+using interpreter::RunStatus;
+
+/// Requests that wait to be checked.
+constexpr std::size_t kPreparing = 256;
+
+Error stopping() {
+  return {ErrorCode::ShuttingDown, "the service is shutting down and takes no more runs"};
+}
+
+}  // namespace
+
+RunService::RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+                       std::string_view origin, RunServiceOptions options)
+    : database_(database),
+      clock_(clock),
+      origin_(origin),
+      options_(options),
+      live_tables_(tables),
+      stored_(database),
+      control_tables_(stored_),
+      meshes_(stored_),
+      preparing_("a run's preparation", 1, kPreparing),
+      // What may be queued is limited where runs are started.
+      running_("a run", options.workers, options.workers + options.queue) {}
+
+RunService::~RunService() { stop(); }
+
+Result<void> RunService::open(RunFormat format) {
+  format_ = std::move(format);
+  if (!options_.shares) return close_interrupted();
+  looking_ = Thread("the look for abandoned runs",
+                    [this](const std::stop_token& stop) { look_for_abandoned(stop); });
+  const auto has_any = [this] {
+    const std::lock_guard lock(mutex_);
+    return !active_.empty();
+  };
+  const auto cancel_own = [this](std::int64_t id) {
+    const auto own = active(id);
+    if (own && !own->stop_token().stop_requested()) cancel(own);
+  };
+  shared_ = std::make_unique<SharedRuns>(database_, SharedRuns::Own{has_any, cancel_own});
+  return {};
+}
+
+void RunService::stop() {
+  stopping_.request_stop();
+  looking_.stop();
+  if (shared_) shared_->stop();
+  preparing_.stop();
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, entry] : active_) entry.run->cancel();
+  }
+  running_.stop();
+}
+
+void RunService::prepare(std::function<void()> work, const std::function<void(Error)>& refused) {
+  // Work that throws drops what it had to answer, and that answers for itself.
+  auto unless_stopping = [this, work = std::move(work), refused] {
+    if (stopping_.stop_requested()) return refused(stopping());
+    work();
+  };
+  if (preparing_.submit(std::move(unless_stopping))) return;
+  if (stopping_.stop_requested()) return refused(stopping());
+  refused({ErrorCode::Overloaded, "too many runs and checks wait already; try again soon"});
+}
+
+Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
+                                                     const std::optional<IdempotencyScope>& scope,
+                                                     const Accepted& accepted) {
+  if (stopping_.stop_requested()) return stopping();
+  {
+    // Only the preparing thread adds runs, so that there is still room when the row is stored.
+    const std::lock_guard lock(mutex_);
+    if (active_.size() >= options_.workers + options_.queue) {
+      return Error{ErrorCode::Overloaded, "too many runs wait already; try again soon"};
+    }
+  }
+  const auto shared = std::make_shared<const RunOrder>(std::move(order));
+  const store::Run row{.status = store::RunStatus::Queued,
+                       .program = shared->program.text(),
+                       .request = shared->request,
+                       .created_at_ns = clock_.now().nanoseconds,
+                       .caller = shared->caller};
+  std::shared_ptr<ActiveRun> active;
+  const auto create = [&](store::Stores& stores) -> Result<store::StoredAnswer> {
+    active = std::make_shared<ActiveRun>(stores.runs.create(row), origin_, shared,
+                                         Timestamp{row.created_at_ns});
+    return to_store(accepted(*active));
+  };
+  const auto created = scope ? database_.writer().wait_once(to_store(*scope), create)
+                             : database_.writer().wait(create);
+  if (!created) return created.error();
+  if (created->replayed) {
+    return Error{ErrorCode::IdempotencyInProgress,
+                 "another request with this Idempotency-Key came first; try again"};
+  }
+  return queue(std::move(active));
+}
+
+Result<std::shared_ptr<ActiveRun>> RunService::queue(std::shared_ptr<ActiveRun> active) {
+  bool is_queued = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto ticket = running_.submit([this, active] { run(active); });
+    active_.emplace(active->id(), Entry{active, ticket.value_or(0)});
+    is_queued = ticket.has_value();
+  }
+  if (!is_queued) {
+    end(*active, without_moves(unstarted(RunStatus::Failed, MessageKind::Error,
+                                         "the service takes no more runs: it is shutting down",
+                                         active->program())));
+  }
+  return active;
+}
+
+void RunService::run(const std::shared_ptr<ActiveRun>& run) {
+  ActiveRun& active = *run;
+  if (options_.keeps_newest) {
+    const std::lock_guard lock(mutex_);
+    newest_ = run;
+  }
+  active.started();
+  // Not waited for: the writer keeps the order of its jobs.
+  database_.writer().submit(
+      [id = active.id()](store::Stores& stores) { return stores.runs.start(id); },
+      [](const Result<void>&) {});
+  end(active, execute_guarded(active));
+}
+
+void RunService::end(ActiveRun& active, ExecutedRun executed) {
+  const RunReport report{.id = active.id(),
+                         .origin = origin_,
+                         .program = active.program(),
+                         .result = std::move(executed.result),
+                         .seed = active.order().setup.seed,
+                         .subject = active.order().subject,
+                         .created_at = active.created_at(),
+                         .finished_at = clock_.now()};
+  active.being_stored();
+  Result<FinishedRun> kept = Error{ErrorCode::Internal, "the end of the run could not be stored"};
+  guarded("the end of a run", [&] { kept = keep(report, executed.trace, active.order().caller); });
+  guarded("the end of a run", [&] { active.finished(std::move(kept)); });
+  const std::lock_guard lock(mutex_);
+  ++ended_[static_cast<std::size_t>(state_of(report.result.status))];
+  active_.erase(report.id);
+}
+
+void RunService::cancel(const std::shared_ptr<ActiveRun>& active) {
+  active->cancel();
+  const auto ticket = preparing_.submit([this, active] {
+    if (!withdraw(active->id())) return;
+    end(*active, without_moves(unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
+                                         "the run was cancelled before its first block",
+                                         active->program())));
+  });
+  static_cast<void>(ticket);  // where there is no room, the worker whose turn it is ends the run
+}
+
+/// @returns whether the run was queued; now no worker will begin it.
+bool RunService::withdraw(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  const auto found = active_.find(id);
+  return found != active_.end() && running_.withdraw(found->second.ticket);
+}
+
+/// A bug or broken storage ends the run, not the service.
+ExecutedRun RunService::execute_guarded(ActiveRun& active) try {
+  const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
+  return execute({disk, programs_, clock_, format_.trace, options_.keeps_newest}, active);
+} catch (const std::exception& failure) {
+  return without_moves(unstarted(RunStatus::Failed, MessageKind::Error,
+                                 std::string("the service failed: ") + failure.what(),
+                                 active.program()));
+}
+
+ExecutedRun RunService::without_moves(interpreter::RunResult result) const {
+  return {std::move(result), empty_trace(format_.trace)};
+}
+
+RunService::Counts RunService::counts() const {
+  const std::lock_guard lock(mutex_);
+  Counts counts = ended_;
+  for (const auto& [id, entry] : active_) {
+    const RunState state = entry.run->state();
+    if (state <= RunState::Running) ++counts[static_cast<std::size_t>(state)];
+  }
+  return counts;
+}
+
+std::shared_ptr<ActiveRun> RunService::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {
+  auto run = own(id);
+  return run && !run->is_being_stored() ? run : nullptr;
+}
+
+std::shared_ptr<ActiveRun> RunService::own(std::int64_t id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = active_.find(id);
+  return found == active_.end() ? nullptr : found->second.run;
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,252 @@
+// Runs on their way to the store and back.
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "db/store/database.hpp"
+#include "service/measurements/measurement_storage.hpp"
+#include "service/runs/run_measurements.hpp"
+#include "service/runs/run_service.hpp"
+#include "service/runs/stored_run.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using interpreter::MessageKind;
+using interpreter::RunStatus;
+
+constexpr std::string_view kFinishedEvent = "run.finished";
+/// Runs a start looks at together.
+constexpr std::size_t kPage = 100;
+
+Error unknown_run(const std::string& id) {
+  return {ErrorCode::RunUnknown, "there is no run '" + id + "'"};
+}
+
+Error too_late(const std::string& id) {
+  return {ErrorCode::RunFinished, "run '" + id + "' is over and can no longer be cancelled"};
+}
+
+}  // namespace
+
+Result<void> RunService::close_interrupted() {
+  while (true) {
+    const auto runs = database_.readers().wait(
+        [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
+          return stores.runs.abandoned(kPage);
+        });
+    if (!runs) return runs.error();
+    if (runs->empty()) return {};
+    for (const store::Run& run : *runs) {
+      const RunReport report{.id = run.id,
+                             .origin = origin_,
+                             .program = run.program,
+                             .result = unstarted(RunStatus::Failed, MessageKind::Error,
+                                                 "the service ended before the run did; nothing "
+                                                 "it had done was kept",
+                                                 run.program),
+                             .seed = format_.seed(run.request),
+                             .created_at = {run.created_at_ns},
+                             .finished_at = clock_.now()};
+      const auto kept = keep(report, empty_trace(format_.trace), run.caller);
+      // Another daemon may have been first.
+      if (!kept && kept.error().code != ErrorCode::RunFinished) return kept.error();
+    }
+  }
+}
+
+/// A daemon that lost its connection for a moment looks dead: its runs are taken over only when it
+/// has looked so twice.
+void RunService::look_for_abandoned(const std::stop_token& stop) {
+  constexpr std::chrono::seconds kBetween{5};
+  std::mutex mutex;
+  std::condition_variable_any ended;
+  std::set<std::int64_t> seen;
+  while (!stop.stop_requested()) {
+    {
+      std::unique_lock lock(mutex);
+      ended.wait_for(lock, stop, kBetween, [] { return false; });
+    }
+    if (stop.stop_requested()) return;
+    const auto runs = database_.readers().wait(
+        [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
+          return stores.runs.abandoned(kPage);
+        });
+    if (!runs) continue;
+    std::set<std::int64_t> still;
+    for (const store::Run& run : *runs) {
+      still.insert(run.id);
+      if (!seen.contains(run.id)) continue;
+      prepare([this, run] { take_over(run); }, [](const Error&) {});
+    }
+    seen = std::move(still);
+  }
+}
+
+/// On the preparing thread.
+void RunService::take_over(const store::Run& run) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (active_.size() >= options_.workers + options_.queue) return;  // there will be another look
+  }
+  const auto tables = control_tables();
+  if (!tables) return;
+  auto order = format_.order(run.request, **tables);
+  if (order) {
+    order->caller = run.caller;
+    if (auto loaded = load_meshes(order->setup, "/setup", MissingFiles::Refused); !loaded) {
+      order = loaded.error();
+    }
+  }
+  const auto taken = database_.writer().wait(
+      [id = run.id](store::Stores& stores) -> Result<bool> { return stores.runs.take_over(id); });
+  if (!taken || !*taken) return;
+  if (order) {
+    static_cast<void>(queue(std::make_shared<ActiveRun>(
+        run.id, origin_, std::make_shared<const RunOrder>(*std::move(order)),
+        Timestamp{run.created_at_ns})));
+    return;
+  }
+  const RunReport report{.id = run.id,
+                         .origin = origin_,
+                         .program = run.program,
+                         .result = unstarted(RunStatus::Failed, MessageKind::Error,
+                                             "the service ended before the run did, and it cannot "
+                                             "be repeated: " +
+                                                 order.error().message,
+                                             run.program),
+                         .seed = format_.seed(run.request),
+                         .created_at = {run.created_at_ns},
+                         .finished_at = clock_.now()};
+  static_cast<void>(keep(report, empty_trace(format_.trace), run.caller));
+}
+
+/// One transaction for all that a run leaves.
+Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view trace,
+                                     const std::optional<std::string>& caller) {
+  FinishedRun finished{.state = state_of(report.result.status), .report = format_.report(report)};
+  const std::string event = format_.event(report);
+  std::vector<store::RunFile> files;
+  files.reserve(report.result.files.size());
+  for (const interpreter::WrittenFile& file : report.result.files) {
+    files.push_back({.path = file.path.text(), .content = file.bytes});
+  }
+  std::vector<Measurement> measurements = measurements_of(report, caller);
+  const auto store = [&](store::Stores& stores) -> Result<bool> {
+    const std::int64_t now = report.finished_at.nanoseconds;
+    const auto closed = stores.runs.finish(report.id,
+                                           {.status = run_status(finished.state),
+                                            .result = finished.report,
+                                            .trace = trace,
+                                            .files = files},
+                                           now);
+    if (!closed) return closed.error();
+    if (const auto first = append(stores, measurements, origin_); !first) {
+      return first.error();
+    }
+    stores.events.append(kFinishedEvent, event, now);
+    return true;
+  };
+  // What a run has done is not thrown away because the writer is busy for a moment.
+  for (int attempt = 0;; ++attempt) {
+    const auto stored = database_.writer().wait(store);
+    if (stored) return finished;
+    constexpr int kAttempts = 100;
+    if (stored.error().code != ErrorCode::StorageBusy || attempt == kAttempts) {
+      return stored.error();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+void RunService::find(std::int64_t id, Done<StoredRun> done) {
+  database_.readers().submit(
+      [this, id](const store::Stores& stores) -> Result<StoredRun> {
+        auto run = stores.runs.find(id);
+        if (!run) return unknown_run(run_id_text(id, origin_));
+        return stored_run(*std::move(run), origin_);
+      },
+      std::move(done));
+}
+
+void RunService::follow(std::int64_t id, Done<Followed> done) {
+  if (auto run = active(id)) return done(Followed{std::move(run), {}});
+  find(id, [this, id, own = own(id), done = std::move(done)](Result<StoredRun> run) {
+    if (!run) return done(run.error());
+    if (!run->report.empty()) return done(Followed{nullptr, *std::move(run)});
+    // Between its row and its place in the queue a run is nobody's for a moment.
+    auto followed = own ? own : shared_ ? shared_->follow(*run) : this->own(id);
+    if (followed) return done(Followed{std::move(followed), {}});
+    done(Error{ErrorCode::StorageBusy, "run '" + run->id_text() + "' is being queued; try again"});
+  });
+}
+
+void RunService::cancel(std::int64_t id, Done<void> done) {
+  const auto at_end = [id_text = run_id_text(id, origin_), done](const Result<FinishedRun>& end) {
+    if (!end) return done(end.error());
+    done(end->state == RunState::Cancelled ? Result<void>() : too_late(id_text));
+  };
+  if (const auto run = active(id)) {
+    run->on_end(at_end);
+    return cancel(run);
+  }
+  follow(id, [this, id, at_end, done](Result<Followed> run) {
+    if (!run) return done(run.error());
+    if (!run->active) return done(too_late(run->stored.id_text()));
+    database_.writer().submit(
+        [id](store::Stores& stores) { return stores.runs.ask_to_cancel(id); },
+        [run = std::move(run->active), at_end, done](const Result<void>& asked) {
+          // One that has ended meanwhile tells how.
+          if (!asked && asked.error().code != ErrorCode::RunFinished) return done(asked.error());
+          run->on_end([run, at_end](const Result<FinishedRun>& end) { at_end(end); });
+        });
+  });
+}
+
+void RunService::trace(std::int64_t id, Done<TraceReader> done) {
+  database_.readers().submit(
+      [this, id](const store::Stores& stores) -> Result<TraceReader> {
+        if (auto trace = stores.runs.trace(id)) return TraceReader(*std::move(trace));
+        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_));
+        return Error{ErrorCode::RunUnfinished, "run '" + run_id_text(id, origin_) +
+                                                   "' is not over; its trace comes with its end"};
+      },
+      std::move(done));
+}
+
+void RunService::file(std::int64_t id, std::string name, Done<File> done) {
+  database_.readers().submit(
+      [this, id, name = std::move(name)](const store::Stores& stores) -> Result<File> {
+        if (auto file = stores.runs.file(id, name)) {
+          return File{.path = std::move(file->path), .bytes = std::move(file->content)};
+        }
+        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_));
+        return Error{ErrorCode::FileUnknown,
+                     "run '" + run_id_text(id, origin_) + "' has written no file '" + name + "'"};
+      },
+      std::move(done));
+}
+
+void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::size_t limit,
+                      Done<Page> done) {
+  store::RunFilter filter{.program = std::move(query.program)};
+  if (query.state) filter.status = run_status(*query.state);
+  database_.readers().submit(
+      [this, filter = std::move(filter), after,
+       limit](const store::Stores& stores) -> Result<Page> {
+        store::RunsStore::Page found = stores.runs.list(filter, after, limit);
+        Page page{.runs = {}, .next = found.next};
+        for (store::Run& run : found.runs) {
+          run.request.clear();
+          run.result.clear();
+          page.runs.push_back(stored_run(std::move(run), origin_));
+        }
+        return page;
+      },
+      std::move(done));
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,309 @@
+#include "service/tables/table_catalog.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "db/store/database.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/revisions/centre_decides.hpp"
+#include "tables/iso286/table_rules.hpp"
+#include "tables/standards/standard.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::string_view kStandardSource = "ISO 286-1:2010 and ISO 286-2:2010, tables/data";
+constexpr std::string_view kChangedEvent = "table.changed";
+
+TableState failed(const store::TableRevision& revision, std::vector<Error> findings) {
+  return {.tables = nullptr, .number = revision.number, .findings = std::move(findings)};
+}
+
+/// Everything that must hold before one limit is read from stored tables: the content is that of
+/// the stored digest, it obeys the rules, and the standard's cells are the compiled-in ones.
+TableState audit(const store::LoadedTables& loaded) {
+  const auto data = from_store(loaded.content);
+  if (!data) return failed(loaded.revision, {data.error()});
+  std::vector<Error> findings = iso286::compare_with_compiled_in(*data);
+  if (findings.empty() && loaded.computed != loaded.revision.digest) {
+    findings.push_back({ErrorCode::TablesInconsistent,
+                        "a cell of revision " + loaded.revision.id +
+                            " differs from what was stored: its digest does not match"});
+  }
+  auto tables = iso286::ToleranceTables::make(*data, {loaded.revision.id});
+  if (!tables) {
+    const std::vector<Error>& broken = tables.error().details;
+    findings.insert(findings.end(), broken.begin(), broken.end());
+  }
+  if (!findings.empty()) return failed(loaded.revision, std::move(findings));
+  return {.tables = std::make_shared<const iso286::ToleranceTables>(*std::move(tables)),
+          .number = loaded.revision.number,
+          .findings = {}};
+}
+
+Error inconsistent(const std::vector<Error>& findings) {
+  return {ErrorCode::TablesInconsistent,
+          "the tolerance tables fail their audit: " + findings.front().message,
+          findings.front().where, findings};
+}
+
+Error unknown_revision(std::string_view id) {
+  return {ErrorCode::RevisionUnknown, fmt::format("there is no table revision '{}'", id)};
+}
+
+Result<store::LoadedTables> load_or_import(store::Stores& stores, Timestamp now) {
+  if (auto latest = stores.tables.load_latest()) return *std::move(latest);
+  const store::TableImport standard{.content = to_store(iso286::compiled_in_tables()),
+                                    .source = std::string(kStandardSource),
+                                    .parent = {},
+                                    .caller = {}};
+  if (const auto imported = stores.tables.import(standard, now.nanoseconds); !imported) {
+    return imported.error();
+  }
+  return stores.tables.load_latest().value();
+}
+
+/// What a reader of events is told; the name of a column needs no escape in JSON.
+std::string change_text(const TableCatalog::ColumnName& column, std::string_view revision) {
+  return fmt::format(R"({{"feature":"{}","tolerance_class":"{}","table_revision":"{}"}})",
+                     word(column.feature), column.name, revision);
+}
+
+auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature feature,
+                 std::string_view name) {
+  return std::find_if(columns.begin(), columns.end(), [&](const iso286::CustomColumn& column) {
+    return column.feature == feature && column.name == name;
+  });
+}
+
+}  // namespace
+
+Result<std::unique_ptr<TableCatalog>> TableCatalog::open(store::Database& database,
+                                                         const Clock& clock, bool has_centre) {
+  std::unique_ptr<TableCatalog> catalog(new TableCatalog(database, clock, has_centre));
+  const auto loaded = database.writer().wait(
+      [&clock](store::Stores& stores) { return load_or_import(stores, clock.now()); });
+  if (!loaded) return loaded.error();
+  const auto revisions =
+      database.readers().wait([&catalog](const store::Stores& stores) -> Result<bool> {
+        for (const auto& revision : stores.tables.list()) {
+          catalog->remember(revision.number, revision.id);
+        }
+        for (const auto& revision : stores.origins.revisions()) {
+          catalog->remember(-revision.number, revision.id);
+        }
+        return true;
+      });
+  if (!revisions) return revisions.error();
+  catalog->state_.set(std::make_shared<const TableState>(audit(*loaded)));
+  return catalog;
+}
+
+Result<TableCatalog::Tables> TableCatalog::tables() const {
+  const auto current = state();
+  if (current->tables != nullptr) return current->tables;
+  return inconsistent(current->findings);
+}
+
+void TableCatalog::at_revision(std::string revision, Callback<Tables> done) {
+  const auto current = state();
+  if (current->tables != nullptr && current->tables->revision().id == revision) {
+    return done(current->tables);
+  }
+  database_.readers().submit(
+      [revision = std::move(revision)](const store::Stores& stores) -> Result<Tables> {
+        const auto loaded = stores.tables.load(std::string_view(revision));
+        if (!loaded) return unknown_revision(revision);
+        TableState state = audit(*loaded);
+        if (state.tables == nullptr) return inconsistent(state.findings);
+        return std::move(state.tables);
+      },
+      std::move(done));
+}
+
+void TableCatalog::put_column(iso286::CustomColumn column,
+                              std::optional<std::vector<std::string>> condition,
+                              Callback<ColumnStored> done) {
+  if (const auto checked = iso286::check_custom_column(column); !checked) {
+    return done(checked.error());
+  }
+  ColumnName name{column.feature, column.name};
+  change(
+      std::move(name),
+      [column = std::move(column)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
+        const auto found = find_column(columns, column.feature, column.name);
+        const bool created = found == columns.end();
+        if (created) {
+          columns.push_back(column);
+        } else {
+          *found = column;
+        }
+        return created;
+      },
+      std::move(condition), std::move(done));
+}
+
+void TableCatalog::remove_column(iso286::Feature feature, std::string name,
+                                 std::optional<std::vector<std::string>> condition,
+                                 Callback<ColumnStored> done) {
+  ColumnName removed{feature, name};
+  change(
+      std::move(removed),
+      [feature,
+       name = std::move(name)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
+        const auto found = find_column(columns, feature, name);
+        if (found == columns.end()) {
+          return Error{ErrorCode::ClassUnknown,
+                       fmt::format("the {} table has no custom column {}", word(feature), name)};
+        }
+        columns.erase(found);
+        return false;
+      },
+      std::move(condition), std::move(done));
+}
+
+void TableCatalog::change(ColumnName column, Edit edit,
+                          std::optional<std::vector<std::string>> condition,
+                          Callback<ColumnStored> done) {
+  struct Changed {
+    bool created = false;
+    store::TableRevision revision;
+    std::shared_ptr<const TableState> state;
+  };
+  database_.writer().submit(
+      [this, column = std::move(column), edit = std::move(edit),
+       condition = std::move(condition)](store::Stores& stores) -> Result<Changed> {
+        if (has_centre_ && stores.revisions.received(store::RevisionKind::Tables, "")) {
+          return centre_decides("the tables with their own columns");
+        }
+        const auto latest = stores.tables.load_latest().value();
+        if (condition && std::find(condition->begin(), condition->end(), latest.revision.id) ==
+                             condition->end()) {
+          return Error{ErrorCode::PreconditionFailed,
+                       "the tables have changed since: read them again, then repeat the change"};
+        }
+        const TableState state = audit(latest);
+        if (state.tables == nullptr) return inconsistent(state.findings);
+        auto data = from_store(latest.content).value();
+        const auto created = edit(data.custom_columns);
+        if (!created) return created.error();
+        const std::int64_t now = clock_.now().nanoseconds;
+        const auto imported = stores.tables.import({.content = to_store(data),
+                                                    .source = "custom column",
+                                                    .parent = latest.revision.number,
+                                                    .caller = {}},
+                                                   now);
+        if (!imported) return imported.error();
+        auto loaded = stores.tables.load_latest().value();
+        stores.events.append(kChangedEvent, change_text(column, loaded.revision.id), now);
+        // Audited here, so that nothing is left to do between the commit and the first reader.
+        auto audited = std::make_shared<const TableState>(audit(loaded));
+        return Changed{*created, std::move(loaded.revision), std::move(audited)};
+      },
+      [this, done = std::move(done)](Result<Changed> changed) {
+        if (!changed) return done(changed.error());
+        const store::TableRevision& revision = changed->revision;
+        remember(revision.number, revision.id);
+        put_in_force(std::move(changed->state));
+        done(ColumnStored{changed->created, revision.id});
+      });
+}
+
+Result<TableCatalog::Received> TableCatalog::receive(
+    store::Stores& stores, const std::string& id, const std::vector<iso286::CustomColumn>& columns,
+    std::int64_t now_ns) {
+  const auto latest = stores.tables.load_latest().value();
+  const store::TableRevision& before = latest.revision;
+  if (before.id == id) return Received{.number = before.number, .id = id, .digest = before.digest};
+  auto data = from_store({.cells = latest.content.cells, .custom = {}});
+  if (!data) return data.error();
+  for (const iso286::CustomColumn& column : columns) {
+    if (const auto checked = iso286::check_custom_column(column); !checked) return checked.error();
+  }
+  data->custom_columns = columns;
+  if (const auto made = iso286::ToleranceTables::make(*data, {id}); !made) return made.error();
+  store::TableContent content = to_store(*data);
+  const Digest digest = digest_of(content);
+  if (!id.ends_with("-" + store::shown_digits(digest))) {
+    return Error{ErrorCode::TablesInconsistent,
+                 "with its columns the tables here are not those that the centre calls so: its "
+                 "version has other tables of the standard"};
+  }
+  const auto imported = stores.tables.import({.content = std::move(content),
+                                              .source = "centre",
+                                              .parent = before.number,
+                                              .caller = {},
+                                              .id = id},
+                                             now_ns);
+  if (!imported) return imported.error();
+  stores.events.append(kChangedEvent, fmt::format(R"({{"table_revision":"{}"}})", id), now_ns);
+  return Received{
+      .number = imported->number,
+      .id = id,
+      .digest = digest,
+      .state = std::make_shared<const TableState>(audit(stores.tables.load_latest().value())),
+      .replaced_own = !latest.content.custom.empty(),
+      .replaced_id = before.id,
+      .replaced_digest = before.digest};
+}
+
+void TableCatalog::put_in_force(const Received& received) {
+  remember(received.number, received.id);
+  put_in_force(received.state);
+}
+
+/// Unless a newer one is: another daemon's may have come first.
+void TableCatalog::put_in_force(std::shared_ptr<const TableState> state) {
+  const std::lock_guard lock(state_mutex_);
+  if (const auto current = state_.get(); current && current->number > state->number) return;
+  state_.set(std::move(state));
+}
+
+void TableCatalog::take(const store::Stores& stores) {
+  std::int64_t newest = 0;
+  for (const auto& revision : stores.tables.list()) {
+    remember(revision.number, revision.id);
+    newest = revision.number;
+  }
+  for (const auto& revision : stores.origins.revisions()) remember(-revision.number, revision.id);
+  if (newest <= state()->number) return;
+  put_in_force(std::make_shared<const TableState>(audit(stores.tables.load(newest).value())));
+}
+
+void TableCatalog::remember(std::int64_t number, std::string_view id) {
+  const std::lock_guard lock(ids_mutex_);
+  ids_.emplace(number, id);
+}
+
+std::string_view TableCatalog::revision_id(std::int64_t number) const {
+  const std::lock_guard lock(ids_mutex_);
+  const auto found = ids_.find(number);
+  return found == ids_.end() ? std::string_view() : found->second;
+}
+
+Result<void> TableCatalog::number_standards() {
+  std::vector<std::string_view> unknown;
+  for (const standards::Standard& standard : standards::all()) {
+    if (!standard.designation.empty() && !revision_number(standard.revision)) {
+      unknown.push_back(standard.revision);
+    }
+  }
+  if (unknown.empty()) return {};
+  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    for (const std::string_view id : unknown) remember(-stores.origins.add_revision(id), id);
+    return true;
+  });
+  if (!stored) return stored.error();
+  return {};
+}
+
+std::optional<std::int64_t> TableCatalog::revision_number(std::string_view id) const {
+  const std::lock_guard lock(ids_mutex_);
+  // From behind: a revision of this folder goes before the same one of another.
+  const auto found = std::find_if(ids_.rbegin(), ids_.rend(),
+                                  [&](const auto& known) { return known.second == id; });
+  return found == ids_.rend() ? std::nullopt : std::optional(found->first);
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/digest.hpp"
+#include "base/result.hpp"
+#include "base/snapshot.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
+
+namespace fitgauge::store {
+class Database;
+struct Stores;
+}  // namespace fitgauge::store
+
+namespace fitgauge::app {
+
+/// The tolerance tables in use. Every reader takes them from here, so all see one revision.
+struct TableState {
+  std::shared_ptr<const iso286::ToleranceTables> tables;  ///< null where the audit found something
+  std::int64_t number = 0;                                ///< of the revision, as the store counts
+  std::vector<Error> findings;  ///< what the audit found: table, range and column each
+};
+
+/// Keeps the tables: imports the compiled-in ones as the first revision, audits and loads the
+/// latest, stores a shop's own columns as new revisions. Thread-safe; callbacks come on a storage
+/// thread.
+class TableCatalog {
+ public:
+  using Tables = std::shared_ptr<const iso286::ToleranceTables>;
+  template <class T>
+  using Callback = std::function<void(Result<T>)>;
+
+  /// Loads the latest revision, importing the compiled-in tables into a new database. Tables that
+  /// fail their audit are no error here: state() says so.
+  /// @param has_centre whether tables that came from a centre are changed there alone.
+  /// @errors StorageUnavailable, StorageCorrupt.
+  static Result<std::unique_ptr<TableCatalog>> open(store::Database& database, const Clock& clock,
+                                                    bool has_centre = false);
+
+  std::shared_ptr<const TableState> state() const { return state_.get(); }
+  /// Whether `kept`, a state the caller keeps, is still in use.
+  bool is_in_use(const TableState* kept) const { return state_.is(kept); }
+
+  /// The tables in use. @errors TablesInconsistent with the audit's findings.
+  Result<Tables> tables() const;
+
+  /// The tables of a stored revision. @errors RevisionUnknown, TablesInconsistent,
+  /// StorageUnavailable.
+  void at_revision(std::string revision, Callback<Tables> done);
+
+  struct ColumnName {
+    iso286::Feature feature = iso286::Feature::Hole;
+    std::string name;
+  };
+  struct ColumnStored {
+    bool created = false;  ///< no custom column of that name stood there before
+    std::string revision;
+  };
+  /// Stores the column in a new revision; from then on every reader sees it, and the event
+  /// `table.changed` says so.
+  /// @param condition the revisions a change may follow (If-Match), or none for any.
+  /// @errors TableRowsInvalid, PreconditionFailed, Forbidden (the centre's), StorageUnavailable,
+  /// StorageBusy.
+  void put_column(iso286::CustomColumn column, std::optional<std::vector<std::string>> condition,
+                  Callback<ColumnStored> done);
+
+  /// Tables of a centre, stored and not yet in force.
+  struct Received {
+    std::int64_t number = 0;
+    std::string id{};
+    Digest digest{};
+    std::shared_ptr<const TableState> state{};  ///< null: they are in force already
+    bool replaced_own = false;                  ///< the tables before had own columns
+    std::string replaced_id{};
+    Digest replaced_digest{};
+  };
+  /// Stores the tables of a centre under its id. Used inside a write job, whose transaction goes
+  /// on.
+  /// @errors TablesInconsistent: the standard's tables are others there, or the columns break a
+  ///   rule.
+  Result<Received> receive(store::Stores& stores, const std::string& id,
+                           const std::vector<iso286::CustomColumn>& columns, std::int64_t now_ns);
+  /// After the commit: every reader sees them.
+  void put_in_force(const Received& received);
+
+  /// Takes note of revisions that other daemons have stored; the newest is in force. Used inside a
+  /// job.
+  void take(const store::Stores& stores);
+
+  /// The id of a revision by its number, for reading stored rows; valid as long as the catalog.
+  /// Empty for a number that was never given.
+  std::string_view revision_id(std::int64_t number) const;
+  /// Takes note of a revision of another folder, under a number below 0.
+  void remember(std::int64_t number, std::string_view id);
+
+  /// Numbers the editions of the other standards that measurements are judged by, where they have
+  /// no number yet. @errors StorageUnavailable.
+  Result<void> number_standards();
+
+  /// The number of a revision that revision_id knows.
+  std::optional<std::int64_t> revision_number(std::string_view id) const;
+
+  /// Back to the standard. @errors ClassUnknown when the class is not custom; those of put_column.
+  void remove_column(iso286::Feature feature, std::string name,
+                     std::optional<std::vector<std::string>> condition,
+                     Callback<ColumnStored> done);
+
+ private:
+  TableCatalog(store::Database& database, const Clock& clock, bool has_centre)
+      : database_(database), clock_(clock), has_centre_(has_centre) {}
+
+  void put_in_force(std::shared_ptr<const TableState> state);
+
+  using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
+  void change(ColumnName column, Edit edit, std::optional<std::vector<std::string>> condition,
+              Callback<ColumnStored> done);
+
+  store::Database& database_;
+  const Clock& clock_;
+  const bool has_centre_;
+  Snapshot<TableState> state_;
+  std::mutex state_mutex_;
+  mutable std::mutex ids_mutex_;
+  std::map<std::int64_t, std::string> ids_;  // never erased: views of the texts are given out
+};
+
+}  // namespace fitgauge::app

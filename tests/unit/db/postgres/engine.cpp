@@ -1,0 +1,82 @@
+#include "engine.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "db/postgres/connection.hpp"
+#include "db/postgres/database.hpp"
+#include "db/sql/statement.hpp"
+
+namespace fitgauge::store::test {
+namespace {
+
+constexpr const char* kCluster = "tests/support/postgres_cluster";
+
+/// Lives until the process ends. Its files are of a test: nothing waits for a disk, and nothing is
+/// written out because time has passed.
+class Cluster {
+ public:
+  Cluster() {
+    std::string name = (std::filesystem::temp_directory_path() / "fitgauge-pg-XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    folder_ = name;
+    const std::string start =
+        fmt::format("{} start {} fsync=off full_page_writes=off wal_writer_delay=10s", kCluster,
+                    folder_.string());
+    REQUIRE_MESSAGE(std::system(start.c_str()) == 0,
+                    "PostgreSQL does not start: scripts/install test");
+  }
+  Cluster(const Cluster&) = delete;
+  Cluster& operator=(const Cluster&) = delete;
+  ~Cluster() {
+    const std::string stop = fmt::format("{} stop {} immediate", kCluster, folder_.string());
+    static_cast<void>(std::system(stop.c_str()));
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  std::string address(const std::string& database) const {
+    return fmt::format("postgresql:///{}?host={}&user=postgres", database, folder_.string());
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+const Cluster& cluster() {
+  static const Cluster made;
+  return made;
+}
+
+}  // namespace
+
+void prepare_engine(OpenOptions& options) {
+  static int made = 0;
+  const std::string name = fmt::format("test_{}", ++made);
+  postgres::Connection connection(cluster().address("postgres"));
+  connection.send("CREATE DATABASE " + name);
+  connection.wait();
+  options.address = cluster().address(name);
+}
+
+Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock) {
+  return postgres::open_database(options, clock);
+}
+
+void execute(const OpenOptions& options, const std::string& sql) {
+  postgres::Connection connection(options.address);
+  connection.send(sql);
+  connection.wait();
+}
+
+std::int64_t query_integer(const OpenOptions& options, const std::string& sql) {
+  postgres::Connection connection(options.address);
+  sql::Statement statement(connection, sql);
+  return statement.returning<std::int64_t>();
+}
+
+}  // namespace fitgauge::store::test

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "base/clock.hpp"
+#include "db/store/database.hpp"
+#include "db/store/open_options.hpp"
+
+namespace fitgauge::store::test {
+
+inline constexpr bool kIsOneProcess = false;
+
+/// A database of its own in a server that lives as long as the tests; fails the test where there is
+/// no PostgreSQL.
+void prepare_engine(OpenOptions& options);
+
+Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock);
+
+/// Past the stores.
+void execute(const OpenOptions& options, const std::string& sql);
+std::int64_t query_integer(const OpenOptions& options, const std::string& sql);
+
+}  // namespace fitgauge::store::test

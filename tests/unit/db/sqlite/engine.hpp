@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "db/sqlite/connection.hpp"
+#include "db/sqlite/database.hpp"
+
+namespace fitgauge::store::test {
+
+inline constexpr bool kIsOneProcess = true;
+
+inline void prepare_engine(OpenOptions& /*options*/) {}
+
+inline Result<std::unique_ptr<Database>> open_database(const OpenOptions& options,
+                                                       const Clock& clock) {
+  return sqlite::open_database(options, clock);
+}
+
+/// Past the stores.
+inline void execute(const OpenOptions& options, const std::string& sql) {
+  sqlite::Connection(options.directory / "fitgauge.db", sqlite::Mode::Write).execute(sql);
+}
+inline std::int64_t query_integer(const OpenOptions& options, const std::string& sql) {
+  return sqlite::Connection(options.directory / "fitgauge.db", sqlite::Mode::Read)
+      .query_integer(sql);
+}
+
+}  // namespace fitgauge::store::test

@@ -1,0 +1,242 @@
+#include "formats/dfq/dfq_writer.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "formats/dfq/fields.hpp"
+
+namespace fitgauge::aqdef {
+namespace {
+
+OutgoingValue bore(std::int64_t number, std::int64_t nanometres) {
+  OutgoingValue value{.origin = "5f0c9a3e77d21b40", .number = number};
+  value.measured_at = {1'795'334'400'000'000'000};
+  value.nominal = Length::millimetres(25);
+  value.measured = value.nominal + Length::nanometres(nanometres);
+  value.limits = {.upper = Length::nanometres(25'021'000), .lower = value.nominal};
+  value.class_name = "H7";
+  value.part_id = "SN-1";
+  value.characteristic = "Bore";
+  value.order = "WO-9";
+  value.machine = "M3";
+  value.operator_name = "Erika";
+  value.gauge = "Plug";
+  value.subgroup = "B7";
+  value.comment = "first |K0005 100|K0097 {A}|K1001 4711|";
+  return value;
+}
+
+OutgoingValue shaft(std::int64_t number) {
+  OutgoingValue value = bore(number, 0);
+  value.characteristic = "Seat";
+  value.class_name = {};
+  value.is_hole = false;
+  value.nominal = Length::millimetres(8);
+  value.measured = Length::nanometres(7'995'500);
+  value.limits = {.upper = Length::millimetres(8), .lower = std::nullopt};
+  value.rule = "rule=guard_band;uncertainty_um=0.8";
+  value.comment = "|K1001 4711|";
+  value.machine = "M4";
+  return value;
+}
+
+std::string written(const std::vector<OutgoingValue>& values, DfqOptions options = {}) {
+  DfqWriter writer(std::move(options));
+  for (const OutgoingValue& value : values) REQUIRE(writer.add(value).has_value());
+  return writer.text();
+}
+
+TEST_CASE("a file as others read it") {
+  CHECK(written({bore(1, 13'100), shaft(2), bore(3, 5)}) ==
+        "K0100 2\r\nK1001/1 4711\r\nK1002/1 -\r\n"
+        "K2001/1 Bore\r\nK2002/1 Bore\r\nK2004/1 0\r\nK2022/1 6\r\nK2101/1 25\r\nK2103/1 H\r\n"
+        "K2104/1 7\r\nK2110/1 25\r\nK2111/1 25.021\r\nK2112/1 0\r\nK2113/1 0.021\r\nK2120/1 1\r\n"
+        "K2121/1 1\r\nK2142/1 mm\r\n"
+        "K2001/2 Seat\r\nK2002/2 Seat\r\nK2004/2 0\r\nK2022/2 4\r\nK2101/2 8\r\nK2111/2 8\r\n"
+        "K2113/2 0\r\nK2120/2 0\r\nK2121/2 1\r\nK2142/2 mm\r\nK2800/2 fitgauge\r\nK2801/2 A\r\n"
+        "K2802/2 feature=shaft;rule=guard_band;uncertainty_um=0.8\r\n"
+        "K4062/1 M3\r\nK4062/2 M4\r\nK4072/1 Plug\r\nK4092/1 Erika\r\n"
+        "25.0131\x14"
+        "0\x14"
+        "22.11.2026/08:00:00\x14"
+        "100\x14#B7\x14"
+        "0\x14"
+        "1\x14"
+        "1\x14\x14"
+        "1\x0F"
+        "7.9955\x14"
+        "0\x14"
+        "22.11.2026/08:00:00\x14\x14#B7\x14"
+        "0\x14"
+        "1\x14"
+        "2\x14\x14"
+        "1\r\n"
+        "K0009/1 first\r\nK0014/1 SN-1\r\nK0053/1 WO-9\r\nK0097/1 {A}\r\n"
+        "K0014/2 SN-1\r\nK0053/2 WO-9\r\nK0097/2 {5F0C9A3E-77D2-1B40-0000-000000000002}\r\n"
+        "25.000005\x14"
+        "0\x14"
+        "22.11.2026/08:00:00\x14"
+        "100\x14#B7\x14"
+        "0\x14"
+        "1\x14"
+        "1\x14\x14"
+        "1\x0F\x14"
+        "256\r\n"
+        "K0009/1 first\r\nK0014/1 SN-1\r\nK0053/1 WO-9\r\nK0097/1 {A}\r\n");
+}
+
+// What a certification of the format looks at; no certificate is claimed.
+TEST_CASE("order, ends of lines, indices, types, lengths, counts and mandatory fields") {
+  OutgoingValue other = shaft(4);
+  other.operation = "OP20";
+  other.unit = "Hall 3";
+  other.class_name = "my own class";
+  const std::string text = written({bore(1, 1), shaft(2), other, bore(3, 2), shaft(5)});
+  Level last = Level::File;
+  std::set<int> fields;
+  std::size_t count = 0;
+  std::uint32_t last_characteristic = 0;
+  std::uint32_t last_part = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find("\r\n", at);
+    REQUIRE(end != std::string::npos);
+    const std::string_view line = std::string_view(text).substr(at, end - at);
+    INFO(std::string(line));
+    REQUIRE(line.find('\n') == std::string_view::npos);
+    at = end + 2;
+    if (!is_field_line(line)) {
+      CHECK(std::count(line.begin(), line.end(), kValueSeparator) == 2);
+      last = Level::Value;
+      continue;
+    }
+    const auto field = parse_field_line(line);
+    REQUIRE(field.has_value());
+    const FieldInfo* const info = field_info(field->number);
+    REQUIRE(info != nullptr);
+    fields.insert(field->number);
+    CHECK(!field->text.empty());
+    if (info->longest > 0) CHECK(field->text.size() <= static_cast<std::size_t>(info->longest));
+    if (info->type == FieldType::Integer) {
+      CHECK(field->text.find_first_not_of("0123456789") == std::string_view::npos);
+    }
+    if (info->type == FieldType::Number) {
+      CHECK(parse_length(field->text, LengthUnit::Millimetre).has_value());
+      CHECK(field->text.find_first_not_of("-.0123456789") == std::string_view::npos);
+    }
+    switch (level_of(field->number)) {
+      case Level::File: CHECK(count == 0); break;
+      case Level::Part:
+        CHECK((last == Level::File || last == Level::Part || last == Level::Characteristic));
+        CHECK((field->index == last_part || field->index == last_part + 1));
+        last_part = field->index;
+        break;
+      case Level::Characteristic:
+        CHECK((last == Level::Part || last == Level::Characteristic));
+        CHECK((field->index == last_characteristic || field->index == last_characteristic + 1));
+        last_characteristic = field->index;
+        break;
+      case Level::Catalogue:
+        CHECK((last == Level::Characteristic || last == Level::Catalogue));
+        break;
+      default: CHECK(last == Level::Value);
+    }
+    last = level_of(field->number);
+    ++count;
+  }
+  CHECK(last_characteristic == 3);
+  CHECK(text.starts_with("K0100 3\r\n"));
+  for (const int mandatory : {100, 1001, 1002, 2001, 2002, 2004, 2022, 2101, 2110, 2111, 2120, 2121,
+                              2142, 14, 53, 97, 4062, 4072, 4092}) {
+    CHECK_MESSAGE(fields.contains(mandatory), mandatory);
+  }
+}
+
+TEST_CASE("a text that does not fit its field is told, and nothing is added") {
+  struct Case {
+    std::string_view OutgoingValue::*field;
+    std::string text;
+    std::string_view said;
+  };
+  const std::vector<Case> cases = {
+      {&OutgoingValue::order, std::string(21, 'x'), "K0053, the order number, holds 20 characters"},
+      {&OutgoingValue::part_id, std::string(41, 'x'), "K0014, the part ident, holds 40 characters"},
+      {&OutgoingValue::comment, std::string(256, 'x'), "K0009, the text, holds 255 characters"},
+      {&OutgoingValue::comment, "a\nb", "K0009, the text, cannot hold a line end"},
+      {&OutgoingValue::subgroup, std::string(15, 'x'), "K0006, the batch number, holds 14"},
+      {&OutgoingValue::machine, std::string(41, 'x'),
+       "K4062, the machine of the catalogue, holds 40"},
+      {&OutgoingValue::gauge, "a\x14", "K4072, the gage of the catalogue, cannot hold"},
+      {&OutgoingValue::operator_name, std::string(51, 'x'), "K4092"},
+      {&OutgoingValue::characteristic, std::string(81, 'x'), "K2002"},
+      {&OutgoingValue::operation, std::string(41, 'x'), "K1086"},
+      {&OutgoingValue::unit, std::string(41, 'x'), "K1303"},
+  };
+  for (const Case& one : cases) {
+    DfqWriter writer({});
+    OutgoingValue value = bore(1, 0);
+    value.*one.field = one.text;
+    const auto added = writer.add(value);
+    REQUIRE(!added.has_value());
+    INFO(added.error().message);
+    CHECK(added.error().message.find(one.said) == 0);
+    CHECK(writer.is_empty());
+  }
+  DfqWriter writer({});
+  OutgoingValue value = bore(1, 0);
+  const std::string umlauts =
+      "\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4"
+      "0123456789";
+  value.order = umlauts;  // 20 characters, 30 bytes
+  CHECK(writer.add(value).has_value());
+}
+
+TEST_CASE("Windows-1252 where it can, else UTF-8 with its mark") {
+  OutgoingValue value = bore(1, 0);
+  value.part_id = "W\xC3\xA4lle \xE2\x82\xAC";
+  CHECK(written({value}).find("K0014/1 W\xE4lle \x80\r\n") != std::string::npos);
+  value.part_id = "\xC3\x83\xC2\xA4";  // as Windows-1252 these are the bytes of an UTF-8 a umlaut
+  CHECK(written({value}).starts_with("\xEF\xBB\xBFK0100"));
+  value.part_id = "\xE8\xBD\xB4";
+  CHECK(written({value}).starts_with("\xEF\xBB\xBFK0100"));
+  CHECK(written({value}).find("K0014/1 \xE8\xBD\xB4\r\n") != std::string::npos);
+}
+
+TEST_CASE("numbers of nothing are 0") {
+  OutgoingValue value = bore(1, 0);
+  value.machine = value.operator_name = value.gauge = value.comment = value.subgroup = {};
+  CHECK(written({value}).find("25\x14"
+                              "0\x14"
+                              "22.11.2026/08:00:00\x14\x14\x14"
+                              "0\x14"
+                              "0\x14"
+                              "0\x14\x14"
+                              "0\r\n") != std::string::npos);
+}
+
+TEST_CASE("times are of the zone") {
+  DfqOptions options;
+  options.zone = sheet::TimeZone::load("Europe/Berlin").value();
+  CHECK(written({bore(1, 0)}, options).find("22.11.2026/09:00:00") != std::string::npos);
+  OutgoingValue value = bore(1, 0);
+  value.measured_at.nanoseconds = -500'000'000;
+  CHECK(written({value}, options).find("01.01.1970/00:59:59") != std::string::npos);
+}
+
+TEST_CASE("classes that K2103 and K2104 cannot say stand in the user field") {
+  for (const auto& [name, said] : std::vector<std::pair<std::string_view, std::string_view>>{
+           {"zc10", "K2103/1 zc\r\nK2104/1 10\r\n"},
+           {"js5", "K2103/1 js\r\nK2104/1 5\r\n"},
+           {"H01", "K2802/1 class=H01\r\n"},
+           {"Own 1", "K2802/1 class=Own 1\r\n"}}) {
+    OutgoingValue value = bore(1, 0);
+    value.class_name = name;
+    CHECK(written({value}).find(said) != std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace fitgauge::aqdef

@@ -1,0 +1,130 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "formats/qif/qif_csv.hpp"
+#include "formats/qif/qif_writer.hpp"
+#include "formats/qif/xml_reader.hpp"
+
+namespace fitgauge::qif {
+namespace {
+
+OutgoingValue value(std::int64_t number, std::int64_t nanometres) {
+  OutgoingValue value{.origin = "5f0c9a3e77d21b40", .number = number};
+  value.measured = Length::nanometres(nanometres);
+  value.nominal = Length::millimetres(25);
+  value.upper = Length::nanometres(25'021'000);
+  value.lower = Length::millimetres(25);
+  value.class_name = "H7";
+  return value;
+}
+
+/// A document of `count` values.
+std::string written(std::size_t count) {
+  QifWriter writer;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto added =
+        writer.add(value(static_cast<std::int64_t>(i), 25'000'000 + static_cast<std::int64_t>(i)));
+    REQUIRE(added.has_value());
+  }
+  return writer.text();
+}
+
+std::string error_of(const std::string& text, const QifOptions& options = {}) {
+  const auto read = read_qif(text, options);
+  return read ? "" : read.error().message;
+}
+
+TEST_CASE("what is written is read with the same values") {
+  QifWriter writer;
+  OutgoingValue first = value(1, 25'013'100);
+  first.part_id = "P<1>&\"";
+  first.characteristic = " a  b\n";
+  first.uncertainty = Length::nanometres(750);
+  first.fields = {{"machine", "M3"}, {"comment", "a;\n\t\"b\""}};
+  REQUIRE(writer.add(first).has_value());
+  OutgoingValue second = value(2, 24'991'000);
+  second.class_name = "";
+  second.is_hole = false;
+  second.lower.reset();
+  REQUIRE(writer.add(second).has_value());
+  const auto read = read_qif(writer.text(), {});
+  REQUIRE(read.has_value());
+  CHECK(read->csv.find("25.0131") != std::string::npos);
+  CHECK(read->csv.find("24.991") != std::string::npos);
+  CHECK(read->csv.find("H7") != std::string::npos);
+  CHECK(read->csv.find("\"P<1>&\"\"\"") != std::string::npos);
+  CHECK(read->csv.find("M3") != std::string::npos);
+  CHECK(read->csv.find("shaft") != std::string::npos);
+  // The second comes behind a row of three lines, each of which has the line of the document.
+  CHECK(read->lines.size() >= 2);
+  CHECK(read->lines.front() < read->lines.back());
+}
+
+TEST_CASE("the same values are the same bytes, and a text that XML cannot hold is refused") {
+  CHECK(written(20) == written(20));
+  QifWriter writer;
+  OutgoingValue bad = value(1, 25'000'000);
+  bad.part_id = "a\x01";
+  CHECK_FALSE(writer.add(bad).has_value());
+  CHECK(writer.is_empty());
+}
+
+TEST_CASE("a document that is cut anywhere is an error") {
+  const std::string text = written(3);
+  REQUIRE(error_of(text).empty());
+  // Behind the last tag stands a line end alone.
+  for (std::size_t size = 0; size + 2 < text.size(); ++size) {
+    CAPTURE(size);
+    REQUIRE_FALSE(error_of(text.substr(0, size)).empty());
+  }
+}
+
+TEST_CASE("a document type is refused where it stands") {
+  std::string text = written(1);
+  text.insert(text.find("?>\n") + 3, "<!DOCTYPE QIFDocument>\n");
+  // The parser looks ahead, so it is a line of the document behind it.
+  const std::string error = error_of(text);
+  CAPTURE(error);
+  CHECK(std::stoul(error.substr(error.find(' '))) <=
+        static_cast<unsigned long>(std::count(text.begin(), text.end(), '\n')) + 1);
+  CHECK(error.find("document type") != std::string::npos);
+}
+
+TEST_CASE("an input that fails is told with its words") {
+  const std::string text = written(200);
+  std::size_t left = text.size() / 2;
+  auto failing = read_text(text);
+  const Read read = [&](std::span<char> into) -> Result<std::size_t> {
+    if (left < into.size()) return Error{ErrorCode::Internal, "the disk is gone"};
+    left -= into.size();
+    return failing(into);
+  };
+  const auto opened = QifRows::open(read, read_text(text), {});
+  REQUIRE_FALSE(opened.has_value());
+  CHECK(opened.error().message.find("the disk is gone") != std::string::npos);
+}
+
+TEST_CASE("rows, definitions and elements are bounded") {
+  const std::string text = written(30);
+  CHECK(error_of(text, {.most_rows = 30}).empty());
+  CHECK(error_of(text, {.most_rows = 29}).find("is beyond 29 measured values") !=
+        std::string::npos);
+  // One element of more than it may have, given piece by piece: nothing of it is kept for long.
+  const std::string begin =
+      R"(<QIFDocument xmlns="http://qifstandards.org/xsd/qif3"><CharacteristicItems><I id="1">)";
+  const std::string piece = "<Name>" + std::string(100, 'x') + "</Name>";
+  std::string large = begin;
+  while (large.size() < XmlReader::kLargestElement + begin.size() + 10'000) large += piece;
+  CHECK(error_of(large).find("has an element of more than 4 MiB") != std::string::npos);
+  std::string many =
+      R"(<QIFDocument xmlns="http://qifstandards.org/xsd/qif3"><CharacteristicItems>)";
+  // More than is too many, as the parser looks ahead to where the document is cut.
+  for (int i = 0; i <= 102'000; ++i) many += "<I/>";
+  CHECK(error_of(many).find("is beyond 100000 definitions") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace fitgauge::qif

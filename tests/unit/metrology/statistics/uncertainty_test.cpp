@@ -1,0 +1,101 @@
+#include "metrology/statistics/uncertainty.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace fitgauge;
+using namespace fitgauge::metrology;
+using doctest::Approx;
+
+TEST_CASE("GUM H.1: the end gauge has u_c 31.7 nm, 16 degrees of freedom and U99 93 nm") {
+  // JCGM 100, H.1.6 and H.1.7: standard, comparator, expansion, temperature; in nm.
+  const Budget budget{.contributions = {{.standard_uncertainty = 25, .degrees_of_freedom = 18},
+                                        {.standard_uncertainty = 9.7, .degrees_of_freedom = 25.6},
+                                        {.standard_uncertainty = 2.9, .degrees_of_freedom = 50},
+                                        {.standard_uncertainty = 16.6, .degrees_of_freedom = 2}},
+                      .correlations = {},
+                      .probability = 0.99};
+  const CombinedUncertainty u = combine(budget).value();
+  CHECK(std::abs(u.combined - 31.7) < 0.05);
+  CHECK(u.degrees_of_freedom == 16);
+  CHECK(u.welch_satterthwaite == Approx(16.76).epsilon(1e-3));
+  CHECK(std::abs(u.coverage_factor - 2.92) < 0.005);
+  CHECK(std::abs(u.expanded - 93) < 0.6);
+}
+
+TEST_CASE("GUM H.2: correlated quantities of one series") {
+  // From rounded correlations. The resistance R = V / I * cos(phi) of H.2.4 with its sensitivities
+  // and correlations.
+  const double v = 4.9990;
+  const double i = 19.661e-3;
+  const double phi = 1.04446;
+  const Budget budget{
+      .contributions = {{.standard_uncertainty = 0.0032, .sensitivity = std::cos(phi) / i},
+                        {.standard_uncertainty = 0.0095e-3,
+                         .sensitivity = -v * std::cos(phi) / (i * i)},
+                        {.standard_uncertainty = 0.00075, .sensitivity = -v * std::sin(phi) / i}},
+      .correlations = {{0, 1, -0.36}, {0, 2, 0.86}, {1, 2, -0.65}}};
+  CHECK(std::abs(combine(budget).value().combined - 0.071) < 0.0015);
+}
+
+TEST_CASE("what cannot be correlated is refused") {
+  const Contribution one{.standard_uncertainty = 1};
+  const Budget impossible{.contributions = {one, one, one},
+                          .correlations = {{0, 1, 1}, {0, 2, 1}, {1, 2, -1}}};
+  CHECK(combine(impossible).error().code == ErrorCode::FieldInvalid);
+  Budget rectangular{.contributions = {one, one}, .correlations = {{0, 1, 0.5}}};
+  rectangular.contributions[0].distribution = Distribution::Rectangular;
+  CHECK(simulate(rectangular, 1000, 1).error().code == ErrorCode::FieldInvalid);
+}
+
+TEST_CASE("Monte Carlo gives the intervals of JCGM 101, 9.2, and the same for the same seed") {
+  // Four normal, then four rectangular contributions with u = 1: ±3.92 and ±3.88.
+  Budget budget{.contributions = std::vector<Contribution>(4, {.standard_uncertainty = 1})};
+  const MonteCarloResult normal = simulate(budget, 400'000, 1).value();
+  CHECK(normal.standard_deviation == Approx(2).epsilon(0.005));
+  CHECK(normal.upper == Approx(3.92).epsilon(0.008));
+  CHECK(normal.lower == Approx(-3.92).epsilon(0.008));
+  for (Contribution& c : budget.contributions) c.distribution = Distribution::Rectangular;
+  const MonteCarloResult rectangular = simulate(budget, 400'000, 1).value();
+  CHECK(rectangular.upper == Approx(3.88).epsilon(0.008));
+  CHECK(simulate(budget, 1000, 5).value().upper == simulate(budget, 1000, 5).value().upper);
+  CHECK(simulate(budget, 1000, 5).value().upper != simulate(budget, 1000, 6).value().upper);
+}
+
+TEST_CASE("correlated contributions have no more freedom than one of them") {
+  Budget budget{.contributions = {{.standard_uncertainty = 1, .degrees_of_freedom = 5},
+                                  {.standard_uncertainty = 1, .degrees_of_freedom = 7},
+                                  {.standard_uncertainty = 0, .degrees_of_freedom = 1}},
+                .correlations = {{0, 1, 1}, {1, 2, 0.5}, {0, 2, 0.5}}};
+  const CombinedUncertainty one = combine(budget).value();
+  CHECK(one.combined == Approx(2));
+  CHECK(one.welch_satterthwaite == Approx(5));
+  CHECK(one.expanded == Approx(2 * 2.570582).epsilon(1e-6));
+  budget.correlations = {};
+  // Apart: (1 + 1)^2 / (1/5 + 1/7).
+  CHECK(combine(budget)->welch_satterthwaite == Approx(4 / (1.0 / 5 + 1.0 / 7)));
+}
+
+TEST_CASE("a normal contribution with degrees of freedom is drawn from their t") {
+  const Budget budget{.contributions = {{.standard_uncertainty = 1, .degrees_of_freedom = 5}}};
+  const MonteCarloResult drawn = simulate(budget, 400'000, 2).value();
+  CHECK(drawn.upper == Approx(2.570582).epsilon(0.015));
+  CHECK(drawn.lower == Approx(-2.570582).epsilon(0.015));
+}
+
+TEST_CASE("every shape is drawn with its standard uncertainty") {
+  for (const Distribution shape : {Distribution::Normal, Distribution::Rectangular,
+                                   Distribution::Triangular, Distribution::UShaped}) {
+    Budget budget{.contributions = {{.standard_uncertainty = 2, .distribution = shape}}};
+    CHECK(simulate(budget, 200'000, 3).value().standard_deviation == Approx(2).epsilon(0.01));
+  }
+  // A t with 10 degrees of freedom is wider: sqrt(10 / 8).
+  Budget budget{
+      .contributions = {
+          {.standard_uncertainty = 2, .degrees_of_freedom = 10, .distribution = Distribution::T}}};
+  CHECK(simulate(budget, 200'000, 3).value().standard_deviation ==
+        Approx(2 * std::sqrt(1.25)).epsilon(0.01));
+  CHECK(*standard_uncertainty_of(Distribution::Rectangular, 3) == Approx(std::sqrt(3)));
+  CHECK_FALSE(standard_uncertainty_of(Distribution::Normal, 3));
+}

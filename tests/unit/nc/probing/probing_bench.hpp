@@ -1,0 +1,72 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "nc/machine/simulated_machine.hpp"
+#include "nc/probing/cycle_registry.hpp"
+#include "recording_host.hpp"
+
+namespace fitgauge::probing {
+
+/// The values of a block by the numbers of its Q parameters; later ones win.
+using Values = std::vector<std::pair<int, ArgumentValue>>;
+
+/// The key of a word of a dotted cycle in Values.
+constexpr int word(ParameterId id) { return static_cast<int>(id); }
+
+inline Values with(Values values, const Values& changes) {
+  values.insert(values.end(), changes.begin(), changes.end());
+  return values;
+}
+
+/// A simulated machine with the probe of the default setup (ball radius 2 mm, SET_UP 2, DIST 20) in
+/// the spindle, and a workpiece; cycles run on it one after the other.
+class ProbingBench {
+ public:
+  explicit ProbingBench(std::vector<machine::Feature> features = {})
+      : ProbingBench(machine::Setup{.machine = {}, .features = std::move(features)}) {}
+  explicit ProbingBench(const machine::Setup& setup) : machine(setup) {
+    REQUIRE(
+        machine.call_tool({.number = 30, .axis = machine::Axis::Z, .spindle_rpm = {}}).has_value());
+  }
+
+  /// Error number and text; 0 when the cycle succeeds, -1 for a fault without a number.
+  int run(int number, const Values& values, CycleFamily family = CycleFamily::TchProbe) {
+    const TouchProbeCycle* cycle = find_cycle(family, number);
+    REQUIRE(cycle != nullptr);
+    Arguments arguments(cycle->descriptor);
+    for (const auto& [parameter, value] : values) arguments.set(q(parameter), value);
+    const auto result = run_cycle(*cycle, std::move(arguments), machine, host);
+    if (result) return 0;
+    fault = result.error();
+    return fault.number == 0 ? -1 : fault.number;
+  }
+
+  /// Q180, Q181, Q182 as one number: 100 good, 10 rework, 1 reject.
+  int status() { return static_cast<int>(100 * host.q[180] + 10 * host.q[181] + host.q[182]); }
+
+  machine::SimulatedMachine machine;
+  RecordingHost host;
+  CycleFault fault;  ///< of the last run that failed
+};
+
+/// The HTML log that a cycle wrote.
+inline const std::string& log_of(ProbingBench& bench, int cycle) {
+  return bench.host.files.at("TCHPR" + std::to_string(cycle) + ".html");
+}
+
+inline bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Equal as the control's 1 nm results are.
+inline bool same(double a, double b) { return std::abs(a - b) < 5e-10; }
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,102 @@
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "nc/probing/measuring/tolerance_text.hpp"
+
+namespace fitgauge::probing {
+namespace {
+
+std::optional<Limits> limits_of(std::string_view text, bool inch = false) {
+  CAPTURE(text);
+  const auto limits = parse_tolerance(text, inch);
+  REQUIRE(limits.has_value());
+  return *limits;
+}
+
+Limits micrometres(std::int64_t upper, std::int64_t lower) {
+  return {Length::micrometres(upper), Length::micrometres(lower)};
+}
+
+}  // namespace
+
+TEST_CASE("QS400: one or both limits along the normal") {
+  CHECK(limits_of("0.4-0.1") == micrometres(400, -100));
+  CHECK(limits_of("0.4") == micrometres(400, 0));
+  CHECK(limits_of("-0.1") == micrometres(0, -100));
+  CHECK(limits_of("0-0.1") == micrometres(0, -100));
+  CHECK(limits_of("0.4-0") == micrometres(400, 0));
+  CHECK(limits_of("0,4-0,1") == micrometres(400, -100));
+  CHECK(limits_of("0,025-0.01") == micrometres(25, -10));
+  CHECK(limits_of("12-7") == micrometres(12'000, -7'000));
+}
+
+TEST_CASE("QS400: no tolerance") {
+  for (const char* text : {"", " ", "    ", "0", "0.0", "0,000", "-0", "0-0", "0.1+0.1", "0,2+0"}) {
+    CHECK_FALSE(limits_of(text).has_value());
+  }
+}
+
+TEST_CASE("QS400: anything else names the position of what does not belong") {
+  struct Case {
+    std::string text;
+    int position;
+  };
+  for (const Case& c : {Case{"+0.4", 1},
+                        Case{"x", 1},
+                        Case{" 0.4", 1},
+                        Case{".4", 1},
+                        Case{"--0.1", 2},
+                        Case{"-", 2},
+                        Case{"0.", 3},
+                        Case{"0.4x", 4},
+                        Case{"0.4 -0.1", 4},
+                        Case{"0.4\xE2\x80\x93"
+                             "0.1",
+                             4},
+                        Case{"0.4-", 5},
+                        Case{"0.4--0.1", 5},
+                        Case{"0.4+-0.1", 5},
+                        Case{"0.4-0.1 ", 8},
+                        Case{"0.4-0.1-0.2", 8},
+                        Case{"-0.1+0.4", 5},
+                        Case{"0.1+0.1x", 8},
+                        Case{"1e-3", 2},
+                        Case{"0.4.1", 4},
+                        Case{"0.4-,1", 5},
+                        Case{std::string("0\0", 2), 2}}) {
+    CAPTURE(c.text);
+    const auto limits = parse_tolerance(c.text, false);
+    REQUIRE(limits.has_error());
+    CHECK(limits.error().number == 1011);
+    const std::string place = "QS400, position " + std::to_string(c.position) + ":";
+    CHECK(limits.error().text.find(place) != std::string::npos);
+  }
+}
+
+TEST_CASE("QS400: 255 characters at most, numbers up to 99999.9999") {
+  std::string text = "0.4-0.1";
+  text.append(255 - text.size(), '0');
+  CHECK(limits_of(text) == micrometres(400, -100));
+  const auto longer = parse_tolerance(text + "0", false);
+  REQUIRE(longer.has_error());
+  CHECK(longer.error().text.find("position 256") != std::string::npos);
+  CHECK(limits_of(std::string(255, ' ')) == std::nullopt);
+  CHECK(parse_tolerance(std::string(256, ' '), false).has_error());
+
+  CHECK(limits_of("99999.9999")->upper == Length::nanometres(99'999'999'900));
+  for (const char* large : {"0.1-100000", "0.1-99999999999999999999"}) {
+    const auto beyond = parse_tolerance(large, false);
+    REQUIRE(beyond.has_error());
+    CHECK(beyond.error().number == 1004);
+    CHECK(beyond.error().text.find("position 5") != std::string::npos);
+  }
+}
+
+TEST_CASE("QS400: nearest nanometre, inches of an inch program") {
+  CHECK(limits_of("0.0000004-0.0000005") == Limits{{}, Length::nanometres(-1)});
+  CHECK(limits_of("1-0.0001", true) ==
+        Limits{Length::micrometres(25'400), Length::nanometres(-2540)});
+}
+
+}  // namespace fitgauge::probing

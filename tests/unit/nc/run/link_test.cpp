@@ -1,0 +1,172 @@
+#include "nc/program/linker.hpp"
+
+#include <thread>
+
+#include "run_fixture.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::DiagnosticCode;
+using klartext::Severity;
+
+TEST_CASE("all findings of all named programs are reported at once, each file once") {
+  Control control;
+  control.program("CALL PGM sub.h\nCALL PGM SUB\nCALL PGM none.h\nFN 9: IF +1 EQU +1 GOTO LBL 3");
+  control.program("CALL LBL 7\nCALL PGM main.h\nTCH PROBE 999 OEM ~\n  Q1=+1\nL X+1 FMAX M77",
+                  "sub.h");
+  std::string found;
+  for (const auto& diagnostic : control.diagnostics()) {
+    found += std::string(id(diagnostic.code)) + " " + diagnostic.program.substr(13) + ":" +
+             std::to_string(diagnostic.range.begin.line) + "\n";
+  }
+  CHECK(found ==
+        "label.unknown main.h:5\nfile.missing main.h:4\n"
+        "label.unknown sub.h:2\ncycle.unknown sub.h:4\nm_function.unknown sub.h:6\n");
+  control.program("CALL PGM sub.h\nCALL PGM none.h");
+  const auto warnings = control.diagnostics();
+  CHECK(warnings[0].code == DiagnosticCode::FileMissing);
+  CHECK(warnings[0].severity == Severity::Warning);
+  CHECK(has_errors(warnings));
+}
+
+TEST_CASE("cycle parameters are checked before the run") {
+  Control control;
+  const auto code_of = [&](std::string_view parameters) {
+    control.program("TCH PROBE 427 MEASURE COORDINATE ~\n" + std::string(parameters));
+    const auto found = control.diagnostics();
+    return found.empty() ? std::string("fine") : std::string(id(found[0].code));
+  };
+  const std::string good =
+      " Q263=+1 ~\n Q264=+1 ~\n Q261=-5 ~\n Q320=+0 ~\n Q272=+3 ~\n Q267=-1 ~\n Q260=+20 ~\n"
+      " Q281=+0 ~\n Q288=+0 ~\n Q289=+0 ~\n Q309=+0 ~\n Q330=+0";
+  CHECK(code_of(good) == "fine");
+  CHECK(code_of(good + " ~\n Q999=+1") == "cycle.parameter_unknown");
+  std::string bad = good;
+  bad.replace(bad.find("Q272=+3"), 7, "Q272=+4");
+  CHECK(code_of(bad) == "cycle.parameter_invalid");
+  std::string text = good;
+  text.replace(text.find("Q272=+3"), 7, "Q272=Q5");
+  CHECK(code_of(text) == "fine");
+  for (const char* word : {"AUTO", "MAX", "FU0.2", "FZ0.1"}) {
+    std::string feed = good;
+    feed.replace(feed.find("Q320=+0"), 7, std::string("Q320=") + word);
+    CHECK(code_of(feed) == "cycle.parameter_invalid");
+  }
+  CHECK(code_of(" Q263=+1") == "cycle.parameter_invalid");
+}
+
+TEST_CASE("a finding lies within one physical line") {
+  Control control;
+  control.program("TCH PROBE 999 OEM ~\n  Q1=+1 ~\n  Q2=+2");
+  const auto found = control.diagnostics();
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].range.begin.line == 2);
+  CHECK(found[0].range.end.line == 2);
+  CHECK(found[0].source == "TCH PROBE 999 OEM ~");
+}
+
+TEST_CASE("findings of a bad program are bounded") {
+  std::string body;
+  for (int i = 0; i < 1000; ++i) body += "CALL LBL 77\n";
+  Control control;
+  control.program(body);
+  CHECK(control.diagnostics().size() == 200);
+}
+
+TEST_CASE("a program is linked once for each revision of its file") {
+  Control control;
+  control.program("Q1 = 1");
+  const auto first = control.programs.get(*control.disk.find(Control::main_path()));
+  CHECK(first == control.programs.get(*control.disk.find(Control::main_path())));
+  control.program("Q1 = 2");
+  CHECK(first != control.programs.get(*control.disk.find(Control::main_path())));
+  CHECK(value(control.run(), "Q1") == "2");
+}
+
+TEST_CASE("a program at hand is not read from the disk again") {
+  /// Counts how often bytes are read.
+  struct CountingDisk final : ControlDisk {
+    explicit CountingDisk(const MemoryDisk& disk) : inner(disk) {}
+    std::optional<ControlFile> find(const ControlPath& path) const override {
+      ++reads;
+      return inner.find(path);
+    }
+    std::optional<std::string> revision(const ControlPath& path) const override {
+      return inner.revision(path);
+    }
+    bool has_directory(std::string_view directory) const override {
+      return inner.has_directory(directory);
+    }
+    const MemoryDisk& inner;
+    mutable int reads = 0;
+  };
+  Control control;
+  control.program("Q1 = 1");
+  const CountingDisk disk(control.disk);
+  const auto first = control.programs.get(disk, Control::main_path());
+  REQUIRE(first != nullptr);
+  CHECK(control.programs.get(disk, Control::main_path()) == first);
+  CHECK(disk.reads == 1);
+  control.program("Q1 = 2");
+  CHECK(control.programs.get(disk, Control::main_path()) != first);
+  CHECK(disk.reads == 2);
+  CHECK(control.programs.get(disk, ControlPath::parse("TNC:\\none.h").value()) == nullptr);
+}
+
+TEST_CASE("a cache holds as many bytes as it may") {
+  ProgramCache cache(1);
+  Control control;
+  control.program("Q1 = 1", "a.h");
+  control.program("Q1 = 1", "b.h");
+  const auto file = [&](const char* name) {
+    return *control.disk.find(ControlPath::parse(std::string("TNC:\\nc_prog\\") + name).value());
+  };
+  const auto a = cache.get(file("a.h"));
+  CHECK(a == cache.get(file("a.h")));
+  cache.get(file("b.h"));
+  CHECK(a != cache.get(file("a.h")));
+}
+
+TEST_CASE("one linked program runs on several threads at once") {
+  Control control;
+  control.program("Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nFN 12: IF +Q1 LT +1000 GOTO LBL 1");
+  const auto file = control.programs.get(*control.disk.find(Control::main_path()));
+  std::vector<RunResult> results(4);
+  std::vector<std::jthread> threads;
+  threads.reserve(results.size());
+  for (RunResult& result : results) {
+    threads.emplace_back([&] {
+      machine::SimulatedMachine machine(control.setup);
+      RunObserver observer;
+      result = run(file->program,
+                   {machine, control.disk, control.programs, control.clock, observer}, {});
+    });
+  }
+  threads.clear();
+  for (const RunResult& result : results) CHECK(value(result, "Q1") == "1000");
+}
+
+TEST_CASE("an observer sees the blocks that command, or all") {
+  class Recorder final : public RunObserver {
+   public:
+    bool follows_every_block() const override { return every; }
+    void entered(const Place& place) override { lines.push_back(place.line()); }
+    bool every = false;
+    std::vector<std::uint32_t> lines;
+  };
+  Control control;
+  control.program("Q1 = 1\nM8\nQ2 = 2 + 3 * Q1\nLBL 1\nL X+1 FMAX");
+  const auto file = control.programs.get(*control.disk.find(Control::main_path()));
+  for (const bool every : {false, true}) {
+    Recorder recorder;
+    recorder.every = every;
+    machine::SimulatedMachine machine(control.setup);
+    run(file->program, {machine, control.disk, control.programs, control.clock, recorder}, {});
+    CHECK(recorder.lines ==
+          (every ? std::vector<std::uint32_t>{2, 3, 4, 6, 7} : std::vector<std::uint32_t>{3, 6}));
+  }
+}
+
+}  // namespace
+}  // namespace fitgauge::interpreter

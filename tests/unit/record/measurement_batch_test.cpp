@@ -1,0 +1,396 @@
+#include "record/measurement_batch.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "base/csv_cell.hpp"
+#include "record/record.hpp"
+#include "tables/iso286/table_data.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::api;
+
+namespace {
+
+const iso286::ToleranceTables& tables() {
+  static const auto kTables =
+      iso286::ToleranceTables::make(iso286::compiled_in_tables(), {"test"}).value();
+  return kTables;
+}
+
+/// The body with the padding the HTTP engine gives it. Batches are views of it, so it is kept.
+Result<MeasurementBatch> decode(std::string body, std::string_view type = "application/json") {
+  static std::vector<std::unique_ptr<std::string>> kept;
+  const std::size_t size = body.size();
+  body.append(64, '\0');
+  kept.push_back(std::make_unique<std::string>(std::move(body)));
+  MeasurementBatch batch;
+  const auto decoded =
+      decode_measurements(std::string_view(*kept.back()).substr(0, size), type,
+                          {.tables = tables(), .received_at = {1'000'000'000}}, batch);
+  if (!decoded) return decoded.error();
+  return batch;
+}
+
+/// The one row of a batch. Its texts are views of the batch, so that is kept too.
+app::Measurement one(std::string body, std::string_view type = "application/json") {
+  static std::vector<MeasurementBatch> kept;
+  auto batch = decode(std::move(body), type);
+  REQUIRE(batch.has_value());
+  REQUIRE(batch->rows.size() == 1);
+  kept.push_back(*std::move(batch));
+  return kept.back().rows.front();
+}
+
+/// "pointer code" of every entry, with "@line" where there is one.
+std::vector<std::string> complaints(std::string body, std::string_view type = "application/json") {
+  const auto batch = decode(std::move(body), type);
+  REQUIRE(batch.has_error());
+  REQUIRE(batch.error().code == ErrorCode::RequestInvalid);
+  std::vector<std::string> found;
+  for (const Error& entry : batch.error().details) {
+    std::string text = entry.where + ' ' + std::string(id(entry.code));
+    if (!entry.details.empty()) text += '@' + entry.details.front().where;
+    found.push_back(std::move(text));
+  }
+  return found;
+}
+
+using Complaints = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("an object is judged by its class") {
+  const auto m = one(R"({"designation":"25 H7","measured_mm":25.0215,"part_id":"SN-1"})");
+  CHECK(m.measured == Length::nanometres(25'021'500));
+  CHECK(m.result.verdict == gauging::Verdict::Reject);
+  CHECK(m.result.excess == Length::nanometres(500));
+  CHECK(m.texts.part_id == "SN-1");
+  CHECK(m.measured_at.nanoseconds == 1'000'000'000);
+}
+
+TEST_CASE("measured values are rounded to the nanometre, nominal sizes are not") {
+  CHECK(one(R"({"designation":"25 H7","measured_mm":25.005884000000002})").measured ==
+        Length::nanometres(25'005'884));
+  CHECK(complaints(R"({"nominal_mm":25.0000001,"tolerance_class":"H7","measured_mm":25})") ==
+        Complaints{"/nominal_mm length.too_fine"});
+}
+
+TEST_CASE("every bad field of every row is reported with its pointer") {
+  CHECK(complaints(R"([{"designation":"25 H7","measured_mm":25},
+                       {"designation":"25 H19","measured_mm":null,"x":1},
+                       7,
+                       {"nominal_mm":10,"tolerance_class":"t6","measured_mm":""}])") ==
+        Complaints{"/1/measured_mm field.type", "/1/x field.unknown",
+                   "/1/designation class.unknown", "/2 field.type",
+                   "/3/measured_mm length.malformed",
+                   "/3/tolerance_class class.undefined_for_size"});
+}
+
+TEST_CASE("unreadable JSON is no request with bad fields") {
+  CHECK(decode(R"({"designation":"25 H7","measured_mm":25)").error().code ==
+        ErrorCode::JsonMalformed);
+  CHECK(decode(R"({"measured_mm":25,"measured_mm":25})").error().code ==
+        ErrorCode::JsonDuplicateKey);
+  CHECK(decode(R"({"x":25,"x":25})").error().code == ErrorCode::JsonDuplicateKey);
+  CHECK(decode(R"({"designation":"25 H7","measured_mm":025})").error().code ==
+        ErrorCode::JsonMalformed);
+  CHECK(decode(R"({"designation":"25 H7","measured_mm":25.013abc})").error().code ==
+        ErrorCode::JsonMalformed);
+  CHECK(decode(R"([{"designation":"25 H7","measured_mm":25}] [])").error().code ==
+        ErrorCode::JsonMalformed);
+  CHECK(decode("\xEF\xBB\xBF{}").error().code == ErrorCode::TextEncoding);
+  CHECK(decode("{\"part_id\":\"\xFF\"}").error().code == ErrorCode::TextEncoding);
+  CHECK(decode("[]").error().code == ErrorCode::RequestInvalid);
+}
+
+TEST_CASE("escaped texts and keys mean the same") {
+  const auto m =
+      one(R"({"designation":"25\u0020H7","measured_mm":25.013,"comment":"a\"b\\\u00b5"})");
+  CHECK(m.texts.comment == "a\"b\\\xC2\xB5");
+  CHECK(one(R"({"\u0064esignation":"25 H7","measured_mm":25.013})").measured ==
+        Length::nanometres(25'013'000));
+}
+
+TEST_CASE("limits are given once, in one of three ways") {
+  const auto drawing = one(
+      R"({"nominal_mm":25,"feature":"shaft","upper_um":10,"lower_um":-3.5,"measured_mm":25.0101})");
+  CHECK(drawing.basis == app::LimitsBasis::Explicit);
+  CHECK(drawing.result.verdict == gauging::Verdict::Rework);
+  CHECK_FALSE(drawing.class_name.has_value());
+  CHECK(complaints(R"({"designation":"25 H7","nominal_mm":25,"measured_mm":25})") ==
+        Complaints{"/nominal_mm field.conflict"});
+  CHECK(
+      complaints(R"({"nominal_mm":25,"tolerance_class":"H7","feature":"hole","measured_mm":25})") ==
+      Complaints{"/tolerance_class field.conflict"});
+  CHECK(complaints(R"({"nominal_mm":25,"measured_mm":25})") ==
+        Complaints{"/tolerance_class field.missing"});
+  CHECK(complaints(R"({"nominal_mm":25,"feature":"hole","measured_mm":25})") ==
+        Complaints{"/upper_um field.missing"});
+  CHECK(complaints(R"({"nominal_mm":25,"upper_um":1,"measured_mm":25})") ==
+        Complaints{"/feature field.missing"});
+  CHECK(complaints(
+            R"({"nominal_mm":25,"feature":"hole","upper_um":1,"lower_um":2,"measured_mm":25})") ==
+        Complaints{"/upper_um limits.invalid"});
+}
+
+TEST_CASE("a guard band needs its uncertainty") {
+  CHECK(complaints(R"({"designation":"25 H7","measured_mm":25,"rule":"guard_band"})") ==
+        Complaints{"/uncertainty_um field.missing"});
+  const auto m = one(
+      R"({"designation":"25 H7","measured_mm":25.02,"rule":"guard_band","uncertainty_um":0.8})");
+  CHECK(m.result.verdict == gauging::Verdict::Indeterminate);
+}
+
+TEST_CASE("what a spreadsheet would run as a formula is guarded in CSV, and read back as it was") {
+  const std::pair<const char*, const char*> rows[] = {
+      {"=HYPERLINK(A1)", "'=HYPERLINK(A1)"},
+      {"+1", "'+1"},
+      {"-1", "'-1"},
+      {"@x", "'@x"},
+      {"'=1", "''=1"},
+      {"'a", "'a"},
+      {"a=1", "a=1"},
+      {"", ""},
+      {"\tx", "'\tx"},
+  };
+  for (const auto& [text, cell] : rows) {
+    std::string out;
+    sheet::append_csv_text(out, text);
+    CHECK(out == cell);
+    CHECK(sheet::without_formula_guard(out) == text);
+  }
+  const auto batch = decode("designation,measured_mm,comment\n25 H7,25.01,'=1\n", "text/csv");
+  REQUIRE(batch.has_value());
+  CHECK(batch->rows.front().texts.comment == "=1");
+}
+
+TEST_CASE("CSV of both dialects is read, empty cells are not given") {
+  const auto m =
+      one("\xEF\xBB\xBF"
+          "designation;measured_mm;part_id;comment\r\n25,5 H7;25,5005;\"a;b\";\r\n",
+          "text/csv");
+  CHECK(m.nominal_size == Length::nanometres(25'500'000));
+  CHECK(m.measured == Length::nanometres(25'500'500));
+  CHECK(m.texts.part_id == "a;b");
+  CHECK_FALSE(m.texts.comment.has_value());
+  CHECK(one("nominal_mm,tolerance_class,measured_mm\n\"25,5\",H7,25.5\n", "text/csv").measured ==
+        Length::nanometres(25'500'000));
+  CHECK(complaints("designation,measured_mm,x\n25 H7,25,1\n25 H7,,2\n", "text/csv") ==
+        Complaints{"/x field.unknown@1", "/1/measured_mm field.missing@3"});
+  CHECK(decode("designation,designation\n1,2\n", "text/csv").error().code ==
+        ErrorCode::CsvMalformed);
+}
+
+TEST_CASE("NDJSON names row and line") {
+  CHECK(complaints("{\"designation\":\"25 H7\",\"measured_mm\":25}\n\n"
+                   "{\"designation\":\"25 H7\",\"measured_mm\":true}\r\n",
+                   "application/x-ndjson") == Complaints{"/1/measured_mm field.type@3"});
+  const auto broken =
+      decode("{\"designation\":\"25 H7\",\"measured_mm\":25}\n{\n", "application/x-ndjson");
+  CHECK(broken.error().code == ErrorCode::JsonMalformed);
+  CHECK(broken.error().where == "line 2");
+}
+
+TEST_CASE("no more than a hundred bad fields are listed, all are counted") {
+  std::string body = "[";
+  for (int i = 0; i < 150; ++i) body += R"({"designation":"25 H7"},)";
+  body.back() = ']';
+  const auto batch = decode(body);
+  REQUIRE(batch.has_error());
+  CHECK(batch.error().details.size() == 100);
+  CHECK(batch.error().message.starts_with("150 fields"));
+}
+
+namespace {
+
+/// `count` rows in each format; row `odd` has a text with an escape and a key that only the exact
+/// reader of JSON takes.
+std::string list_of(int count, std::string_view type, int odd) {
+  const bool csv = type == "text/csv";
+  const bool json = type == "application/json";
+  std::string body = csv ? "designation,measured_mm,part_id\n" : json ? "[" : "";
+  for (int i = 0; i < count; ++i) {
+    const std::string part = i == odd ? (csv ? "\"odd\"" : "o\\u0064d") : std::to_string(i);
+    if (csv) {
+      body += "25 H7,25.01," + part + '\n';
+    } else {
+      const std::string key = i == odd ? "p\\u0061rt_id" : "part_id";
+      body += R"({"designation":"25 H7","measured_mm":25.01,")" + key + "\":\"" + part + "\"}" +
+              (json ? "," : "\n");
+    }
+  }
+  if (json) body.back() = ']';
+  return body;
+}
+
+struct Pieces {
+  std::vector<std::vector<app::Measurement>> taken;
+  MeasurementBatch rest;
+  Result<void> decoded;
+  bool in_vain = false;  ///< the pieces were not to be used: all came with the second reading
+
+  std::vector<std::string> parts() const {
+    std::vector<std::string> found;
+    for (const auto& piece : taken) {
+      for (const auto& m : piece) found.emplace_back(m.texts.part_id.value());
+    }
+    for (const auto& m : rest.rows) found.emplace_back(m.texts.part_id.value());
+    return found;
+  }
+};
+
+/// @param body is a view of it afterwards, with padding.
+Pieces in_pieces(std::string& body, std::string_view type) {
+  Pieces pieces;
+  const std::size_t size = body.size();
+  body.append(64, '\0');
+  const std::string_view text = std::string_view(body).substr(0, size);
+  BatchContext context{.tables = tables(), .received_at = {1'000'000'000}};
+  context.take = [&](std::vector<app::Measurement> rows) {
+    pieces.taken.push_back(std::move(rows));
+  };
+  pieces.decoded = decode_measurements(text, type, context, pieces.rest);
+  pieces.in_vain = pieces.rest.wants_whole;
+  if (pieces.in_vain) {
+    CHECK(pieces.decoded.has_error());
+    pieces.taken.clear();
+    pieces.rest = {};
+    context.take = nullptr;
+    pieces.decoded = decode_measurements(text, type, context, pieces.rest);
+  }
+  return pieces;
+}
+
+}  // namespace
+
+TEST_CASE("a long list is taken away in pieces while it is read, in every format") {
+  constexpr int kCount = 1000;
+  for (const std::string_view type : {"application/json", "application/x-ndjson", "text/csv"}) {
+    for (const int odd : {-1, 0, 255, 256, 600, 999}) {
+      CAPTURE(type);
+      CAPTURE(odd);
+      std::string body = list_of(kCount, type, odd);
+      const Pieces pieces = in_pieces(body, type);
+      const bool is_late = odd >= static_cast<int>(kRowsAtATime);
+      CHECK(pieces.in_vain == (is_late && type == "application/json"));
+      REQUIRE(pieces.decoded.has_value());
+      if (!pieces.in_vain) CHECK(pieces.taken.size() == kCount / kRowsAtATime);
+      const auto parts = pieces.parts();
+      REQUIRE(parts.size() == kCount);
+      for (int i = 0; i < kCount; ++i) {
+        const auto& part = parts[static_cast<std::size_t>(i)];
+        CHECK(part == (i == odd ? "odd" : std::to_string(i)));
+      }
+    }
+  }
+}
+
+TEST_CASE("escaped texts alone do not need the exact reader") {
+  std::string body = "[";
+  for (int i = 0; i < 1000; ++i) {
+    body += R"({"designation":"25 H7","measured_mm":25.01,"part_id":"\u00b5)" + std::to_string(i) +
+            "\"},";
+  }
+  body.back() = ']';
+  const Pieces pieces = in_pieces(body, "application/json");
+  CHECK_FALSE(pieces.in_vain);
+  const auto parts = pieces.parts();
+  REQUIRE(parts.size() == 1000);
+  CHECK(parts.front() ==
+        "\xC2\xB5"
+        "0");
+  CHECK(parts.back() ==
+        "\xC2\xB5"
+        "999");
+}
+
+TEST_CASE("a list of what is no measurement is refused at the 100,001st, not kept") {
+  std::string body = "[";
+  for (int i = 0; i < 600'000; ++i) body += "1,";
+  body.back() = ']';
+  CHECK(decode(body).error().message.find("at most 100000 rows") != std::string::npos);
+}
+
+TEST_CASE("a wrong row is named when rows before it were taken already, and so are all others") {
+  std::string body = list_of(1000, "application/json", -1);
+  body.pop_back();
+  body += R"(,{"designation":"25 H7"},{"designation":"25 H7","measured_mm":25,"x":1})";
+  for (int i = 0; i < 300; ++i) body += R"(,{"designation":"25 H7","measured_mm":25})";
+  body += ']';
+  const Pieces pieces = in_pieces(body, "application/json");
+  CHECK(pieces.in_vain);
+  REQUIRE(pieces.decoded.has_error());
+  REQUIRE(pieces.decoded.error().details.size() == 2);
+  CHECK(pieces.decoded.error().details[0].where == "/1000/measured_mm");
+  CHECK(pieces.decoded.error().details[1].where == "/1001/x");
+}
+
+TEST_CASE("a gauge in use says its uncertainty where the rule needs one, and that it is overdue") {
+  const Timestamp due = parse_rfc3339("2026-03-31T23:59:59.999999999Z").value();
+  const GaugeBook book = {{"G-07",
+                           {.budget = "ring",
+                            .standard_uncertainty = Length::nanometres(501),
+                            .calibration_due = "2026-03-31",
+                            .due = due}},
+                          {"G-08", {.calibration_due = "2026-03-31", .due = due}}};
+  const auto judged = [&](const std::string& fields, std::string_view type = "application/json") {
+    const std::string body = R"({"designation":"25 H7","measured_mm":25.0005)" + fields + "}";
+    const std::string padded = body + std::string(64, '\0');
+    MeasurementBatch batch;
+    const BatchContext context{
+        .tables = tables(), .received_at = {due.nanoseconds + 1}, .gauges = &book};
+    const auto decoded =
+        decode_measurements(std::string_view(padded).substr(0, body.size()), type, context, batch);
+    REQUIRE_MESSAGE(decoded.has_value(), (decoded ? "" : decoded.error().details[0].message));
+    std::string out;
+    app::append_record(out, batch.rows.front());
+    return out;
+  };
+  const auto has = [](const std::string& record, std::string_view text) {
+    return record.find(text) != std::string::npos;
+  };
+  for (const std::string_view type : {"application/json", "application/x-ndjson"}) {
+    CAPTURE(type);
+    const std::string needed = judged(R"(,"gauge":"G-07","rule":"guard_band")", type);
+    CHECK(has(needed, R"("uncertainty":"ring","uncertainty_um":0.501,)"));
+    CHECK(has(needed, R"("verdict":"indeterminate")"));
+    CHECK(has(needed, R"("calibration_due":"2026-03-31","calibration_overdue":true,)"));
+    const std::string given =
+        judged(R"(,"gauge":"G-07","rule":"guard_band","uncertainty_um":0.1)", type);
+    CHECK_FALSE(has(given, "\"uncertainty\":"));
+    CHECK(has(given, R"("verdict":"good")"));
+    const std::string in_time = judged(
+        R"(,"gauge":"G-07","rule":"conformance","measured_at":"2026-03-31T23:59:59.999999999Z")",
+        type);
+    CHECK(has(in_time, R"("uncertainty":"ring")"));
+    CHECK_FALSE(has(in_time, "calibration"));
+    const std::string simple = judged(R"(,"gauge":"G-07")", type);
+    CHECK_FALSE(has(simple, "\"uncertainty"));
+    CHECK(has(simple, "calibration_overdue"));
+    CHECK_FALSE(has(judged(R"(,"gauge":"G-09")", type), "calibration"));
+  }
+  for (const char* gauge : {"G-08", "G-09"}) {
+    const std::string body = std::string(R"({"designation":"25 H7","measured_mm":25,"gauge":")") +
+                             gauge + R"(","rule":"guard_band"})";
+    const std::string padded = body + std::string(64, '\0');
+    MeasurementBatch batch;
+    const auto decoded =
+        decode_measurements(std::string_view(padded).substr(0, body.size()), "application/json",
+                            {.tables = tables(), .received_at = due, .gauges = &book}, batch);
+    REQUIRE(decoded.has_error());
+    CHECK(decoded.error().details.at(0).code == ErrorCode::FieldMissing);
+    CHECK(decoded.error().details.at(0).where == "/uncertainty_um");
+  }
+}
+
+TEST_CASE("what a budget comes to is rounded up to the nanometre, without the noise of binaries") {
+  CHECK(rounded_up(0.5) == Length::nanometres(500));
+  CHECK(rounded_up(0.1 + 0.2) == Length::nanometres(300));
+  CHECK(rounded_up(0.3000001) == Length::nanometres(301));
+  CHECK(rounded_up(0) == Length());
+  CHECK_FALSE(rounded_up(-1).has_value());
+  CHECK_FALSE(rounded_up(1e300).has_value());
+  CHECK_FALSE(rounded_up(std::numeric_limits<double>::quiet_NaN()).has_value());
+}

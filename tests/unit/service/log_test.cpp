@@ -1,0 +1,58 @@
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <stdexcept>
+#include <thread>
+
+#include "service/log/log_keys.hpp"
+#include "service/log/log_service.hpp"
+#include "service_fixture.hpp"
+#include "support/comes_true.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::app;
+
+TEST_CASE("who waits for a proof until the end hears so, whatever others do with their answer") {
+  // A checkpoint covers a record a second after the last one: a busy machine may be too late for
+  // it, and for what it waits.
+  constexpr int kTries = 10;
+  auto code = ErrorCode::Internal;
+  for (int i = 0; i < kTries && code != ErrorCode::ShuttingDown; ++i) {
+    Service service;
+    service.record(1);
+    while (service->log().head()->checkpoint.size < 1) std::this_thread::yield();
+    service.record(1);
+    service->log().prove({.number = 2}, [](const Result<LogService::Proof>&) {
+      throw std::logic_error("a bug of who waits");
+    });
+    std::promise<ErrorCode> told;
+    service->log().prove({.number = 2}, [&told](const Result<LogService::Proof>& proof) {
+      told.set_value(proof ? ErrorCode::Internal : proof.error().code);
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // until they are waiting
+    service->log().stop();
+    code = told.get_future().get();
+  }
+  CHECK(code == ErrorCode::ShuttingDown);
+}
+
+TEST_CASE("a head that a bug kept from being signed is signed a second later, without a commit") {
+  std::atomic<bool> thrown = false;
+  ApplicationOptions options;
+  options.log_told = [&](std::string_view event, const std::string&) {
+    if (event == "log_checkpoint_not_kept" && !thrown.exchange(true)) {
+      throw std::logic_error("a bug of who is told");
+    }
+  };
+  Service service(options);
+  const auto in_the_way = service.folder() / kCheckpointFile;
+  std::filesystem::remove(in_the_way);
+  std::filesystem::create_directories(in_the_way / "folder");
+  service.record(1);
+  const auto is_signed = [&] { return service->log().head()->checkpoint.size == 1; };
+  CHECK(comes_true(is_signed));
+  CHECK(thrown);
+}

@@ -1,0 +1,272 @@
+#include <array>
+#include <stdexcept>
+#include <thread>
+
+#include "service/runs/run_measurements.hpp"
+#include "service_fixture.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+using interpreter::MessageKind;
+using interpreter::RunStatus;
+
+constexpr std::string_view kForever = "LBL 1\nFN 9: IF +1 EQU +1 GOTO LBL 1";
+
+RunOrder endless() {
+  RunOrder order = Service::order();
+  order.options.limits.blocks = 100'000'000;
+  order.options.limits.time = std::chrono::seconds(60);
+  return order;
+}
+
+TEST_CASE("a run leaves its report, its trace and its files") {
+  Service service;
+  service.upload("TNC:\\m.a", "\"Q1 IS %2.0F\", Q1;\n");
+  service.program("Q1 = Q2 + 1\nTOOL CALL 30 Z\nL X+10 FMAX\nFN 16: F-PRINT m.a / TNC:\\out.txt");
+  RunOrder order = Service::order();
+  order.options.parameters = {{interpreter::parse_parameter_name("Q2").value(), 4.0}};
+  order.setup.seed = 5;
+  const RunReport report = service.run(std::move(order));
+  CHECK(report.result.status == RunStatus::Completed);
+  CHECK(report.seed == 5);
+  CHECK(report.finished_at.nanoseconds >= report.created_at.nanoseconds);
+
+  const auto stored =
+      wait_for<StoredRun>([&](auto done) { service->runs().find(report.id, std::move(done)); });
+  REQUIRE(stored.has_value());
+  CHECK(stored->state == RunState::Completed);
+  CHECK(stored->program == "TNC:\\main.h");
+  CHECK(stored->request == "{}");
+  auto trace =
+      wait_for<TraceReader>([&](auto done) { service->runs().trace(report.id, std::move(done)); });
+  CHECK(trace->next().value() == "a move, the end");
+  CHECK(trace->next().value().empty());
+  const auto file = wait_for<RunService::File>(
+      [&](auto done) { service->runs().file(report.id, "OUT.TXT", std::move(done)); });
+  CHECK(file->bytes.starts_with("Q1 IS  5"));
+  for (const std::int64_t unknown : {report.id + 1, std::int64_t{0}}) {
+    const auto none =
+        wait_for<StoredRun>([&](auto done) { service->runs().find(unknown, std::move(done)); });
+    CHECK(none.error().code == ErrorCode::RunUnknown);
+  }
+}
+
+TEST_CASE("each budget ends a run at a block") {
+  Service service;
+  service.program(kForever);
+  RunOrder blocks = endless();
+  blocks.options.limits.blocks = 1000;
+  RunOrder time = endless();
+  time.options.limits.time = std::chrono::milliseconds(20);
+  for (RunOrder& order : std::array{std::move(blocks), std::move(time)}) {
+    const RunReport report = service.run(std::move(order));
+    CHECK(report.result.status == RunStatus::LimitExceeded);
+    CHECK(report.result.messages.back().kind == MessageKind::Limit);
+    CHECK(report.result.messages.back().program == "TNC:\\main.h");
+    CHECK(report.result.messages.back().line == 3);
+  }
+}
+
+TEST_CASE("a measuring cycle leaves a record of the simulation") {
+  Service service;
+  service.program(
+      "TOOL CALL 30 Z\nTCH PROBE 427 MEASURE COORDINATE ~\n Q263=+0 ~\n Q264=+0 ~\n Q261=+0 ~\n"
+      " Q320=+0 ~\n Q272=+3 ~\n Q267=-1 ~\n Q260=+50 ~\n Q281=+0 ~\n Q288=+0.1 ~\n Q289=-0.1 ~\n"
+      " Q309=+0 ~\n Q330=+0");
+  RunOrder order = Service::order();
+  order.setup.features = {machine::Plane{{0, 0, 0.05}, {0, 0, 1}}};
+  order.subject = {.part_id = "SN-17", .order = "WO-9"};
+  const RunReport report = service.run(std::move(order));
+  REQUIRE(report.result.status == RunStatus::Completed);
+  const auto records = measurements_of(report, "test");
+  REQUIRE(records.size() == 1);
+  CHECK(records[0].source == Source::Simulation);
+  CHECK(records[0].cycle == 427);
+  CHECK(records[0].run_id == report.id);
+  CHECK(records[0].texts.part_id == "SN-17");
+  CHECK(records[0].texts.order == "WO-9");
+  CHECK(records[0].measured == Length::micrometres(50));
+  CHECK(records[0].result.verdict == gauging::Verdict::Good);
+}
+
+TEST_CASE("each judged value of a cycle leaves a record, and nothing unjudged is good") {
+  Service service;
+  const std::string hole =
+      "TOOL CALL 30 Z\nTCH PROBE 421 MEASURE HOLE ~\n Q273=+50 ~\n"
+      " Q274=+50 ~\n Q262=+25 ~\n Q325=+0 ~\n Q247=+90 ~\n Q261=-10 ~\n"
+      " Q320=+0 ~\n Q260=+50 ~\n Q281=+0 ~\n";
+  service.program(hole + " Q275=+25.01 ~\n Q276=+24.99 ~\n Q279=+0.1 ~\n Q280=+0.1\n" +
+                  hole.substr(15) +
+                  " Q275=+0 ~\n Q276=+0 ~\n Q279=+0 ~\n Q280=+0\n"
+                  "TCH PROBE 420 MEASURE ANGLE ~\n Q263=+0 ~\n Q264=+60 ~\n Q265=+0 ~\n"
+                  " Q266=+80 ~\n Q272=+1 ~\n Q267=+1 ~\n Q261=-10 ~\n Q320=+0 ~\n"
+                  " Q260=+50 ~\n Q281=+0");
+  RunOrder order = Service::order();
+  order.setup.features = {machine::Block{{0, 0, -60}, {100, 100, 0}},
+                          machine::Bore{{50.2, 50}, 0, 40, 25}};
+  const RunReport report = service.run(std::move(order));
+  REQUIRE(report.result.status == RunStatus::Completed);
+  const auto records = measurements_of(report, std::nullopt);
+  REQUIRE(records.size() == 5);
+  using gauging::Verdict;
+  const std::array verdicts{Verdict::Good, Verdict::Reject, Verdict::Good, Verdict::Indeterminate,
+                            Verdict::Indeterminate};
+  const std::array names{"Diameter", "Centre, main axis", "Centre, secondary axis", "Diameter",
+                         "1st point"};
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    CAPTURE(k);
+    CHECK(records[k].result.verdict == verdicts[k]);
+    CHECK(records[k].texts.characteristic == names[k]);
+  }
+}
+
+TEST_CASE("a run is cancelled while it goes on and while it waits, each with its own setup") {
+  Service service;
+  service.program(kForever);
+  RunOrder waiting = endless();
+  waiting.setup.seed = 77;
+  const auto first = service.start(endless()).value();
+  const auto second = service.start(std::move(waiting)).value();
+  const auto unfinished = wait_for<TraceReader>(
+      [&](auto done) { service->runs().trace(second->id(), std::move(done)); });
+  CHECK(unfinished.error().code == ErrorCode::RunUnfinished);
+
+  service->runs().cancel(second);
+  const RunReport queued = service.report_of(*second);
+  CHECK(queued.result.status == RunStatus::Cancelled);
+  CHECK(queued.result.messages.back().kind == MessageKind::Cancelled);
+  CHECK(queued.seed == 77);
+  CHECK(second->news(0).state == RunState::Cancelled);
+
+  service->runs().cancel(first);
+  CHECK(service.report_of(*first).result.status == RunStatus::Cancelled);
+  service->runs().cancel(first);  // is over: nothing happens
+}
+
+TEST_CASE("what is beyond the queue is refused, and a stopping service takes nothing") {
+  Service service;
+  service.program(kForever);
+  std::vector<std::shared_ptr<ActiveRun>> runs;
+  while (true) {
+    auto started = service.start(endless());
+    if (!started) {
+      CHECK(started.error().code == ErrorCode::Overloaded);
+      break;
+    }
+    runs.push_back(*std::move(started));
+  }
+  CHECK(runs.size() == 65);
+  service->runs().stop();
+  for (const auto& run : runs) {
+    CHECK(service.report_of(*run).result.status == RunStatus::Cancelled);
+  }
+  CHECK(service.start(endless()).error().code == ErrorCode::ShuttingDown);
+}
+
+TEST_CASE("runs that are accepted run, however many were cancelled before") {
+  Service service;
+  service.program(kForever);
+  service.upload("TNC:\\short.h", "BEGIN PGM short MM\nQ1 = 1\nEND PGM short MM\n");
+  const auto first = service.start(endless()).value();
+  for (int round = 0; round < 3; ++round) {
+    std::vector<std::shared_ptr<ActiveRun>> cancelled;
+    for (int i = 0; i < 64; ++i) cancelled.push_back(service.start(endless()).value());
+    CHECK(service.start(endless()).error().code == ErrorCode::Overloaded);
+    for (const auto& run : cancelled) service->runs().cancel(run);
+    for (const auto& run : cancelled) {
+      CHECK(service.report_of(*run).result.status == RunStatus::Cancelled);
+    }
+  }
+  std::vector<std::shared_ptr<ActiveRun>> accepted;
+  for (int i = 0; i < 6; ++i) {
+    accepted.push_back(service.start(Service::order("TNC:\\short.h")).value());
+  }
+  service->runs().cancel(first);
+  for (const auto& run : accepted) {
+    CHECK(service.report_of(*run).result.status == RunStatus::Completed);
+  }
+}
+
+TEST_CASE("a report that cannot be made ends the run, and the service goes on") {
+  Service service;
+  service.program("Q1 = 1");
+  service.break_reports();
+  const auto run = service.start(Service::order()).value();
+  std::promise<Result<FinishedRun>> promise;
+  run->on_end([](const Result<FinishedRun>&) { throw std::runtime_error("a follower's bug"); });
+  run->on_end([&promise](const Result<FinishedRun>& end) { promise.set_value(end); });
+  CHECK(promise.get_future().get().error().code == ErrorCode::Internal);
+  while (service->runs().active(run->id())) std::this_thread::yield();
+  CHECK(service.start(Service::order()).has_value());
+}
+
+TEST_CASE("a run whose end is stored is over for everybody, at once") {
+  Service service;
+  service.program("Q1 = 1");
+  for (int i = 0; i < 100; ++i) {
+    const auto run = service.start(Service::order()).value();
+    const auto is_stored = [&] {
+      return !wait_for<StoredRun>([&](auto done) {
+                service->runs().find(run->id(), std::move(done));
+              })->report.empty();
+    };
+    while (!is_stored()) std::this_thread::yield();
+    REQUIRE(service->runs().active(run->id()) == nullptr);
+    const auto followed = wait_for<RunService::Followed>(
+        [&](auto done) { service->runs().follow(run->id(), std::move(done)); });
+    REQUIRE(followed->active == nullptr);
+  }
+}
+
+TEST_CASE("a program that is gone when its turn comes fails with a message") {
+  Service service;
+  const RunReport report = service.run(Service::order("TNC:\\gone.h"));
+  CHECK(report.result.status == RunStatus::Failed);
+  CHECK(report.result.messages.back().program == "TNC:\\gone.h");
+}
+
+TEST_CASE("an answer is kept under its key with the run") {
+  Service service;
+  service.program("Q1 = 1");
+  const IdempotencyScope scope{
+      .caller = "me", .method = "POST", .path = "/v1/runs", .key = "k", .body = "{}"};
+  CHECK_FALSE(service.prepared([&] { return service->runs().kept_answer(scope); })->has_value());
+  const auto started = service.prepared([&] {
+    return service->runs().start(Service::order(), scope, [](const ActiveRun& run) {
+      return Answer{.status = 201, .content_type = {}, .location = run.id_text(), .body = {}};
+    });
+  });
+  REQUIRE(started.has_value());
+  service.report_of(**started);
+  const auto kept = service.prepared([&] { return service->runs().kept_answer(scope); });
+  CHECK((*kept)->location == (*started)->id_text());
+  IdempotencyScope other = scope;
+  other.body = "{ }";
+  CHECK(service.prepared([&] { return service->runs().kept_answer(other); }).error().code ==
+        ErrorCode::IdempotencyKeyReused);
+}
+
+TEST_CASE("runs are listed the newest first, by state and program") {
+  Service service;
+  service.program("Q1 = 1");
+  std::array<std::int64_t, 3> ids{};
+  for (std::int64_t& id : ids) id = service.run(Service::order()).id;
+  const auto list = [&](RunQuery query, std::optional<std::int64_t> after, std::size_t limit) {
+    return wait_for<RunService::Page>([&](auto done) {
+             service->runs().list(std::move(query), after, limit, std::move(done));
+           })
+        .value();
+  };
+  const auto page = list({.state = RunState::Completed, .program = "tnc:\\MAIN.h"}, {}, 2);
+  REQUIRE(page.runs.size() == 2);
+  CHECK(page.runs[0].id == ids[2]);
+  const auto rest = list({}, page.next, 2);
+  REQUIRE(rest.runs.size() == 1);
+  CHECK(rest.runs[0].id == ids[0]);
+  CHECK_FALSE(rest.next);
+  CHECK(list({.state = RunState::Failed, .program = {}}, {}, 2).runs.empty());
+}
+
+}  // namespace
+}  // namespace fitgauge::app
