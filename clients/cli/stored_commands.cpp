@@ -11,7 +11,7 @@
 namespace fitgauge::cli {
 namespace {
 
-Outcome<Answer> send(const Context& context, const Request& request) {
+Outcome<Answer> send_again(const Context& context, const Request& request) {
   return expect_ok(
       send_until_answered(context.client, request, Backoff(context.retry_budget),
                           [&context](const Failure& f, auto) { context.note(f.message); }),
@@ -26,7 +26,7 @@ Outcome<ExitCode> done(const Outcome<Answer>& answer) {
 template <class Line>
 Outcome<ExitCode> list(const Context& context, const std::string& target, std::string_view items,
                        const Line& line) {
-  const auto answer = send(context, {.target = target});
+  const auto answer = send_again(context, {.target = target});
   return show(context, answer, [&](const JsonValue& document) {
     for (const JsonValue& item : document.member(items).items) context.print("{}\n", line(item));
     if (const std::string_view next = document.text_of("next"); !next.empty()) {
@@ -38,7 +38,7 @@ Outcome<ExitCode> list(const Context& context, const std::string& target, std::s
 /// Writes what a GET gives into a file, or standard output.
 Outcome<ExitCode> fetch(const Context& context, const std::string& target,
                         const std::string& file) {
-  const auto answer = send(context, {.target = target});
+  const auto answer = send_again(context, {.target = target});
   if (!answer) return answer.error();
   const auto written = write_file(file.empty() ? "-" : file, answer->body);
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
@@ -62,10 +62,10 @@ Outcome<ExitCode> run_stored_put(const Context& context, const StoredKind& kind,
                                  const std::string& name, const std::string& file) {
   const auto text = read_file(file);
   if (!text) return text.error();
-  return done(send(context, {.method = "PUT",
-                             .target = document_target(kind, name),
-                             .content_type = "application/json",
-                             .body = *text}));
+  return done(send_again(context, {.method = "PUT",
+                                   .target = document_target(kind, name),
+                                   .content_type = "application/json",
+                                   .body = *text}));
 }
 
 Outcome<ExitCode> run_stored_get(const Context& context, const StoredKind& kind,
@@ -75,7 +75,7 @@ Outcome<ExitCode> run_stored_get(const Context& context, const StoredKind& kind,
 
 Outcome<ExitCode> run_stored_rm(const Context& context, const StoredKind& kind,
                                 const std::string& name) {
-  return done(send(context, {.method = "DELETE", .target = document_target(kind, name)}));
+  return done(send_again(context, {.method = "DELETE", .target = document_target(kind, name)}));
 }
 
 Outcome<ExitCode> run_runs_ls(const Context& context, const RunsQuery& query) {
@@ -90,7 +90,7 @@ Outcome<ExitCode> run_runs_ls(const Context& context, const RunsQuery& query) {
 }
 
 Outcome<ExitCode> run_runs_show(const Context& context, const std::string& id) {
-  const auto answer = send(context, {.target = run_target(id)});
+  const auto answer = send_again(context, {.target = run_target(id)});
   return show(context, answer, [&](const JsonValue& run) {
     context.print("{}  {}  {}  {}\n", run.text_of("created_at"), run.text_of("program"),
                   run.text_of("status"), run.text_of("verdict"));

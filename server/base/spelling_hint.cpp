@@ -9,7 +9,7 @@ namespace fitgauge {
 namespace {
 
 /// Longer words are not compared.
-constexpr std::size_t kLongest = 40;
+constexpr std::size_t kLongestWord = 40;
 
 /// The fewest letters to put in, take out, exchange or swap with their neighbour.
 std::size_t edits(std::string_view a, std::string_view b) {
@@ -36,7 +36,8 @@ SpellingHint::SpellingHint(std::string_view word)
 
 void SpellingHint::consider(std::string_view known) {
   // One letter is near to every other.
-  if (word_.size() < 2 || word_.size() > kLongest || known.size() < 2 || known.size() > kLongest) {
+  if (word_.size() < 2 || word_.size() > kLongestWord || known.size() < 2 ||
+      known.size() > kLongestWord) {
     return;
   }
   const std::size_t distance = edits(word_, ascii_upper(known));

@@ -17,14 +17,14 @@ namespace {
 
 const SystemClock kClock;
 
-Result<std::unique_ptr<app::Application>> open(const Config& config, bool attach) {
+Result<std::unique_ptr<app::Application>> open_application(const Config& config, bool attach) {
   app::ApplicationOptions options = application_options(config);
   options.attach = attach;
   return app::Application::open(options, kClock);
 }
 
 Result<std::unique_ptr<app::Application>> attach(const Config& config) {
-  return open(config, true);
+  return open_application(config, true);
 }
 
 /// Whether the daemon never had this data folder: it is not there, or empty.
@@ -81,7 +81,7 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
                  fmt::format("role is viewer, operator, admin or station, not '{}'", role)};
   }
   // A key may be made before the first start; then the database is made too.
-  const auto app = open(config, !is_new(config.data));
+  const auto app = open_application(config, !is_new(config.data));
   if (!app) return app.error();
   const auto token = (*app)->keys().create(name, *known);
   if (!token) return token.error();

@@ -18,7 +18,7 @@ using std::chrono::seconds;
 
 constexpr milliseconds kBetweenGlances{100};
 constexpr seconds kBetweenLines{2};
-constexpr seconds kPatience{60};
+constexpr seconds kCentrePatience{60};
 
 /// Writes to the terminal what the service would write to its log.
 void print(std::string_view event, const std::string& detail) {
@@ -51,7 +51,7 @@ Result<int> run_forward_all(const Config& config) {
       went_on = now;
     }
     if (state.rows == 0 && state.failure.empty()) break;
-    if (state.is_refused || now > went_on + kPatience) {
+    if (state.is_refused || now > went_on + kCentrePatience) {
       std::cout << fmt::format("{} measurements are not at {}: {}\n", state.rows, config.forward_to,
                                state.failure);
       return 1;

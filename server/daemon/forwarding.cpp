@@ -10,7 +10,9 @@
 namespace fitgauge::daemon {
 namespace {
 
-Error invalid(std::string message) { return {ErrorCode::ConfigInvalid, std::move(message)}; }
+Error invalid_forwarding(std::string message) {
+  return {ErrorCode::ConfigInvalid, std::move(message)};
+}
 
 /// `centre.example:8286` of `https://centre.example:8286/`; empty where it is no address of a
 /// centre.
@@ -41,24 +43,25 @@ Result<void> check_forwarding(const Config& config) {
   const std::string& url = config.forward_to;
   if (url.empty()) {
     if (config.forward_key_file.empty() && config.forward_ca.empty()) return {};
-    return invalid("forward-key-file and forward-ca need forward-to, the address of the centre");
+    return invalid_forwarding(
+        "forward-key-file and forward-ca need forward-to, the address of the centre");
   }
   const std::string_view authority = authority_of(url);
   const bool is_plain = url.starts_with("http://");
   if (authority.empty() || !(is_plain || url.starts_with("https://"))) {
-    return invalid(fmt::format(
+    return invalid_forwarding(fmt::format(
         "forward-to takes the address of a centre, as https://host or https://host:port, not '{}'",
         url));
   }
   if (is_plain && !config.forward_insecure && !is_this_machine(authority)) {
-    return invalid(
+    return invalid_forwarding(
         fmt::format("forward-to {} would send the key and the records readable by all: "
                     "give https://, or forward-insecure",
                     url));
   }
   for (const std::string& file : {config.forward_key_file, config.forward_ca}) {
     if (!file.empty() && !std::ifstream(file).good()) {
-      return invalid(fmt::format("cannot read {}", file));
+      return invalid_forwarding(fmt::format("cannot read {}", file));
     }
   }
   return {};

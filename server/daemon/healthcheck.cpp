@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kRequest =
     "GET /readyz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
 
-constexpr std::chrono::seconds kPatience{3};
+constexpr std::chrono::seconds kHealthPatience{3};
 
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free_all)>;
 using SslContext = std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>;
@@ -40,7 +40,7 @@ Result<std::string> address_of(const Config& config) {
 
 void limit_waiting(BIO* connection) {
   const int socket = static_cast<int>(BIO_get_fd(connection, nullptr));
-  const timeval limit{.tv_sec = kPatience.count(), .tv_usec = 0};
+  const timeval limit{.tv_sec = kHealthPatience.count(), .tv_usec = 0};
   setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
   setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
 }
@@ -48,7 +48,7 @@ void limit_waiting(BIO* connection) {
 /// Calls again what a stop of this process has interrupted, as long as it may wait.
 template <class Call>
 int uninterrupted(BIO* connection, const Call& call) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kHealthPatience;
   int result = call();
   while (result <= 0 && BIO_should_retry(connection) && std::chrono::steady_clock::now() < end) {
     result = call();

@@ -17,7 +17,8 @@ LogLevel least = LogLevel::Off;
 /// Where a standard descriptor is closed, the next file opened would become the log's.
 void occupy_standard_descriptors() {
   int descriptor = 0;
-  while ((descriptor = open("/dev/null", O_RDWR | O_CLOEXEC)) >= 0 && descriptor <= STDERR_FILENO) {
+  while ((descriptor = ::open("/dev/null", O_RDWR | O_CLOEXEC)) >= 0 &&
+         descriptor <= STDERR_FILENO) {
   }
   if (descriptor >= 0) close(descriptor);
 }

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 12> kClasses = {
     "ISO 2768-f",   "ISO 2768-m",   "ISO 2768-c",   "ISO 2768-v",   "R ISO 2768-f", "R ISO 2768-m",
     "R ISO 2768-c", "R ISO 2768-v", "C ISO 2768-f", "C ISO 2768-m", "C ISO 2768-c", "C ISO 2768-v"};
 
-Error malformed(std::string_view text) {
+Error not_a_general_tolerance(std::string_view text) {
   return {ErrorCode::DesignationMalformed,
           fmt::format("'{}' is not a general tolerance such as 25 ISO 2768-m, R2 ISO 2768-m or C2 "
                       "ISO 2768-m",
@@ -69,11 +69,11 @@ Result<DesignatedLimits> general_tolerance(std::string_view designation) {
   if (is_edge) rest.remove_prefix(1);
   const std::size_t at = rest.find(kGeneralTolerance);
   if (at == std::string_view::npos || trim(designation) != designation) {
-    return malformed(designation);
+    return not_a_general_tolerance(designation);
   }
   const auto size = parse_length_mm(trim(rest.substr(0, at)), {.decimal_comma = true});
   if (!size && size.error().code == ErrorCode::LengthTooFine) return size.error();
-  if (!size || *size <= Length()) return malformed(designation);
+  if (!size || *size <= Length()) return not_a_general_tolerance(designation);
   const std::string name = is_edge ? fmt::format("{} {}", designation.front(), rest.substr(at))
                                    : std::string(rest.substr(at));
   return general_tolerance(*size, name);

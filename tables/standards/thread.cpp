@@ -32,7 +32,7 @@ struct Thread {
   std::string classes{};  ///< as given: `6g`, `5g6g`
 };
 
-Error malformed(std::string_view text) {
+Error not_a_thread(std::string_view text) {
   return {ErrorCode::DesignationMalformed,
           fmt::format("'{}' is not a thread such as M10-6H or M10x1.25-6g",
                       first_characters(text, 40))};
@@ -64,7 +64,7 @@ Result<Length> take_size(std::string_view& rest, std::string_view whole) {
   rest.remove_prefix(end);
   if (size && *size > Length()) return *size;
   if (!size && size.error().code == ErrorCode::LengthTooFine) return size.error();
-  return malformed(whole);
+  return not_a_thread(whole);
 }
 
 bool take(std::string_view& rest, std::string_view what) {
@@ -84,7 +84,7 @@ Result<std::optional<Length>> coarse_pitch(Length diameter) {
 
 Result<Thread> parse(std::string_view designation) {
   std::string_view rest = designation;
-  if (!take(rest, "M")) return malformed(designation);
+  if (!take(rest, "M")) return not_a_thread(designation);
   const auto diameter = take_size(rest, designation);
   if (!diameter) return diameter.error();
   Thread thread{.diameter = *diameter, .pitch = {}, .coarse = {}};
@@ -99,7 +99,7 @@ Result<Thread> parse(std::string_view designation) {
   const auto second = class_of(rest.size() > 2 ? rest.substr(2) : "");
   if (!hyphen || !first || (rest.size() != 2 && !(rest.size() == 4 && second)) ||
       (second && (second->is_internal() != first->is_internal() || !is_crest_class(*second)))) {
-    return malformed(designation);
+    return not_a_thread(designation);
   }
   thread.pitch_class = *first;
   thread.classes = rest;

@@ -7,7 +7,7 @@
 namespace fitgauge::api {
 namespace {
 
-void write_columns(JsonWriter& json, const std::vector<iso286::CustomColumn>& columns) {
+void write_custom_columns(JsonWriter& json, const std::vector<iso286::CustomColumn>& columns) {
   json.key("columns").begin_array();
   for (const iso286::CustomColumn& column : columns) {
     json.begin_object()
@@ -34,7 +34,7 @@ void write_revision(JsonWriter& json, const app::Revision& revision) {
   switch (revision.kind) {
     case app::RevisionKind::Tables:
       json.member("table_revision", revision.id);
-      write_columns(json, revision.columns);
+      write_custom_columns(json, revision.columns);
       break;
     case app::RevisionKind::Key:
       if (revision.is_removed) break;

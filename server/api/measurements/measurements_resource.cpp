@@ -14,7 +14,7 @@
 namespace fitgauge::api {
 namespace {
 
-constexpr std::size_t kBodyLimit = std::size_t{32} << 20;
+constexpr std::size_t kLargestRows = std::size_t{32} << 20;
 
 void find_measurement(const Services& services, const http::Request& request,
                       http::Responder responder) {
@@ -96,7 +96,7 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .parameters = posting_parameters(),
       .body = {.use = http::BodyUse::Required,
                .media_types = {"application/json", "application/x-ndjson", "text/csv"},
-               .limit = kBodyLimit,
+               .limit = kLargestRows,
                .schema = "NewMeasurements"},
       .access = "operator",
       .operation = "postMeasurements",

@@ -12,7 +12,7 @@
 namespace fitgauge::log_reader {
 namespace {
 
-constexpr std::size_t kMostUnread = 100;
+constexpr std::size_t kMostUnreadOfPattern = 100;
 
 /// As the fields of a measurement go, with the control's date and time of day.
 constexpr std::array<std::string_view, 19> kFields{
@@ -158,7 +158,7 @@ PatternReading Pattern::read(std::string_view bytes) const {
     Fields fields;
     if (!matches(lines_[at], line, fields)) {
       if (at == 0 || !matches(lines_.front(), line, fields = {})) continue;
-      if (reading.unread.size() < kMostUnread) {
+      if (reading.unread.size() < kMostUnreadOfPattern) {
         reading.unread.push_back(
             {begun,
              fmt::format("the result that begins here lacks line {} of its pattern", at + 1)});

@@ -27,7 +27,7 @@ bool is_number(std::string_view text) {
 
 /// More values than any cycle has, and more findings than anyone reads.
 constexpr std::size_t kMostEntries = 100;
-constexpr std::size_t kMostUnread = 100;
+constexpr std::size_t kMostUnreadLines = 100;
 
 /// A line of dashes, stars or the like, and nothing else.
 bool is_rule(std::string_view line) {
@@ -80,7 +80,7 @@ void TextReader::begin(int cycle) {
 }
 
 void TextReader::spoil(std::size_t line, std::string why) {
-  if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
+  if (!is_spoiled_ && reading_.unread.size() < kMostUnreadLines) {
     reading_.unread.push_back({line, std::move(why)});
   }
   is_spoiled_ = true;

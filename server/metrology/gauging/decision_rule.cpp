@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kFactorScale = 6;
 
-constexpr std::array kWords = {std::string_view("simple"), std::string_view("guard_band"),
-                               std::string_view("conformance")};
+constexpr std::array kRuleWords = {std::string_view("simple"), std::string_view("guard_band"),
+                                   std::string_view("conformance")};
 
 }  // namespace
 
@@ -70,11 +70,13 @@ Result<DecisionRule> DecisionRule::conformance(Length standard_uncertainty,
   return rule;
 }
 
-std::string_view word(DecisionRule::Kind kind) { return kWords[static_cast<std::size_t>(kind)]; }
+std::string_view word(DecisionRule::Kind kind) {
+  return kRuleWords[static_cast<std::size_t>(kind)];
+}
 
 std::optional<DecisionRule::Kind> rule_from_word(std::string_view text) {
-  for (std::size_t i = 0; i < kWords.size(); ++i) {
-    if (kWords[i] == text) return static_cast<DecisionRule::Kind>(i);
+  for (std::size_t i = 0; i < kRuleWords.size(); ++i) {
+    if (kRuleWords[i] == text) return static_cast<DecisionRule::Kind>(i);
   }
   return std::nullopt;
 }

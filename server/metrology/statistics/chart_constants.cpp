@@ -8,13 +8,13 @@
 namespace fitgauge::metrology {
 namespace {
 
-constexpr double kFar = 9;          // the density beyond is below 1e-18
+constexpr double kFarOut = 9;       // the density beyond is below 1e-18
 constexpr double kStep = 1.0 / 16;  // the trapezium rule over such a density is exact to rounding
 
 template <class F>
 double over_all(const F& f) {
   double sum = 0;
-  for (double x = -kFar; x <= kFar; x += kStep) sum += f(x);
+  for (double x = -kFarOut; x <= kFarOut; x += kStep) sum += f(x);
   return sum * kStep;
 }
 
@@ -29,7 +29,7 @@ double half_mean_square_range(double n) {
   };
   double sum = 0;
   constexpr int kPanels = 4;
-  constexpr double kWidest = 2 * kFar;
+  constexpr double kWidest = 2 * kFarOut;
   for (int panel = 0; panel < kPanels; ++panel) {
     sum += boost::math::quadrature::gauss<double, 20>::integrate(
         not_within, kWidest * panel / kPanels, kWidest * (panel + 1) / kPanels);

@@ -14,7 +14,7 @@
 namespace fitgauge::metrology {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ChartKind>, 5> kWords = {{
+constexpr std::array<std::pair<std::string_view, ChartKind>, 5> kChartWords = {{
     {"i_mr", ChartKind::IMr},
     {"xbar_r", ChartKind::XbarR},
     {"xbar_s", ChartKind::XbarS},
@@ -273,10 +273,10 @@ Result<Phase> phase_of(const Subgroups& data, const ChartPlan& plan) {
 
 }  // namespace
 
-std::string_view word(ChartKind kind) { return kWords[static_cast<std::size_t>(kind)].first; }
+std::string_view word(ChartKind kind) { return kChartWords[static_cast<std::size_t>(kind)].first; }
 
 std::optional<ChartKind> chart_kind_from_word(std::string_view text) {
-  for (const auto& [name, kind] : kWords) {
+  for (const auto& [name, kind] : kChartWords) {
     if (name == text) return kind;
   }
   return std::nullopt;

@@ -12,7 +12,7 @@
 namespace fitgauge::metrology {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Distribution>, 5> kWords = {{
+constexpr std::array<std::pair<std::string_view, Distribution>, 5> kDistributionWords = {{
     {"normal", Distribution::Normal},
     {"rectangular", Distribution::Rectangular},
     {"triangular", Distribution::Triangular},
@@ -116,7 +116,7 @@ double draw(Random& random, const Contribution& c) {
 }  // namespace
 
 std::optional<Distribution> distribution_from_word(std::string_view text) {
-  for (const auto& [name, distribution] : kWords) {
+  for (const auto& [name, distribution] : kDistributionWords) {
     if (name == text) return distribution;
   }
   return std::nullopt;

@@ -11,7 +11,7 @@ using control_link::Mode;
 using control_link::ProgramState;
 
 /// How long a running program is waited for until it tells where it is.
-constexpr std::chrono::milliseconds kPatience{50};
+constexpr std::chrono::milliseconds kMachinePatience{50};
 
 bool is_under_way(RunState state) {
   return state == RunState::Queued || state == RunState::Running;
@@ -37,7 +37,7 @@ double at_rest(const machine::Setup& setup, machine::Axis axis) {
   return axis == machine::Axis::Z ? range->max : 0;
 }
 
-ControlError refusal_of(const Error& error) {
+ControlError refusal_of_program(const Error& error) {
   switch (error.code) {
     case ErrorCode::ProgramUnknown: return ControlError::NoFile;
     case ErrorCode::ProgramInvalid:
@@ -63,7 +63,7 @@ std::shared_ptr<app::ActiveRun> MachineView::newest() {
 
 app::LiveState MachineView::look() {
   const auto run = newest();
-  return run == nullptr ? app::LiveState() : run->look(app::Look::State, kPatience);
+  return run == nullptr ? app::LiveState() : run->look(app::Look::State, kMachinePatience);
 }
 
 control_link::Axes MachineView::axes() {
@@ -102,7 +102,7 @@ ProgramState MachineView::state() {
 control_link::ProgramStack MachineView::program() {
   const auto run = newest();
   if (run == nullptr) return {};
-  app::LiveState state = run->look(app::Look::State, kPatience);
+  app::LiveState state = run->look(app::Look::State, kMachinePatience);
   return {.line = state.block,
           .main = run->program(),
           .current = state.program.empty() ? run->program() : std::move(state.program)};
@@ -124,7 +124,7 @@ control_link::ControlResult<std::shared_ptr<app::ActiveRun>> MachineView::start(
   const auto run = newest();
   if (run != nullptr && is_under_way(run->state())) return ControlError::WrongMode;
   auto started = start_(program);
-  if (!started) return refusal_of(started.error());
+  if (!started) return refusal_of_program(started.error());
   started_ = *std::move(started);
   return started_;
 }

@@ -6,7 +6,7 @@
 using namespace fitgauge;
 
 namespace {
-ErrorCode refused(std::string_view text) {
+ErrorCode json_refused(std::string_view text) {
   const auto value = parse_json(text);
   REQUIRE_MESSAGE(value.has_error(), text);
   return value.error().code;
@@ -30,24 +30,24 @@ TEST_CASE("unreadable JSON says where") {
   CHECK(value.error().where.starts_with("line 2, column "));
   for (const char* text :
        {"", "{", "[1,]", "01", "NaN", "{\"a\":1}{}", "'a'", "\"\\ud800\"", "+1"}) {
-    CHECK_MESSAGE(refused(text) == ErrorCode::JsonMalformed, text);
+    CHECK_MESSAGE(json_refused(text) == ErrorCode::JsonMalformed, text);
   }
 }
 
 TEST_CASE("a byte-order mark and invalid UTF-8 are refused") {
-  CHECK(refused("\xEF\xBB\xBF{}") == ErrorCode::TextEncoding);
-  CHECK(refused("\"\xFF\"") == ErrorCode::TextEncoding);
+  CHECK(json_refused("\xEF\xBB\xBF{}") == ErrorCode::TextEncoding);
+  CHECK(json_refused("\"\xFF\"") == ErrorCode::TextEncoding);
 }
 
 TEST_CASE("duplicate keys are refused, also in nested objects") {
-  CHECK(refused(R"({"a":1,"a":2})") == ErrorCode::JsonDuplicateKey);
-  CHECK(refused(R"([{"b":{"a":1,"\u0061":2}}])") == ErrorCode::JsonDuplicateKey);
+  CHECK(json_refused(R"({"a":1,"a":2})") == ErrorCode::JsonDuplicateKey);
+  CHECK(json_refused(R"([{"b":{"a":1,"\u0061":2}}])") == ErrorCode::JsonDuplicateKey);
 }
 
 TEST_CASE("what follows a NUL is read too") {
   using namespace std::string_view_literals;
   for (const auto text : {"{}\0"sv, "{}\0x"sv, "\0{}"sv, "{\"a\":1\0}"sv, "\"a\0\""sv}) {
-    CHECK(refused(text) == ErrorCode::JsonMalformed);
+    CHECK(json_refused(text) == ErrorCode::JsonMalformed);
   }
 }
 
@@ -58,18 +58,18 @@ TEST_CASE("an object may have very many members") {
   REQUIRE(object.has_value());
   CHECK(object->members.size() == 200'001);
   CHECK(object->find("k199999")->text == "199999");
-  CHECK(refused('{' + members + "\"k7\":0}") == ErrorCode::JsonDuplicateKey);
+  CHECK(json_refused('{' + members + "\"k7\":0}") == ErrorCode::JsonDuplicateKey);
 }
 
 TEST_CASE("the number of values is limited") {
   std::string zeros(5'200'000, '0');
   for (std::size_t i = 1; i < zeros.size(); i += 2) zeros[i] = ',';
   zeros.pop_back();
-  CHECK(refused('[' + zeros + ']') == ErrorCode::BodyTooLarge);
+  CHECK(json_refused('[' + zeros + ']') == ErrorCode::BodyTooLarge);
 }
 
 TEST_CASE("depth is limited before it costs anything") {
-  CHECK(refused(std::string(500'000, '[')) == ErrorCode::JsonTooDeep);
+  CHECK(json_refused(std::string(500'000, '[')) == ErrorCode::JsonTooDeep);
   CHECK(parse_json(std::string(32, '[') + std::string(32, ']')).has_value());
 }
 

@@ -10,7 +10,7 @@ using namespace fitgauge::cli;
 
 namespace {
 
-constexpr Terminal kPlain{};
+constexpr Terminal kPlainTerminal{};
 constexpr Terminal kUnicode{.unicode = true};
 
 ToleranceZone zone(const char* name, std::int64_t lower_nm, std::int64_t upper_nm) {
@@ -30,7 +30,7 @@ std::string draw(const ToleranceZone& hole, const ToleranceZone& shaft, const Te
 }  // namespace
 
 TEST_CASE("a clearance fit stands on both sides of the zero line") {
-  CHECK(draw(zone("hole", 0, 20'000), zone("shaft", -20'000, -10'000), kPlain) ==
+  CHECK(draw(zone("hole", 0, 20'000), zone("shaft", -20'000, -10'000), kPlainTerminal) ==
         "  hole                            shaft\n"
         "  ######## ES +20 um\n"
         "  ########\n"
@@ -53,14 +53,14 @@ TEST_CASE("block characters show half lines") {
 
 TEST_CASE("a zone about the zero line interrupts it") {
   const std::string drawing =
-      draw(zone("hole", -10'000, 10'000), zone("shaft", -20'000, 0), kPlain);
+      draw(zone("hole", -10'000, 10'000), zone("shaft", -20'000, 0), kPlainTerminal);
   CHECK(drawing.find("\n--########------------------------") != std::string::npos);
   CHECK(drawing.find("--- es 0 um ") != std::string::npos);
 }
 
 TEST_CASE("a thin zone shows, with both of its deviations") {
   const std::string drawing =
-      draw(zone("hole", 0, 100'000), zone("shaft", -50'001, -50'000), kPlain);
+      draw(zone("hole", 0, 100'000), zone("shaft", -50'001, -50'000), kPlainTerminal);
   CHECK(drawing.find("######## es -50, ei -50.001 um\n") != std::string::npos);
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("colour is a matter of the terminal") {
   ToleranceZone hole = zone("hole", 0, 20'000);
   hole.colour = Colour::Yellow;
   const ToleranceZone shaft = zone("shaft", -20'000, -10'000);
-  CHECK(draw(hole, shaft, kPlain).find('\x1b') == std::string::npos);
+  CHECK(draw(hole, shaft, kPlainTerminal).find('\x1b') == std::string::npos);
   CHECK(draw(hole, shaft, {.colour = true}).find("\x1b[33m########\x1b[0m ES +20") !=
         std::string::npos);
 }
@@ -88,7 +88,7 @@ TEST_CASE("both deviations of every zone are named once, whatever the sizes are"
         CAPTURE(tolerance);
         CAPTURE(rows);
         const std::string drawing = draw(zone("hole", lower, lower + tolerance),
-                                         zone("shaft", -20'000, -7'000), kPlain, rows);
+                                         zone("shaft", -20'000, -7'000), kPlainTerminal, rows);
         for (const char* name : {"ES ", "EI ", "es ", "ei "}) CHECK(count(drawing, name) == 1);
         CHECK(static_cast<std::size_t>(std::count(drawing.begin(), drawing.end(), '\n')) <=
               rows + 4);

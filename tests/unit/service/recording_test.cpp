@@ -17,10 +17,10 @@ using namespace fitgauge::app;
 namespace {
 
 /// Writes down the ids it is given.
-class Ids final : public Rendering {
+class RenderedIds final : public Rendering {
  public:
   /// @param taken gets them at the end.
-  explicit Ids(std::vector<std::int64_t>* taken = nullptr) : taken_(taken) {}
+  explicit RenderedIds(std::vector<std::int64_t>* taken = nullptr) : taken_(taken) {}
   void add(std::span<const Measurement> measurements, std::string_view) override {
     for (const Measurement& m : measurements) ids.push_back(m.id);
   }
@@ -59,7 +59,7 @@ auto long_request(Service& service, const Work& work) {
 
 TEST_CASE("a request is stored while it is read, in its order") {
   Service service;
-  Ids rendering;
+  RenderedIds rendering;
   const auto answer = long_request(service, [&] {
     return service->measurements().record_while_reading(
         [](const MeasurementService::Take& take) -> Result<void> {
@@ -85,7 +85,7 @@ TEST_CASE("a request is stored while it is read, in its order") {
 
 TEST_CASE("nothing is kept of a request that turns out to be wrong, or whose reading throws") {
   Service service;
-  Ids rendering;
+  RenderedIds rendering;
   bool throws = false;
   SUBCASE("wrong") {}
   SUBCASE("throws") { throws = true; }
@@ -105,7 +105,7 @@ TEST_CASE("nothing is kept of a request that turns out to be wrong, or whose rea
 
 TEST_CASE("a request that is wrong from the start never reaches the writer") {
   Service service;
-  Ids rendering;
+  RenderedIds rendering;
   const auto answer = long_request(service, [&] {
     return service->measurements().record_while_reading(
         [](const MeasurementService::Take&) -> Result<void> {
@@ -127,7 +127,7 @@ TEST_CASE("the answer of a long request is kept under its key with its rows") {
   Service service;
   const auto post = [&](std::int64_t count) {
     return long_request(service, [&, count] {
-      Ids rendering;
+      RenderedIds rendering;
       return service->measurements().record_while_reading(
           [count](const MeasurementService::Take& take) -> Result<void> {
             for (std::int64_t piece = 0; piece < count; ++piece) take(bores(0, 100));
@@ -175,7 +175,7 @@ TEST_CASE("small requests at once are all stored, each with the ids of its own r
       std::vector<std::int64_t> ids;
       const auto answer = wait_for<Answer>([&](auto done) {
         service->measurements().record(
-            bores(number, 2), std::nullopt, [&ids] { return std::make_unique<Ids>(&ids); },
+            bores(number, 2), std::nullopt, [&ids] { return std::make_unique<RenderedIds>(&ids); },
             std::move(done));
       });
       if (!answer || ids.size() != 2 || ids[1] != ids[0] + 1) continue;
@@ -210,7 +210,7 @@ TEST_CASE("a request that hits a bug is refused, those stored with it are not") 
     together.arrive_and_wait();
     const auto answer = wait_for<Answer>([&](auto done) {
       service->measurements().record(
-          std::move(measurements), std::nullopt, [] { return std::make_unique<Ids>(); },
+          std::move(measurements), std::nullopt, [] { return std::make_unique<RenderedIds>(); },
           std::move(done));
     });
     ++(answer ? accepted : refused);
@@ -244,10 +244,10 @@ TEST_CASE("one request more than may wait is refused at once") {
   post([&] {
     held.set_value();
     release.get_future().wait();
-    return std::make_unique<Ids>();
+    return std::make_unique<RenderedIds>();
   });
   held.get_future().wait();
-  for (int i = 0; i < 6; ++i) post([] { return std::make_unique<Ids>(); });
+  for (int i = 0; i < 6; ++i) post([] { return std::make_unique<RenderedIds>(); });
   CHECK(refused == 2);
   release.set_value();
   CHECK(comes_true([&] { return accepted == 5; }));

@@ -13,9 +13,9 @@ using namespace fitgauge::store::test;
 
 namespace {
 
-constexpr int kMachine = number_of(TextField::Machine);
+constexpr int kMachineField = number_of(TextField::Machine);
 constexpr int kGauge = number_of(TextField::Gauge);
-constexpr int kOperator = number_of(TextField::Operator);
+constexpr int kOperatorField = number_of(TextField::Operator);
 
 using Tuple = std::tuple<std::string, std::string, int>;
 using Sums = std::map<Tuple, ExactStatistics>;
@@ -26,8 +26,8 @@ PairIndex::Node any_node(std::mt19937_64& random, bool has_operator, Sums& all) 
   std::vector<std::uint8_t> kinds;
   std::vector<std::int64_t> lengths;
   for (auto& column : columns) column.give_up();
-  for (const int field : {kMachine, kGauge, kOperator}) {
-    if (field != kOperator || has_operator) columns[column_of_field(field)] = {};
+  for (const int field : {kMachineField, kGauge, kOperatorField}) {
+    if (field != kOperatorField || has_operator) columns[column_of_field(field)] = {};
   }
   const auto add = [&](int field, std::string_view value) {
     NumberedColumn& column = columns[column_of_field(field)];
@@ -37,9 +37,9 @@ PairIndex::Node any_node(std::mt19937_64& random, bool has_operator, Sums& all) 
   for (int row = 0; row < 100; ++row) {
     const std::string machine = "M" + std::to_string(random() % 20);
     const std::string gauge = "G" + std::to_string(random() % 15);
-    add(kMachine, machine);
+    add(kMachineField, machine);
     add(kGauge, gauge);
-    add(kOperator, "42");
+    add(kOperatorField, "42");
     kinds.push_back(static_cast<std::uint8_t>(9 + random() % 2));
     lengths.push_back(static_cast<std::int64_t>(random() % 1000));
     all[{machine, gauge, kinds.back()}].add(lengths.back());
@@ -67,9 +67,9 @@ TEST_CASE("the tuples of a node are those of the nodes below, by the fields that
     index.insert(parent.child(i), any_node(random, i != 5, expected));
   }
   const PairIndex::Node joined = index.derive(parent);
-  CHECK_FALSE(joined.pairs.contains({kOperator, 0}));
+  CHECK_FALSE(joined.pairs.contains({kOperatorField, 0}));
   TupleColumn machines, gauges;
-  REQUIRE(machines.read(joined.pairs.at({kMachine, 0})));
+  REQUIRE(machines.read(joined.pairs.at({kMachineField, 0})));
   REQUIRE(gauges.read(joined.pairs.at({kGauge, 0})));
   REQUIRE(expected.size() > kTuplesTogether);
   REQUIRE(machines.numbers.size() == expected.size());

@@ -17,11 +17,11 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr std::size_t kLimit = 1'000'000;
+constexpr std::size_t kBodyLimit = 1'000'000;
 
 std::vector<Route> limited_routes() {
   return {echo(Method::Get, "/a"),
-          echo(Method::Post, "/p", {.use = BodyUse::Optional, .limit = kLimit}),
+          echo(Method::Post, "/p", {.use = BodyUse::Optional, .limit = kBodyLimit}),
           {.pattern = "/large",
            .handler = [](const Request&) -> Result<Response> {
              // More than sockets take. NOLINTNEXTLINE(bugprone-string-constructor)
@@ -170,7 +170,7 @@ TEST_CASE("a sender who was refused reads the answer at its own pace, as long as
   // A machine that stands still makes it silent by chance.
   const auto is_heard_out = [&] {
     Client client = server.connect();
-    bool goes_on = client.send(post_head(kLimit + 1));
+    bool goes_on = client.send(post_head(kBodyLimit + 1));
     for (int i = 0; i < 40 && goes_on; ++i) {
       std::this_thread::sleep_for(100ms);
       goes_on = client.send("x");
@@ -188,7 +188,7 @@ TEST_CASE("half-sent large bodies hold no more than the budget, and others are s
   std::vector<Client> stalled;
   for (int i = 0; i < 20; ++i) {
     stalled.push_back(server.connect());
-    stalled.back().send(post_head(kLimit) + std::string(30'000, 'x'));
+    stalled.back().send(post_head(kBodyLimit) + std::string(30'000, 'x'));
   }
   const auto in_flight = [&] { return server.server().counters().body_bytes_in_flight; };
   CHECK(comes_true([&] { return in_flight() == 2'000'000; }));
@@ -198,7 +198,8 @@ TEST_CASE("half-sent large bodies hold no more than the budget, and others are s
   CHECK(server.ask(get("/a")).status == 200);
   CHECK(server.ask(post("/p", "text/plain", std::string(16'000, 's'))).body.size() == 16'000);
   // A large one waits until one of the senders that have stopped gives way.
-  CHECK(server.ask(post("/p", "text/plain", std::string(kLimit, 'l'))).body.size() == kLimit);
+  CHECK(server.ask(post("/p", "text/plain", std::string(kBodyLimit, 'l'))).body.size() ==
+        kBodyLimit);
   CHECK(server.server().counters().body_bytes_in_flight <= 2'500'000);
 }
 
@@ -214,9 +215,9 @@ TEST_CASE("a body that waits too long for memory is 503") {
 
 TEST_CASE("chunked bodies take their budget as they grow and give it back") {
   ServerOptions options;
-  options.body_budget = kLimit;
+  options.body_budget = kBodyLimit;
   TestServer server(limited_routes(), options);
-  const std::string body(kLimit, 'c');
+  const std::string body(kBodyLimit, 'c');
   const std::string request = "POST /p HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n" +
                               fmt::format("{:x}\r\n{}\r\n0\r\n\r\n", body.size(), body);
   for (int i = 0; i < 3; ++i) CHECK(server.ask(request).body == body);

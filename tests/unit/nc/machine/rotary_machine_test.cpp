@@ -18,7 +18,7 @@ Setup sphere_setup() {
   return setup;
 }
 
-void call_probe(Machine& machine) {
+void call_rotary_probe(Machine& machine) {
   ToolCall call;
   call.number = 30;
   call.axis = Axis::Z;
@@ -47,7 +47,7 @@ double touch_top(Machine& machine, const Vec3& centre) {
 
 TEST_CASE("the workpiece turns with the table") {
   SimulatedMachine machine(sphere_setup());
-  call_probe(machine);
+  call_rotary_probe(machine);
   CHECK(near(touch_top(machine, {100, 20, 50}), 62.5));
   turn(machine, Axis::C, 90);  // the workpiece turns by -90 degrees
   CHECK(near(touch_top(machine, {20, -100, 50}), 62.5));
@@ -59,7 +59,7 @@ TEST_CASE("the workpiece turns with the table") {
 TEST_CASE("a tilted plane follows the table and is probed square to the plane") {
   Setup setup = sphere_setup();
   SimulatedMachine machine(setup);
-  call_probe(machine);
+  call_rotary_probe(machine);
   Frames frames = machine.state().frames;
   frames.set_plane(TiltedPlane{{30, 0, 0}, {100, 20, 50}});
   REQUIRE(ok(machine.set_frames(frames)));
@@ -82,7 +82,7 @@ TEST_CASE("a tilted plane follows the table and is probed square to the plane") 
 
 TEST_CASE("with TCPM the tip keeps its place on the workpiece") {
   SimulatedMachine machine(sphere_setup());
-  call_probe(machine);
+  call_rotary_probe(machine);
   LinearMove above;
   above.target = AxisWords::linear({100, 20, 80});
   REQUIRE(ok(machine.move(above)));
@@ -103,7 +103,7 @@ TEST_CASE("with TCPM the nose keeps to the ranges of the axes on its way, not on
   setup.machine.axes[index(Axis::X)]->min = -100;
   setup.machine.axes[index(Axis::X)]->max = 100;
   SimulatedMachine machine(setup);
-  call_probe(machine);
+  call_rotary_probe(machine);
   LinearMove aside;
   aside.target = AxisWords::linear({0, 300, 200});
   REQUIRE(ok(machine.move(aside)));
@@ -124,7 +124,7 @@ TEST_CASE("a head tilts the tool around the nose, and with TCPM around the tip")
   setup.machine.axes[index(Axis::B)] = AxisSetup::of(Axis::B);
   setup.machine.axes[index(Axis::B)]->mount = AxisMount::Head;
   SimulatedMachine machine(setup);
-  call_probe(machine);
+  call_rotary_probe(machine);
   turn(machine, Axis::B, 90);
   check_near(machine.state().nose.linear, {0, 0, 500});
   check_near(machine.position().linear, {-120, 0, 500});
@@ -142,7 +142,7 @@ TEST_CASE("errors of centre, direction and backlash move the sphere, not the mod
   AxisSetup& table = *setup.machine.axes[index(Axis::C)];
   table.centre_error = {0.02, -0.01, 0};
   SimulatedMachine machine(setup);
-  call_probe(machine);
+  call_rotary_probe(machine);
   const Vec3 ideal = machine.state().kinematics.table({0, 0, 180}).point({100, 20, 50});
   turn(machine, Axis::C, 180);
   // Half a turn doubles the error of the centre: touch the real centre to see it.
@@ -152,7 +152,7 @@ TEST_CASE("errors of centre, direction and backlash move the sphere, not the mod
   table.centre_error = {};
   table.tilt_error_deg = {0.1, 0, 0};
   SimulatedMachine tilted(setup);
-  call_probe(tilted);
+  call_rotary_probe(tilted);
   turn(tilted, Axis::C, 180);
   const Vec3 direction = Matrix3::spatial({0.1, 0, 0}) * Vec3{0, 0, 1};
   const Vec3 moved = Transform::rotation_around({0, 0, -100}, direction, -180).point({100, 20, 50});
@@ -161,7 +161,7 @@ TEST_CASE("errors of centre, direction and backlash move the sphere, not the mod
   table.tilt_error_deg = {};
   table.backlash_deg = 0.05;
   SimulatedMachine loose(setup);
-  call_probe(loose);
+  call_rotary_probe(loose);
   turn(loose, Axis::C, 100);
   turn(loose, Axis::C, 90);  // from above: the table lags
   const Vec3 lagging = loose.state().kinematics.table({0, 0, 90.05}).point({100, 20, 50});
@@ -172,7 +172,7 @@ TEST_CASE("a turned table comes to rest with the scatter of its axis") {
   Setup setup = sphere_setup();
   setup.machine.axes[index(Axis::C)]->scatter_um = 2;
   SimulatedMachine machine(setup);
-  call_probe(machine);
+  call_rotary_probe(machine);
   double squares = 0;
   constexpr int kTurns = 300;
   for (int k = 0; k < kTurns; ++k) {
@@ -195,7 +195,7 @@ TEST_CASE("an axis with a Hirth grid stops on teeth only") {
 
 TEST_CASE("a corrected model is what the frames follow") {
   SimulatedMachine machine(sphere_setup());
-  call_probe(machine);
+  call_rotary_probe(machine);
   std::vector<RotaryAxis> axes = machine.state().kinematics.axes();
   for (RotaryAxis& axis : axes) axis.centre = axis.centre + Vec3{1, 0, 0};
   REQUIRE(ok(machine.set_kinematics(Kinematics(axes))));

@@ -5,7 +5,7 @@
 namespace fitgauge::probing {
 namespace {
 
-const machine::Block kPlate{.min = {0, 0, -40}, .max = {100, 80, 0.3}};
+const machine::Block kDatumPlate{.min = {0, 0, -40}, .max = {100, 80, 0.3}};
 
 Values block() {
   return {{263, 50.0}, {264, 40.0}, {294, 0.0}, {320, 0.0}, {260, 50.0}, {333, 5.0}};
@@ -20,7 +20,7 @@ const machine::PresetFrame& row(const ProbingBench& bench, int number) {
 }  // namespace
 
 TEST_CASE("417 stores the datum, 247 activates it: the touched point then reads Q333") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kDatumPlate});
   CHECK(bench.run(417, with(block(), {{305, 9.0}, {303, 1.0}})) == 0);
   CHECK(same(bench.host.q[160], 0.3));
   CHECK(row(bench, 9).origin == machine::Vec3{0, 0, -4.7});
@@ -33,7 +33,7 @@ TEST_CASE("417 stores the datum, 247 activates it: the touched point then reads 
 }
 
 TEST_CASE("417 with Q305 = 0 makes row 0 the active preset at once") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kDatumPlate});
   CHECK(bench.run(417, with(block(), {{305, 0.0}, {303, -1.0}})) == 0);
   CHECK(bench.machine.state().active_preset == 0);
   CHECK(row(bench, 0).origin == machine::Vec3{0, 0, -4.7});
@@ -41,7 +41,7 @@ TEST_CASE("417 with Q305 = 0 makes row 0 the active preset at once") {
 }
 
 TEST_CASE("417 changes only the probe axis of an existing row") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kDatumPlate});
   machine::Preset other{.number = 4, .comment = "VICE", .frame = {}};
   other.frame.origin = {10, 20, 30};
   other.frame.basic_rotation_deg = {0, 0, 15};
@@ -53,7 +53,7 @@ TEST_CASE("417 changes only the probe axis of an existing row") {
 }
 
 TEST_CASE("417 with Q303 = 0 writes the active datum table, relative to the preset") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kDatumPlate});
   const Values datum = with(block(), {{305, 3.0}, {303, 0.0}});
   CHECK(bench.run(417, datum) == 1043);
   bench.host.has_datum_table = true;
@@ -69,7 +69,7 @@ TEST_CASE("417 with Q303 = 0 writes the active datum table, relative to the pres
 }
 
 TEST_CASE("417: errors of the transfer and of active transformations") {
-  ProbingBench bench({kPlate});
+  ProbingBench bench({kDatumPlate});
   CHECK(bench.run(417, with(block(), {{305, 3.0}, {303, -1.0}})) == 1078);
   machine::Preset locked{.number = 6, .comment = {}, .frame = {}, .locked = true};
   REQUIRE(bench.machine.write_preset(locked).has_value());

@@ -5,14 +5,14 @@
 namespace fitgauge::probing {
 namespace {
 
-constexpr int kResult = word(ParameterId::WordResult);
-constexpr int kAxis = word(ParameterId::WordAxis);
+constexpr int kDottedResult = word(ParameterId::WordResult);
+constexpr int kDottedAxis = word(ParameterId::WordAxis);
 constexpr int kDirection = word(ParameterId::WordDirection);
-constexpr int kX = word(ParameterId::WordX);
-constexpr int kY = word(ParameterId::WordY);
-constexpr int kZ = word(ParameterId::WordZ);
-constexpr int kAngle = word(ParameterId::WordAngle);
-constexpr int kDistance = word(ParameterId::WordDistance);
+constexpr int kDottedX = word(ParameterId::WordX);
+constexpr int kDottedY = word(ParameterId::WordY);
+constexpr int kDottedZ = word(ParameterId::WordZ);
+constexpr int kDottedAngle = word(ParameterId::WordAngle);
+constexpr int kDottedDistance = word(ParameterId::WordDistance);
 constexpr int kFeed = word(ParameterId::WordFeed);
 constexpr int kRetract = word(ParameterId::WordRetract);
 constexpr int kSystem = word(ParameterId::WordReferenceSystem);
@@ -37,11 +37,12 @@ BesideThePlate::BesideThePlate() : ProbingBench({kClampedPlate}) {
 
 TEST_CASE("TCH PROBE 0 gives the compensated coordinate and comes back to its position") {
   ProbingBench bench({kClampedPlate});
-  CHECK(
-      bench.run(
-          0,
-          {{kResult, 5.0}, {kAxis, 2.0}, {kDirection, -1.0}, {kX, 50.0}, {kY, 40.0}, {kZ, 5.0}}) ==
-      0);
+  CHECK(bench.run(0, {{kDottedResult, 5.0},
+                      {kDottedAxis, 2.0},
+                      {kDirection, -1.0},
+                      {kDottedX, 50.0},
+                      {kDottedY, 40.0},
+                      {kDottedZ, 5.0}}) == 0);
   CHECK(same(bench.host.q[5], 0));
   CHECK(bench.machine.position().linear == machine::Vec3{50, 40, 5});
   CHECK(same(bench.host.q[117], 120));
@@ -49,24 +50,26 @@ TEST_CASE("TCH PROBE 0 gives the compensated coordinate and comes back to its po
   CHECK(bench.host.records.empty());
 
   BesideThePlate side;
-  CHECK(side.run(0, {{kResult, 5.0}, {kAxis, 0.0}, {kDirection, 1.0}, {kX, -8.0}}) == 0);
+  CHECK(side.run(0,
+                 {{kDottedResult, 5.0}, {kDottedAxis, 0.0}, {kDirection, 1.0}, {kDottedX, -8.0}}) ==
+        0);
   CHECK(same(side.host.q[5], 0));
   CHECK(same(side.host.q[115], -2));
-  CHECK(side.run(0, {{kResult, 5.0}, {kAxis, 0.0}, {kDirection, -1.0}}) == 1014);
-  CHECK(side.run(0, {{kResult, 5.0}, {kAxis, 0.0}, {kDirection, 0.0}}) == 1042);
+  CHECK(side.run(0, {{kDottedResult, 5.0}, {kDottedAxis, 0.0}, {kDirection, -1.0}}) == 1014);
+  CHECK(side.run(0, {{kDottedResult, 5.0}, {kDottedAxis, 0.0}, {kDirection, 0.0}}) == 1042);
 }
 
 TEST_CASE("TCH PROBE 1 touches at an angle from its axis") {
   BesideThePlate bench;
-  CHECK(bench.run(1, {{kAxis, 0.0}, {kAngle, 30.0}}) == 0);
+  CHECK(bench.run(1, {{kDottedAxis, 0.0}, {kDottedAngle, 30.0}}) == 0);
   CHECK(same(bench.host.q[115], -2));
   CHECK(std::abs(bench.host.q[116] - (40 + 8 * std::tan(machine::radians(30)))) < 1e-6);
 }
 
 TEST_CASE("TCH PROBE 3 gives the uncompensated position, or -1 without contact") {
   BesideThePlate bench;
-  const Values block{{kResult, 1.0},    {kAxis, 0.0},   {kAngle, 0.0},
-                     {kDistance, 10.0}, {kFeed, 100.0}, {kRetract, 1.0}};
+  const Values block{{kDottedResult, 1.0},    {kDottedAxis, 0.0}, {kDottedAngle, 0.0},
+                     {kDottedDistance, 10.0}, {kFeed, 100.0},     {kRetract, 1.0}};
   CHECK(bench.run(3, block) == 0);
   CHECK(same(bench.host.q[1], -2));
   CHECK(same(bench.host.q[2], 40));
@@ -75,21 +78,25 @@ TEST_CASE("TCH PROBE 3 gives the uncompensated position, or -1 without contact")
   CHECK(same(bench.machine.position().linear.x, -3));
   CHECK(bench.run(3, with(block, {{kSystem, 1.0}})) == 0);
   CHECK(same(bench.host.q[3], 115));
-  CHECK(bench.run(3, with(block, {{kDistance, 0.5}})) == 1014);
-  CHECK(bench.run(3, with(block, {{kDistance, 0.4}, {kErrorMode, 1.0}})) == 0);
+  CHECK(bench.run(3, with(block, {{kDottedDistance, 0.5}})) == 1014);
+  CHECK(bench.run(3, with(block, {{kDottedDistance, 0.4}, {kErrorMode, 1.0}})) == 0);
   CHECK(bench.host.q[4] == -1);
 }
 
 TEST_CASE("TCH PROBE 4 touches along a vector and goes on without contact") {
   BesideThePlate bench;
-  const Values block{{kResult, 20.0}, {kX, 3.0}, {kY, 4.0}, {kDistance, 45.0}, {kFeed, 100.0}};
+  const Values block{{kDottedResult, 20.0},
+                     {kDottedX, 3.0},
+                     {kDottedY, 4.0},
+                     {kDottedDistance, 45.0},
+                     {kFeed, 100.0}};
   CHECK(bench.run(4, block) == 0);
   CHECK(same(bench.host.q[20], -2));
   CHECK(std::abs(bench.host.q[21] - (40 + 8 * 4.0 / 3)) < 1e-6);
   CHECK(bench.host.q[23] == 0);
-  CHECK(bench.run(4, with(block, {{kX, -3.0}})) == 0);
+  CHECK(bench.run(4, with(block, {{kDottedX, -3.0}})) == 0);
   CHECK(bench.host.q[23] == -1);
-  CHECK(bench.run(4, with(block, {{kX, 0.0}, {kY, 0.0}})) == 1042);
+  CHECK(bench.run(4, with(block, {{kDottedX, 0.0}, {kDottedY, 0.0}})) == 1042);
 }
 
 TEST_CASE("441 changes how later cycles position, until the program ends") {
