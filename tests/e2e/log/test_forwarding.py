@@ -11,8 +11,8 @@ import time
 import unittest
 
 from log.test_intake import check_proof, origin_of, records_of
-from measurements.test_log import wait_for_size
-from measurements.test_storage import PART
+from log.test_log import wait_for_size
+from durability.test_storage import PART
 from support.cutting_proxy import CuttingProxy
 from support.daemon import FITGAUGED, SANITIZED, Daemon, command
 from support.ports import lasting_address

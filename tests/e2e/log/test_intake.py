@@ -8,8 +8,8 @@ import sqlite3
 import sys
 import unittest
 
-from measurements.test_log import flip, wait_for_size
-from measurements.test_storage import PART
+from log.test_log import flip, wait_for_size
+from durability.test_storage import PART
 from support.contract import Contract
 from support.daemon import ROOT, Daemon, DaemonTest, command
 from support.waiting import wait_for

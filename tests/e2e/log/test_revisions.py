@@ -7,7 +7,7 @@ import unittest
 
 from log.test_forwarding import metric
 from log.test_intake import records_of
-from measurements.test_storage import PART
+from durability.test_storage import PART
 from support.daemon import Daemon, command
 from support.ports import lasting_address
 from support.waiting import wait_for

@@ -7,7 +7,7 @@ import re
 import xml.etree.ElementTree as etree
 import zipfile
 
-from connections.test_dfq import parsed
+from plant.test_dfq import parsed
 from support.daemon import Daemon, DaemonTest
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"

@@ -8,7 +8,7 @@ import subprocess
 import unittest
 import xml.etree.ElementTree as tree
 
-from connections.test_folders import Folders
+from plant.test_folders import Folders
 from support.cli import FITGAUGE
 
 SCHEMAS = os.environ.get("QIF_SCHEMAS")

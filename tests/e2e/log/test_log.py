@@ -12,7 +12,7 @@ import tempfile
 import time
 import unittest
 
-from measurements.test_storage import PART, StorageTest
+from durability.test_storage import PART, StorageTest
 from support.daemon import ROOT, Daemon, DaemonTest, command
 from support.seals import alter, sealed_anew
 from support.waiting import wait_for

@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from connections.test_folders import DFQ, Folders
+from plant.test_folders import DFQ, Folders
 from support.cli import FITGAUGE
 from support.daemon import SANITIZED
 

@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from connections.test_folders import Folders
+from plant.test_folders import Folders
 from support.cli import FITGAUGE
 
 CELLS = ("K0001", "K0002", "K0004", "K0005", "K0006", "K0007", "K0008", "K0010", "K0011", "K0012")
