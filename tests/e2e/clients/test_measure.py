@@ -1,6 +1,6 @@
 """fitgauge measure: every row is stored once, however often it is stopped.
 
-$MEASURE_ROUNDS sets how often a run is stopped, 12 when absent; $SEED repeats the moments of a run.
+$MEASURE_ROUNDS sets how often a run is stopped, 12 when absent; $SEED repeats the bytes at which it is stopped.
 """
 
 import http.server
@@ -13,6 +13,7 @@ import time
 import unittest
 
 from support.cli import Client, ClientTest
+from support.cutting_proxy import CuttingProxy
 from support.daemon import Daemon
 from support.ports import lasting_address
 from support.waiting import PATIENCE, wait_for
@@ -142,7 +143,10 @@ class Stopped(unittest.TestCase):
         self.daemon = Daemon(listen=lasting_address())
         self.addCleanup(self.daemon.cleanup)
         self.daemon.start()
-        self.client = Client(f"127.0.0.1:{self.daemon.port}")
+        self.proxy = CuttingProxy(self.daemon.port, SEED, cuts=False)
+        self.addCleanup(self.proxy.close)
+        self.addCleanup(self.proxy.go_on)
+        self.client = Client(f"127.0.0.1:{self.proxy.port}")
         self.addCleanup(self.client.cleanup)
         self.client.write("night.csv", HEADER + rows(self.ROWS))
         self.command = ("measure", "night.csv", "--chunk", "100")
@@ -151,34 +155,27 @@ class Stopped(unittest.TestCase):
         parts = [record["part_id"] for record in self.daemon.stored()]
         self.assertEqual(parts, [f"SN-{i}" for i in range(self.ROWS)])
 
-    def wait_for_requests(self, process, count):
-        """Until the journal tells of so many more, or the process has ended."""
-        def lines():
-            return sum(path.read_bytes().count(b"\n") for path in self.client.folder.glob("state/*/*"))
-
-        wanted = lines() + count
-        while lines() < wanted and process.poll() is None:
-            time.sleep(0.001)
-
     def test_a_client_that_is_stopped_goes_on_and_doubles_nothing(self):
-        stopped = 0
         for number in range(ROUNDS):
+            self.proxy.hold_at(self.random.randint(1, 20_000))
             process = self.client.spawn(*self.command)
-            self.wait_for_requests(process, self.random.randint(1, 6))
-            time.sleep(self.random.uniform(0, 0.01))
+            wait_for(self.proxy.held.is_set, "a byte to stop at")
             process.send_signal(signal.SIGTERM if number % 2 else signal.SIGKILL)
-            stopped += self.client.end(process).returncode < 0
-        self.assertGreater(stopped, 0)
+            self.assertLess(self.client.end(process).returncode, 0)
+            self.proxy.go_on()
         self.assertEqual(self.client.run(*self.command).returncode, 0)
         self.assert_every_row_is_stored_once()
 
     def test_a_service_that_is_killed_is_waited_for(self):
+        self.proxy.hold_at(1)
         process = self.client.spawn(*self.command)
         for _ in range(4):
-            time.sleep(self.random.uniform(0.02, 0.2))
+            wait_for(self.proxy.held.is_set, "a byte to be killed at")
             self.daemon.kill()
-            time.sleep(self.random.uniform(0, 0.3))
+            self.proxy.hold_at(self.random.randint(1, 20_000))
             self.daemon.start()
+        wait_for(self.proxy.held.is_set, "a byte")
+        self.proxy.go_on()
         self.client.end(process)
         self.assertEqual(process.returncode, 0, process.stderr_text)
         self.assertIn(f"{self.ROWS:,} rows: {self.ROWS:,} good", process.stdout_text)

@@ -5,7 +5,6 @@ import contextlib
 import http.client
 import re
 import threading
-import time
 import unittest
 
 from support.daemon import Daemon
@@ -71,7 +70,7 @@ class Shutdown(unittest.TestCase):
                     client.put_file("loop.h", PROGRAM)
                 with Writers(daemon, count=4) as writers, Load(daemon) as load:
                     wait_for(lambda: len(load.answered) == len(load.threads) and writers.acknowledged, lambda: load.answered)
-                    time.sleep(0.3 * number)
+                    writers.wait_for_more(1 + 50 * number)
                     code = daemon.stop()
                 self.assertEqual(code, 0, daemon.log[-4000:])
                 self.assertIsNone(REPORT.search(daemon.log), daemon.log[-4000:])

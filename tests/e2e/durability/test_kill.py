@@ -1,7 +1,7 @@
-"""kill -9 at random moments under 8 writers: every acknowledged value is there exactly once, and the log goes on from
+"""kill -9 after random numbers of acknowledged values under 8 writers: every acknowledged value is there exactly once, and the log goes on from
 each head that was signed.
 
-$KILL_ROUNDS sets the rounds, 20 when absent; $SEED repeats the moments of a run.
+$KILL_ROUNDS sets the rounds, 20 when absent; $SEED repeats the numbers of a run.
 """
 
 import os
@@ -27,10 +27,8 @@ class Kill(unittest.TestCase):
         heads = []
         with Writers(daemon) as writers:
             for number in range(ROUNDS):
-                if number % 2:  # every other kill meets a service that has stored something
-                    told = len(writers.acknowledged)
-                    wait_for(lambda: len(writers.acknowledged) > told, "a value")
-                time.sleep(generator.uniform(0.02, 0.4))
+                if number % 2:  # every other kill meets a service that has just started
+                    writers.wait_for_more(generator.randint(1, 100))
                 heads.append(daemon.folder / f"head-{number}")
                 heads[-1].write_text(daemon.get("/v1/log/checkpoint").text)
                 daemon.kill()

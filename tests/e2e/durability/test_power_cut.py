@@ -1,4 +1,4 @@
-"""A power cut: what had reached the disk at a random moment has every acknowledged value.
+"""A power cut: what had reached the disk at some moment has every acknowledged value.
 
 The database lies on an ext4 image that is itself a file of an XFS with reflink. A reflink copy of
 that file, taken while writers are at work, is the disk as a cut leaves it: what ext4 still holds in
@@ -13,11 +13,9 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
-import time
 import unittest
 
 from support.daemon import Daemon
-from support.waiting import wait_for
 from support.writers import Writers, compare
 
 ROUNDS = 20 if os.environ.get("FITGAUGE_DEEP") else 3
@@ -81,8 +79,7 @@ class PowerCut(unittest.TestCase):
         snapshots = []
         with Writers(daemon) as writers:
             for number in range(ROUNDS):
-                wait_for(lambda: writers.acknowledged, "a value")
-                time.sleep(1 + 0.05 * number)
+                writers.wait_for_more(200 + 10 * number)
                 acknowledged = dict(writers.acknowledged)
                 head = daemon.get("/v1/log/checkpoint").text
                 copy = disk.outer / f"{name}-{number}.img"

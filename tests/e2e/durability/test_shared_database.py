@@ -1,9 +1,9 @@
-"""Three daemons behind nginx share a PostgreSQL that has a synchronous standby: one of them is killed every two
-seconds, the database is ended at once and comes back, later it is ended for good and its standby takes over. Every
+"""Three daemons behind nginx share a PostgreSQL that has a synchronous standby: one of them is killed again and
+again, the database is ended at once and comes back, later it is ended for good and its standby takes over. Every
 acknowledged value is there exactly once, and whoever follows the list or the events sees each record exactly once and
 in order.
 
-$SHARED_SECONDS sets how long, 12 when absent and 60 in the long form; $SEED repeats whom the kills meet.
+$SHARED_KILLS sets how often, 6 when absent and 30 in the long form; $SEED repeats whom the kills meet.
 """
 
 import http.client
@@ -18,16 +18,15 @@ import time
 import unittest
 
 from support.control import FOREVER
-from support.daemon import SANITIZED, Daemon, command
+from support.daemon import Daemon, command
 from support.ports import lasting_address
 from support.postgres import Cluster, FrontDoor
 from support.waiting import PATIENCE, wait_for
 from support.writers import Writers, compare
 
 DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
-SECONDS = float(os.environ.get("SHARED_SECONDS", "60" if DEEP else "12"))
+KILLS = int(os.environ.get("SHARED_KILLS", "30" if DEEP else "6"))
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
-LEAST_A_SECOND = 100  # acknowledged values, in the long form, whose outages are not most of it
 
 
 def daemons_on(address, count, *flags):
@@ -115,7 +114,7 @@ class Shared(unittest.TestCase):
         return made
 
     def test_nothing_is_lost_doubled_or_passed_over(self):
-        print(f"seed {SEED}, {SECONDS} s")
+        print(f"seed {SEED}, {KILLS} kills")
         generator = random.Random(SEED)
         standby = self.cluster.standby()
         self.addCleanup(standby.cleanup)
@@ -130,17 +129,15 @@ class Shared(unittest.TestCase):
         followers[1].last = "m0.e0"
         for follower in followers:
             follower.start()
-        begin = time.monotonic()
         outages = [self.restart, lambda living: self.fail_over(living, front, standby)]
         with Writers(front, count=16) as writers:
-            while time.monotonic() - begin < SECONDS or outages:
-                time.sleep(2)
+            for kill in range(KILLS):
+                writers.wait_for_more(100)
                 victim = generator.choice(daemons)
                 victim.kill()
-                if outages and time.monotonic() - begin > SECONDS * (3 - len(outages)) / 3:
+                if kill in (KILLS // 3, 2 * KILLS // 3):
                     outages.pop(0)([daemon for daemon in daemons if daemon is not victim])
                 victim.start()
-            took = time.monotonic() - begin
         self.assertEqual(writers.refused, [])
         stored = daemons[0].stored()
         lost, doubled = compare(writers.acknowledged, stored)
@@ -154,10 +151,7 @@ class Shared(unittest.TestCase):
             self.assertIsNone(daemon.process.poll(), "a daemon has ended")
         verified = command("verify", "--database", both, "--data", daemons[0].data)
         self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
-        rate = len(writers.acknowledged) / took
-        print(f"{len(writers.acknowledged)} acknowledged values in {took:.0f} s, all there once and seen once")
-        if DEEP and not SANITIZED:
-            self.assertGreater(rate, LEAST_A_SECOND)
+        print(f"{len(writers.acknowledged)} acknowledged values, all there once and seen once")
 
     def restart(self, living):
         self.cluster.stop("immediate")

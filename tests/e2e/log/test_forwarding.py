@@ -102,7 +102,8 @@ class Forwarding(unittest.TestCase):
                     self.centre.kill()
                 self.centre.start()
                 proxy.port_behind = self.centre.port
-            time.sleep(chance.random())
+            wanted = proxy.passed + chance.randrange(20_000)
+            wait_for(lambda: proxy.passed >= wanted or metric(station, "fitgauge_outbox_rows") == 0, "bytes on the link")
         wait_for(lambda: proxy.cut, "a connection that was cut")
         proxy.cuts = False
         begun = time.monotonic()
@@ -176,7 +177,7 @@ class Forwarding(unittest.TestCase):
         self.addCleanup(proxy.close)
         half = subprocess.Popen([FITGAUGED, "forward", "--all", "--data", folder.data, "--forward-to",
                                  f"http://127.0.0.1:{proxy.port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(1)
+        wait_for(lambda: proxy.cut, "a connection that was cut")
         half.kill()
         half.wait()
         for _ in range(2):  # once more changes nothing

@@ -288,7 +288,8 @@ class Writing(Folders):
         self.out(daemon)
         for number in range(0, 40, 10):
             self.store(daemon, range(number, number + 10))
-            time.sleep(0.4)
+            if number % 20:  # every other kill comes when a file is there, the others right after the values
+                self.wait(lambda: len(self.rows()) > number)
             daemon.kill()
             daemon.start()
         self.wait(lambda: {row["part_id"] for row in self.rows()} == {f"P{number}" for number in range(40)})

@@ -7,17 +7,42 @@ import threading
 
 class CuttingProxy:
     """Listens on a free port and passes bytes on to `port`; while `cuts` is set, each connection ends after a
-    random number of bytes one way or the other, the first of them early."""
+    random number of bytes one way or the other, the first of them early. Clients may be held at a counted byte."""
 
-    def __init__(self, port, seed, longest=60_000):
+    def __init__(self, port, seed, longest=60_000, cuts=True):
         self.port_behind = port
-        self.cuts = True
+        self.cuts = cuts
         self.cut = 0  # connections that were
+        self.passed = 0  # bytes, both ways
+        self.hold_after = None  # bytes from clients
+        self.held = threading.Event()
+        self.going = threading.Event()
         self.random = random.Random(seed)
         self.longest = longest
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.port = self.listener.getsockname()[1]
         threading.Thread(target=self.accept, daemon=True).start()
+
+    def hold_at(self, count):
+        """The connection with the `count`-th byte from clients stands still until go_on(), or until the next
+        is to be held."""
+        self.go_on()
+        self.held, self.going = threading.Event(), threading.Event()
+        self.hold_after = count
+
+    def go_on(self):
+        self.hold_after = None
+        self.going.set()
+
+    def hold(self, size):
+        if self.hold_after is None:
+            return
+        self.hold_after -= size
+        if self.hold_after <= 0:
+            self.hold_after = None
+            going = self.going
+            self.held.set()
+            going.wait()
 
     def accept(self):
         while True:
@@ -53,7 +78,10 @@ class CuttingProxy:
                             left[0] -= len(data)
                         else:
                             rest = False
+                    if source is client:
+                        self.hold(len(data))
                     sink.sendall(data)
+                    self.passed += len(data)
                     if rest:
                         self.cut += 1
                         break

@@ -5,6 +5,7 @@ import threading
 import time
 
 from support.daemon import fitgauge
+from support.waiting import wait_for
 
 
 class Writers:
@@ -30,6 +31,11 @@ class Writers:
         self.stopping.set()
         for thread in self.threads:
             thread.join()
+
+    def wait_for_more(self, count):
+        """Until so many more values are acknowledged than now."""
+        wanted = len(self.acknowledged) + count
+        wait_for(lambda: len(self.acknowledged) >= wanted, f"{count} more values")
 
     def run(self, writer):
         for number in itertools.count():
