@@ -14,8 +14,6 @@
 namespace fitgauge::machine {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The point nearest to `at` on the edge where two boundaries meet, searched from `from`: projects
 /// `at` onto the line in which the tangent planes meet, until that moves no more.
 /// Nothing when it does not settle or the edge is not the nearest place of its surroundings.
@@ -268,8 +266,8 @@ Workpiece& Workpiece::operator=(Workpiece&&) noexcept = default;
 Workpiece::~Workpiece() = default;
 
 double Workpiece::clearance(const Vec3& centre, double radius) const {
-  double least = kInfinity;
-  double squared = kInfinity;
+  double least = std::numeric_limits<double>::infinity();
+  double squared = least;
   tree_.near(centre, squared, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t k = begin; k < end; ++k) {
       const Part& part = parts_[k];

@@ -8,7 +8,7 @@ namespace fitgauge::probing {
 namespace {
 
 constexpr const TouchProbeCycle* kCycles[] = {
-#define FITGAUGE_CYCLE(number) &kCycle##number,
+#define FITGAUGE_CYCLE(file, number) &file::kCycle##number,
 #include "nc/probing/cycles.inc"
 #undef FITGAUGE_CYCLE
 };

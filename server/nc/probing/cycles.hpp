@@ -4,8 +4,11 @@
 
 namespace fitgauge::probing {
 
-/// Every cycle's definition, kCycle421 in the file of its number.
-#define FITGAUGE_CYCLE(number) extern const TouchProbeCycle kCycle##number;
+/// Every cycle's definition, cycle_421_422::kCycle421 in cycle_421_422.cpp.
+#define FITGAUGE_CYCLE(file, number)           \
+  namespace file {                             \
+  extern const TouchProbeCycle kCycle##number; \
+  }
 #include "nc/probing/cycles.inc"
 #undef FITGAUGE_CYCLE
 

@@ -19,10 +19,10 @@ using machine::Matrix3;
 using machine::Vec3;
 
 /// The words of PLANE by letter; those without a value count as 1.
-using Words = std::map<Letter, double>;
+using PlaneWords = std::map<Letter, double>;
 
-NcResult<Words> read_plane_words(Channel& channel, klartext::Slice<klartext::Word> slice) {
-  Words words;
+NcResult<PlaneWords> read_plane_words(Channel& channel, klartext::Slice<klartext::Word> slice) {
+  PlaneWords words;
   for (const klartext::Word& word : channel.program().view(slice)) {
     if (is_absent(word.value)) {
       words[word.letter] = 1;
@@ -35,12 +35,12 @@ NcResult<Words> read_plane_words(Channel& channel, klartext::Slice<klartext::Wor
   return words;
 }
 
-double get(const Words& words, Letter letter) {
+double get(const PlaneWords& words, Letter letter) {
   const auto it = words.find(letter);
   return it == words.end() ? 0 : it->second;
 }
 
-Vec3 get(const Words& words, Letter x, Letter y, Letter z) {
+Vec3 get(const PlaneWords& words, Letter x, Letter y, Letter z) {
   return {get(words, x), get(words, y), get(words, z)};
 }
 
@@ -71,7 +71,7 @@ Matrix3 current_rotation(const Channel& channel) {
 }
 
 /// PLANE AXIAL: the plane across the tool with the rotary axes at these positions.
-NcResult<Matrix3> axial(const Channel& channel, const Words& words) {
+NcResult<Matrix3> axial(const Channel& channel, const PlaneWords& words) {
   const machine::MachineState& state = channel.machine().state();
   Vec3 rotary = state.nose.rotary;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -84,7 +84,7 @@ NcResult<Matrix3> axial(const Channel& channel, const Words& words) {
 }
 
 /// The rotation of a plane relative to the workpiece system.
-NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Words& words) {
+NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const PlaneWords& words) {
   switch (kind) {
     case PlaneKind::Spatial:
       return Matrix3::spatial(get(words, Letter::Spa, Letter::Spb, Letter::Spc));
@@ -123,7 +123,8 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Word
   return Matrix3{};
 }
 
-NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane, const Words& words) {
+NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane,
+                              const PlaneWords& words) {
   PlaneMoves moves{.positioning = plane.positioning,
                    .feed = machine::Feed::rapid(),
                    .turns_table = words.contains(Letter::TableRot)};
@@ -153,7 +154,7 @@ std::array<bool, 3> named_linear_axes(const Channel& channel,
 }
 
 NcResult<void> execute_datum_table(Channel& channel, const klartext::Trans& trans,
-                                   const Words& words) {
+                                   const PlaneWords& words) {
   if (!is_absent(trans.table)) {
     const auto written = text(channel, trans.table);
     if (!written) return written.error();

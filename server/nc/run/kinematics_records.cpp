@@ -61,9 +61,10 @@ class RecordReader {
       found_[name].offset = point;
       return;
     }
-    const auto axis = std::ranges::find(machine::kAllAxes, part, machine::name);
+    const auto axis = std::ranges::find_if(
+        machine::kAllAxes, [&](Axis candidate) { return machine::name(candidate) == part; });
     const std::string_view mount = text(row, "ON");
-    if (axis == machine::kAllAxes.end() || !is_rotary(*axis))
+    if (axis == machine::kAllAxes.end() || !machine::is_rotary(*axis))
       return fail("AXIS is A, B, C or TOOL");
     if (mount != kOnTable && mount != kOnHead) return fail("ON is TABLE or HEAD");
     std::vector<RotaryAxis>& axes = found_[name].axes;

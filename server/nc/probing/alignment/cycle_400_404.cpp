@@ -8,8 +8,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/line_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_400_404 {
 
 using namespace parameter;
 
@@ -43,8 +42,6 @@ constexpr std::array k404Parameters{
     newer(choice(305, "Row of the preset table, 0 active at once, -1 row of the active preset", -1,
                  kLastRow, -1))};
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle400{
     {.number = 400,
      .name = "BASIC ROTATION",
@@ -62,4 +59,4 @@ constinit const TouchProbeCycle kCycle404{{.number = 404,
                                            .simulated = "All parameters. No motion."},
                                           set_rotation};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_400_404

@@ -7,8 +7,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/hole_pattern.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_401_402 {
 
 using namespace parameter;
 
@@ -93,8 +92,6 @@ CycleResult<void> two_studs(const CycleContext& context) {
   return compensate(context, motion->plane(), *first, *second);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle401{
     {.number = 401,
      .name = "ROT OF 2 HOLES",
@@ -113,4 +110,4 @@ constinit const TouchProbeCycle kCycle402{
      .simulated = "All parameters."},
     two_studs};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_401_402

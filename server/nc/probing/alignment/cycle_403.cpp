@@ -8,8 +8,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/line_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_403 {
 
 using machine::Axis;
 using namespace parameter;
@@ -65,8 +64,6 @@ CycleResult<void> align(const CycleContext& context) {
   return arguments.whole(337) == 0 ? CycleResult<void>() : zero(context, rotary);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle403{
     {.number = 403,
      .name = "ROT IN ROTARY AXIS",
@@ -78,4 +75,4 @@ constinit const TouchProbeCycle kCycle403{
      .not_simulated = "Rotary axes of a head: they cannot turn the workpiece."},
     align};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_403

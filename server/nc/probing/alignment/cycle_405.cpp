@@ -9,8 +9,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_405 {
 
 using namespace parameter;
 
@@ -44,8 +43,6 @@ CycleResult<void> align(const CycleContext& context) {
   return context.host.write_datum(row, offset);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle405{
     {.number = 405,
      .name = "ROT IN C AXIS",
@@ -56,4 +53,4 @@ constinit const TouchProbeCycle kCycle405{
      .simulated = "All parameters; the datum must lie in the centre of the table."},
     align};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_405

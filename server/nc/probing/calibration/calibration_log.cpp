@@ -12,7 +12,8 @@ namespace {
 
 using namespace fmt::literals;
 
-constexpr HtmlLog kLog{"TCHPRAUTO.html", "Calibration log", "Calibration of the touch probe", ""};
+constexpr HtmlLog kCalibrationLog{"TCHPRAUTO.html", "Calibration log",
+                                  "Calibration of the touch probe", ""};
 
 std::string row(std::string_view label, double before, double after, bool inch) {
   const Length old_value = to_length(before);
@@ -37,7 +38,7 @@ CycleResult<void> log_calibration(const CycleContext& context, const machine::Pr
       "secondary"_a = row("Centre offset CAL_OF2", before.data.cal_of2, after.data.cal_of2, inch),
       "length"_a = row("Effective length", before.length, after.length, inch),
       "residual"_a = log_text(residual, inch));
-  return add_section(context.host, kLog, section);
+  return add_section(context.host, kCalibrationLog, section);
 }
 
 }  // namespace fitgauge::probing

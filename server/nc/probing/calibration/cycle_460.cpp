@@ -5,8 +5,7 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_460 {
 
 using namespace parameter;
 
@@ -65,8 +64,6 @@ CycleResult<void> calibrate(const CycleContext& context) {
   return calibrator->finish(found);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle460{
     {.number = 460,
      .name = "CALIBRATION OF TS ON A SPHERE",
@@ -81,4 +78,4 @@ constinit const TouchProbeCycle kCycle460{
      .not_simulated = "Q455: the model of the probe triggers alike in all directions."},
     calibrate};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_460

@@ -4,8 +4,7 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_461 {
 
 using namespace parameter;
 
@@ -21,8 +20,6 @@ CycleResult<void> calibrate(const CycleContext& context) {
   return calibrator->finish({.length = context.machine.state().probe_system()->length + too_high});
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle461{
     {.number = 461,
      .name = "TS CALIBRATION OF TOOL LENGTH",
@@ -33,4 +30,4 @@ constinit const TouchProbeCycle kCycle461{
                   "calibration ring; the effective length. The log TCHPRAUTO.html."},
     calibrate};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_461

@@ -4,8 +4,7 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_462_463 {
 
 using namespace parameter;
 
@@ -37,8 +36,6 @@ CycleResult<void> calibrate(const CycleContext& context, Side side) {
                              .residual = measured->mean.residual});
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle462{
     {.number = 462,
      .name = "CALIBRATION OF TS IN RING",
@@ -61,4 +58,4 @@ constinit const TouchProbeCycle kCycle463{
          "CAL_OF1, CAL_OF2. The log TCHPRAUTO.html."},
     [](const CycleContext& context) { return calibrate(context, Side::Outside); }};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_462_463

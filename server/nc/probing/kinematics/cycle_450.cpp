@@ -12,8 +12,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_450 {
 
 using namespace parameter;
 using machine::Kinematics;
@@ -136,8 +135,6 @@ CycleResult<void> manage_kinematics(const CycleContext& context) {
                                  date_and_time(context.host), *text));
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle450{
     {.number = 450,
      .name = "SAVE KINEMATICS",
@@ -151,4 +148,4 @@ constinit const TouchProbeCycle kCycle450{
          "after restoring; the status is its list of records."},
     manage_kinematics};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_450

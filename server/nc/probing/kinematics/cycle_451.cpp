@@ -7,8 +7,7 @@
 #include "nc/probing/kinematics/parameters.hpp"
 #include "nc/probing/kinematics/preset.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_451 {
 
 using namespace parameter;
 
@@ -61,8 +60,6 @@ CycleResult<void> measure(const CycleContext& context) {
   return preset.after(context, *probing);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle451{
     {.number = 451,
      .name = "MEASURE KINEMATICS",
@@ -93,4 +90,4 @@ constinit const TouchProbeCycle kCycle451{
          "compensated. The log TCHPR451.html."},
     measure};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_451

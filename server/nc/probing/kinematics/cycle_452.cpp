@@ -6,8 +6,7 @@
 #include "nc/probing/kinematics/parameters.hpp"
 #include "nc/probing/measured_value.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_452 {
 
 using namespace parameter;
 using machine::Kinematics;
@@ -69,8 +68,6 @@ CycleResult<void> compensate(const CycleContext& context) {
   return probing->retract();
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle452{
     {.number = 452,
      .name = "PRESET COMPENSATION",
@@ -85,4 +82,4 @@ constinit const TouchProbeCycle kCycle452{
          "are that shift. The log TCHPR452.html."},
     compensate};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_452

@@ -9,8 +9,7 @@
 #include "nc/probing/kinematics/preset.hpp"
 #include "nc/probing/measured_value.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_453 {
 
 using namespace parameter;
 using machine::Axis;
@@ -105,8 +104,6 @@ CycleResult<void> measure_grid(const CycleContext& context) {
   return preset.after(context, *probing);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle453{
     {.number = 453,
      .name = "KINEMATICS GRID",
@@ -124,4 +121,4 @@ constinit const TouchProbeCycle kCycle453{
          "cycle 450 brings the kinematics back."},
     measure_grid};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_453

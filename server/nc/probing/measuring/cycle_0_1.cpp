@@ -6,8 +6,7 @@
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_0_1 {
 
 using namespace parameter;
 
@@ -55,8 +54,6 @@ CycleResult<void> polar(const CycleContext& context) {
   return {};
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle0{
     {.number = 0,
      .name = "REF. PLANE",
@@ -80,4 +77,4 @@ constinit const TouchProbeCycle kCycle1{
                   "axis to the next one (X to Y, Y to Z, Z to X)."},
     polar};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_0_1

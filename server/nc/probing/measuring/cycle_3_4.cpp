@@ -6,8 +6,7 @@
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_3_4 {
 
 using machine::FaultKind;
 using namespace parameter;
@@ -125,8 +124,6 @@ CycleResult<void> measure_along_vector(const CycleContext& context) {
   return measure(context, direction, true);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle3{
     {.number = 3,
      .name = "MEASURING",
@@ -152,4 +149,4 @@ constinit const TouchProbeCycle kCycle4{
      .simulated = "All parameters, results as of cycle 3; without contact the program goes on."},
     measure_along_vector};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_3_4

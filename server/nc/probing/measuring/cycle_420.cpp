@@ -7,8 +7,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/line_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_420 {
 
 using namespace parameter;
 
@@ -41,8 +40,6 @@ CycleResult<void> measure(const CycleContext& context) {
   return {};
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle420{
     {.number = 420,
      .name = "MEASURE ANGLE",
@@ -54,4 +51,4 @@ constinit const TouchProbeCycle kCycle420{
                   "to the axis along which the points differ."},
     measure};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_420

@@ -7,8 +7,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_421_422 {
 
 using namespace parameter;
 
@@ -55,8 +54,6 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
                                       .form = probed->form});
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle421{
     {.number = 421,
      .name = "MEASURE HOLE",
@@ -81,4 +78,4 @@ constinit const TouchProbeCycle kCycle422{
      .not_simulated = kNotSimulated},
     [](const CycleContext& context) { return measure(context, Side::Outside); }};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_421_422

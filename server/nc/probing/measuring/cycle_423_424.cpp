@@ -8,8 +8,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/rectangle_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_423_424 {
 
 using namespace parameter;
 
@@ -99,8 +98,6 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
                                       .correction = tool_correction(main, secondary)});
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle423{
     {.number = 423,
      .name = "MEAS. RECTAN. INSIDE",
@@ -123,4 +120,4 @@ constinit const TouchProbeCycle kCycle424{
      .simulated = "All parameters; moves at measuring height are paraxial."},
     [](const CycleContext& context) { return measure(context, Side::Outside); }};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_423_424

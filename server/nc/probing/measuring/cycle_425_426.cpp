@@ -7,8 +7,7 @@
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_425_426 {
 
 using namespace parameter;
 
@@ -114,8 +113,6 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
                                       .correction = radius_correction(size)});
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle425{
     {.number = 425,
      .name = "MEASURE INSIDE WIDTH",
@@ -137,4 +134,4 @@ constinit const TouchProbeCycle kCycle426{
      .simulated = "All parameters; each point is touched towards the other one."},
     [](const CycleContext& context) { return measure(context, Side::Outside); }};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_425_426

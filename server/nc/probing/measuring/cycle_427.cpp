@@ -6,8 +6,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/single_touch.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_427 {
 
 using namespace parameter;
 
@@ -57,8 +56,6 @@ CycleResult<void> measure(const CycleContext& context) {
                                       .correction = correction});
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle427{
     {.number = 427,
      .name = "MEASURE COORDINATE",
@@ -72,4 +69,4 @@ constinit const TouchProbeCycle kCycle427{
                       "change nothing."},
     measure};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_427

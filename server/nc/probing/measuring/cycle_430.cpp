@@ -7,8 +7,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/hole_pattern.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_430 {
 
 using namespace parameter;
 
@@ -44,8 +43,6 @@ CycleResult<void> measure(const CycleContext& context) {
                              .form = probed->form});
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle430{
     {.number = 430,
      .name = "MEAS. BOLT HOLE CIRC",
@@ -56,4 +53,4 @@ constinit const TouchProbeCycle kCycle430{
      .simulated = "All parameters; Q330 watches for breakage only."},
     measure};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_430

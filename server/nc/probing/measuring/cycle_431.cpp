@@ -8,8 +8,7 @@
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_431 {
 
 using machine::Matrix3;
 using namespace parameter;
@@ -110,8 +109,6 @@ CycleResult<void> measure(const CycleContext& context) {
   return {};
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle431{
     {.number = 431,
      .name = "MEASURE PLANE",
@@ -122,4 +119,4 @@ constinit const TouchProbeCycle kCycle431{
      .simulated = "All parameters; the measured coordinates are those of the plane at the points."},
     measure};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_431

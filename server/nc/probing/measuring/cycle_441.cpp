@@ -3,8 +3,7 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/parameters.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_441 {
 
 using namespace parameter;
 
@@ -30,8 +29,6 @@ CycleResult<void> set_fast_probing(const CycleContext& context) {
   return {};
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle441{
     {.number = 441,
      .name = "FAST PROBING",
@@ -43,4 +40,4 @@ constinit const TouchProbeCycle kCycle441{
                       "the values are checked and change nothing."},
     set_fast_probing};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_441

@@ -11,8 +11,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_444 {
 
 using namespace parameter;
 using gauging::Verdict;
@@ -181,8 +180,6 @@ CycleResult<void> measure(const CycleContext& context) {
   return {};
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle444{
     {.number = 444,
      .name = "PROBING IN 3-D",
@@ -199,4 +196,4 @@ constinit const TouchProbeCycle kCycle444{
     measure,
     check_arguments};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_444

@@ -16,9 +16,9 @@ using namespace fmt::literals;
 using gauging::Verdict;
 using machine::Vec3;
 
-constexpr HtmlLog kLog{"TCHPR444.html", "Measuring log of cycle 444",
-                       "Measuring log of touch-probe cycle 444 PROBING IN 3-D",
-                       "Along the normal, positive is away from the material."};
+constexpr HtmlLog k444Log{"TCHPR444.html", "Measuring log of cycle 444",
+                          "Measuring log of touch-probe cycle 444 PROBING IN 3-D",
+                          "Along the normal, positive is away from the material."};
 
 /// How a verdict looks: by colour, by its border and in words.
 struct Appearance {
@@ -117,7 +117,7 @@ std::string section(const CycleHost& host, const ProbedPoint& point) {
 }  // namespace
 
 CycleResult<void> log_probed_point(CycleHost& host, const ProbedPoint& point) {
-  return add_section(host, kLog, section(host, point));
+  return add_section(host, k444Log, section(host, point));
 }
 
 }  // namespace fitgauge::probing

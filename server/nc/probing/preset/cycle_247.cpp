@@ -5,8 +5,7 @@
 #include "nc/probing/errors.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_247 {
 
 constexpr std::array kParameters{CycleParameter{.id = q(339),
                                                 .meaning = "Number or name of the preset",
@@ -32,8 +31,6 @@ CycleResult<void> activate(const CycleContext& context) {
   return lift(context.machine.activate_preset(static_cast<int>(number)));
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle247{
     {.family = CycleFamily::CyclDef,
      .number = 247,
@@ -45,4 +42,4 @@ constinit const TouchProbeCycle kCycle247{
                   "motion."},
     activate};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_247

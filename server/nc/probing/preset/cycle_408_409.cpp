@@ -7,8 +7,7 @@
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/rectangle_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_408_409 {
 
 using namespace parameter;
 
@@ -54,8 +53,6 @@ CycleResult<void> set_datum(const CycleContext& context, Side side) {
   return finish_preset(context, *motion, found);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle408{
     {.number = 408,
      .name = "SLOT CENTER REF PT",
@@ -76,4 +73,4 @@ constinit const TouchProbeCycle kCycle409{
      .simulated = "All parameters."},
     [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_408_409

@@ -6,8 +6,7 @@
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/rectangle_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_410_411 {
 
 using namespace parameter;
 
@@ -42,8 +41,6 @@ CycleResult<void> set_datum(const CycleContext& context, Side side) {
   return finish_preset(context, *motion, plane_datum(arguments, rectangle->centre));
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle410{
     {.number = 410,
      .name = "DATUM INSIDE RECTAN.",
@@ -64,4 +61,4 @@ constinit const TouchProbeCycle kCycle411{
      .simulated = "All parameters; moves at measuring height are paraxial."},
     [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_410_411

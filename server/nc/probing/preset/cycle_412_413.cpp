@@ -6,8 +6,7 @@
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_412_413 {
 
 using namespace parameter;
 
@@ -26,8 +25,6 @@ CycleResult<void> set_datum(const CycleContext& context, Side side) {
   publish_circle(context, side, *probed);
   return finish_preset(context, *motion, plane_datum(arguments, probed->circle.centre));
 }
-
-}  // namespace
 
 constinit const TouchProbeCycle kCycle412{
     {.number = 412,
@@ -49,4 +46,4 @@ constinit const TouchProbeCycle kCycle413{
      .simulated = "All parameters."},
     [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_412_413

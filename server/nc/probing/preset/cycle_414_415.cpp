@@ -7,8 +7,7 @@
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/corner_probing.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_414_415 {
 
 using namespace parameter;
 
@@ -108,8 +107,6 @@ CycleResult<void> set_datum(const CycleContext& context, bool inside) {
   return finish_preset(context, *motion, plane_datum(arguments, corner->point), rotation);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle414{
     {.number = 414,
      .name = "DATUM OUTSIDE CORNER",
@@ -132,4 +129,4 @@ constinit const TouchProbeCycle kCycle415{
                   "the basic rotation."},
     [](const CycleContext& context) { return set_datum(context, true); }};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_414_415

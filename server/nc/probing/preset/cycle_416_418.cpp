@@ -8,8 +8,7 @@
 #include "nc/probing/touch/corner_probing.hpp"
 #include "nc/probing/touch/hole_pattern.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_416_418 {
 
 using namespace parameter;
 
@@ -57,8 +56,6 @@ CycleResult<void> four_holes(const CycleContext& context) {
   return finish_preset(context, *motion, plane_datum(arguments, *point));
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle416{
     {.number = 416,
      .name = "DATUM CIRCLE CENTER",
@@ -80,4 +77,4 @@ constinit const TouchProbeCycle kCycle418{
      .simulated = "All parameters; the lines join holes 1 and 3, 2 and 4."},
     four_holes};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_416_418

@@ -5,8 +5,7 @@
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/single_touch.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_417 {
 
 using namespace parameter;
 
@@ -31,8 +30,6 @@ CycleResult<void> set_datum(const CycleContext& context) {
   return set_datum_of_axis(context, motion->plane(), *surface, 2);
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle417{
     {.number = 417,
      .name = "DATUM IN TS AXIS",
@@ -43,4 +40,4 @@ constinit const TouchProbeCycle kCycle417{
      .simulated = "All parameters."},
     set_datum};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_417

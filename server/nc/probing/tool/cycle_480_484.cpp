@@ -8,8 +8,7 @@
 #include "nc/probing/tool/tool_measuring.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_480_484 {
 
 using namespace parameter;
 
@@ -85,8 +84,6 @@ constexpr std::string_view kSimulated =
 constexpr std::string_view kNotSimulated =
     "Runout of the calibrating tool: it is touched in one position of the spindle.";
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle30{{.number = 30,
                                           .name = "CALIBRATE TT",
                                           .kind = CycleKind::Tool,
@@ -115,4 +112,4 @@ constinit const TouchProbeCycle kCycle484{{.number = 484,
                                            .not_simulated = kNotSimulated},
                                           calibrate_here};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_480_484

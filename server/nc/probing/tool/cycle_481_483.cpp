@@ -9,8 +9,7 @@
 #include "nc/probing/tool/tool_measuring.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
-namespace fitgauge::probing {
-namespace {
+namespace fitgauge::probing::cycle_481_483 {
 
 using namespace parameter;
 using machine::Tool;
@@ -203,8 +202,6 @@ constexpr CycleDescriptor tool_measurement(std::uint16_t number, std::string_vie
           .not_simulated = kNotSimulated};
 }
 
-}  // namespace
-
 constinit const TouchProbeCycle kCycle31{
     tool_measurement(31, "CAL. TOOL LENGTH", true, k481Results), measure_tool_length};
 constinit const TouchProbeCycle kCycle32{
@@ -218,4 +215,4 @@ constinit const TouchProbeCycle kCycle482{
 constinit const TouchProbeCycle kCycle483{tool_measurement(483, "MEASURE TOOL", false, k483Results),
                                           measure_tool};
 
-}  // namespace fitgauge::probing
+}  // namespace fitgauge::probing::cycle_481_483
