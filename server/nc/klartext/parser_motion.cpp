@@ -15,34 +15,10 @@ constexpr LetterSet kPolar(Letter::Pr, Letter::Pa);
 
 /// The words of each path, in the order of Path.
 constexpr LetterSet kWordsOf[] = {
-    kEveryMotion,           // L
-    kEveryMotion | kPolar,  // LP
-    kEveryMotion | LetterSet(Letter::Nx, Letter::Ny, Letter::Nz, Letter::Tx, Letter::Ty,
-                             Letter::Tz),                       // LN
-    kAxes,                                                      // CC
-    kEveryMotion,                                               // C
-    kEveryMotion | kPolar,                                      // CP
-    kEveryMotion | LetterSet(Letter::R),                        // CR
-    kEveryMotion,                                               // CT
-    kEveryMotion | kPolar,                                      // CTP
-    LetterSet(Letter::R) | kFeeds | kM,                         // RND
-    LetterSet(Letter::Chamfer) | kFeeds | kM,                   // CHF
-    kEveryMotion | LetterSet(Letter::Len),                      // APPR LT
-    kEveryMotion | LetterSet(Letter::Len),                      // APPR LN
-    kEveryMotion | LetterSet(Letter::Cca, Letter::R),           // APPR CT
-    kEveryMotion | LetterSet(Letter::R),                        // APPR LCT
-    kEveryMotion | kPolar | LetterSet(Letter::Len),             // APPR PLT
-    kEveryMotion | kPolar | LetterSet(Letter::Len),             // APPR PLN
-    kEveryMotion | kPolar | LetterSet(Letter::Cca, Letter::R),  // APPR PCT
-    kEveryMotion | kPolar | LetterSet(Letter::R),               // APPR PLCT
-    kFeeds | kM | LetterSet(Letter::Len),                       // DEP LT
-    kFeeds | kM | LetterSet(Letter::Len),                       // DEP LN
-    kFeeds | kM | LetterSet(Letter::Cca, Letter::R),            // DEP CT
-    kEveryMotion | LetterSet(Letter::R),                        // DEP LCT
-    kEveryMotion | kPolar | LetterSet(Letter::R),               // DEP PLCT
-    kEveryMotion,                                               // paraxial
+#define FITGAUGE_PATH(path, spelling, words) words,
+#include "nc/klartext/paths.inc"
+#undef FITGAUGE_PATH
 };
-static_assert(std::size(kWordsOf) == std::size(kPaths));
 
 struct CompensationName {
   char second;
@@ -110,11 +86,12 @@ bool parse_blank_word(BlockReader& in) {
 Statement parse_second_word(BlockReader& in, std::string_view first) {
   in.skip_blanks();
   const std::string_view second = in.letters();
-  for (const PathName& row : kPaths) {
-    if (row.name.size() == first.size() + 1 + second.size() && row.name.starts_with(first) &&
-        ascii_iequals(row.name.substr(first.size() + 1), second)) {
+  for (std::size_t i = 0; i < std::size(kPaths); ++i) {
+    const std::string_view name = kPaths[i];
+    if (name.size() == first.size() + 1 + second.size() && name.starts_with(first) &&
+        ascii_iequals(name.substr(first.size() + 1), second)) {
       in.move_to(in.at() + second.size());
-      return parse_motion(in, row.path);
+      return parse_motion(in, static_cast<Path>(i));
     }
   }
   in.fail_expected(first == "DEP" ? "LT, LN, CT, LCT or PLCT"

@@ -85,31 +85,9 @@ struct ToolDefinition {
 };
 
 enum class Path : std::uint8_t {
-  L,    ///< line
-  Lp,   ///< line, polar
-  Ln,   ///< line with surface normal
-  Cc,   ///< circle centre or pole
-  C,    ///< arc around the centre
-  Cp,   ///< arc around the pole, or helix
-  Cr,   ///< arc of given radius
-  Ct,   ///< tangential arc
-  Ctp,  ///< tangential arc, polar
-  Rnd,  ///< rounding
-  Chf,  ///< chamfer
-  ApprLt,
-  ApprLn,
-  ApprCt,
-  ApprLct,
-  ApprPlt,
-  ApprPln,
-  ApprPct,
-  ApprPlct,
-  DepLt,
-  DepLn,
-  DepCt,
-  DepLct,
-  DepPlct,
-  Paraxial  ///< a block of axes alone: `X+46 R+ F1000`
+#define FITGAUGE_PATH(path, spelling, words) path,
+#include "nc/klartext/paths.inc"
+#undef FITGAUGE_PATH
 };
 
 /// R+ and R- lengthen and shorten a paraxial path by the radius of the tool.

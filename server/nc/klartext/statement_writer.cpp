@@ -87,7 +87,7 @@ void write_block(BlockWriter& out, const ToolDefinition& definition) {
 void write_block(BlockWriter& out, const Motion& motion) {
   constexpr std::string_view kCompensations[] = {"", " R0", " RL", " RR", " R+", " R-"};
   constexpr std::string_view kRotations[] = {"", " DR+", " DR-"};
-  out.write(kPaths[static_cast<std::size_t>(motion.path)].name);
+  out.write(kPaths[static_cast<std::size_t>(motion.path)]);
   std::string marks(kRotations[static_cast<std::size_t>(motion.rotation)]);
   marks += kCompensations[static_cast<std::size_t>(motion.compensation)];
   out.words(motion.words, marks, kFeedsAndM);
