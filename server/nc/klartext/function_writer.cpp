@@ -5,25 +5,8 @@
 namespace fitgauge::klartext {
 namespace {
 
-void write_fn(BlockWriter& out, unsigned fn) {
-  out.write("FN ");
-  out.write(std::to_string(fn));
-  out.write(": ");
-}
-
 const Expr& operand(const BlockWriter& out, const Expr& node, std::size_t i) {
   return out.program().operands(std::get<NodeIndex>(node))[i];
-}
-
-void write_address(BlockWriter& out, const Expr& address) {
-  out.write("ID");
-  out.value(operand(out, address, 0));
-  out.write(" NR");
-  out.value(operand(out, address, 1));
-  const Expr& index = operand(out, address, 2);
-  if (is_absent(index)) return;
-  out.write(" IDX");
-  out.value(index);
 }
 
 void write_fn_value(BlockWriter& out, const Assignment& assignment) {
@@ -42,19 +25,38 @@ void write_fn_value(BlockWriter& out, const Assignment& assignment) {
   out.signed_value(operand(out, assignment.value, unary ? 0 : 1));
 }
 
+}  // namespace
+
+void write_fn(BlockWriter& out, unsigned fn) {
+  out.write("FN ");
+  out.write(std::to_string(fn));
+  out.write(":");
+}
+
+void write_address(BlockWriter& out, const Expr& address) {
+  out.write("ID");
+  out.value(operand(out, address, 0));
+  out.write(" NR");
+  out.value(operand(out, address, 1));
+  const Expr& index = operand(out, address, 2);
+  if (is_absent(index)) return;
+  out.write(" IDX");
+  out.value(index);
+}
+
 void write_cell(BlockWriter& out, const Expr& cell) {
   out.value(operand(out, cell, 0));
   out.write("/");
   out.value(operand(out, cell, 1));
 }
 
-}  // namespace
-
 void write_block(BlockWriter& out, const Assignment& assignment) {
   constexpr unsigned kSystemRead = 18;
   const bool is_fn = assignment.form == AssignmentForm::Fn;
-  if (is_fn) write_fn(out, assignment.fn);
-  if (is_fn && assignment.fn == kSystemRead) out.write("SYSREAD ");
+  if (is_fn) {
+    write_fn(out, assignment.fn);
+    out.write(assignment.fn == kSystemRead ? " SYSREAD " : " ");
+  }
   if (assignment.form == AssignmentForm::DeclareString) out.write("DECLARE STRING ");
   out.parameter(assignment.target);
   out.write(" = ");
@@ -68,7 +70,7 @@ void write_block(BlockWriter& out, const Assignment& assignment) {
 }
 
 void write_block(BlockWriter& out, const SetUndefined& set) {
-  write_fn(out, 0);
+  out.write("FN 0: ");
   out.parameter(set.target);
   out.write(" SET UNDEFINED");
 }
@@ -84,7 +86,7 @@ void write_block(BlockWriter& out, const ConditionalJump& jump) {
     name = row.name;
   }
   write_fn(out, fn);
-  out.write("IF ");
+  out.write(" IF ");
   out.signed_value(operand(out, jump.condition, 0));
   out.write(" ");
   out.write(name);
@@ -94,77 +96,6 @@ void write_block(BlockWriter& out, const ConditionalJump& jump) {
   }
   out.write(" GOTO LBL ");
   out.label(jump.target);
-}
-
-void write_block(BlockWriter& out, const ErrorStop& stop) {
-  write_fn(out, 14);
-  out.write("ERROR = ");
-  out.value(stop.number);
-}
-
-void write_block(BlockWriter& out, const Print& print) {
-  write_fn(out, 15);
-  out.write("PRINT ");
-  out.items(print.items);
-}
-
-void write_block(BlockWriter& out, const FormattedPrint& print) {
-  write_fn(out, 16);
-  out.write("F-PRINT ");
-  out.path(print.mask);
-  out.write(" / ");
-  out.path(print.target);
-}
-
-void write_block(BlockWriter& out, const SystemWrite& write) {
-  write_fn(out, 17);
-  out.write("SYSWRITE ");
-  write_address(out, write.address);
-  out.write(" = ");
-  out.signed_value(write.value);
-}
-
-void write_block(BlockWriter& out, const CircleData& circle) {
-  write_fn(out, 20U + circle.points);
-  out.parameter(circle.target);
-  out.write(" = CDATA ");
-  out.parameter(circle.first_point);
-}
-
-void write_block(BlockWriter& out, const ExternalFunction& function) {
-  write_fn(out, function.fn);
-  constexpr unsigned kExport = 37;
-  constexpr unsigned kSend = 38;
-  out.write(function.fn == kExport ? "EXPORT " : function.fn == kSend ? "SEND /" : "PLC = ");
-  out.items(function.operands);
-}
-
-void write_block(BlockWriter& out, const WaitFor& wait) {
-  write_fn(out, 20);
-  out.write("WAIT FOR ");
-  out.write(wait.condition);
-}
-
-void write_block(BlockWriter& out, const TableOpen& open) {
-  write_fn(out, 26);
-  out.write("TABOPEN ");
-  out.path(open.path);
-}
-
-void write_block(BlockWriter& out, const TableWrite& write) {
-  write_fn(out, 27);
-  out.write("TABWRITE ");
-  write_cell(out, write.cell);
-  out.write(" = ");
-  out.parameter(write.first);
-}
-
-void write_block(BlockWriter& out, const TableRead& read) {
-  write_fn(out, 28);
-  out.write("TABREAD ");
-  out.parameter(read.first);
-  out.write(" = ");
-  write_cell(out, read.cell);
 }
 
 }  // namespace fitgauge::klartext

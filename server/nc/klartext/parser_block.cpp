@@ -4,8 +4,8 @@
 
 #include "base/spelling_hint.hpp"
 #include "base/text.hpp"
+#include "nc/klartext/forms.hpp"
 #include "nc/klartext/parser.hpp"
-#include "nc/klartext/parser_rules.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -32,7 +32,7 @@ constexpr Keyword kBlockKeywords[] = {
     {"CYCL", parse_cycl},
     {"TOOL", parse_tool},
     {"M", parse_m_functions},
-    {"STOP", parse_stop},
+    {"STOP", [](BlockReader& in) { return read_form<Stop>(in); }},
     {"LP", motion<Path::Lp>},
     {"LN", motion<Path::Ln>},
     {"CP", motion<Path::Cp>},

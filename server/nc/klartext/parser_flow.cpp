@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "nc/klartext/forms.hpp"
 #include "nc/klartext/operator_names.hpp"
-#include "nc/klartext/parser_rules.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -42,20 +42,6 @@ Expr parse_path_pieces(BlockReader& in, const char* at, const char* end) {
   }
   if (!in.failure()) in.move_to(end);
   return path;
-}
-
-/// `REP 2`, `REPQ106`, and the older listings' `REP 2/2`, `REP Q3/Q3`: what is behind the stroke is
-/// the control's own count of what remains.
-Expr parse_repeat(BlockReader& in) {
-  const Expr repeat = parse_number(in);
-  if (!in.accept('/')) return repeat;
-  in.skip_blanks();
-  if (in.at_parameter()) {
-    in.parameter();
-  } else {
-    in.digits(kLargestLabel, "the count behind '/'");
-  }
-  return repeat;
 }
 
 }  // namespace
@@ -99,6 +85,18 @@ Label parse_label(BlockReader& in) {
   return name;
 }
 
+Expr parse_repeat(BlockReader& in) {
+  const Expr repeat = parse_number(in);
+  if (!in.accept('/')) return repeat;
+  in.skip_blanks();
+  if (in.at_parameter()) {
+    in.parameter();
+  } else {
+    in.digits(kLargestLabel, "the count behind '/'");
+  }
+  return repeat;
+}
+
 Statement parse_label_definition(BlockReader& in) {
   in.skip_blanks();
   const char* begin = in.at();
@@ -111,11 +109,8 @@ Statement parse_label_definition(BlockReader& in) {
 }
 
 Statement parse_call(BlockReader& in) {
-  if (in.accept_prefix("LBL")) {
-    const Label label = parse_label(in);
-    return LabelCall{label, in.accept_prefix("REP") ? parse_repeat(in) : Expr()};
-  }
-  if (in.accept_word("PGM")) return CallProgram{parse_path(in)};
+  if (in.accept_prefix("LBL")) return read_form<LabelCall>(in);
+  if (in.accept_word("PGM")) return read_form<CallProgram>(in);
   if (in.accept_word("SELECTED")) {
     if (in.accept_word("PGM")) return CallSelectedProgram{};
     refuse_word(in, "CALL SELECTED");
@@ -126,8 +121,8 @@ Statement parse_call(BlockReader& in) {
 }
 
 Statement parse_select(BlockReader& in) {
-  if (in.accept_word("PGM")) return SelectProgram{parse_path(in)};
-  if (in.accept_word("TABLE")) return SelectTable{parse_path(in)};
+  if (in.accept_word("PGM")) return read_form<SelectProgram>(in);
+  if (in.accept_word("TABLE")) return read_form<SelectTable>(in);
   refuse_word(in, "SEL");
   return Empty{};
 }

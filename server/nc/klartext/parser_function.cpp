@@ -3,24 +3,26 @@
 #include <span>
 #include <vector>
 
+#include "nc/klartext/forms.hpp"
 #include "nc/klartext/operator_names.hpp"
-#include "nc/klartext/parser_rules.hpp"
 
 namespace fitgauge::klartext {
 namespace {
 
 constexpr std::uint32_t kLargestFn = 39;
 
-/// The parameter of a number that takes a result, and the `=` behind it.
-QRef parse_target(BlockReader& in) {
+/// An operand of a comparison: a number, a parameter or a text.
+Expr parse_comparable(BlockReader& in) {
   in.skip_blanks();
-  const char* begin = in.at();
-  const QRef target = in.parameter();
-  if (!in.failure() && target.is_string()) {
-    in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
-            "this function gives a number: name a Q, QL or QR parameter");
-  }
-  return target;
+  return in.peek() == '"' ? parse_string(in) : parse_value(in);
+}
+
+/// The column names: `"X,Y"`, `QS1` or `:'QS1'`.
+Expr parse_columns(BlockReader& in) {
+  const bool marked = in.accept_word(":'");
+  const Expr columns = parse_string(in);
+  if (marked) in.expect('\'');
+  return columns;
 }
 
 Statement parse_arithmetic(BlockReader& in, const ArithmeticFn& function) {
@@ -59,12 +61,6 @@ Expr parse_definedness(BlockReader& in, const Expr& operand) {
   return in.add_node(Operator::IsUndefined, {operand});
 }
 
-/// An operand of a comparison: a number, a parameter or a text.
-Expr parse_comparable(BlockReader& in) {
-  in.skip_blanks();
-  return in.peek() == '"' ? parse_string(in) : parse_value(in);
-}
-
 Statement parse_conditional_jump(BlockReader& in, unsigned fn) {
   constexpr unsigned kFirstComparison = 9;
   const FunctionName& comparison = kComparisons[fn - kFirstComparison];
@@ -91,46 +87,6 @@ Statement parse_conditional_jump(BlockReader& in, unsigned fn) {
   return ConditionalJump{condition, parse_label(in)};
 }
 
-/// Values separated by `/`, texts in double quotes among them.
-Slice<Expr> parse_items(BlockReader& in) {
-  std::vector<Expr> items;
-  do {
-    items.push_back(parse_comparable(in));
-  } while (in.accept('/'));
-  return in.add_operands(items);
-}
-
-Statement parse_external(BlockReader& in, unsigned fn, std::string_view keyword, char mark) {
-  in.expect_word(keyword);
-  if (mark == '=') in.expect('=');
-  if (mark == '/') in.accept('/');
-  return ExternalFunction{static_cast<std::uint8_t>(fn), parse_items(in)};
-}
-
-Statement parse_formatted_print(BlockReader& in) {
-  in.expect_word("F-PRINT");
-  const Expr mask = parse_path(in, '/');
-  in.expect('/');
-  return FormattedPrint{mask, parse_path(in)};
-}
-
-/// `ID50 NR4 IDXQ2`.
-Expr parse_system_address(BlockReader& in, Operator op) {
-  in.expect_prefix("ID");
-  const Expr id = parse_number(in);
-  in.expect_prefix("NR");
-  const Expr number = parse_number(in);
-  const Expr index = in.accept_prefix("IDX") ? parse_number(in) : Expr();
-  return in.add_node(op, {id, number, index});
-}
-
-Statement parse_system_write(BlockReader& in) {
-  in.expect_word("SYSWRITE");
-  const Expr address = parse_system_address(in, Operator::SystemAddress);
-  in.expect('=');
-  return SystemWrite{address, parse_number(in)};
-}
-
 Statement parse_system_read(BlockReader& in) {
   in.expect_word("SYSREAD");
   const QRef target = parse_target(in);
@@ -141,27 +97,41 @@ Statement parse_system_read(BlockReader& in) {
                     .value = parse_system_address(in, Operator::SystemRead)};
 }
 
-Statement parse_circle_data(BlockReader& in, unsigned fn) {
-  const QRef target = parse_target(in);
-  in.expect('=');
-  in.expect_word("CDATA");
-  const QRef first_point = parse_target(in);
-  return CircleData{target, first_point, static_cast<std::uint8_t>(fn - 20)};
-}
-
-Statement parse_error_stop(BlockReader& in) {
-  in.expect_word("ERROR");
-  in.accept('=');
-  return ErrorStop{parse_number(in)};
-}
-
-Statement parse_wait(BlockReader& in) {
-  in.expect_word("WAIT");
-  in.expect_word("FOR");
-  return WaitFor{in.add_text(free_text(in.rest()))};
-}
-
 }  // namespace
+
+QRef parse_target(BlockReader& in) {
+  in.skip_blanks();
+  const char* begin = in.at();
+  const QRef target = in.parameter();
+  if (!in.failure() && target.is_string()) {
+    in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
+            "this function gives a number: name a Q, QL or QR parameter");
+  }
+  return target;
+}
+
+Slice<Expr> parse_items(BlockReader& in) {
+  std::vector<Expr> items;
+  do {
+    items.push_back(parse_comparable(in));
+  } while (in.accept('/'));
+  return in.add_operands(items);
+}
+
+Expr parse_system_address(BlockReader& in, Operator op) {
+  in.expect_prefix("ID");
+  const Expr id = parse_number(in);
+  in.expect_prefix("NR");
+  const Expr number = parse_number(in);
+  const Expr index = in.accept_prefix("IDX") ? parse_number(in) : Expr();
+  return in.add_node(op, {id, number, index});
+}
+
+Expr parse_cell(BlockReader& in) {
+  const Expr row = parse_number(in);
+  in.expect('/');
+  return in.add_node(Operator::TableCell, {row, parse_columns(in)});
+}
 
 Statement parse_fn(BlockReader& in) {
   in.skip_blanks();
@@ -175,21 +145,21 @@ Statement parse_fn(BlockReader& in) {
     case 10:
     case 11:
     case 12: return parse_conditional_jump(in, fn);
-    case 14: return parse_error_stop(in);
-    case 15: in.expect_word("PRINT"); return Print{parse_items(in)};
-    case 16: return parse_formatted_print(in);
-    case 17: return parse_system_write(in);
+    case 14: return read_form<ErrorStop>(in);
+    case 15: return read_form<Print>(in);
+    case 16: return read_form<FormattedPrint>(in);
+    case 17: return read_form<SystemWrite>(in);
     case 18: return parse_system_read(in);
     case 19:
-    case 29: return parse_external(in, fn, "PLC", '=');
-    case 20: return parse_wait(in);
+    case 29:
+    case 37:
+    case 38: return read_form(in, ExternalFunction{.fn = static_cast<std::uint8_t>(fn)});
+    case 20: return read_form<WaitFor>(in);
     case 23:
-    case 24: return parse_circle_data(in, fn);
-    case 26:
-    case 27:
-    case 28: return parse_table_function(in, fn);
-    case 37: return parse_external(in, fn, "EXPORT", ' ');
-    case 38: return parse_external(in, fn, "SEND", '/');
+    case 24: return read_form(in, CircleData{.points = static_cast<std::uint8_t>(fn - 20)});
+    case 26: return read_form<TableOpen>(in);
+    case 27: return read_form<TableWrite>(in);
+    case 28: return read_form<TableRead>(in);
     default: in.refuse(begin, fmt::format("FN {}", fn)); return Empty{};
   }
 }

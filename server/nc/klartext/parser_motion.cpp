@@ -133,6 +133,4 @@ Statement parse_m_functions(BlockReader& in) {
   return MFunctions{parse_words(in, kM)};
 }
 
-Statement parse_stop(BlockReader& in) { return Stop{parse_words(in, kM)}; }
-
 }  // namespace fitgauge::klartext

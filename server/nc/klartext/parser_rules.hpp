@@ -27,6 +27,9 @@ bool parse_string_function(BlockReader& in, Expr& value);
 /// QS parameters inside (`TNC:\:'QS1'.H`).
 Expr parse_path(BlockReader& in, char stop = ';');
 Label parse_label(BlockReader& in);
+/// `REP 2`, `REPQ106`, and the older listings' `REP 2/2`, `REP Q3/Q3`: what is behind the stroke is
+/// the control's own count of what remains. Starts behind REP.
+Expr parse_repeat(BlockReader& in);
 Statement parse_label_definition(BlockReader& in);
 Statement parse_call(BlockReader& in);
 Statement parse_select(BlockReader& in);
@@ -43,9 +46,14 @@ Statement parse_declare(BlockReader& in);
 
 // parser_function.cpp
 Statement parse_fn(BlockReader& in);
-// parser_table.cpp
-/// FN 26 to 28.
-Statement parse_table_function(BlockReader& in, unsigned fn);
+/// The parameter of a number that takes a result.
+QRef parse_target(BlockReader& in);
+/// Values separated by `/`, texts in double quotes among them.
+Slice<Expr> parse_items(BlockReader& in);
+/// `ID50 NR4 IDXQ2`.
+Expr parse_system_address(BlockReader& in, Operator op);
+/// `5/"Radius,Depth"`.
+Expr parse_cell(BlockReader& in);
 
 // parser_cycle.cpp
 Statement parse_cycl(BlockReader& in);
@@ -66,7 +74,6 @@ Statement parse_motion(BlockReader& in, Path path);
 Statement parse_approach(BlockReader& in);
 Statement parse_departure(BlockReader& in);
 Statement parse_m_functions(BlockReader& in);
-Statement parse_stop(BlockReader& in);
 Statement parse_tool(BlockReader& in);
 
 // parser_transformation.cpp

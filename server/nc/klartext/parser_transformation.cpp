@@ -2,8 +2,7 @@
 #include <string>
 
 #include "base/text.hpp"
-#include "nc/klartext/parser_rules.hpp"
-#include "nc/klartext/parser_words.hpp"
+#include "nc/klartext/forms.hpp"
 #include "nc/klartext/transformation_names.hpp"
 
 namespace fitgauge::klartext {
@@ -124,14 +123,6 @@ Statement parse_tcpm(BlockReader& in) {
   return FunctionTcpm{.active = true, .options = in.add_text(ascii_upper(options))};
 }
 
-Statement parse_dwell(BlockReader& in) {
-  Dwell dwell;
-  dwell.revolutions = in.accept_prefix("REV");
-  if (!dwell.revolutions) in.expect_prefix("TIME");
-  dwell.value = parse_number(in);
-  return dwell;
-}
-
 }  // namespace
 
 Statement parse_trans(BlockReader& in) {
@@ -160,7 +151,7 @@ Statement parse_plane(BlockReader& in) {
 Statement parse_function(BlockReader& in) {
   if (in.accept_word("MODE")) return parse_mode(in);
   if (in.accept_word("TCPM")) return parse_tcpm(in);
-  if (in.accept_word("DWELL")) return parse_dwell(in);
+  if (in.accept_word("DWELL")) return read_form<Dwell>(in);
   if (in.accept_word("RESET")) {
     if (in.accept_word("TCPM")) return FunctionTcpm{.active = false};
     refuse_word(in, "FUNCTION RESET");

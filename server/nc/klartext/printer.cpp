@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "nc/klartext/statement_writer.hpp"
+#include "nc/klartext/forms.hpp"
 
 namespace fitgauge::klartext {
 namespace {

@@ -102,41 +102,6 @@ void write_block(BlockWriter& out, const MFunctions& functions) {
   }
 }
 
-void write_block(BlockWriter& out, const Stop& stop) {
-  out.write("STOP");
-  out.words(stop.words);
-}
-
-void write_block(BlockWriter& out, const LabelDefinition& definition) {
-  out.write("LBL ");
-  out.label(definition.label);
-}
-
-void write_block(BlockWriter& out, const LabelCall& call) {
-  out.write("CALL LBL ");
-  out.label(call.label);
-  if (is_absent(call.repeat)) return;
-  out.write(" REP");
-  out.value(call.repeat);
-}
-
-void write_block(BlockWriter& out, const CallProgram& call) {
-  out.write("CALL PGM ");
-  out.path(call.path);
-}
-
-void write_block(BlockWriter& out, const SelectProgram& select) {
-  out.write("SEL PGM ");
-  out.path(select.path);
-}
-
-void write_block(BlockWriter& out, const CallSelectedProgram&) { out.write("CALL SELECTED PGM"); }
-
-void write_block(BlockWriter& out, const SelectTable& select) {
-  out.write("SEL TABLE ");
-  out.path(select.path);
-}
-
 void write_block(BlockWriter& out, const Trans& trans) {
   constexpr std::string_view kNames[] = {"DATUM", "DATUM TABLE", "MIRROR", "ROTATION", "SCALE"};
   out.write("TRANS ");
@@ -185,11 +150,6 @@ void write_block(BlockWriter& out, const PatternDefinition& pattern) {
     end = " )";
   }
   out.write(end);
-}
-
-void write_block(BlockWriter& out, const Dwell& dwell) {
-  out.write(dwell.revolutions ? "FUNCTION DWELL REV" : "FUNCTION DWELL TIME");
-  out.value(dwell.value);
 }
 
 void write_block(BlockWriter& out, const FunctionMode& mode) {

@@ -4,7 +4,7 @@
 
 #include "nc/klartext/block_writer.hpp"
 
-/// Writes one kind of statement each.
+/// Writes one kind of statement each; those of a plain form are in forms.hpp.
 namespace fitgauge::klartext {
 
 // statement_writer.cpp
@@ -19,19 +19,11 @@ void write_block(BlockWriter& out, const ToolCall& call);
 void write_block(BlockWriter& out, const ToolDefinition& definition);
 void write_block(BlockWriter& out, const Motion& motion);
 void write_block(BlockWriter& out, const MFunctions& functions);
-void write_block(BlockWriter& out, const Stop& stop);
-void write_block(BlockWriter& out, const LabelDefinition& definition);
-void write_block(BlockWriter& out, const LabelCall& call);
-void write_block(BlockWriter& out, const CallProgram& call);
-void write_block(BlockWriter& out, const SelectProgram& select);
-void write_block(BlockWriter& out, const CallSelectedProgram& call);
-void write_block(BlockWriter& out, const SelectTable& select);
 void write_block(BlockWriter& out, const Trans& trans);
 void write_block(BlockWriter& out, const Plane& plane);
 void write_block(BlockWriter& out, const FunctionMode& mode);
 void write_block(BlockWriter& out, const FunctionTcpm& tcpm);
 void write_block(BlockWriter& out, const PatternDefinition& pattern);
-void write_block(BlockWriter& out, const Dwell& dwell);
 
 // cycle_writer.cpp
 void write_block(BlockWriter& out, const Cycle& cycle);
@@ -41,18 +33,14 @@ void write_block(BlockWriter& out, const CycleCall& call);
 void write_cycle(BlockWriter& out, const Cycle& cycle, std::string_view first_comment);
 
 // function_writer.cpp
+/// `FN 14:`
+void write_fn(BlockWriter& out, unsigned fn);
+/// `ID50 NR4 IDXQ2`, of FN 17 and 18.
+void write_address(BlockWriter& out, const Expr& address);
+/// `5/"Radius,Depth"`, of FN 27 and 28.
+void write_cell(BlockWriter& out, const Expr& cell);
 void write_block(BlockWriter& out, const Assignment& assignment);
 void write_block(BlockWriter& out, const SetUndefined& set);
 void write_block(BlockWriter& out, const ConditionalJump& jump);
-void write_block(BlockWriter& out, const ErrorStop& stop);
-void write_block(BlockWriter& out, const Print& print);
-void write_block(BlockWriter& out, const FormattedPrint& print);
-void write_block(BlockWriter& out, const SystemWrite& write);
-void write_block(BlockWriter& out, const CircleData& circle);
-void write_block(BlockWriter& out, const ExternalFunction& function);
-void write_block(BlockWriter& out, const WaitFor& wait);
-void write_block(BlockWriter& out, const TableOpen& open);
-void write_block(BlockWriter& out, const TableWrite& write);
-void write_block(BlockWriter& out, const TableRead& read);
 
 }  // namespace fitgauge::klartext
