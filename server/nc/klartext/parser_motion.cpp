@@ -4,7 +4,7 @@
 #include "base/text.hpp"
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"
-#include "nc/klartext/path_names.hpp"
+#include "nc/klartext/statement_names.hpp"
 
 namespace fitgauge::klartext {
 namespace {

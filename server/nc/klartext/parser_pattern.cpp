@@ -3,7 +3,7 @@
 #include "base/text.hpp"
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"
-#include "nc/klartext/pattern_names.hpp"
+#include "nc/klartext/statement_names.hpp"
 
 namespace fitgauge::klartext {
 namespace {

@@ -18,7 +18,6 @@ Expr parse_number(BlockReader& in);
 /// A quoted text or a QS parameter.
 Expr parse_string(BlockReader& in);
 
-// parser_string_function.cpp
 /// The arguments of a function of texts whose name is next; false when none is.
 bool parse_string_function(BlockReader& in, Expr& value);
 
@@ -40,11 +39,9 @@ Statement parse_end(BlockReader& in);
 Statement parse_blank_form(BlockReader& in);
 Statement parse_structure(BlockReader& in);
 
-// parser_assignment.cpp
+// parser_function.cpp
 Statement parse_assignment(BlockReader& in);
 Statement parse_declare(BlockReader& in);
-
-// parser_function.cpp
 Statement parse_fn(BlockReader& in);
 /// The parameter of a number that takes a result.
 QRef parse_target(BlockReader& in);

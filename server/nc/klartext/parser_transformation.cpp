@@ -3,7 +3,7 @@
 
 #include "base/text.hpp"
 #include "nc/klartext/forms.hpp"
-#include "nc/klartext/transformation_names.hpp"
+#include "nc/klartext/statement_names.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -26,16 +26,14 @@ constexpr LetterSet kPlaneWords[] = {
 static_assert(std::size(kPlaneWords) == std::size(kPlaneKinds));
 
 bool parse_positioning(BlockReader& in, Plane& plane) {
-  for (const PlanePositioningName& row : kPlanePositionings) {
-    if (!in.accept_word(row.name)) continue;
-    if (plane.positioning != PlanePositioning::Unspecified) {
-      in.fail(DiagnosticCode::WordRepeated, in.here(),
-              "TURN, MOVE and STAY exclude each other: name one of them");
-    }
-    plane.positioning = row.positioning;
-    return true;
+  const auto found = accept_name<PlanePositioning>(in, kPlanePositionings);
+  if (!found) return false;
+  if (plane.positioning != PlanePositioning::Unspecified) {
+    in.fail(DiagnosticCode::WordRepeated, in.here(),
+            "TURN, MOVE and STAY exclude each other: name one of them");
   }
-  return false;
+  plane.positioning = *found;
+  return true;
 }
 
 /// `SEQ+`, `SYM-`, `TABLE ROT`, `COORD ROT`.
@@ -99,15 +97,15 @@ Statement parse_trans_words(BlockReader& in, Transformation kind, LetterSet word
 }
 
 Statement parse_mode(BlockReader& in) {
-  for (const OperatingModeName& row : kOperatingModes) {
-    if (!in.accept_word(row.name)) continue;
-    FunctionMode mode{.mode = row.mode};
-    in.skip_blanks();
-    if (in.peek() == '"') mode.kinematics = in.quoted_text(255, "the name of the kinematics");
-    return mode;
+  const auto found = accept_name<OperatingMode>(in, kOperatingModes);
+  if (!found) {
+    in.fail_expected("MILL, TURN or GRIND");
+    return Empty{};
   }
-  in.fail_expected("MILL, TURN or GRIND");
-  return Empty{};
+  FunctionMode mode{.mode = *found};
+  in.skip_blanks();
+  if (in.peek() == '"') mode.kinematics = in.quoted_text(255, "the name of the kinematics");
+  return mode;
 }
 
 /// `F TCP AXIS POS PATHCTRL AXIS`, kept with one blank between words: it moves nothing here.
@@ -141,9 +139,7 @@ Statement parse_trans(BlockReader& in) {
 }
 
 Statement parse_plane(BlockReader& in) {
-  for (const PlaneKindName& row : kPlaneKinds) {
-    if (in.accept_word(row.name)) return parse_plane_kind(in, row.kind);
-  }
+  if (const auto kind = accept_name<PlaneKind>(in, kPlaneKinds)) return parse_plane_kind(in, *kind);
   in.fail_expected("SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
   return Empty{};
 }

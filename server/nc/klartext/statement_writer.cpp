@@ -2,9 +2,7 @@
 
 #include <string>
 
-#include "nc/klartext/path_names.hpp"
-#include "nc/klartext/pattern_names.hpp"
-#include "nc/klartext/transformation_names.hpp"
+#include "nc/klartext/statement_names.hpp"
 
 /// Blocks other than cycles and functions: frame, tools, motion, flow, transformations.
 namespace fitgauge::klartext {
@@ -124,11 +122,9 @@ void write_block(BlockWriter& out, const Plane& plane) {
       kFeedsAndM | LetterSet(Letter::Mb, Letter::MbMax, Letter::Dist, Letter::Seq, Letter::Sym,
                              Letter::TableRot, Letter::CoordRot);
   out.write("PLANE ");
-  out.write(kPlaneKinds[static_cast<std::size_t>(plane.kind)].name);
-  std::string mark;
-  for (const PlanePositioningName& row : kPlanePositionings) {
-    if (row.positioning == plane.positioning) mark.append(" ").append(row.name);
-  }
+  out.write(kPlaneKinds[static_cast<std::size_t>(plane.kind)]);
+  std::string mark(kPlanePositionings[static_cast<std::size_t>(plane.positioning)]);
+  if (!mark.empty()) mark.insert(0, " ");
   out.words(plane.words, mark, kBehind);
 }
 
@@ -154,7 +150,7 @@ void write_block(BlockWriter& out, const PatternDefinition& pattern) {
 
 void write_block(BlockWriter& out, const FunctionMode& mode) {
   out.write("FUNCTION MODE ");
-  out.write(kOperatingModes[static_cast<std::size_t>(mode.mode)].name);
+  out.write(kOperatingModes[static_cast<std::size_t>(mode.mode)]);
   if (mode.kinematics.empty()) return;
   out.write(" ");
   out.quoted(mode.kinematics);

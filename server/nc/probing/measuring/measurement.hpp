@@ -3,11 +3,35 @@
 #include <vector>
 
 #include "nc/probing/measured_value.hpp"
-#include "nc/probing/measuring/tool_monitoring.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {
+
+/// What Q330 does to the row of the named tool.
+struct ToolCorrection {
+  enum class Target : std::uint8_t { Radius, Length };
+  Target target = Target::Radius;
+  Length change{};     ///< added to DR or DL
+  Length deviation{};  ///< of the measured value: compared with RBREAK or LBREAK
+};
+
+/// The radius of the tool that cut the feature: half the deviation, added for a hole, taken away
+/// for an outside dimension (decision 8).
+ToolCorrection radius_correction(const MeasuredValue& size);
+
+/// The radius of the tool that cut one face, which was touched in that direction (Q267): where
+/// material is missing the tool is larger than its radius says (decision 8).
+ToolCorrection face_correction(Length deviation, int direction);
+
+/// The length of the tool that cut a face across the probe axis: a face that is too high was cut by
+/// a tool that is shorter than its length says (decision 8).
+ToolCorrection length_correction(Length deviation);
+
+/// Corrects the tool that Q330 names, inside the tolerance too and on top of earlier corrections
+/// (decision 8). A deviation beyond RBREAK or LBREAK locks the tool. Q330 = 0 does nothing.
+/// @errors 1092 the tool table has no such tool; 1065 the tool is locked now.
+CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection& correction);
 
 /// What a measuring cycle with status has found; the values in the order of the log.
 struct Measurement {

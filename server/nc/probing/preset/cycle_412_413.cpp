@@ -2,7 +2,6 @@
 
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
-#include "nc/probing/preset/preset_circle.hpp"
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 

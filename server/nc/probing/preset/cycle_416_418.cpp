@@ -3,7 +3,6 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
-#include "nc/probing/preset/preset_circle.hpp"
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/corner_probing.hpp"
 #include "nc/probing/touch/hole_pattern.hpp"

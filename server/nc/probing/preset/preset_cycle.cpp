@@ -1,9 +1,145 @@
 #include "nc/probing/preset/preset_cycle.hpp"
 
+#include <cmath>
+
+#include "nc/probing/alignment/basic_rotation.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/single_touch.hpp"
 
 namespace fitgauge::probing {
+namespace {
+
+using machine::AxisWords;
+using machine::CoordinateSystem;
+using machine::Frames;
+using machine::Matrix3;
+using machine::Preset;
+using machine::PresetFrame;
+
+/// Without the noise of the arithmetic: to 1e-9 mm. Whole nanometres would not do, since what a
+/// tilted axis reads adds up the rounding of three machine axes.
+Vec3 tidy(Vec3 point) {
+  constexpr double kPicometres = 1e9;  // in a mm
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    point[axis] = std::round(point[axis] * kPicometres) / kPicometres;
+  }
+  return point;
+}
+
+/// A DatumPoint by the names of the machine's axes, its point in the Basic coordinates of presets.
+struct Found {
+  Vec3 point;
+  std::array<bool, 3> axes{};
+  Vec3 datum;
+};
+
+Found found_in(const Frames& frames, const WorkingPlane& plane, const DatumPoint& found) {
+  Found made{.point = frames.from_machine(frames.to_machine(plane.to_input(found.point)),
+                                          CoordinateSystem::Basic),
+             .datum = plane.to_input(found.datum)};
+  made.axes[index(plane.main)] = found.axes[0];
+  made.axes[index(plane.secondary)] = found.axes[1];
+  made.axes[index(plane.probe)] = found.axes[2];
+  return made;
+}
+
+/// The axes along which a datum is set: those of the workpiece with that basic rotation, or of the
+/// plane that is tilted in it (decision 25).
+Matrix3 axes_of(const Frames& frames, const PresetFrame& preset) {
+  return Matrix3::spatial(preset.basic_rotation_deg) * tilt_of(frames);
+}
+
+/// Moves the zero of a preset along `axes` until the point reads `datum` in the named ones: the
+/// activation of the row (247, Q305 = 0) leaves the tilt and nothing else.
+void move_zero(PresetFrame& preset, const Matrix3& axes, const Found& found) {
+  const Vec3 reading = axes.transposed() * (found.point - preset.origin);
+  Vec3 way;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (found.axes[axis]) way[axis] = reading[axis] - found.datum[axis];
+  }
+  preset.origin = tidy(preset.origin + axes * way);
+}
+
+CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& turned,
+                               std::span<const Found> points) {
+  const machine::MachineState& state = context.machine.state();
+  const int number = context.arguments.whole(305);
+  Preset row{.number = number, .comment = {}, .frame = turned};
+  const Preset* existing = number == 0 ? nullptr : state.presets.find(number);
+  if (existing != nullptr) {
+    row = *existing;
+    if (turned != state.frames.preset()) {
+      row.frame.basic_rotation_deg = turned.basic_rotation_deg;
+    }
+  }
+  const Matrix3 axes = axes_of(state.frames, row.frame);
+  for (const Found& point : points) move_zero(row.frame, axes, point);
+  if (auto written = lift(context.machine.write_preset(row)); !written) return written;
+  if (number != 0) return {};
+  return lift(context.machine.activate_preset(0));
+}
+
+CycleResult<void> write_datum_table(const CycleContext& context, const PresetFrame& turned,
+                                    std::span<const Found> points) {
+  machine::Frames frames = context.machine.state().frames;
+  const Matrix3 inverse = axes_of(frames, turned).transposed();
+  // A shift of cycle 7 counts from where the plane was tilted.
+  const Vec3 tilted_at = frames.plane() ? frames.plane()->origin : Vec3{};
+  const Vec3 zero = turned.origin + Matrix3::spatial(turned.basic_rotation_deg) * tilted_at;
+  AxisWords values;
+  for (const Found& found : points) {
+    const Vec3 datum = tidy(inverse * (found.point - zero) - found.datum);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (found.axes[axis]) values.values[axis] = datum[axis];
+    }
+  }
+  if (auto written = context.host.write_datum(context.arguments.whole(305), values); !written) {
+    return written;
+  }
+  if (turned == frames.preset()) return {};
+  frames.set_preset(turned);
+  return lift(context.machine.set_frames(frames));
+}
+
+}  // namespace
+
+void publish_circle(const CycleContext& context, Side side, const ProbedCircle& probed) {
+  const Circle& circle = probed.circle;
+  CycleHost& host = context.host;
+  set_length(host, 151, circle.centre.x);
+  set_length(host, 152, circle.centre.y);
+  set_length(host, 153, 2 * circle.radius);
+  host.record(
+      {.cycle = context.arguments.descriptor().number,
+       .sizes = {{.characteristic = "Diameter",
+                  .feature = side == Side::Inside ? iso286::Feature::Hole : iso286::Feature::Shaft,
+                  .nominal = to_length(context.arguments.number(262)),
+                  .measured = to_length(2 * circle.radius)}},
+       .form = probed.form});
+}
+
+CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
+  if (auto allowed = refuse_mirror_and_scaling(context.machine.state().frames); !allowed) {
+    return allowed.error();
+  }
+  if (context.arguments.whole(303) == -1 && context.arguments.whole(305) != 0) {
+    return nc_error(1078, "0 is the datum table, 1 the preset table");
+  }
+  return ProbingMotion::begin(context);
+}
+
+CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane& plane,
+                                 std::span<const DatumPoint> points,
+                                 std::optional<double> turn_deg) {
+  const machine::Frames& frames = context.machine.state().frames;
+  std::vector<Found> found;
+  for (const DatumPoint& point : points) found.push_back(found_in(frames, plane, point));
+  PresetFrame turned = frames.preset();
+  if (turn_deg) turned.basic_rotation_deg = turned_rotation(frames, plane.probe, *turn_deg);
+  const bool datum_table = context.arguments.whole(303) == 0 && context.arguments.whole(305) != 0;
+  return datum_table ? write_datum_table(context, turned, found)
+                     : write_preset(context, turned, found);
+}
 
 DatumPoint plane_datum(const Arguments& arguments, Point2 point) {
   return {.point = {point.x, point.y, arguments.number(261)},
