@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -16,11 +17,12 @@ namespace fitgauge::qif {
 /// An element with all below it. A view: lives until its reader goes on.
 class Element {
  public:
-  explicit Element(void* node) : node_(node) {}
+  struct Tree;
+  Element(const Tree& tree, std::size_t place) : tree_(&tree), place_(place) {}
 
-  std::string name() const;
+  const std::string& name() const;
   /// Without blanks around it; empty where there is none.
-  std::string attribute(const char* name) const;
+  std::string attribute(std::string_view name) const;
   /// Of the first element at the path `Tolerance/MaxValue` below, without blanks around it; empty
   /// where there is none.
   std::string text(std::string_view path) const;
@@ -33,15 +35,24 @@ class Element {
   std::vector<std::pair<std::string, std::string>> named_attributes() const;
 
  private:
-  void* node_;
+  std::string_view attribute_as_it_is(std::string_view name) const;
+  void find(std::string_view path, std::vector<Element>& found) const;
+
+  const Tree* tree_;
+  std::size_t place_;
 };
 
-/// Reads an XML document element by element: memory does not grow with it, and an element that is
-/// taken has at most kLargestElement bytes. A document type is refused, and with it every entity of
-/// its own. Not thread-safe; of no more use after an error.
+/// Reads an XML document element by element: memory does not grow with it. Bounds: kLargestElement
+/// bytes an element that is taken, kLargestTag bytes a tag or comment, kMostAttributes a tag,
+/// kDeepest elements inside each other. A document type is refused, and with it every entity of
+/// its own. Reads UTF-8, UTF-16 and every encoding of one byte a character that iconv knows. Not
+/// thread-safe; of no more use after an error.
 class XmlReader {
  public:
   static constexpr std::size_t kLargestElement = std::size_t{4} << 20;
+  static constexpr std::size_t kLargestTag = std::size_t{64} << 10;
+  static constexpr std::size_t kMostAttributes = 256;
+  static constexpr std::size_t kDeepest = 256;
 
   explicit XmlReader(Read read);
   XmlReader(const XmlReader&) = delete;
@@ -56,21 +67,23 @@ class XmlReader {
   std::string_view parent() const;
   /// How many elements it stands in.
   std::size_t depth() const { return names_.size() - 1; }
-  std::string name_space() const;
-  std::uint32_t line() const;
-  std::string attribute(const char* name) const;
+  std::string_view name_space() const { return name_space_; }
+  std::uint32_t line() const { return line_; }
 
   /// Passes over all of it.
-  void pass_over();
+  void pass_over() { passed_ = names_.size(); }
   /// All of the element, which next() then passes over. @errors CsvMalformed with the line
   Result<Element> take();
 
  private:
   struct State;
-  Error failure() const;
+  static constexpr std::size_t kNothing = std::numeric_limits<std::size_t>::max();
 
   std::unique_ptr<State> state_;
   std::vector<std::string> names_{};  ///< of the elements from the outermost on
+  std::string name_space_{};
+  std::uint32_t line_ = 1;
+  std::size_t passed_ = kNothing;  ///< the depth below which elements are passed over
 };
 
 }  // namespace fitgauge::qif

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "formats/qif/qif_csv.hpp"
 #include "formats/qif/qif_writer.hpp"
@@ -10,6 +11,8 @@
 
 namespace fitgauge::qif {
 namespace {
+
+using namespace std::string_literals;
 
 OutgoingValue value(std::int64_t number, std::int64_t nanometres) {
   OutgoingValue value{.origin = "5f0c9a3e77d21b40", .number = number};
@@ -85,12 +88,39 @@ TEST_CASE("a document that is cut anywhere is an error") {
 TEST_CASE("a document type is refused where it stands") {
   std::string text = written(1);
   text.insert(text.find("?>\n") + 3, "<!DOCTYPE QIFDocument>\n");
-  // The parser looks ahead, so it is a line of the document behind it.
   const std::string error = error_of(text);
   CAPTURE(error);
-  CHECK(std::stoul(error.substr(error.find(' '))) <=
-        static_cast<unsigned long>(std::count(text.begin(), text.end(), '\n')) + 1);
+  CHECK(error.starts_with("line 2 "));
   CHECK(error.find("document type") != std::string::npos);
+}
+
+TEST_CASE("a document is read in the encoding that it names, or refused") {
+  const auto read_in = [](std::string_view encoding, std::string_view name) {
+    QifWriter writer;
+    OutgoingValue named = value(1, 25'000'000);
+    named.part_id = "NAME";
+    REQUIRE(writer.add(named).has_value());
+    std::string text = writer.text();
+    text.replace(text.find("UTF-8"), 5, encoding);
+    text.replace(text.find("NAME"), 4, name);
+    const auto read = read_qif(text, {});
+    return read ? read->csv : read.error().message;
+  };
+  for (const auto& [encoding, name] :
+       {std::pair("UTF-8", "B\xC3\xBChrle"), std::pair("ISO-8859-1", "B\xFChrle"),
+        std::pair("windows-1252", "B\xFChrle"), std::pair("IBM850", "B\x81hrle")}) {
+    CAPTURE(encoding);
+    CHECK(read_in(encoding, name).find("B\xC3\xBChrle") != std::string::npos);
+  }
+  CHECK(read_in("UTF-8", "B\xFChrle").find("is not well-formed XML") != std::string::npos);
+  for (const char* const unknown : {"Shift_JIS", "no-encoding"}) {
+    CAPTURE(unknown);
+    CHECK(read_in(unknown, "a") == "line 1 is not well-formed XML: unknown encoding");
+  }
+  std::string wide = "\xFE\xFF";
+  for (const char c : written(2)) wide += {'\0', c};
+  wide.replace(wide.find("U\0T\0F\0-\0008"s), 9, "U\0T\0F\0-\0001\0006"s);
+  CHECK(error_of(wide).empty());
 }
 
 TEST_CASE("an input that fails is told with its words") {
@@ -119,10 +149,22 @@ TEST_CASE("rows, definitions and elements are bounded") {
   std::string large = begin;
   while (large.size() < XmlReader::kLargestElement + begin.size() + 10'000) large += piece;
   CHECK(error_of(large).find("has an element of more than 4 MiB") != std::string::npos);
+  const std::string root = R"(<QIFDocument xmlns="http://qifstandards.org/xsd/qif3">)";
+  for (const std::string& tag :
+       {"<a b='" + std::string(90'000, 'x') + "'/>", "<!--" + std::string(90'000, 'x') + "-->"}) {
+    CHECK(error_of(root + tag).find("has a tag or a comment of more than 64 KiB") !=
+          std::string::npos);
+  }
+  std::string attributes;
+  for (int i = 0; i < 257; ++i) attributes += fmt::format(" a{}=''", i);
+  CHECK(error_of(root + "<a" + attributes + "/>").find("has more than 256 attributes") !=
+        std::string::npos);
+  std::string deep = root;
+  for (int i = 0; i < 256; ++i) deep += "<a>";
+  CHECK(error_of(deep).find("has more than 256 elements inside each other") != std::string::npos);
   std::string many =
       R"(<QIFDocument xmlns="http://qifstandards.org/xsd/qif3"><CharacteristicItems>)";
-  // More than is too many, as the parser looks ahead to where the document is cut.
-  for (int i = 0; i <= 102'000; ++i) many += "<I/>";
+  for (int i = 0; i <= 100'000; ++i) many += "<I/>";
   CHECK(error_of(many).find("is beyond 100000 definitions") != std::string::npos);
 }
 
