@@ -1,7 +1,5 @@
 #include "base/gzip.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <limits>
 #include <new>
@@ -13,47 +11,41 @@ namespace {
 constexpr int kGzip = 16;  // added to the window: a header of gzip, not of zlib
 
 /// zlib does not write to what it reads.
-Bytef* bytes_of(std::string_view text) {
-  return reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+void set_input(z_stream& stream, std::string_view text) {
+  constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(std::min(text.size(), kMost));
+}
+
+void set_output(z_stream& stream, std::span<char> room) {
+  constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
+  stream.next_out = reinterpret_cast<Bytef*>(room.data());
+  stream.avail_out = static_cast<uInt>(std::min(room.size(), kMost));
 }
 
 }  // namespace
 
-struct GzipWriter::Stream : z_stream {
-  Stream() : z_stream{} {
-    constexpr int kMemory = 8;
-    if (deflateInit2(this, Z_BEST_SPEED, Z_DEFLATED, MAX_WBITS + kGzip, kMemory,
-                     Z_DEFAULT_STRATEGY) != Z_OK) {
-      throw std::bad_alloc();
-    }
+GzipWriter::GzipWriter() {
+  constexpr int kMemory = 8;
+  if (deflateInit2(&stream_, Z_BEST_SPEED, Z_DEFLATED, MAX_WBITS + kGzip, kMemory,
+                   Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw std::bad_alloc();
   }
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
-  ~Stream() { deflateEnd(this); }
-};
-
-GzipWriter::GzipWriter() : stream_(std::make_unique<Stream>()) {}
-GzipWriter::~GzipWriter() = default;
+}
 
 void GzipWriter::pack(std::string_view text, int flush) {
-  constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
   do {
-    const std::string_view part = text.substr(0, kMost);
-    text.remove_prefix(part.size());
-    stream_->next_in = bytes_of(part);
-    stream_->avail_in = static_cast<uInt>(part.size());
+    set_input(stream_, text);
+    text.remove_prefix(stream_.avail_in);
     int result = Z_OK;
     do {
       char out[4096];
-      stream_->next_out = reinterpret_cast<Bytef*>(out);
-      stream_->avail_out = sizeof out;
-      result = deflate(stream_.get(), text.empty() ? flush : Z_NO_FLUSH);
-      packed_.append(out, sizeof out - stream_->avail_out);
-    } while (stream_->avail_out == 0 && result != Z_STREAM_END);
+      set_output(stream_, out);
+      result = deflate(&stream_, text.empty() ? flush : Z_NO_FLUSH);
+      packed_.append(out, sizeof out - stream_.avail_out);
+    } while (stream_.avail_out == 0 && result != Z_STREAM_END);
   } while (!text.empty());
 }
-
-void GzipWriter::add(std::string_view text) { pack(text, Z_NO_FLUSH); }
 
 std::string GzipWriter::finish() {
   pack({}, Z_FINISH);
@@ -68,34 +60,38 @@ std::string gzip(std::string_view text) {
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
-struct GzipReader::Stream : z_stream {
-  Stream() : z_stream{} {
-    if (inflateInit2(this, MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
-  }
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
-  ~Stream() { inflateEnd(this); }
-};
-
-GzipReader::GzipReader(std::string packed)
-    : packed_(std::move(packed)), stream_(std::make_unique<Stream>()) {
-  stream_->next_in = bytes_of(packed_);
-  stream_->avail_in = static_cast<uInt>(packed_.size());
+Gunzip::Gunzip() {
+  if (inflateInit2(&stream_, MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
 }
-GzipReader::~GzipReader() = default;
+
+Gunzip::Step Gunzip::put(std::string_view input, std::span<char> output) {
+  Step step;
+  while ((step.consumed < input.size() || has_more_) && step.produced < output.size()) {
+    if (std::exchange(at_end_, false) && inflateReset(&stream_) != Z_OK) throw std::bad_alloc();
+    set_input(stream_, input.substr(step.consumed));
+    set_output(stream_, output.subspan(step.produced));
+    const uInt in = stream_.avail_in;
+    const uInt out = stream_.avail_out;
+    const int result = inflate(&stream_, Z_NO_FLUSH);
+    step.consumed += in - stream_.avail_in;
+    step.produced += out - stream_.avail_out;
+    at_end_ = result == Z_STREAM_END;
+    has_more_ = !at_end_ && stream_.avail_out == 0;
+    if (result == Z_MEM_ERROR) throw std::bad_alloc();
+    step.failed = !at_end_ && result != Z_OK && result != Z_BUF_ERROR;
+    if (step.failed) return step;
+  }
+  return step;
+}
 
 Result<std::string> GzipReader::next() {
-  std::string piece;
-  if (is_over_) return piece;
-  piece.resize(kPiece);
-  stream_->next_out = reinterpret_cast<Bytef*>(piece.data());
-  stream_->avail_out = kPiece;
-  const int result = inflate(stream_.get(), Z_SYNC_FLUSH);
-  is_over_ = result == Z_STREAM_END;
-  if (!is_over_ && (result != Z_OK || stream_->avail_out != 0)) {
+  std::string piece(kPiece, '\0');
+  const Gunzip::Step step = gunzip_.put(std::string_view(packed_).substr(at_), piece);
+  at_ += step.consumed;
+  piece.resize(step.produced);
+  if (step.failed || (piece.size() < kPiece && !gunzip_.is_complete())) {
     return Error{ErrorCode::StorageCorrupt, "a packed text is damaged"};
   }
-  piece.resize(kPiece - stream_->avail_out);
   return piece;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <zlib.h>
+
 #include <cstddef>
-#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,17 +18,16 @@ class GzipWriter {
   GzipWriter();
   GzipWriter(const GzipWriter&) = delete;
   GzipWriter& operator=(const GzipWriter&) = delete;
-  ~GzipWriter();
+  ~GzipWriter() { deflateEnd(&stream_); }
 
-  void add(std::string_view text);
-  /// All that was added, packed. Nothing can be added any more.
+  void add(std::string_view text) { pack(text, Z_NO_FLUSH); }
+  /// All that was added, packed. @post add() must not follow.
   std::string finish();
 
  private:
-  struct Stream;
   void pack(std::string_view text, int flush);
 
-  std::unique_ptr<Stream> stream_;
+  z_stream stream_{};
   std::string packed_;
 };
 
@@ -34,14 +35,40 @@ std::string gzip(std::string_view text);
 
 bool is_gzip(std::string_view bytes);
 
-/// Unpacks piece by piece, so that the text need not be held as a whole.
+/// Unpacks one or several gzip members piece by piece. After a failure it must not be used again.
+class Gunzip {
+ public:
+  /// @throws std::bad_alloc, as put() does.
+  Gunzip();
+  Gunzip(const Gunzip&) = delete;
+  Gunzip& operator=(const Gunzip&) = delete;
+  ~Gunzip() { inflateEnd(&stream_); }
+
+  struct Step {
+    std::size_t consumed = 0;
+    std::size_t produced = 0;
+    bool failed = false;
+  };
+
+  /// Unpacks as much of `input` as `output` has room for.
+  Step put(std::string_view input, std::span<char> output);
+
+  /// The input so far is whole members.
+  bool is_complete() const { return at_end_; }
+  /// The output was full: there may be more without further input.
+  bool has_more() const { return has_more_; }
+
+ private:
+  z_stream stream_{};
+  bool at_end_ = false;
+  bool has_more_ = false;
+};
+
+/// Unpacks a packed text piece by piece, so that the text need not be held as a whole.
 class GzipReader {
  public:
   /// @throws std::bad_alloc.
-  explicit GzipReader(std::string packed);
-  GzipReader(const GzipReader&) = delete;
-  GzipReader& operator=(const GzipReader&) = delete;
-  ~GzipReader();
+  explicit GzipReader(std::string packed) : packed_(std::move(packed)) {}
 
   static constexpr std::size_t kPiece = std::size_t{64} << 10;
   /// The next piece of the text, of kPiece bytes but for the last; empty at its end.
@@ -49,11 +76,9 @@ class GzipReader {
   Result<std::string> next();
 
  private:
-  struct Stream;
-
   std::string packed_;
-  std::unique_ptr<Stream> stream_;
-  bool is_over_ = false;
+  std::size_t at_ = 0;
+  Gunzip gunzip_;
 };
 
 }  // namespace fitgauge

@@ -7,8 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "base/gzip.hpp"
 #include "http/engine/byte_budget.hpp"
-#include "http/engine/gunzip.hpp"
 
 namespace fitgauge::http {
 
