@@ -1,12 +1,65 @@
 // The parts of a connection that other threads reach: answers of asynchronous handlers and the
 // pieces of streamed bodies.
 
+#include <algorithm>
+#include <functional>
 #include <utility>
+#include <vector>
 
+#include "http/answer_batch.hpp"
 #include "http/engine/connection.hpp"
-#include "http/engine/posts.hpp"
+#include "http/engine/io_thread.hpp"
 
 namespace fitgauge::http {
+
+/// What one thread has for the I/O threads, kept for an AnswerBatch.
+class Posts {
+ public:
+  /// Those of the calling thread; null when it has no AnswerBatch.
+  static Posts* kept();
+
+  Posts();
+  Posts(const Posts&) = delete;
+  Posts& operator=(const Posts&) = delete;
+  /// Hands over what was kept.
+  ~Posts();
+
+  void add(IoThread& thread, std::function<void()> function);
+
+ private:
+  using Functions = std::vector<std::function<void()>>;
+
+  std::vector<std::pair<IoThread*, Functions>> threads_;  ///< as few as there are I/O threads
+};
+
+namespace {
+
+thread_local Posts* posts_of_this_thread = nullptr;
+
+}  // namespace
+
+Posts* Posts::kept() { return posts_of_this_thread; }
+
+Posts::Posts() { posts_of_this_thread = this; }
+
+Posts::~Posts() {
+  posts_of_this_thread = nullptr;
+  for (auto& [thread, functions] : threads_) {
+    thread->post([functions = std::move(functions)] {
+      for (const std::function<void()>& function : functions) function();
+    });
+  }
+}
+
+void Posts::add(IoThread& thread, std::function<void()> function) {
+  const auto is_same = [&](const auto& entry) { return entry.first == &thread; };
+  auto entry = std::find_if(threads_.begin(), threads_.end(), is_same);
+  if (entry == threads_.end()) entry = threads_.insert(entry, {&thread, {}});
+  entry->second.push_back(std::move(function));
+}
+
+AnswerBatch::AnswerBatch() : posts_(std::make_unique<Posts>()) {}
+AnswerBatch::~AnswerBatch() = default;
 
 template <class Function>
 void Connection::post(Function function) {
