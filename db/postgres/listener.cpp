@@ -74,7 +74,7 @@ Listener::Listener(std::string address, std::int64_t daemon, Notifications& noti
       notifications_(notifications),
       heard_(std::move(heard)),
       told_(std::move(told)),
-      thread_("the listener of the database", [this](const std::stop_token& stop) { run(stop); }) {}
+      thread_("store listener", [this](const std::stop_token& stop) { run(stop); }) {}
 
 Listener::~Listener() {
   thread_.request_stop();

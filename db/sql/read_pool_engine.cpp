@@ -10,7 +10,7 @@ namespace fitgauge::store {
 ReadPool::Engine::Engine(const OpenOptions& options, HealthMonitor& health, sql::OpenSession open)
     : options_(options), health_(health), open_(std::move(open)), queue_(options.queue_limit) {
   for (unsigned i = 0; i < options.readers; ++i)
-    threads_.emplace_back("a reader of the storage", [this](const auto&) { run(); });
+    threads_.emplace_back("a store reader", [this](const auto&) { run(); });
 }
 
 ReadPool::Engine::~Engine() { stop(); }

@@ -23,6 +23,19 @@ inline SharedResponder share(http::Responder responder) {
   return std::make_shared<http::Responder>(std::move(responder));
 }
 
+/// Answers a request with what was made for it, or why nothing was.
+inline auto answer_by(SharedResponder shared) {
+  return [shared = std::move(shared)](Result<http::Response> made) {
+    made ? shared->answer(*std::move(made)) : shared->fail(made.error());
+  };
+}
+
+/// 200 with a JSON text.
+inline Result<http::Response> json_response(Result<std::string> body) {
+  if (!body) return body.error();
+  return http::Response(200, "application/json", *std::move(body));
+}
+
 /// A GET whose If-Match names another state than the current one.
 inline Error other_state() {
   return {ErrorCode::PreconditionFailed,

@@ -17,6 +17,7 @@ class FileService;
 class DocumentService;
 class RunService;
 class EventService;
+struct Jobs;
 }  // namespace fitgauge::app
 
 namespace fitgauge::api {
@@ -36,6 +37,7 @@ struct Services {
   app::DocumentService& documents;
   GaugesInUse& gauges;
   app::RunService& runs;
+  app::Jobs& jobs;
   app::EventService& events;
   const Metrics& metrics;
   std::shared_ptr<VerdictCounts> verdicts;

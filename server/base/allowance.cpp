@@ -3,6 +3,11 @@
 #include <utility>
 
 namespace fitgauge {
+namespace {
+
+thread_local Allowance* current = nullptr;
+
+}  // namespace
 
 Allowance::Allowance(std::chrono::duration<double> time, std::size_t memory_bytes,
                      std::stop_token stop)
@@ -22,6 +27,14 @@ Allowance::Spent Allowance::look() {
     spent_ = Spent::Time;
   }
   return spent_;
+}
+
+Allowance::OfThread::OfThread(Allowance* allowance) { current = allowance; }
+Allowance::OfThread::~OfThread() { current = nullptr; }
+
+Allowance& Allowance::of_thread() {
+  thread_local Allowance unlimited;
+  return current != nullptr ? *current : unlimited;
 }
 
 }  // namespace fitgauge

@@ -28,6 +28,18 @@ class Allowance {
   /// Looks at clock, memory and stop: about 50 ns.
   Spent look();
   bool is_spent() { return look() != Spent::Nothing; }
+
+  /// While it lives, loops of the calling thread find an allowance by of_thread().
+  class OfThread {
+   public:
+    /// @param allowance null: none; outlives this.
+    explicit OfThread(Allowance* allowance);
+    OfThread(const OfThread&) = delete;
+    OfThread& operator=(const OfThread&) = delete;
+    ~OfThread();
+  };
+  /// That of the calling thread's work; an unlimited one where it has none.
+  static Allowance& of_thread();
   /// What an earlier look has found.
   Spent found() const { return spent_; }
 

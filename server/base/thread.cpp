@@ -1,8 +1,11 @@
 #include "base/thread.hpp"
 
+#include <pthread.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <utility>
 
 #include "base/guarded.hpp"
@@ -20,10 +23,22 @@ void rest(const std::stop_token& stop) {
   over.wait_for(lock, stop, kRest, [] { return false; });
 }
 
+/// Gives the calling thread a name that `top -H` shows.
+void show_as(std::string_view place) {
+  constexpr std::size_t kLongestName = 15;  // of the kernel
+  for (const std::string_view article : {"a ", "an ", "the "}) {
+    if (!place.starts_with(article)) continue;
+    place.remove_prefix(article.size());
+    break;
+  }
+  pthread_setname_np(pthread_self(), std::string(place.substr(0, kLongestName)).c_str());
+}
+
 }  // namespace
 
 Thread::Thread(std::string_view place, Body body)
     : thread_([place, body = std::move(body)](const std::stop_token& stop) {
+        show_as(place);
         while (!guarded(place, [&] { body(stop); }) && !stop.stop_requested()) rest(stop);
       }) {}
 

@@ -9,7 +9,8 @@ namespace fitgauge {
 
 /// A thread whose work no exception ends: what the body throws is a bug, reported as of `place`,
 /// and after a short rest the body begins again, until it returns or a stop was asked for. No other
-/// thread is started anywhere (tests/layering). Its destructor asks it to stop and waits.
+/// thread is started anywhere (tests/layering). Its destructor asks it to stop and waits. `top -H`
+/// shows the first 15 bytes of `place`, without its article.
 class Thread {
  public:
   using Body = std::function<void(const std::stop_token& stop)>;

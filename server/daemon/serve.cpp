@@ -233,6 +233,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .documents = app.documents(),
                                .gauges = gauges,
                                .runs = app.runs(),
+                               .jobs = app.jobs(),
                                .events = app.events(),
                                .metrics = metrics,
                                .verdicts = verdicts,
@@ -278,6 +279,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   wait_for_end(server, !config.tls_cert.empty());
   log_info("stopping", "");
   // Runs are cancelled first, so that those who wait for one get their answer.
+  app.jobs().call_off();
   app.runs().stop();
   control->reset();
   adapter->reset();

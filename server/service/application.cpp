@@ -147,6 +147,7 @@ Application::Application() = default;
 Application::~Application() {
   stage_ = Stage::Closing;
   stage_.notify_all();
+  if (jobs_) jobs_->call_off();
   if (runs_) runs_->stop();
   committed_.stop();
   if (log_) log_->stop();
@@ -213,11 +214,12 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
   app->documents_ = std::make_unique<DocumentService>(*app->database_, clock, options.has_centre);
   if (!options.attach) {
-    app->runs_ =
-        std::make_unique<RunService>(*app->database_, *app->tables_, clock, origins.own(),
-                                     RunServiceOptions{.workers = options.run_workers,
-                                                       .shares = !options.address.empty(),
-                                                       .keeps_newest = options.keeps_newest_run});
+    app->jobs_ = std::make_unique<Jobs>(options.write_queue);
+    app->runs_ = std::make_unique<RunService>(
+        *app->database_, *app->tables_, clock, origins.own(), app->jobs_->orders,
+        RunServiceOptions{.workers = options.run_workers,
+                          .shares = !options.address.empty(),
+                          .keeps_newest = options.keeps_newest_run});
   }
   app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origins,
                                                 app->committed_, options.event_retention);

@@ -17,6 +17,7 @@
 #include "service/events/commit_signal.hpp"
 #include "service/events/event_service.hpp"
 #include "service/files/file_service.hpp"
+#include "service/jobs.hpp"
 #include "service/log/log_intake.hpp"
 #include "service/log/log_outbox.hpp"
 #include "service/log/log_service.hpp"
@@ -88,6 +89,7 @@ class Application {
   FileService& files() { return *files_; }
   DocumentService& documents() { return *documents_; }
   /// @pre not attached.
+  Jobs& jobs() { return *jobs_; }
   RunService& runs() { return *runs_; }
 
   Readiness readiness() const;
@@ -139,6 +141,7 @@ class Application {
   std::unique_ptr<KeyService> keys_;
   std::unique_ptr<FileService> files_;
   std::unique_ptr<DocumentService> documents_;
+  std::unique_ptr<Jobs> jobs_;
   std::unique_ptr<RunService> runs_;
 };
 

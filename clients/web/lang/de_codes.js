@@ -97,6 +97,7 @@ export default {
   'error.statistics.too_few': 'Dafür sind es zu wenige Werte.',
   'error.statistics.zero_spread': 'Die Werte unterscheiden sich nicht.',
   'error.statistics.unbalanced': 'Die Studie ist nicht ausgewogen.',
+  'error.figures.limit': 'Die Auswertung braucht mehr Zeit oder Speicher, als sie darf.',
   'error.statistics.too_many': 'Das sind mehr Werte, als eine Auswertung fasst.',
 
   'finding.syntax.error': 'Dieser Satz ist nicht lesbar.',

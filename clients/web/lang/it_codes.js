@@ -97,6 +97,7 @@ export default {
   'error.statistics.too_few': 'I valori sono troppo pochi.',
   'error.statistics.zero_spread': 'I valori non differiscono.',
   'error.statistics.unbalanced': 'Lo studio non è bilanciato.',
+  'error.figures.limit': 'Il calcolo richiede più tempo o memoria del consentito.',
   'error.statistics.too_many': 'Sono più valori di quanti ne accetta un calcolo.',
 
   'finding.syntax.error': 'Questo blocco non è leggibile.',

@@ -97,6 +97,7 @@ export default {
   'error.statistics.too_few': 'Daarvoor zijn er te weinig waarden.',
   'error.statistics.zero_spread': 'De waarden verschillen niet.',
   'error.statistics.unbalanced': 'De studie is niet gebalanceerd.',
+  'error.figures.limit': 'De berekening vraagt meer tijd of geheugen dan is toegestaan.',
   'error.statistics.too_many': 'Dat zijn meer waarden dan één berekening aankan.',
 
   'finding.syntax.error': 'Deze regel is niet leesbaar.',

@@ -7,9 +7,9 @@
 #include "api/certificates/certificate_draft.hpp"
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
+#include "service/jobs.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/measurement_service.hpp"
-#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -57,11 +57,11 @@ void finish(const Services& services, const std::shared_ptr<CertificateDraft>& d
   services.log.prove(
       *last, [&services, draft, shared](const Result<app::LogService::Proof>& proof) {
         if (!proof) return shared->fail(proof.error());
-        services.runs.prepare(
-            [now = services.clock.now(), head = proof->head, draft, shared] {
-              shared->answer(written(*draft, now, head->note).with("Vary", "Accept"));
+        services.jobs.figures.run(
+            [now = services.clock.now(), head = proof->head, draft]() -> Result<http::Response> {
+              return written(*draft, now, head->note).with("Vary", "Accept");
             },
-            [shared](Error error) { shared->fail(std::move(error)); });
+            answer_by(shared));
       });
 }
 

@@ -9,6 +9,7 @@
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 #include "service/files/file_service.hpp"
+#include "service/jobs.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
@@ -139,19 +140,19 @@ void act_on_file(const Services& services, const http::Request& request,
   const auto path = path_of(request);
   if (!path) return responder.fail(path.error());
   const bool formats = request.text("action") == "format";
-  const auto shared = share(std::move(responder));
   std::optional<std::string> draft;
   if (!request.body().empty()) draft = std::string(request.body());
-  services.runs.prepare(
-      [&services, path = *path, formats, draft = std::move(draft), shared]() mutable {
+  services.jobs.orders.run(
+      [&services, path = *path, formats,
+       draft = std::move(draft)]() mutable -> Result<http::Response> {
         auto done = act_on(services.runs, path, formats, std::move(draft));
-        if (done) return shared->answer(*std::move(done));
+        if (done) return done;
         Error error = std::move(done).error();
         // Here it is the request's path that names what is not there.
         if (error.code == ErrorCode::ProgramUnknown) error.code = ErrorCode::FileUnknown;
-        shared->fail(std::move(error));
+        return error;
       },
-      [shared](Error error) { shared->fail(std::move(error)); });
+      answer_by(share(std::move(responder))));
 }
 
 const http::Parameter kPath{.name = "path",

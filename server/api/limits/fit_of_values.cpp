@@ -5,7 +5,7 @@
 #include "api/measurements/measurement_listing.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
-#include "service/runs/run_service.hpp"
+#include "service/jobs.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -109,16 +109,18 @@ void read_fit_of_values(const Services& services, const http::Request& request,
   if (!holes) return done(holes.error());
   auto shafts = side_query(services, request, kShaft);
   if (!shafts) return done(shafts.error());
-  services.runs.prepare(
-      [&services, done, fit, holes = *std::move(holes), shafts = *std::move(shafts),
-       ignores = ignores_subgroups(request)] {
+  services.jobs.figures.run(
+      [&services, fit, holes = *std::move(holes), shafts = *std::move(shafts),
+       ignores = ignores_subgroups(request)]() -> Result<WriteStored> {
         auto hole = read_side(services, holes, fit.hole, ignores);
-        if (!hole) return done(of_side(kHole, hole.error()));
+        if (!hole) return of_side(kHole, hole.error());
         auto shaft = read_side(services, shafts, fit.shaft, ignores);
-        if (!shaft) return done(of_side(kShaft, shaft.error()));
-        done(WriteStored([&](JsonWriter& json) { write_stored(json, *hole, *shaft); }));
+        if (!shaft) return of_side(kShaft, shaft.error());
+        return WriteStored([hole = *std::move(hole), shaft = *std::move(shaft)](JsonWriter& json) {
+          write_stored(json, hole, shaft);
+        });
       },
-      [done](Error error) { done(std::move(error)); });
+      done);
 }
 
 }  // namespace fitgauge::api

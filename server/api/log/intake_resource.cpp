@@ -6,8 +6,8 @@
 #include "api/wire/problem.hpp"
 #include "base/base64.hpp"
 #include "base/json/json_writer.hpp"
+#include "service/jobs.hpp"
 #include "service/log/batch_reader.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -52,17 +52,16 @@ http::Response response_of(const http::Request& request, const app::LogIntake::A
 }
 
 void put_batch(const Services& services, const http::Request& request, http::Responder responder) {
-  const SharedResponder shared = share(std::move(responder));
-  services.measurements.run(
-      [&services, &request, shared] {
+  services.jobs.intake.run(
+      [&services, &request]() -> Result<http::Response> {
         const auto batch =
             read_batch(*request.text("origin"), *request.integer("from"), request.body());
-        if (!batch) return shared->fail(batch.error());
+        if (!batch) return batch.error();
         const auto answer = services.intake.take((*batch)->batch);
-        if (!answer) return shared->fail(answer.error());
-        shared->answer(response_of(request, *answer, (*batch)->batch.origin));
+        if (!answer) return answer.error();
+        return response_of(request, *answer, (*batch)->batch.origin);
       },
-      [shared](Error error) { shared->fail(std::move(error)); });
+      answer_by(share(std::move(responder))));
 }
 
 }  // namespace

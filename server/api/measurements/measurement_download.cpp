@@ -8,6 +8,7 @@
 #include "api/measurements/measurement_file.hpp"
 #include "formats/sheet/time_zone.hpp"
 #include "record/record.hpp"
+#include "service/jobs.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -17,7 +18,6 @@ constexpr std::size_t kRowsAtOnce = 200;
 /// What a file is made of.
 struct Download {
   const Services& services;
-  SharedResponder responder;
   std::string_view media_type;
   aqdef::DfqOptions options;
   app::MeasurementQuery query;
@@ -148,26 +148,24 @@ void send_file(const Services& services, const http::Request& request, http::Res
   if (!options) return responder.fail(options.error());
   const auto download = std::make_shared<Download>(
       Download{.services = services,
-               .responder = share(std::move(responder)),
                .media_type = media_type,
                .options = *std::move(options),
                .query = std::move(query),
                .after = after,
                .limit = limit ? std::optional(static_cast<std::size_t>(*limit)) : std::nullopt});
-  services.measurements.run(
-      [download] {
+  services.jobs.bulk.run(
+      [download]() -> Result<http::Response> {
         auto bytes = make_bytes(*download);
-        if (!bytes) return download->responder->fail(bytes.error());
+        if (!bytes) return bytes.error();
         const std::string_view ending = download->media_type == kDfqType   ? "dfq"
                                         : download->media_type == kQifType ? "qif"
                                                                            : "xlsx";
-        download->responder->answer(
-            http::Response(200, std::string(download->media_type), *std::move(bytes))
-                .with("Vary", "Accept")
-                .with("Content-Disposition",
-                      fmt::format("attachment; filename=\"measurements.{}\"", ending)));
+        return http::Response(200, std::string(download->media_type), *std::move(bytes))
+            .with("Vary", "Accept")
+            .with("Content-Disposition",
+                  fmt::format("attachment; filename=\"measurements.{}\"", ending));
       },
-      [download](Error error) { download->responder->fail(std::move(error)); });
+      answer_by(share(std::move(responder))));
 }
 
 }  // namespace fitgauge::api

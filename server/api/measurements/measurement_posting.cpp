@@ -4,6 +4,7 @@
 
 #include "api/measurements/measurement_answer.hpp"
 #include "api/wire/request_facts.hpp"
+#include "service/jobs.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/tables/table_catalog.hpp"
 
@@ -56,9 +57,9 @@ void judge_and_record(const SharedPosting& posting) {
 }
 
 /// The same on a thread that may block: the first rows are stored while the last are being read.
-void judge_while_recording(const SharedPosting& posting) {
+Result<void> judge_while_recording(const SharedPosting& posting) {
   const auto basis = basis_of(posting->services);
-  if (!basis) return posting->responder.fail(basis.error());
+  if (!basis) return basis.error();
   const http::Request& request = posting->request;
   const Preference wanted = preference_of(request);
   MeasurementAnswer rendering(wanted);
@@ -75,16 +76,21 @@ void judge_while_recording(const SharedPosting& posting) {
   auto answer =
       posting->services.measurements.record_while_reading(read, posting->scope, rendering);
   // The exact reader runs outside the job, so the writer is free for other requests meanwhile.
-  if (batch.wants_whole) return judge_and_record(posting);
-  if (!answer) return posting->responder.fail(answer.error());
+  if (batch.wants_whole) {
+    judge_and_record(posting);
+    return {};
+  }
+  if (!answer) return answer.error();
   posting->responder.answer(response_of(*std::move(answer), wanted));
+  return {};
 }
 
 void judge_where_it_may_take_long(const SharedPosting& posting) {
   if (posting->request.body().size() <= kLargeBody) return judge_and_record(posting);
-  posting->services.measurements.run(
-      [posting] { judge_while_recording(posting); },
-      [posting](Error error) { posting->responder.fail(std::move(error)); });
+  posting->services.jobs.bulk.run([posting] { return judge_while_recording(posting); },
+                                  [posting](const Result<void>& read) {
+                                    if (!read) posting->responder.fail(read.error());
+                                  });
 }
 
 }  // namespace

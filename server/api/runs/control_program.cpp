@@ -5,6 +5,7 @@
 #include "api/runs/run_order_codec.hpp"
 #include "base/json/json_value.hpp"
 #include "nc/program/check.hpp"
+#include "service/jobs.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -54,20 +55,19 @@ Result<std::shared_ptr<app::ActiveRun>> start(const Services& services,
                              [](const app::ActiveRun&) { return app::Answer{}; });
 }
 
-/// What `work` gives on the thread that prepares runs.
-template <class T, class Work>
-Result<T> prepared(app::RunService& runs, const Work& work) {
-  std::promise<Result<T>> promise;
-  auto future = promise.get_future();
-  runs.prepare([&] { promise.set_value(work()); },
-               [&](Error error) { promise.set_value(std::move(error)); });
-  return future.get();
+/// What `work` returns as an order.
+template <class Work>
+auto ordered(const Services& services, const Work& work) {
+  std::promise<decltype(work())> promise;
+  services.jobs.orders.run(work,
+                           [&](decltype(work()) made) { promise.set_value(std::move(made)); });
+  return promise.get_future().get();
 }
 
 }  // namespace
 
 Result<machine::Setup> machine_of_setup(const Services& services, const std::string& name) {
-  return prepared<machine::Setup>(services.runs, [&]() -> Result<machine::Setup> {
+  return ordered(services, [&]() -> Result<machine::Setup> {
     if (!name.empty()) {
       if (const auto found = services.documents.wait_for(app::DocumentKind::Setup, name); !found)
         return found.error();
@@ -81,8 +81,7 @@ Result<machine::Setup> machine_of_setup(const Services& services, const std::str
 Result<std::shared_ptr<app::ActiveRun>> start_program(const Services& services,
                                                       const interpreter::ControlPath& program,
                                                       const std::string& setup) {
-  return prepared<std::shared_ptr<app::ActiveRun>>(services.runs,
-                                                   [&] { return start(services, program, setup); });
+  return ordered(services, [&] { return start(services, program, setup); });
 }
 
 }  // namespace fitgauge::api

@@ -7,6 +7,7 @@
 #include "api/wire/request_facts.hpp"
 #include "nc/program/check.hpp"
 #include "record/measurement.hpp"
+#include "service/jobs.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
@@ -100,37 +101,44 @@ Result<app::RunOrder> read_order(const SharedPosting& posting) {
   return order;
 }
 
-void prepare(const SharedPosting& posting) {
+/// Starts a run, and answers unless it is to end first.
+Result<void> start(const SharedPosting& posting) {
   app::RunService& runs = posting->services.runs;
   if (posting->scope) {
     auto kept = runs.kept_answer(*posting->scope);
-    if (!kept) return posting->responder.fail(kept.error());
-    if (*kept) return replay(posting, **std::move(kept));
+    if (!kept) return kept.error();
+    if (*kept) {
+      replay(posting, **std::move(kept));
+      return {};
+    }
   }
   auto order = read_order(posting);
-  if (!order) return posting->responder.fail(order.error());
+  if (!order) return order.error();
   const auto diagnostics = runs.check_program(order->program);
   if (!diagnostics) {
     Error error = diagnostics.error();
     if (error.code == ErrorCode::ProgramUnknown) {
       error.details.push_back({error.code, error.message, "/program"});
     }
-    return posting->responder.fail(std::move(error));
+    return error;
   }
   if (interpreter::has_errors(*diagnostics, order->options.keeps_unreadable)) {
-    return posting->responder.answer(
+    posting->responder.answer(
         invalid_program(posting->request, order->program.text(), *diagnostics));
+    return {};
   }
   const bool at_once = prefers_async(posting->request);
   const auto run = runs.start(*std::move(order), posting->scope,
                               [at_once](const app::ActiveRun& r) { return accepted(r, at_once); });
-  if (!run) return posting->responder.fail(run.error());
+  if (!run) return run.error();
   app::Answer answer = accepted(**run, at_once);
   if (at_once) {
-    return posting->responder.answer(with_preference(response_of(std::move(answer))));
+    posting->responder.answer(with_preference(response_of(std::move(answer))));
+    return {};
   }
   (*run)->on_end([posting, location = std::move(answer.location)](
                      const Result<app::FinishedRun>& end) { answer_end(posting, location, end); });
+  return {};
 }
 
 }  // namespace
@@ -138,8 +146,10 @@ void prepare(const SharedPosting& posting) {
 void post_run(const Services& services, const http::Request& request, http::Responder responder) {
   const SharedPosting posting = begin_posting(services, request, std::move(responder));
   if (!posting) return;
-  services.runs.prepare([posting] { prepare(posting); },
-                        [posting](Error error) { posting->responder.fail(std::move(error)); });
+  services.jobs.orders.run([posting] { return start(posting); },
+                           [posting](const Result<void>& started) {
+                             if (!started) posting->responder.fail(started.error());
+                           });
 }
 
 }  // namespace fitgauge::api

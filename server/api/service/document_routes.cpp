@@ -8,7 +8,7 @@
 #include "api/statistics/exact_reader.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/clock.hpp"
-#include "service/runs/run_service.hpp"
+#include "service/jobs.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -88,19 +88,18 @@ void write(const Services& services, const KindOfDocument& kind, std::string nam
       });
 }
 
-/// Checking may take long: a simulation of a budget, a setup's surface of many points.
 void put(const Services& services, const KindOfDocument& kind, const http::Request& request,
          http::Responder responder) {
   auto name = name_to_write(kind, request);
   if (!name) return responder.fail(name.error());
   const SharedResponder shared = share(std::move(responder));
-  services.runs.prepare(
-      [&services, &kind, &request, name = *std::move(name), shared] {
-        auto checked = kind.check(services, name, request.body());
-        if (!checked) return shared->fail(checked.error());
-        write(services, kind, name, *std::move(checked), request, shared);
-      },
-      [shared](Error error) { shared->fail(std::move(error)); });
+  JobPool& pool = kind.is_figure ? services.jobs.figures : services.jobs.orders;
+  pool.run([&services, &kind, &request,
+            name = *name] { return kind.check(services, name, request.body()); },
+           [&services, &kind, &request, name = *name, shared](Result<CheckedDocument> checked) {
+             if (!checked) return shared->fail(checked.error());
+             write(services, kind, name, *std::move(checked), request, shared);
+           });
 }
 
 void get(const Services& services, const KindOfDocument& kind, const http::Request& request,

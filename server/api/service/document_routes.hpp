@@ -47,6 +47,7 @@ struct KindOfDocument {
   std::size_t longest_name = 200;
   bool names_with_slashes = true;
   DescribeDocument describe = describe_by_name;
+  bool is_figure = false;  ///< its check computes, which may take long
   /// Runs on a thread that may wait. @errors whatever is wrong with the body.
   Result<CheckedDocument> (*check)(const Services& services, const std::string& name,
                                    std::string_view body){};

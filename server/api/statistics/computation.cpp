@@ -1,7 +1,7 @@
 #include "api/statistics/computation.hpp"
 
 #include "api/handlers.hpp"
-#include "service/runs/run_service.hpp"
+#include "service/jobs.hpp"
 
 namespace fitgauge::api {
 
@@ -11,21 +11,18 @@ http::Route route_of(const Services& services, Computation computation) {
   route.pattern = std::move(computation.pattern);
   route.handler = [&services, compute = computation.compute](const http::Request& request,
                                                              http::Responder responder) {
-    const auto shared = share(std::move(responder));
-    services.runs.prepare(
-        [compute, &request, shared] {
-          auto body = parse_json(request.body());
+    services.jobs.figures.run(
+        [compute, &request]() -> Result<http::Response> {
+          const auto body = parse_json(request.body());
           if (!body) {
             Error error = body.error();
             if (error.code == ErrorCode::BodyTooLarge)
               error.message.append(": ").append(kOfManyValues);
-            return shared->fail(std::move(error));
+            return error;
           }
-          auto answer = compute(*body);
-          if (!answer) return shared->fail(answer.error());
-          shared->answer({200, "application/json", *std::move(answer)});
+          return json_response(compute(*body));
         },
-        [shared](Error error) { shared->fail(std::move(error)); });
+        answer_by(share(std::move(responder))));
   };
   route.summary = std::move(computation.summary);
   route.description = std::move(computation.description);

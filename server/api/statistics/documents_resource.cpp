@@ -61,6 +61,7 @@ constexpr KindOfDocument kUncertainties{.kind = app::DocumentKind::Uncertainty,
                                         .body_schema = "UncertaintyBudget",
                                         .list_schema = "UncertaintyBudgetNames",
                                         .answered = "Uncertainty",
+                                        .is_figure = true,
                                         .check = check_budget,
                                         .changed = reload_gauges};
 constexpr KindOfDocument kGauges{.kind = app::DocumentKind::GaugeInUse,

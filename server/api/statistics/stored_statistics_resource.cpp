@@ -7,7 +7,7 @@
 #include "api/statistics/statistics_codec.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
-#include "service/runs/run_service.hpp"
+#include "service/jobs.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -26,17 +26,15 @@ void answer_with(const Services& services, const http::Request& request, http::R
   auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   if (const auto last = request.integer("last")) query->last = static_cast<std::size_t>(*last);
-  const SharedResponder shared = share(std::move(responder));
-  services.runs.prepare(
-      [&services, shared, query = *std::move(query), figure = std::move(figure)] {
+  services.jobs.figures.run(
+      [&services, query = *std::move(query),
+       figure = std::move(figure)]() -> Result<http::Response> {
         ValueSelection selection;
         const auto read = selection.read(services.measurements, query);
-        if (!read) return shared->fail(read.error());
-        auto answer = figure(std::move(selection), *read);
-        if (!answer) return shared->fail(answer.error());
-        shared->answer({200, "application/json", *std::move(answer)});
+        if (!read) return read.error();
+        return json_response(figure(std::move(selection), *read));
       },
-      [shared](Error error) { shared->fail(std::move(error)); });
+      answer_by(share(std::move(responder))));
 }
 
 /// The subgroup or the measurement that a point is of. A moving range is named by its later value.

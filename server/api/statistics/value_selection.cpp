@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/allowance.hpp"
+
 namespace fitgauge::api {
 namespace {
 
@@ -76,6 +78,9 @@ Result<std::string> ValueSelection::read(app::MeasurementService& measurements,
 }
 
 Result<void> ValueSelection::add(const app::MeasuredRun& run) {
+  if (Allowance::of_thread().is_spent()) {
+    return Error{ErrorCode::FiguresLimit, "the selection takes more time or memory than it may"};
+  }
   const Limits limits{run.lower_limit, run.upper_limit};
   if (!limits_) limits_ = limits;
   if (limits != *limits_) {

@@ -69,7 +69,7 @@ class ValueSelection {
   Result<std::string> read(app::MeasurementService& measurements,
                            const app::MeasurementQuery& query);
 
-  /// @errors LimitsMixed: other limits than those of the first; StatisticsTooMany.
+  /// @errors LimitsMixed: other limits than those of the first; StatisticsTooMany; FiguresLimit.
   Result<void> add(const app::MeasuredRun& run);
 
   /// Puts values where they belong, when all are added.

@@ -82,6 +82,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::StatisticsZeroSpread:
     case ErrorCode::StatisticsUnbalanced:
     case ErrorCode::StatisticsTooMany:
+    case ErrorCode::FiguresLimit:
     case ErrorCode::TableRowsInvalid:
     case ErrorCode::TableFileMalformed:
     case ErrorCode::IdempotencyKeyReused:

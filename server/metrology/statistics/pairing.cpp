@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/allowance.hpp"
+
 namespace fitgauge::metrology {
 namespace {
 
@@ -20,7 +22,7 @@ std::vector<std::size_t> by_size(const std::vector<Length>& sizes) {
 }
 
 /// For each of the fewer, in order, the one of the more it goes with: fewer[i] with more[i + skip],
-/// the skips never falling.
+/// the skips never falling. Empty where the thread's allowance is spent.
 /// @param distance of the i-th of the fewer and the j-th of the more from the target
 template <class Distance>
 std::vector<std::size_t> assign(std::size_t fewer, std::size_t more, const Distance& distance) {
@@ -29,6 +31,7 @@ std::vector<std::size_t> assign(std::size_t fewer, std::size_t more, const Dista
   std::vector<Square> best(skips, 0);
   std::vector<bool> taken(fewer * skips);  // whether that least sum has exactly s left out
   for (std::size_t i = 0; i < fewer; ++i) {
+    if (Allowance::of_thread().is_spent()) return {};
     for (std::size_t s = 0; s < skips; ++s) {
       const Square off = distance(i, i + s).count();
       const Square with = best[s] + off * off;
@@ -69,6 +72,9 @@ Result<std::vector<Pair>> pair(const std::vector<Length>& holes, const std::vect
   const auto assigned = assign(fewer, more, [&](std::size_t i, std::size_t j) {
     return (fewer_holes ? clearance(i, j) : clearance(j, i)) - target;
   });
+  if (assigned.empty()) {
+    return Error{ErrorCode::FiguresLimit, "the pairing takes more time or memory than it may"};
+  }
   std::vector<Pair> pairs;
   pairs.reserve(fewer);
   for (std::size_t i = 0; i < fewer; ++i) {

@@ -20,7 +20,8 @@ struct Pair {
 /// least sum of squares of clearance - target of all assignments. By hole, ascending.
 /// Squares are convex, so of two pairs that cross the straight ones are never worse: both sorted,
 /// only which of the more are left out is a question, and a table of the differences answers it.
-/// @errors StatisticsTooFew without a hole or a shaft; FieldTooLong above kLargestPairing.
+/// @errors StatisticsTooFew without a hole or a shaft; FieldTooLong above kLargestPairing;
+///   FiguresLimit where the thread's allowance is spent.
 Result<std::vector<Pair>> pair(const std::vector<Length>& holes, const std::vector<Length>& shafts,
                                Length target);
 

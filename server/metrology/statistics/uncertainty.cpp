@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/allowance.hpp"
 #include "metrology/statistics/distributions.hpp"
 
 namespace fitgauge::metrology {
@@ -23,6 +24,10 @@ constexpr std::array<std::pair<std::string_view, Distribution>, 5> kDistribution
 Error impossible() {
   return {ErrorCode::FieldInvalid,
           "no quantities can be correlated like this: the matrix of coefficients is not positive"};
+}
+
+Error beyond_bound() {
+  return {ErrorCode::FiguresLimit, "the simulation takes more time or memory than it may"};
 }
 
 /// Correlations as the lower triangle L of L L' = R, row by row; none when R is not positive.
@@ -185,9 +190,11 @@ Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, st
   for (const Correlation& c : budget.correlations) is_correlated[c.a] = is_correlated[c.b] = true;
   Random random(seed);
   std::vector<double> results(trials);
-  std::vector<double> standard(n);  // normal deviates, before they are correlated
-  for (double& result : results) {
-    result = 0;
+  std::vector<double> standard(n);             // normal deviates, before they are correlated
+  constexpr std::size_t kBetweenLooks = 1024;  // trials
+  for (std::size_t trial = 0; trial < trials; ++trial) {
+    if (trial % kBetweenLooks == 0 && Allowance::of_thread().is_spent()) return beyond_bound();
+    double& result = results[trial];
     for (std::size_t i = 0; i < n; ++i) {
       const Contribution& c = budget.contributions[i];
       double deviation = 0;

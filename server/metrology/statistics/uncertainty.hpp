@@ -61,7 +61,8 @@ inline constexpr std::uint64_t kMostDraws = 50'000'000;  ///< trials times contr
 /// The propagation of distributions (JCGM 101), of deviations from the estimate. A normal
 /// contribution with degrees of freedom is drawn from their t distribution (6.4.9), a correlated
 /// one from a normal one. The same seed gives the same answer everywhere.
-/// @errors FieldInvalid: correlated contributions that are not normal, or correlations as above.
+/// @errors FieldInvalid: correlated contributions that are not normal, or correlations as above;
+///   FiguresLimit where the thread's allowance is spent.
 Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, std::uint64_t seed);
 
 }  // namespace fitgauge::metrology

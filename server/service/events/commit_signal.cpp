@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds kRest{5};
 }  // namespace
 
 CommitSignal::CommitSignal()
-    : thread_("the signal of commits", [this](const std::stop_token& stop) { run(stop); }) {}
+    : thread_("commit signal", [this](const std::stop_token& stop) { run(stop); }) {}
 CommitSignal::~CommitSignal() = default;
 
 void CommitSignal::stop() { thread_.stop(); }

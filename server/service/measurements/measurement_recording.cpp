@@ -2,7 +2,6 @@
 
 #include <exception>
 
-#include "base/worker_pool.hpp"
 #include "db/store/database.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
@@ -16,10 +15,6 @@
 
 namespace fitgauge::app {
 namespace {
-
-/// Long requests that are read at once. Only one of them can be stored at a time: the other is
-/// there to have its first measurements ready.
-constexpr unsigned kLongRequests = 2;
 
 constexpr std::string_view kNoteEvent = "note.added";
 
@@ -48,10 +43,7 @@ MeasurementService::MeasurementService(store::Database& database, const TableCat
       tables_(tables),
       origins_(origins),
       queue_(std::make_shared<MeasurementQueue>(database, origins.own(), options.most_waiting,
-                                                options.commit_each)),
-      long_requests_(
-          std::make_unique<WorkerPool>("a long request", kLongRequests, options.most_waiting)) {}
-MeasurementService::~MeasurementService() = default;
+                                                options.commit_each)) {}
 
 void MeasurementService::find_answer(const IdempotencyScope& scope,
                                      Done<std::optional<Answer>> done) {
@@ -152,17 +144,6 @@ Result<Answer> MeasurementService::record_while_reading(
   if (!begun) return complete.error();
   if (!complete) feed->fail(complete.error());
   return feed->outcome();
-}
-
-void MeasurementService::run(std::function<void()> work, const std::function<void(Error)>& failed) {
-  auto job = [work = std::move(work), failed] {
-    try {
-      work();
-    } catch (const std::exception& bug) {
-      failed(internal_error(bug));
-    }
-  };
-  if (!long_requests_->submit(std::move(job))) failed(too_much_work());
 }
 
 }  // namespace fitgauge::app

@@ -18,9 +18,7 @@ namespace fitgauge::store {
 class Database;
 }
 
-namespace fitgauge {
-class WorkerPool;
-}
+namespace fitgauge {}
 
 namespace fitgauge::app {
 
@@ -147,7 +145,6 @@ class MeasurementService {
   /// @param origins outlive the service.
   MeasurementService(store::Database& database, const TableCatalog& tables, const Origins& origins,
                      const MeasurementServiceOptions& options);
-  ~MeasurementService();
 
   /// @errors MeasurementUnknown.
   Result<RecordName> parse_id(std::string_view text) const {
@@ -179,7 +176,7 @@ class MeasurementService {
   using Read = std::function<Result<void>(const Take&)>;
 
   /// Stores judged measurements while `read` goes on reading, all or none. Blocks until they are
-  /// durable: for the threads of run(). The texts of the measurements stay alive until it returns.
+  /// durable. The texts of the measurements stay alive until it returns.
   /// @errors those of `read` and of record().
   Result<Answer> record_while_reading(const Read& read,
                                       const std::optional<IdempotencyScope>& scope,
@@ -214,7 +211,7 @@ class MeasurementService {
             Done<ListPage> done);
 
   /// Visits what figures are computed from of all that match, in storage order and in one state,
-  /// and ends with the first error the visitor gives. Blocks: for threads that take long requests.
+  /// and ends with the first error the visitor gives. Blocks.
   /// @errors StorageBusy, StorageUnavailable, ShuttingDown
   using RunVisitor = std::function<Result<void>(const MeasuredRun&)>;
   Result<ReadValues> read_values(const MeasurementQuery& query, const RunVisitor& visit);
@@ -222,10 +219,6 @@ class MeasurementService {
   /// Groups by one of kTextFilters. @errors QueryInvalid for another field or too many groups.
   void summary(const MeasurementQuery& query, std::string_view group_by,
                Done<std::vector<MeasurementGroup>> done);
-
-  /// Runs `work` on a thread for long requests, which may block. Calls `failed` when it throws, or
-  /// at once when too many wait. @errors Internal, StorageBusy.
-  void run(std::function<void()> work, const std::function<void(Error)>& failed);
 
  private:
   template <class Work>
@@ -235,7 +228,6 @@ class MeasurementService {
   const TableCatalog& tables_;
   const Origins& origins_;
   const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs
-  const std::unique_ptr<WorkerPool> long_requests_;
 };
 
 }  // namespace fitgauge::app

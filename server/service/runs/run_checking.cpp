@@ -1,4 +1,4 @@
-// What the preparing thread does for a run before it is started.
+// What is done for a run before it is started.
 
 #include <chrono>
 
@@ -32,7 +32,7 @@ Result<RunService::Diagnostics> RunService::check_with(Check find_all,
                                                        const interpreter::ControlPath& path,
                                                        std::optional<std::string> draft) try {
   const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
-  Allowance allowance(kPreparingTime, kPreparingMemory, stopping_.get_token());
+  Allowance allowance(kPreparingTime, kPreparingMemory, orders_.stop_token());
   if (!draft) return find_all(path, disk, programs_, allowance);
   return find_all(path, DraftDisk(disk, path, *std::move(draft)), programs_, allowance);
 } catch (const store::StorageFailure& failure) {
@@ -46,7 +46,8 @@ Result<std::string> RunService::format(const interpreter::ControlPath& path) try
 }
 
 Result<std::shared_ptr<const ControlTables>> RunService::control_tables() try {
-  Allowance allowance(kPreparingTime, kPreparingMemory, stopping_.get_token());
+  Allowance allowance(kPreparingTime, kPreparingMemory, orders_.stop_token());
+  const std::lock_guard lock(tables_mutex_);
   return control_tables_.read(allowance);
 } catch (const store::StorageFailure& failure) {
   return failure.error();
@@ -54,6 +55,7 @@ Result<std::shared_ptr<const ControlTables>> RunService::control_tables() try {
 
 Result<void> RunService::load_meshes(machine::Setup& setup, std::string_view pointer,
                                      MissingFiles missing) try {
+  const std::lock_guard lock(meshes_mutex_);
   return meshes_.load(setup, pointer, missing);
 } catch (const store::StorageFailure& failure) {
   return failure.error();

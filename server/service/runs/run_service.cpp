@@ -11,9 +11,6 @@ namespace {
 using interpreter::MessageKind;
 using interpreter::RunStatus;
 
-/// Requests that wait to be checked.
-constexpr std::size_t kPreparing = 256;
-
 Error stopping() {
   return {ErrorCode::ShuttingDown, "the service is shutting down and takes no more runs"};
 }
@@ -21,7 +18,7 @@ Error stopping() {
 }  // namespace
 
 RunService::RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
-                       std::string_view origin, RunServiceOptions options)
+                       std::string_view origin, JobPool& orders, RunServiceOptions options)
     : database_(database),
       clock_(clock),
       origin_(origin),
@@ -30,7 +27,7 @@ RunService::RunService(store::Database& database, const TableCatalog& tables, co
       stored_(database),
       control_tables_(stored_),
       meshes_(stored_),
-      preparing_("a run's preparation", 1, kPreparing),
+      orders_(orders),
       // What may be queued is limited where runs are started.
       running_("a run", options.workers, options.workers + options.queue) {}
 
@@ -39,8 +36,8 @@ RunService::~RunService() { stop(); }
 Result<void> RunService::open(RunFormat format) {
   format_ = std::move(format);
   if (!options_.shares) return close_interrupted();
-  looking_ = Thread("the look for abandoned runs",
-                    [this](const std::stop_token& stop) { look_for_abandoned(stop); });
+  looking_ =
+      Thread("abandoned runs", [this](const std::stop_token& stop) { look_for_abandoned(stop); });
   const auto has_any = [this] {
     const std::lock_guard lock(mutex_);
     return !active_.empty();
@@ -54,10 +51,8 @@ Result<void> RunService::open(RunFormat format) {
 }
 
 void RunService::stop() {
-  stopping_.request_stop();
   looking_.stop();
   if (shared_) shared_->stop();
-  preparing_.stop();
   {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, entry] : active_) entry.run->cancel();
@@ -65,23 +60,12 @@ void RunService::stop() {
   running_.stop();
 }
 
-void RunService::prepare(std::function<void()> work, const std::function<void(Error)>& refused) {
-  // Work that throws drops what it had to answer, and that answers for itself.
-  auto unless_stopping = [this, work = std::move(work), refused] {
-    if (stopping_.stop_requested()) return refused(stopping());
-    work();
-  };
-  if (preparing_.submit(std::move(unless_stopping))) return;
-  if (stopping_.stop_requested()) return refused(stopping());
-  refused({ErrorCode::Overloaded, "too many runs and checks wait already; try again soon"});
-}
-
 Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
                                                      const std::optional<IdempotencyScope>& scope,
                                                      const Accepted& accepted) {
-  if (stopping_.stop_requested()) return stopping();
+  if (orders_.is_called_off()) return stopping();
+  const std::lock_guard starting(starting_);
   {
-    // Only the preparing thread adds runs, so that there is still room when the row is stored.
     const std::lock_guard lock(mutex_);
     if (active_.size() >= options_.workers + options_.queue) {
       return Error{ErrorCode::Overloaded, "too many runs wait already; try again soon"};
@@ -151,21 +135,26 @@ void RunService::end(ActiveRun& active, ExecutedRun executed) {
   active.being_stored();
   Result<FinishedRun> kept = Error{ErrorCode::Internal, "the end of the run could not be stored"};
   guarded("the end of a run", [&] { kept = keep(report, executed.trace, active.order().caller); });
+  {
+    // Who hears of the end finds its place free.
+    const std::lock_guard lock(mutex_);
+    ++ended_[static_cast<std::size_t>(state_of(report.result.status))];
+    active_.erase(report.id);
+  }
   guarded("the end of a run", [&] { active.finished(std::move(kept)); });
-  const std::lock_guard lock(mutex_);
-  ++ended_[static_cast<std::size_t>(state_of(report.result.status))];
-  active_.erase(report.id);
 }
 
 void RunService::cancel(const std::shared_ptr<ActiveRun>& active) {
   active->cancel();
-  const auto ticket = preparing_.submit([this, active] {
-    if (!withdraw(active->id())) return;
+  const auto end_queued = [this, active]() -> Result<void> {
+    if (!withdraw(active->id())) return {};
     end(*active, without_moves(unstarted(RunStatus::Cancelled, MessageKind::Cancelled,
                                          "the run was cancelled before its first block",
                                          active->program())));
-  });
-  static_cast<void>(ticket);  // where there is no room, the worker whose turn it is ends the run
+    return {};
+  };
+  // If there is no room, the worker that takes the run ends it.
+  orders_.run(end_queued, [](const Result<void>&) {});
 }
 
 /// @returns whether the run was queued; now no worker will begin it.

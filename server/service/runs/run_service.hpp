@@ -6,10 +6,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "base/job_pool.hpp"
 #include "base/thread.hpp"
 #include "base/worker_pool.hpp"
 #include "nc/klartext/diagnostic.hpp"
@@ -47,9 +47,10 @@ class RunService {
   template <class T>
   using Done = std::function<void(Result<T>)>;
 
-  /// @param origin of the data folder; outlives the service.
+  /// @param origin of the data folder; outlives the service, as the pool does.
+  /// @param orders the pool on which the functions below that block are called
   RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
-             std::string_view origin, RunServiceOptions options);
+             std::string_view origin, JobPool& orders, RunServiceOptions options);
   RunService(const RunService&) = delete;
   RunService& operator=(const RunService&) = delete;
   ~RunService();
@@ -60,15 +61,10 @@ class RunService {
   /// @errors StorageUnavailable.
   Result<void> open(RunFormat format);
 
-  /// Takes no more orders, refuses those that wait, cancels every run and stores what they left.
-  /// Blocks.
+  /// Cancels every run and stores what they left. Blocks. @pre the orders are called off.
   void stop();
 
-  /// Runs `work` on the one thread that prepares runs, on which the functions below may be called,
-  /// or calls `refused` at once. @errors Overloaded, ShuttingDown.
-  void prepare(std::function<void()> work, const std::function<void(Error)>& refused);
-
-  // On the preparing thread; these block.
+  // These block.
 
   using Diagnostics = std::vector<klartext::Diagnostic>;
   /// Everything there is to say about a file, by its kind: program, mask or table.
@@ -167,7 +163,7 @@ class RunService {
                            const std::optional<std::string>& caller);
   Result<void> close_interrupted();
   void look_for_abandoned(const std::stop_token& stop);
-  void take_over(const store::Run& run);
+  Result<void> take_over(const store::Run& run);
   Result<std::shared_ptr<ActiveRun>> queue(std::shared_ptr<ActiveRun> active);
 
   store::Database& database_;
@@ -176,11 +172,14 @@ class RunService {
   const RunServiceOptions options_;
   LiveTables live_tables_;
   StoredDisk stored_;
-  ControlTablesCache control_tables_;  ///< of the preparing thread
-  MeshFiles meshes_;                   ///< of the preparing thread
+  std::mutex tables_mutex_;
+  ControlTablesCache control_tables_;
+  std::mutex meshes_mutex_;
+  MeshFiles meshes_;
   interpreter::ProgramCache programs_;
   RunFormat format_;
-  std::stop_source stopping_;
+  JobPool& orders_;
+  std::mutex starting_;  ///< held while a run is added, so that its place stays free
   mutable std::mutex mutex_;
   struct Entry {
     std::shared_ptr<ActiveRun> run;
@@ -190,7 +189,6 @@ class RunService {
   Counts ended_{};
   std::shared_ptr<ActiveRun> newest_;
   // The workers end before what they use.
-  WorkerPool preparing_;
   WorkerPool running_;
   Thread looking_;                      ///< for abandoned runs
   std::unique_ptr<SharedRuns> shared_;  ///< where daemons share the database

@@ -80,20 +80,20 @@ void RunService::look_for_abandoned(const std::stop_token& stop) {
     for (const store::Run& run : *runs) {
       still.insert(run.id);
       if (!seen.contains(run.id)) continue;
-      prepare([this, run] { take_over(run); }, [](const Error&) {});
+      orders_.run([this, run] { return take_over(run); }, [](const Result<void>&) {});
     }
     seen = std::move(still);
   }
 }
 
-/// On the preparing thread.
-void RunService::take_over(const store::Run& run) {
+Result<void> RunService::take_over(const store::Run& run) {
+  const std::lock_guard starting(starting_);
   {
     const std::lock_guard lock(mutex_);
-    if (active_.size() >= options_.workers + options_.queue) return;  // there will be another look
+    if (active_.size() >= options_.workers + options_.queue) return {};  // there is another look
   }
   const auto tables = control_tables();
-  if (!tables) return;
+  if (!tables) return tables.error();
   auto order = format_.order(run.request, **tables);
   if (order) {
     order->caller = run.caller;
@@ -103,12 +103,13 @@ void RunService::take_over(const store::Run& run) {
   }
   const auto taken = database_.writer().wait(
       [id = run.id](store::Stores& stores) -> Result<bool> { return stores.runs.take_over(id); });
-  if (!taken || !*taken) return;
+  if (!taken) return taken.error();
+  if (!*taken) return {};
   if (order) {
     static_cast<void>(queue(std::make_shared<ActiveRun>(
         run.id, origin_, std::make_shared<const RunOrder>(*std::move(order)),
         Timestamp{run.created_at_ns})));
-    return;
+    return {};
   }
   const RunReport report{.id = run.id,
                          .origin = origin_,
@@ -122,6 +123,7 @@ void RunService::take_over(const store::Run& run) {
                          .created_at = {run.created_at_ns},
                          .finished_at = clock_.now()};
   static_cast<void>(keep(report, empty_trace(format_.trace), run.caller));
+  return {};
 }
 
 /// One transaction for all that a run leaves.

@@ -27,7 +27,7 @@ Error no_longer() {
 SharedRuns::SharedRuns(store::Database& database, Own own)
     : database_(database),
       own_(std::move(own)),
-      thread_("the runs of other daemons", [this](const std::stop_token& stop) { run(stop); }) {}
+      thread_("shared runs", [this](const std::stop_token& stop) { run(stop); }) {}
 
 SharedRuns::~SharedRuns() { stop(); }
 

@@ -2,10 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <pthread.h>
+#include <array>
 #include <atomic>
 #include <future>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "base/guarded.hpp"
 
@@ -54,4 +57,20 @@ TEST_CASE("a thread that never began or has ended can be stopped") {
   thread.stop();
   thread.stop();
   CHECK_FALSE(thread.has_begun());
+}
+
+TEST_CASE("a thread shows the first 15 bytes of its place, without the article") {
+  for (const auto& [place, shown] : {std::pair{"orders", "orders"},
+                                     {"the log", "log"},
+                                     {"an I/O thread", "I/O thread"},
+                                     {"a place of many words", "place of many w"}}) {
+    std::string name;
+    Thread thread(place, [&name](const std::stop_token&) {
+      std::array<char, 16> bytes{};
+      pthread_getname_np(pthread_self(), bytes.data(), bytes.size());
+      name = bytes.data();
+    });
+    thread.stop();
+    CHECK(name == shown);
+  }
 }

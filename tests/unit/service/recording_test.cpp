@@ -46,12 +46,12 @@ std::int64_t stored(Service& service) {
   return report->measurements;
 }
 
-/// Does `work` on a thread for long requests and gives what it gives.
+/// What `work` returns on a thread for long bodies.
 template <class Work>
 auto long_request(Service& service, const Work& work) {
   std::promise<decltype(work())> promise;
-  service->measurements().run([&] { promise.set_value(work()); },
-                              [&](Error error) { promise.set_value(std::move(error)); });
+  service->jobs().bulk.run(work,
+                           [&](decltype(work()) made) { promise.set_value(std::move(made)); });
   return promise.get_future().get();
 }
 

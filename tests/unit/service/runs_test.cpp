@@ -157,11 +157,35 @@ TEST_CASE("what is beyond the queue is refused, and a stopping service takes not
     runs.push_back(*std::move(started));
   }
   CHECK(runs.size() == 65);
+  service->jobs().call_off();
   service->runs().stop();
   for (const auto& run : runs) {
     CHECK(service.report_of(*run).result.status == RunStatus::Cancelled);
   }
   CHECK(service.start(endless()).error().code == ErrorCode::ShuttingDown);
+}
+
+TEST_CASE("figures that keep every thread and place hold up no run; orders that do so would") {
+  Service service;
+  service.program("Q1 = 1");
+  std::promise<void> let_go;
+  const auto fill = [wait = let_go.get_future().share()](JobPool& pool) {
+    const auto is_full = std::make_shared<std::atomic<bool>>(false);
+    const auto held = [wait]() -> Result<void> {
+      wait.wait();
+      return {};
+    };
+    while (!*is_full) {
+      pool.run(held, [is_full](const Result<void>& made) {
+        if (!made) *is_full = true;
+      });
+    }
+  };
+  fill(service->jobs().figures);
+  CHECK(service.run(Service::order()).result.status == RunStatus::Completed);
+  fill(service->jobs().orders);
+  CHECK(service.start(Service::order()).error().code == ErrorCode::Overloaded);
+  let_go.set_value();
 }
 
 TEST_CASE("runs that are accepted run, however many were cancelled before") {

@@ -113,12 +113,12 @@ class Service {
     upload("TNC:\\main.h", "BEGIN PGM main MM\n" + std::string(body) + "\nEND PGM main MM\n");
   }
 
-  /// Does `work` on the thread that prepares runs.
+  /// Does `work` as an order.
   template <class Work>
   auto prepared(const Work& work) {
     std::promise<decltype(work())> promise;
-    app_->runs().prepare([&] { promise.set_value(work()); },
-                         [&](Error error) { promise.set_value(std::move(error)); });
+    app_->jobs().orders.run(work,
+                            [&](decltype(work()) made) { promise.set_value(std::move(made)); });
     return promise.get_future().get();
   }
 

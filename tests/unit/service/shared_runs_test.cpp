@@ -36,5 +36,5 @@ TEST_CASE("a look for the runs of other daemons that fails is not the last one")
                                 .cancel = [](std::int64_t) {}});
   again.get_future().wait();
   shared.stop();
-  CHECK(bugs_of_looks == "the runs of other daemons: broken\n");
+  CHECK(bugs_of_looks == "shared runs: broken\n");
 }

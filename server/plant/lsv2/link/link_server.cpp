@@ -76,7 +76,7 @@ class LinkServer::Loop {
     port_ =
         ntohs(bound.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6*>(&bound)->sin6_port
                                           : reinterpret_cast<const sockaddr_in*>(&bound)->sin_port);
-    thread_ = Thread("the control's connections", [this](const auto&) { run(); });
+    thread_ = Thread("control links", [this](const auto&) { run(); });
     return {};
   }
 
@@ -98,7 +98,7 @@ class LinkServer::Loop {
       if (now < accept_after_) polled[1].fd = -1;
       for (const auto& connection : connections_) polled.push_back(connection->interest());
       if (poll(polled.data(), polled.size(), milliseconds_to_wait(now)) < 0 && errno != EINTR) {
-        report_bug("the control's connections", std::strerror(errno));
+        report_bug("control links", std::strerror(errno));
         return;
       }
       if (polled[0].revents != 0) return;
