@@ -4,32 +4,8 @@
 #include <iterator>
 #include <utility>
 
-#include "api/certificates/certificates_resource.hpp"
-#include "api/files/files_resource.hpp"
-#include "api/limits/fits_resource.hpp"
-#include "api/limits/gauges_resource.hpp"
-#include "api/limits/limits_resource.hpp"
-#include "api/limits/standards_resource.hpp"
-#include "api/limits/verdicts_resource.hpp"
-#include "api/log/intake_resource.hpp"
-#include "api/log/log_resource.hpp"
-#include "api/log/revisions_resource.hpp"
-#include "api/measurements/measurements_resource.hpp"
-#include "api/measurements/notes_resource.hpp"
-#include "api/plans/plans_resource.hpp"
-#include "api/runs/runs_resource.hpp"
-#include "api/runs/setups_resource.hpp"
-#include "api/service/connections_resource.hpp"
-#include "api/service/cycles_resource.hpp"
-#include "api/service/events_resource.hpp"
+#include "api/resources.hpp"
 #include "api/service/openapi.hpp"
-#include "api/service/page_resource.hpp"
-#include "api/service/service_resource.hpp"
-#include "api/statistics/documents_resource.hpp"
-#include "api/statistics/statistics_resource.hpp"
-#include "api/statistics/stored_statistics_resource.hpp"
-#include "api/statistics/uncertainty_resource.hpp"
-#include "api/tables/tables_resource.hpp"
 
 namespace fitgauge::api {
 

@@ -1,4 +1,4 @@
-#include "api/certificates/certificates_resource.hpp"
+#include "api/resources.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "api/files/files_resource.hpp"
+#include "api/resources.hpp"
 
 #include <algorithm>
 

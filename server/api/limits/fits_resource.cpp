@@ -1,4 +1,4 @@
-#include "api/limits/fits_resource.hpp"
+#include "api/resources.hpp"
 
 #include <algorithm>
 

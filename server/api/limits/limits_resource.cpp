@@ -1,4 +1,4 @@
-#include "api/limits/limits_resource.hpp"
+#include "api/resources.hpp"
 
 #include "api/limits/limits_codec.hpp"
 #include "tables/iso286/designation.hpp"

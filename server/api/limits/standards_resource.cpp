@@ -1,4 +1,4 @@
-#include "api/limits/standards_resource.hpp"
+#include "api/resources.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "api/log/intake_resource.hpp"
+#include "api/resources.hpp"
 
 #include <fmt/format.h>
 

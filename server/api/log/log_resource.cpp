@@ -1,4 +1,4 @@
-#include "api/log/log_resource.hpp"
+#include "api/resources.hpp"
 
 #include "api/handlers.hpp"
 #include "base/base64.hpp"

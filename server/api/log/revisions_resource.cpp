@@ -1,4 +1,4 @@
-#include "api/log/revisions_resource.hpp"
+#include "api/resources.hpp"
 
 #include "api/handlers.hpp"
 #include "base/json/json_writer.hpp"

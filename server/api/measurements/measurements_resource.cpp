@@ -1,4 +1,4 @@
-#include "api/measurements/measurements_resource.hpp"
+#include "api/resources.hpp"
 
 #include <memory>
 

@@ -9,6 +9,7 @@
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_posting.hpp"
 #include "api/measurements/note_limits.hpp"
+#include "api/resources.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/field_reader.hpp"

@@ -1,4 +1,4 @@
-#include "api/plans/plans_resource.hpp"
+#include "api/resources.hpp"
 
 #include "api/plans/plan_codec.hpp"
 #include "api/service/document_routes.hpp"

@@ -1,5 +1,5 @@
-#include "api/runs/runs_resource.hpp"
 #include "api/posting.hpp"
+#include "api/resources.hpp"
 
 #include "api/files/file_path.hpp"
 #include "api/handlers.hpp"

@@ -1,4 +1,4 @@
-#include "api/runs/setups_resource.hpp"
+#include "api/resources.hpp"
 
 #include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"

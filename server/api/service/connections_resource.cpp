@@ -1,4 +1,4 @@
-#include "api/service/connections_resource.hpp"
+#include "api/resources.hpp"
 
 #include "api/handlers.hpp"
 #include "api/service/caller.hpp"

@@ -1,4 +1,4 @@
-#include "api/service/cycles_resource.hpp"
+#include "api/resources.hpp"
 
 #include <cmath>
 

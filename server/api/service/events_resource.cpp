@@ -1,4 +1,4 @@
-#include "api/service/events_resource.hpp"
+#include "api/resources.hpp"
 
 #include "api/service/event_stream.hpp"
 #include "api/wire/event_text.hpp"

@@ -1,4 +1,4 @@
-#include "api/service/page_resource.hpp"
+#include "api/resources.hpp"
 
 #include <functional>
 #include <map>

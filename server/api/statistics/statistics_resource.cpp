@@ -1,4 +1,4 @@
-#include "api/statistics/statistics_resource.hpp"
+#include "api/resources.hpp"
 
 #include <fmt/format.h>
 

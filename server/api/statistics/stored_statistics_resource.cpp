@@ -1,4 +1,4 @@
-#include "api/statistics/stored_statistics_resource.hpp"
+#include "api/resources.hpp"
 
 #include <functional>
 

@@ -1,5 +1,6 @@
 #include "api/statistics/uncertainty_resource.hpp"
 
+#include "api/resources.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/formulas.hpp"
 #include "base/json/field_reader.hpp"

@@ -1,5 +1,5 @@
-#include "api/tables/tables_resource.hpp"
 #include "api/handlers.hpp"
+#include "api/resources.hpp"
 
 #include <fmt/format.h>
 
