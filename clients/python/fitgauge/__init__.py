@@ -25,8 +25,9 @@ from ._log import LogCalls
 from ._measurements import MeasurementCalls
 from ._service import ServiceCalls
 from ._statistics import StatisticsCalls
-from ._types import (Accepted, Event, FeatureWord, FieldError, Fit, Limits, Measurement, NewMeasurement, Note, Parameter,
-                     RuleWord, Run, RunLimits, RunStatus, Verdict, VerdictWord, when)
+from ._types import (Accepted, Correction, FeatureWord, FieldError, Fit, Limits, Measurement, NewMeasurement, Note,
+                     RuleWord, Run, RunLimits, RunStatus, Verdict, VerdictWord)
+from ._values import Event, Parameter, when
 from ._version import VERSION as __version__
 
 
@@ -34,7 +35,7 @@ class Client(LimitsCalls, StatisticsCalls, MeasurementCalls, LogCalls, ControlCa
     """A service, and connections to it that are kept open. After an error it can be used on."""
 
 
-__all__ = ["Accepted", "BadRequest", "Client", "Conflict", "Event", "FeatureWord", "FieldError", "Fit",
+__all__ = ["Accepted", "BadRequest", "Client", "Conflict", "Correction", "Event", "FeatureWord", "FieldError", "Fit",
            "FitgaugeError", "Forbidden", "Invalid", "Limits", "Measurement", "NewMeasurement", "NoAnswer", "NotFound", "Note",
            "Parameter", "PreconditionFailed", "Problem", "ProgramInvalid", "RuleWord", "Run", "RunLimits",
            "RunStatus", "Size", "Text", "Unauthorized", "Unavailable", "Verdict", "VerdictWord", "__version__",

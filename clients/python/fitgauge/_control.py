@@ -15,7 +15,8 @@ from ._errors import NoAnswer
 from ._json import Size, Text, decimals, dumps, loads
 from ._streams import read_events
 from ._transport import Request, Transport, path_of, pause_before
-from ._types import Event, Parameter, Run, RunLimits
+from ._types import Run, RunLimits
+from ._values import Event, Parameter
 
 SILENCE_S = 45.0  # a stream of events has a sign of life every 15 s
 RUN_S = 180.0  # the 60 s a run may take, after others before it

@@ -15,11 +15,16 @@ _EXACT = re.compile(r"_(mm|um|c|deg|s|mm_min|um_per_m_k)$|"
                     r"^(seconds|coverage_factor|probability|conformance_probability|parameters)$")
 
 
+def is_exact(name: str) -> bool:
+    """Whether a member of that name has a unit: its numbers are Decimals."""
+    return bool(_EXACT.search(name))
+
+
 class _Exact(Dict[str, bool]):
     """Whether a name is of an exact number: each is looked at once, for there are few."""
 
     def __missing__(self, name: str) -> bool:
-        found = bool(_EXACT.search(name))
+        found = is_exact(name)
         if len(self) < 1_000:
             self[name] = found
         return found

@@ -9,7 +9,8 @@ from typing import Any, Literal, Mapping, Sequence
 
 from ._json import Size, dumps, loads
 from ._transport import Request, Transport, path_of, query_of
-from ._types import Fit, Limits, Parameter, RuleWord, Verdict
+from ._types import Fit, Limits, RuleWord, Verdict
+from ._values import Parameter
 
 
 

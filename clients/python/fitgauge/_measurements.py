@@ -13,7 +13,8 @@ from ._errors import NoAnswer, Problem, Unavailable
 from ._json import Size, dumps
 from ._streams import Batch, counted_over_all, csv_records, cut_batches, read_events, total_of
 from ._transport import Request, Transport, path_of, pause_before, query_of
-from ._types import Accepted, Event, Measurement, NewMeasurement, Note, Parameter
+from ._types import Accepted, Correction, Measurement, NewMeasurement, Note
+from ._values import Event, Parameter
 
 SILENCE_S = 45.0  # a stream of events has a sign of life every 15 s
 
@@ -99,7 +100,7 @@ class MeasurementCalls(Transport):
         return self._get("/v1/measurements/chart",
                          {"kind": kind, "rules": ",".join(map(str, rules)) or None, **filters})
 
-    def correct(self, measurement_id: str, correction: NewMeasurement, *,
+    def correct(self, measurement_id: str, correction: Correction, *,
                 idempotency_key: str | None = None) -> Measurement:
         """A new record in place of a wrong one, which stays: `measured_mm`, `reason`, and what else changes."""
         return self._post(path_of("measurements", measurement_id, "corrections"),

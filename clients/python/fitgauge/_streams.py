@@ -7,7 +7,8 @@ from typing import Iterable, Iterator, NamedTuple
 
 from ._errors import Problem
 from ._json import loads
-from ._types import Accepted, Event
+from ._types import Accepted
+from ._values import Event
 
 MOST_BYTES = 8 << 20  # of a request with many rows; the service takes 32 MiB
 
@@ -96,6 +97,9 @@ def counted_over_all(problem: Problem, batch: Batch) -> Problem:
 def total_of(total: Accepted | None, more: Accepted) -> Accepted:
     if total is None:
         return more
+    before, now = total["verdicts"], more["verdicts"]
     return {"accepted": total["accepted"] + more["accepted"], "first_id": total["first_id"],
             "last_id": more["last_id"],
-            "verdicts": {word: total["verdicts"].get(word, 0) + n for word, n in more["verdicts"].items()}}
+            "verdicts": {"good": before["good"] + now["good"], "rework": before["rework"] + now["rework"],
+                         "reject": before["reject"] + now["reject"],
+                         "indeterminate": before["indeterminate"] + now["indeterminate"]}}

@@ -20,7 +20,7 @@ from typing import Any, Iterator, Mapping, NamedTuple, TypeVar
 
 from ._errors import FitgaugeError, NoAnswer, problem_of
 from ._json import dumps, loads, plain
-from ._types import Parameter
+from ._values import Parameter
 from ._version import VERSION
 
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 10.0

@@ -1,21 +1,90 @@
-"""What the service takes and answers."""
+"""Bodies and answers of the service. Written by scripts/docs."""
 
 from __future__ import annotations
 
 from datetime import datetime
 from decimal import Decimal
-from typing import Any, Literal, Mapping, NamedTuple, TypedDict, Union
+from typing import Dict, List, Literal, TypedDict, Union
 
 from ._json import Size
 
-Parameter = Union[Decimal, int, str, datetime, None]  # of a query; None is left out
+Number = Union[Decimal, int]
+Time = Union[str, datetime]
 VerdictWord = Literal["good", "rework", "reject", "indeterminate"]
 RuleWord = Literal["simple", "guard_band", "conformance"]
 FeatureWord = Literal["hole", "shaft"]
 RunStatus = Literal["queued", "running", "completed", "stopped", "failed", "limit_exceeded", "cancelled"]
 
 
-class _Sizes(TypedDict):
+class VerdictCounts(TypedDict):
+    good: int
+    rework: int
+    reject: int
+    indeterminate: int
+
+
+class Accepted(TypedDict):
+    accepted: int
+    first_id: str
+    last_id: str
+    verdicts: VerdictCounts
+
+
+class _Correction(TypedDict):
+    reason: str
+    measured_mm: Size
+
+
+class Correction(_Correction, total=False):
+    nominal_mm: Size
+    tolerance_class: str
+    designation: str
+    feature: FeatureWord
+    upper_um: Size
+    lower_um: Size
+    part_id: str
+    characteristic: str
+    order: str
+    operation: str
+    machine: str
+    operator: str
+    gauge: str
+    unit: str
+    comment: str
+    subgroup: str
+    measured_at: Time
+    uncertainty_um: Size
+    coverage_factor: Size
+    rule: RuleWord
+    probability: Size
+    temperature_c: Size
+    scale_temperature_c: Size
+    part_expansion_um_per_m_k: Size
+    scale_expansion_um_per_m_k: Size
+    part_material: str
+    scale_material: str
+    temperature_uncertainty_c: Size
+    scale_temperature_uncertainty_c: Size
+    part_expansion_uncertainty_um_per_m_k: Size
+    scale_expansion_uncertainty_um_per_m_k: Size
+
+
+class _FieldError(TypedDict):
+    pointer: str
+    code: str
+    detail: str
+
+
+class FieldError(_FieldError, total=False):
+    line: int
+
+
+class LimitsSizeRangeMm(TypedDict):
+    over: Decimal
+    up_to: Decimal
+
+
+class _Limits(TypedDict):
     nominal_mm: Decimal
     feature: FeatureWord
     upper_deviation_um: Decimal
@@ -26,37 +95,135 @@ class _Sizes(TypedDict):
     basis: Literal["iso286", "custom", "explicit", "standard"]
 
 
-class Limits(_Sizes, total=False):
-    """Limits of size. `size_range_mm` has `over` and `up_to`. With the limits of a drawing (`basis` explicit)
-    there is no class, range and revision."""
-
+class Limits(_Limits, total=False):
     designation: str
     tolerance_class: str
-    size_range_mm: Mapping[str, Decimal]
+    size_range_mm: LimitsSizeRangeMm
     table_revision: str
 
 
-class Fit(TypedDict):
-    """A hole with a shaft; interference is negative clearance."""
+class FitStatisticalNormal(TypedDict):
+    probability_of_interference: Number
 
+
+class FitStatisticalUniform(TypedDict):
+    probability_of_interference: Number
+
+
+class _FitStatisticalStoredHoleSelection(TypedDict):
+    count: int
+    subgroups: int
+    first_id: str
+    last_id: str
+    as_of: str
+
+
+class FitStatisticalStoredHoleSelection(_FitStatisticalStoredHoleSelection, total=False):
+    lower_limit_mm: Decimal
+    upper_limit_mm: Decimal
+
+
+class FitStatisticalStoredHole(TypedDict):
+    selection: FitStatisticalStoredHoleSelection
+    mean: Number
+    standard_deviation_overall: Number
+    stable: bool
+
+
+class _FitStatisticalStoredShaftSelection(TypedDict):
+    count: int
+    subgroups: int
+    first_id: str
+    last_id: str
+    as_of: str
+
+
+class FitStatisticalStoredShaftSelection(_FitStatisticalStoredShaftSelection, total=False):
+    lower_limit_mm: Decimal
+    upper_limit_mm: Decimal
+
+
+class FitStatisticalStoredShaft(TypedDict):
+    selection: FitStatisticalStoredShaftSelection
+    mean: Number
+    standard_deviation_overall: Number
+    stable: bool
+
+
+class FitStatisticalStored(TypedDict):
+    probability_of_interference: Number
+    mean_clearance_um: Decimal
+    standard_deviation_um: Decimal
+    stable: bool
+    hole: FitStatisticalStoredHole
+    shaft: FitStatisticalStoredShaft
+
+
+class _FitStatistical(TypedDict):
+    normal: FitStatisticalNormal
+    uniform: FitStatisticalUniform
+
+
+class FitStatistical(_FitStatistical, total=False):
+    stored: FitStatisticalStored
+
+
+class Fit(TypedDict):
     designation: str
     hole: Limits
     shaft: Limits
     type: Literal["clearance", "transition", "interference"]
     max_clearance_um: Decimal
     min_clearance_um: Decimal
+    statistical: FitStatistical
+    formula: str
+    clause: str
 
 
-class Verdict(Limits):
-    """`excess_um` is 0 within the limits."""
+class MeasurementSizeRangeMm(TypedDict):
+    over: Decimal
+    up_to: Decimal
 
+
+class _Note(TypedDict):
+    id: str
+    measurement_id: str
+    received_at: str
+
+
+class Note(_Note, total=False):
+    cause: str
+    measure: str
+    text: str
+    operator: str
+    caller: str
+
+
+class _Measurement(TypedDict):
+    id: str
+    source: Literal["gauge", "simulation"]
+    measured_at: str
+    received_at: str
+    nominal_mm: Decimal
+    feature: FeatureWord
+    basis: Literal["iso286", "custom", "explicit", "standard"]
     measured_mm: Decimal
     deviation_um: Decimal
     verdict: VerdictWord
     excess_um: Decimal
+    rule: RuleWord
 
 
-class _Circumstances(TypedDict, total=False):
+class Measurement(_Measurement, total=False):
+    designation: str
+    tolerance_class: str
+    upper_deviation_um: Decimal
+    lower_deviation_um: Decimal
+    upper_limit_mm: Decimal
+    lower_limit_mm: Decimal
+    tolerance_um: Decimal
+    size_range_mm: MeasurementSizeRangeMm
+    table_revision: str
     part_id: str
     characteristic: str
     order: str
@@ -66,68 +233,27 @@ class _Circumstances(TypedDict, total=False):
     gauge: str
     unit: str
     comment: str
-    rule: RuleWord
-    part_material: str
-    scale_material: str
-
-
-class _Measured(TypedDict):
-    measured_mm: Size
-
-
-class NewMeasurement(_Measured, _Circumstances, total=False):
-    """`measured_mm`, and the limits once: `designation`, or `nominal_mm` with `tolerance_class`, or
-    `nominal_mm` with `feature`, `upper_um` and `lower_um`. A correction has a `reason` too."""
-
-    designation: str
-    nominal_mm: Size
-    tolerance_class: str
-    feature: FeatureWord
-    upper_um: Size
-    lower_um: Size
-    measured_at: Union[str, datetime]
-    uncertainty_um: Size
-    coverage_factor: Size
-    probability: Size
-    temperature_c: Size
-    scale_temperature_c: Size
-    part_expansion_um_per_m_k: Size
-    scale_expansion_um_per_m_k: Size
-    temperature_uncertainty_c: Size
-    scale_temperature_uncertainty_c: Size
-    part_expansion_uncertainty_um_per_m_k: Size
-    scale_expansion_uncertainty_um_per_m_k: Size
-    reason: str
-
-
-class _Origin(TypedDict):
-    id: str
-    source: Literal["gauge", "simulation"]
-    measured_at: str
-    received_at: str
-
-
-class Measurement(Verdict, _Origin, _Circumstances, total=False):
-    """A record as it is stored; fields that were not given are not there. `when` reads its times."""
-
+    subgroup: str
     uncertainty_um: Decimal
     coverage_factor: Decimal
     probability: Decimal
-    uncertainty: str
-    calibration_due: str
-    calibration_overdue: bool
-    conformance_probability: Decimal
-    guard_band_um: Decimal
     temperature_c: Decimal
     scale_temperature_c: Decimal
     part_expansion_um_per_m_k: Decimal
     scale_expansion_um_per_m_k: Decimal
+    part_material: str
+    scale_material: str
     temperature_uncertainty_c: Decimal
     scale_temperature_uncertainty_c: Decimal
     part_expansion_uncertainty_um_per_m_k: Decimal
     scale_expansion_uncertainty_um_per_m_k: Decimal
-    added_uncertainty_um: Decimal
     corrected_mm: Decimal
+    added_uncertainty_um: Decimal
+    conformance_probability: Decimal
+    guard_band_um: Decimal
+    uncertainty: str
+    calibration_due: str
+    calibration_overdue: bool
     caller: str
     run_id: str
     cycle: int
@@ -135,83 +261,173 @@ class Measurement(Verdict, _Origin, _Circumstances, total=False):
     reason: str
     corrected_by: str
     conflict: bool
+    notes: List[Note]
 
 
-class _NoteHead(TypedDict):
-    id: str
-    measurement_id: str
-    received_at: str
+class _NewMeasurement(TypedDict):
+    measured_mm: Size
 
 
-class Note(_NoteHead, total=False):
-    """What was found and done about a measurement: it stands beside the record and is never changed."""
-
-    cause: str
-    measure: str
-    text: str
+class NewMeasurement(_NewMeasurement, total=False):
+    nominal_mm: Size
+    tolerance_class: str
+    designation: str
+    feature: FeatureWord
+    upper_um: Size
+    lower_um: Size
+    part_id: str
+    characteristic: str
+    order: str
+    operation: str
+    machine: str
     operator: str
-    caller: str
+    gauge: str
+    unit: str
+    comment: str
+    subgroup: str
+    measured_at: Time
+    uncertainty_um: Size
+    coverage_factor: Size
+    rule: RuleWord
+    probability: Size
+    temperature_c: Size
+    scale_temperature_c: Size
+    part_expansion_um_per_m_k: Size
+    scale_expansion_um_per_m_k: Size
+    part_material: str
+    scale_material: str
+    temperature_uncertainty_c: Size
+    scale_temperature_uncertainty_c: Size
+    part_expansion_uncertainty_um_per_m_k: Size
+    scale_expansion_uncertainty_um_per_m_k: Size
 
 
-class Accepted(TypedDict):
-    """How many rows were stored, the ids of the first and the last, and how many of each verdict."""
-
-    accepted: int
-    first_id: str
-    last_id: str
-    verdicts: dict[str, int]
+class RunFiles(TypedDict):
+    path: str
+    size: int
 
 
-class FieldError(TypedDict, total=False):
-    """A bad field: its JSON pointer (rows count from 0), and its line (from 1) in a file."""
+class RunTables(TypedDict):
+    path: str
+    source: str
 
-    pointer: str
-    code: str
-    detail: str
+
+class _RunMessages(TypedDict):
+    kind: Literal["error", "stop", "limit", "cancelled", "note"]
+    number: int
+    text: str
+    program: str
     line: int
+    block: Union[int, None]
 
 
-class _RunHead(TypedDict):
+class RunMessages(_RunMessages, total=False):
+    column: int
+    source: str
+
+
+class _RunMeasurementsSizes(TypedDict):
+    characteristic: str
+    nominal_mm: Decimal
+    measured_mm: Decimal
+    deviation_um: Decimal
+    verdict: VerdictWord
+
+
+class RunMeasurementsSizes(_RunMeasurementsSizes, total=False):
+    upper_limit_mm: Decimal
+    lower_limit_mm: Decimal
+
+
+class _RunMeasurementsForm(TypedDict):
+    assessable: bool
+
+
+class RunMeasurementsForm(_RunMeasurementsForm, total=False):
+    reason: str
+    residual_mm: Decimal
+
+
+class _RunMeasurements(TypedDict):
+    cycle: int
+    program: str
+    line: int
+    block: Union[int, None]
+    verdict: Union[VerdictWord, None]
+    sizes: List[RunMeasurementsSizes]
+
+
+class RunMeasurements(_RunMeasurements, total=False):
+    form: RunMeasurementsForm
+
+
+class RunPresets(TypedDict):
+    number: int
+    x_mm: Decimal
+    y_mm: Decimal
+    z_mm: Decimal
+    rotation_deg: List[Decimal]
+    offsets_deg: List[Decimal]
+
+
+class _Run(TypedDict):
     id: str
     status: RunStatus
     program: str
     created_at: str
-
-
-class Run(_RunHead, total=False):
-    """A run of an NC program; `status` is queued or running until it is over."""
-
-    finished_at: str
     blocks_executed: int
-    verdict: VerdictWord | None
-    parameters: Mapping[str, Union[Decimal, str]]
-    screen: list[str]
-    files: list[dict[str, Any]]
-    tables: list[dict[str, str]]
-    messages: list[dict[str, Any]]
-    measurements: list[dict[str, Any]]
+    verdict: Union[VerdictWord, None]
+    parameters: Dict[str, Union[Decimal, str]]
+    screen: List[str]
+    files: List[RunFiles]
+    tables: List[RunTables]
+    messages: List[RunMessages]
+    measurements: List[RunMeasurements]
+
+
+class Run(_Run, total=False):
+    finished_at: str
     active_preset: int
-    presets: list[dict[str, Any]]
+    presets: List[RunPresets]
     machining_time_s: Decimal
     setup_seed: int
 
 
 class RunLimits(TypedDict, total=False):
-    """What ends a run with the status limit_exceeded."""
-
     blocks: int
     seconds: Size
 
 
-class Event(NamedTuple):
-    """What happened; `id` is where a reader goes on that comes back."""
-
-    type: str
-    id: str | None
-    data: Any
+class VerdictSizeRangeMm(TypedDict):
+    over: Decimal
+    up_to: Decimal
 
 
-def when(text: str) -> datetime:
-    """The moment of `measured_at`, `received_at`, `created_at`: in UTC, to the microsecond."""
-    whole, _, fraction = text.rstrip("Z").partition(".")
-    return datetime.fromisoformat(f"{whole}.{fraction[:6]:0<6}+00:00")
+class _Verdict(TypedDict):
+    nominal_mm: Decimal
+    feature: FeatureWord
+    upper_deviation_um: Decimal
+    lower_deviation_um: Decimal
+    upper_limit_mm: Decimal
+    lower_limit_mm: Decimal
+    tolerance_um: Decimal
+    basis: Literal["iso286", "custom", "explicit", "standard"]
+    measured_mm: Decimal
+    deviation_um: Decimal
+    verdict: VerdictWord
+    excess_um: Decimal
+
+
+class Verdict(_Verdict, total=False):
+    designation: str
+    tolerance_class: str
+    size_range_mm: VerdictSizeRangeMm
+    table_revision: str
+    corrected_mm: Decimal
+    added_uncertainty_um: Decimal
+    rule: RuleWord
+    uncertainty_um: Decimal
+    coverage_factor: Decimal
+    probability: Decimal
+    conformance_probability: Decimal
+    guard_band_um: Decimal
