@@ -5,9 +5,9 @@ WORKDIR /src
 COPY scripts/install scripts/packages scripts/
 RUN scripts/install build
 COPY . .
-RUN cmake --preset release -DFITGAUGE_TESTS=OFF \
- && cmake --build --preset release --target programs \
- && install -D --strip --target-directory /programs build/release/bin/fitgauged build/release/bin/fitgauge
+RUN cmake --preset package \
+ && cmake --build --preset package --target programs \
+ && install -D --strip --target-directory /programs build/package/bin/fitgauged build/package/bin/fitgauge
 
 FROM build AS test
 RUN scripts/test --no-browser
