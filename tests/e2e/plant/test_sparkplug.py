@@ -18,7 +18,7 @@ from support.daemon import ROOT, Daemon
 from support.waiting import PATIENCE, wait_for
 
 HERE = pathlib.Path(__file__).parent
-SCHEMA = ROOT / "server" / "connections" / "sparkplug"
+SCHEMA = ROOT / "server" / "plant" / "sparkplug"
 INT64, DOUBLE, BOOLEAN, STRING, DATETIME = 4, 10, 11, 12, 13
 REBIRTH = "Node Control/Rebirth"
 NODE = "spBv1.0/shop/{}/gauge-4"
