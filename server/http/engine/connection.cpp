@@ -295,8 +295,9 @@ void Connection::check_deadline(Tick now) {
         return advance();
       case Phase::ReadingBody:
       case Phase::FillingBody: {
+        // A thread that was busy for a second has bytes to read of a client that has not stalled.
         const bool gives_way = body_.holds_budget() && thread_.shared().budget.is_short() &&
-                               now - last_body_byte_ >= kStalled;
+                               now - last_body_byte_ >= kStalled && !has_unread();
         if (now < request_deadline_ && !gives_way) return;
         refuse(kTimedOut);
         return advance();

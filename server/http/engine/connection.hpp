@@ -76,6 +76,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   virtual void read_some(std::span<char> room) = 0;  ///< then on_read
   /// What has come by now; `error` is would_block when nothing has, or the transport cannot tell.
   virtual std::size_t read_now(std::span<char> room, error_code& error);
+  /// Whether bytes have come that no read has taken; false when the transport cannot tell.
+  virtual bool has_unread() const noexcept { return false; }
   /// What the socket takes at once; `broken` when it takes nothing any more.
   virtual std::size_t write_now(std::string_view bytes, bool& broken) = 0;
   virtual void write_some(std::string_view bytes) = 0;  ///< then on_write

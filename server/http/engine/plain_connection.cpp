@@ -14,6 +14,11 @@ std::size_t PlainConnection::read_now(std::span<char> room, error_code& error) {
   return socket_.read_some(asio::buffer(room.data(), room.size()), error);
 }
 
+bool PlainConnection::has_unread() const noexcept {
+  error_code ignored;
+  return socket_.available(ignored) > 0;
+}
+
 std::size_t PlainConnection::write_now(std::string_view bytes, bool& broken) {
   error_code error;
   const std::size_t count = socket_.write_some(asio::buffer(bytes.data(), bytes.size()), error);

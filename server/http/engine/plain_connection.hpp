@@ -16,6 +16,7 @@ class PlainConnection final : public Connection {
  private:
   void read_some(std::span<char> room) override;
   std::size_t read_now(std::span<char> room, error_code& error) override;
+  bool has_unread() const noexcept override;
   std::size_t write_now(std::string_view bytes, bool& broken) override;
   void write_some(std::string_view bytes) override;
   void end_gracefully() override;

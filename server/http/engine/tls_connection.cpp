@@ -60,6 +60,11 @@ void TlsConnection::read_some(std::span<char> room) {
       });
 }
 
+bool TlsConnection::has_unread() const noexcept {
+  error_code ignored;
+  return stream_.lowest_layer().available(ignored) > 0;
+}
+
 void TlsConnection::write_some(std::string_view bytes) {
   stream_.async_write_some(
       asio::buffer(bytes.data(), bytes.size()),

@@ -28,6 +28,7 @@ class TlsConnection final : public Connection {
 
  private:
   void read_some(std::span<char> room) override;
+  bool has_unread() const noexcept override;
   std::size_t write_now(std::string_view, bool&) override { return 0; }
   void write_some(std::string_view bytes) override;
   void end_gracefully() override;
