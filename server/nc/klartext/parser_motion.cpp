@@ -25,20 +25,20 @@ struct CompensationName {
   RadiusCompensation compensation;
 };
 
-constexpr CompensationName kCompensations[] = {{'0', RadiusCompensation::R0},
-                                               {'L', RadiusCompensation::Rl},
-                                               {'R', RadiusCompensation::Rr},
-                                               {'+', RadiusCompensation::RPlus},
-                                               {'-', RadiusCompensation::RMinus}};
+constexpr CompensationName kCompensationLetters[] = {{'0', RadiusCompensation::R0},
+                                                     {'L', RadiusCompensation::Rl},
+                                                     {'R', RadiusCompensation::Rr},
+                                                     {'+', RadiusCompensation::RPlus},
+                                                     {'-', RadiusCompensation::RMinus}};
 
 /// `R0`, `RL`, `RR`, `R+`, `R-` without a letter or digit behind it; `R0.5` and `R+20` are radii.
 /// @param has_radius the block may hold a radius R, so `R+ 20` is one.
 bool parse_compensation(BlockReader& in, Motion& motion, bool has_radius) {
   const char c = ascii_upper(in.peek(1));
   const char behind = in.peek(2);
-  const auto* found = std::find_if(std::begin(kCompensations), std::end(kCompensations),
+  const auto* found = std::find_if(std::begin(kCompensationLetters), std::end(kCompensationLetters),
                                    [c](const CompensationName& row) { return row.second == c; });
-  if (found == std::end(kCompensations) || is_ascii_letter(behind) || is_digit(behind) ||
+  if (found == std::end(kCompensationLetters) || is_ascii_letter(behind) || is_digit(behind) ||
       behind == '.' || behind == ',' || (has_radius && (c == '+' || c == '-'))) {
     return false;
   }
