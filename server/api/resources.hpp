@@ -7,7 +7,7 @@
 #include "api/wire/response_cache.hpp"
 #include "http/route.hpp"
 
-// What the routes of each resource are added by. Services outlive the routes.
+// One function adds the routes of each resource. Services outlive the routes.
 
 namespace fitgauge::api {
 

@@ -15,7 +15,7 @@
 
 namespace fitgauge {
 
-/// What one job may take.
+/// The time and memory of one job.
 struct JobBound {
   std::chrono::duration<double> time{};
   std::size_t memory_bytes = 0;
@@ -30,7 +30,7 @@ class JobPool {
           std::optional<JobBound> bound = std::nullopt)
       : bound_(bound), pool_(kind, threads, waiting) {}
 
-  /// Calls `compute` on a thread of the pool, where it may block, and hands what it returns, a
+  /// Calls `compute` on a thread of the pool, which it may block, and hands what it returns, a
   /// Result, to `done`, which is called exactly once: there, or at once on the caller's thread.
   /// Loops of bounded work look at Allowance::of_thread().
   /// @errors those of `compute`; Overloaded; ShuttingDown; FiguresLimit beyond the bound; Internal

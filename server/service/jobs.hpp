@@ -11,13 +11,13 @@ struct Jobs {
   /// @param long_requests most bodies of measurements that wait
   explicit Jobs(std::size_t long_requests) : bulk("bulk", 2, long_requests) {}
 
-  /// What ends in milliseconds: checks of programs, orders of runs, documents.
+  /// Work that ends in milliseconds: checks of programs, orders of runs, documents.
   JobPool orders{"orders", 2, 256};
-  /// What the processor bounds: statistics, simulations, certificates.
+  /// Work that the processor bounds: statistics, simulations, certificates.
   JobPool figures{"figures", 4, 64, JobBound{std::chrono::seconds(60), std::size_t{512} << 20}};
   /// Long bodies of measurements. One is stored at a time; the other has its first rows ready.
   JobPool bulk;
-  /// What stations forward to this centre.
+  /// Records that stations forward to this centre.
   JobPool intake{"intake", 2, 256};
 
   /// Refuses orders and figures that wait and ends figures under way; bodies go on to their end.

@@ -15,7 +15,7 @@ struct UncertaintySimulation {
   std::uint64_t seed = 0;
 };
 
-/// What a budget says, and what it comes to.
+/// A budget with its combined uncertainty.
 struct UncertaintyBudget {
   metrology::Budget budget{};
   std::optional<UncertaintySimulation> simulation{};
