@@ -1,5 +1,5 @@
 """A generated TypeScript client: /openapi.json without a complaint of redocly, types that compile under
-`strict`, calls that work. It needs npm and the network, so it is run where FITGAUGE_DEEP is set."""
+`strict`, calls that work. It needs npm and the network, so it is run where TESTS_DEEP is set."""
 
 import os
 import pathlib
@@ -13,7 +13,7 @@ from support.daemon import DaemonTest
 SOURCES = pathlib.Path(__file__).parent / "typescript"
 
 
-@unittest.skipUnless(os.environ.get("FITGAUGE_DEEP") and shutil.which("npm"), "FITGAUGE_DEEP=1 and npm run it")
+@unittest.skipUnless(os.environ.get("TESTS_DEEP") and shutil.which("npm"), "TESTS_DEEP=1 and npm run it")
 class GeneratedClient(DaemonTest):
     @classmethod
     def setUpClass(cls):

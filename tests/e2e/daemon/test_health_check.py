@@ -10,7 +10,7 @@ import tempfile
 import time
 import unittest
 
-from support.daemon import FITGAUGED, environment_of
+from support.daemon import FITGAUGED
 from support.waiting import PATIENCE, wait_for
 
 ANSWER = b"HTTP/1.1 200 OK\r\nContent-Length: 2\r\nConnection: close\r\n\r\nok"
@@ -30,7 +30,7 @@ class HealthCheck(unittest.TestCase):
     def stopped_and_answered(self):
         """How long the check was asked to wait, its exit code and what it said."""
         began = time.monotonic()
-        check = subprocess.Popen(self.command, stderr=subprocess.PIPE, text=True, env=environment_of({}))
+        check = subprocess.Popen(self.command, stderr=subprocess.PIPE, text=True)
         self.addCleanup(check.kill)
         connection, _ = self.listener.accept()
         with connection:

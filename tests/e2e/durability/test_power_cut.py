@@ -5,7 +5,7 @@ that file, taken while writers are at work, is the disk as a cut leaves it: what
 memory is not in it. kill -9 cannot show this, as the kernel keeps what was written. The control is
 the same with durability off: it must lose values, or the test proves nothing.
 
-With $FITGAUGE_DEEP there are 20 cuts of each run, otherwise 3.
+With $TESTS_DEEP there are 20 cuts of each run, otherwise 3.
 """
 
 import os
@@ -18,7 +18,7 @@ import unittest
 from support.daemon import Daemon
 from support.writers import Writers, compare
 
-ROUNDS = 20 if os.environ.get("FITGAUGE_DEEP") else 3
+ROUNDS = 20 if os.environ.get("TESTS_DEEP") else 3
 
 
 def run(*command):

@@ -24,7 +24,7 @@ from support.postgres import Cluster, FrontDoor
 from support.waiting import PATIENCE, wait_for
 from support.writers import Writers, compare
 
-DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
+DEEP = bool(os.environ.get("TESTS_DEEP"))
 KILLS = int(os.environ.get("SHARED_KILLS", "30" if DEEP else "6"))
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
 

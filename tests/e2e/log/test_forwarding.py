@@ -19,7 +19,7 @@ from support.ports import lasting_address
 from support.waiting import PATIENCE, wait_for
 
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
-DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
+DEEP = bool(os.environ.get("TESTS_DEEP"))
 ROWS, KILLS, PIECE = (100_000, 20, 5_000) if DEEP else (1_500, 4, 300)
 DRAINING = PATIENCE * (4 if DEEP else 1)  # seconds
 

@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "clients" / "python"))
 import check_proof  # noqa: E402 - what an auditor runs
 
 MODULES = pathlib.Path("/usr/share/gocode/src/golang.org/x/mod/sumdb")
-DEEP = bool(os.environ.get("FITGAUGE_DEEP"))  # 100 pairs of checkpoints, 1,000 proofs and 100 tamperings
+DEEP = bool(os.environ.get("TESTS_DEEP"))  # 100 pairs of checkpoints, 1,000 proofs and 100 tamperings
 UNTRIGGERED = ("DROP TRIGGER measurements_are_not_updated", "DROP TRIGGER measurements_are_not_deleted")
 
 

@@ -13,7 +13,7 @@ from support.lsv2 import Client, control_port, text
 from support.ports import lasting_address
 from support.waiting import wait_for
 
-DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
+DEEP = bool(os.environ.get("TESTS_DEEP"))
 # Typed by hand after the example of HEIDENHAIN's manuals.
 LOG = """Measuring log for touch probe cycle 421 Hole measuring
 Date: {date}

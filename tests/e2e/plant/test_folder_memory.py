@@ -78,7 +78,7 @@ class BadFiles(Folders):
                 self.drop(name, content)
                 self.wait(lambda: name in self.files("failed") + self.files("done"))
                 taken = memory(process, "VmHWM") - idle
-                if os.environ.get("FITGAUGE_DEEP"):
+                if os.environ.get("TESTS_DEEP"):
                     print(f"{name}: {taken / MEGABYTE:.0f} MB", flush=True)
                 self.assertLess(taken, MOST, name)
                 self.assertIn(name, self.files("failed"))

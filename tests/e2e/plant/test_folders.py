@@ -17,7 +17,7 @@ from support.daemon import TRACEABLE, Daemon
 from support.tracing import attach, can_trace
 from support.waiting import PATIENCE, wait_for
 
-DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
+DEEP = bool(os.environ.get("TESTS_DEEP"))
 ROWS = "designation;measured_mm;part_id\n" + "".join(f"25 H7;25,01;P{number}\n" for number in range(5))
 DFQ = "K0100 1\r\nK1001/1 4711\r\nK2002/1 Bore\r\nK2101/1 25\r\nK2103/1 H\r\nK2104/1 7\r\nK2142/1 mm\r\n"
 WRITES = "openat,rename,renameat,renameat2,unlink,write,pwrite64,fdatasync,fsync,ftruncate,mkdir"

@@ -8,7 +8,7 @@ import unittest
 from support.daemon import SANITIZED, DaemonTest
 from support.lsv2 import Client, Refused, control_port, served, telegram, text, turned_away
 
-DEEP = bool(os.environ.get("FITGAUGE_DEEP"))
+DEEP = bool(os.environ.get("TESTS_DEEP"))
 NAMES = ["A_LG", "A_LO", "R_VR", "R_PR", "R_CI", "C_CC", "C_DC", "R_DI", "R_FI", "R_DR", "C_DM", "C_DD", "C_FD", "C_FC",
          "C_FR", "C_FL", "R_FL", "S_FL", "T_OK", "T_FD", "R_RI", "R_MB", "R_MC", "C_MC", "C_LK", "C_EK", "R_DP", "X_YZ"]
 LOGINS = ("INSPECT", "FILE", "DNC", "MONITOR", "PLCDEBUG", "DATA")
@@ -75,7 +75,7 @@ class Hostile(DaemonTest):
         self.assertEqual(refused, 100 - 24 // 6)
 
     def test_telegrams_in_any_order_are_answered(self):
-        """As many as 5,000, a million under FITGAUGE_DEEP, over connections that end in between."""
+        """As many as 5,000, a million under TESTS_DEEP, over connections that end in between."""
         noise = random.Random(3)
         sent = 0
         while sent < (1_000_000 if DEEP else 5_000):

@@ -342,7 +342,7 @@ class Lost(Sparkplug):
         self.assertEqual(list(dict.fromkeys(self.ids())), ids)
 
 
-@unittest.skipUnless(os.environ.get("FITGAUGE_DEEP") and shutil.which("npm"), "FITGAUGE_DEEP=1 and npm run it")
+@unittest.skipUnless(os.environ.get("TESTS_DEEP") and shutil.which("npm"), "TESTS_DEEP=1 and npm run it")
 class Reader(Sparkplug):
     """The package sparkplug-payload of the Eclipse Foundation reads what is sent."""
 

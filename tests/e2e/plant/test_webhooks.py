@@ -25,7 +25,7 @@ from support.waiting import PATIENCE, wait_for
 SECRETS = ["whsec_" + base64.b64encode(bytes(range(first, first + 32))).decode() for first in (0, 100)]
 PRIVATE = ("--allow-private-addresses",)
 SOURCES = pathlib.Path(__file__).parent / "webhooks"
-OUTAGE_S = int(os.environ.get("FITGAUGE_OUTAGE_S", "0"))
+OUTAGE_S = int(os.environ.get("TESTS_OUTAGE_S", "0"))
 
 
 def part(number, measured="25.01", **more):
@@ -337,7 +337,7 @@ class Webhooks(Receivers):
             self.assertEqual([e["pointer"] for e in problem.json["errors"]], ["/url"], url)
 
 
-@unittest.skipUnless(os.environ.get("FITGAUGE_DEEP") and shutil.which("npm"), "FITGAUGE_DEEP=1 and npm run it")
+@unittest.skipUnless(os.environ.get("TESTS_DEEP") and shutil.which("npm"), "TESTS_DEEP=1 and npm run it")
 class Verifiers(Receivers):
     """The packages standardwebhooks and svix accept what is sent, and nothing else."""
 
@@ -359,10 +359,10 @@ class Verifiers(Receivers):
         self.assertEqual(done.stdout.count("ok"), 80)
 
 
-@unittest.skipUnless(os.environ.get("FITGAUGE_DEEP") or OUTAGE_S, "FITGAUGE_DEEP=1 or FITGAUGE_OUTAGE_S=3600 runs it")
+@unittest.skipUnless(os.environ.get("TESTS_DEEP") or OUTAGE_S, "TESTS_DEEP=1 or TESTS_OUTAGE_S=3600 runs it")
 class Outage(Receivers):
     def test_errors_and_stalls_for_an_hour_lose_nothing(self):
-        """An hour, as FITGAUGE_OUTAGE_S says, with waits of two minutes and stalls longer than the time-out. By itself it
+        """An hour, as TESTS_OUTAGE_S says, with waits of two minutes and stalls longer than the time-out. By itself it
         is a minute, with waits of two seconds."""
         lasting = OUTAGE_S or 60
         wait, timeout = max(1, lasting // 30), max(1, lasting // 240)

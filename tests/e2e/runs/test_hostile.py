@@ -15,7 +15,7 @@ from support.waiting import PATIENCE, wait_for
 
 SECONDS = 0.3
 ENDS = {"completed", "stopped", "failed", "limit_exceeded"}
-DEEP = os.environ.get("FITGAUGE_DEEP")
+DEEP = os.environ.get("TESTS_DEEP")
 
 
 def peak_kib(daemon):
@@ -64,7 +64,7 @@ class Hostile(ControlTest):
         stored = self.daemon.get("/v1/files").json["files"]
         self.assertEqual([f["path"] for f in stored if f["path"].upper().startswith("TNC:\\SUB") or ".." in f["path"]], [])
 
-    @unittest.skipUnless(DEEP, "FITGAUGE_DEEP=1: a new daemon for each program")
+    @unittest.skipUnless(DEEP, "TESTS_DEEP=1: a new daemon for each program")
     def test_time_and_memory_of_each(self):
         for name, blocks, machine, files in programs():
             with self.subTest(name):

@@ -38,16 +38,10 @@ def preload(library):
     return {"LD_PRELOAD": " ".join([*RUNTIMES, str(library)])}
 
 
-def environment_of(settings):
-    """That of the test with `settings`, without what is meant for the tests alone."""
-    of_tests = ("FITGAUGE_DEEP", "FITGAUGE_OUTAGE_S", "FITGAUGE_STUTTER")
-    return {name: value for name, value in {**os.environ, **(settings or {})}.items() if name not in of_tests}
-
-
 def command(*arguments, environment=None, timeout=PATIENCE):
     """Runs fitgauged to its end."""
     return subprocess.run([FITGAUGED, *map(str, arguments)], capture_output=True, text=True,
-                          env=environment_of(environment), timeout=timeout, check=False)
+                          env={**os.environ, **(environment or {})}, timeout=timeout, check=False)
 
 
 class Answer:
@@ -77,7 +71,7 @@ class Daemon:
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-e2e-"))
         self.data = pathlib.Path(data) if data else self.folder / "data"
         self.flags = [str(flag) for flag in flags]
-        self.environment = environment_of(environment)
+        self.environment = {**os.environ, **(environment or {})}
         self.listen = listen
         self.wrapper = list(wrapper)
         self.stderr = None  # a descriptor; else the file of `log`

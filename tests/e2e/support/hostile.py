@@ -7,7 +7,7 @@ grows, what leaves the finite numbers, what leaves the disk, and what is merely 
 import os
 
 # A file holds up to 8 MiB; the short form takes less, since sanitizers parse slowly.
-SCALE = 8 if os.environ.get("FITGAUGE_DEEP") else 1
+SCALE = 8 if os.environ.get("TESTS_DEEP") else 1
 ENDLESS = "FN 9: IF +0 EQU +0 GOTO LBL 1"
 MEGABYTE = 1 << 20
 SPACE = 1_000_000

@@ -1,7 +1,7 @@
 """A slow and busy machine on purpose: a test that wins a race by chance loses it here.
 
-FITGAUGE_STUTTER=service lets each service stand still for 20 to 150 ms again and again, about half of the time;
-FITGAUGE_STUTTER=test does so with the test, its receivers and its clients; service,test with both.
+TESTS_STUTTER=service lets each service stand still for 20 to 150 ms again and again, about half of the time;
+TESTS_STUTTER=test does so with the test, its receivers and its clients; service,test with both.
 """
 
 import os
@@ -12,7 +12,7 @@ import sys
 import threading
 import time
 
-WANTED = os.environ.get("FITGAUGE_STUTTER", "").split(",")
+WANTED = os.environ.get("TESTS_STUTTER", "").split(",")
 # Of a process beside the test, which stands still as a whole; it ends with it.
 STOP_TEST = f"""
 import os, random, signal, time

@@ -25,9 +25,9 @@ const MODES = { dark: { colorScheme: 'dark' }, ...(browserName === 'chromium' &&
 
 /**
  * What axe-core looks at of a view: in each mode another width, so that all views together have every width in every
- * mode; with FITGAUGE_DEEP each view has. Scrolling is looked at everywhere.
+ * mode; with TESTS_DEEP each view has. Scrolling is looked at everywhere.
  */
-const looksAt = (view, width, mode) => Boolean(process.env.FITGAUGE_DEEP)
+const looksAt = (view, width, mode) => Boolean(process.env.TESTS_DEEP)
   || (Object.keys(VIEWS).indexOf(view) + Object.keys(MODES).indexOf(mode)) % WIDTHS.length === WIDTHS.indexOf(width);
 
 /** What comes when somebody wants it, with a name of each library in it. */

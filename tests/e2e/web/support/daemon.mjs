@@ -10,7 +10,7 @@ import { atEnd } from './ending.mjs';
 
 const FITGAUGED = path.resolve(process.env.FITGAUGED ?? 'build/release/bin/fitgauged');
 const LONGEST_START_MS = 120000;
-/** The service refuses what it does not know: FITGAUGE_DEEP is for the tests. */
+/** Without the settings of the service, so that it starts with its defaults. */
 const ENVIRONMENT = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('FITGAUGE_')));
 
 const listens = (server, port) => new Promise((resolve) => {
