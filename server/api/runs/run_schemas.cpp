@@ -14,7 +14,7 @@ std::string status_words() {
 
 std::string parameter_values() { return schema::map(R"({"type":["number","string"]})"); }
 
-std::string three_numbers() { return schema::array(schema::number(), 3); }
+std::string three_numbers() { return schema::array(schema::number(), 3, 3); }
 
 schema::Fields head_fields() {
   return {
@@ -39,7 +39,7 @@ void add_order_schema(Schemas& schemas) {
       {"parameters", parameter_values(),
        "Q, QL and QR numbers and QS strings, as if an earlier program had left them"},
       {"limits", limits, "What ends the run with limit_exceeded"},
-      {"contacts_mm", schema::array(schema::null_or(schema::array(schema::number(), 3))),
+      {"contacts_mm", schema::array(schema::null_or(three_numbers())),
        "What a real machine touched: the ball's centre in the active system for each probing move "
        "in "
        "order, null where a move touched nothing. They stand for the setup's workpiece"},

@@ -101,7 +101,7 @@ bool SetupSchema::optional_mm(SetupMember member, std::span<double> values) {
   return false;
 }
 void SetupSchema::required_mm(SetupMember member, std::vector<machine::Vec3>&) {
-  add(member, schema::array(schema::array(schema::exact(), 3)), true);
+  add(member, schema::array(schema::array(schema::exact(), 3, 3)), true);
 }
 
 std::string SetupSchema::component(std::string_view type, const Read& read) {

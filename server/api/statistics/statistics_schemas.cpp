@@ -274,7 +274,7 @@ void add_uncertainty(Schemas& schemas) {
           {"degrees_of_freedom", schema::number(0, kLargest), "Without end when absent"},
       }));
   const std::string correlation =
-      order({{"between", schema::array(schema::text(), 2), "Names of contributions"},
+      order({{"between", schema::array(schema::text(), 2, 2), "Names of contributions"},
              {"coefficient", schema::number(-1, 1), ""}});
   const std::string simulation =
       order({{"trials", schema::integer(1000, std::int64_t{metrology::kMostDraws} / 5),

@@ -7,7 +7,12 @@
 namespace fitgauge::api {
 namespace {
 
-/// `a, b or c` of `a b c`.
+bool has_word(std::string_view words, std::string_view word) {
+  return fmt::format(" {} ", words).find(fmt::format(" {} ", word)) != std::string::npos;
+}
+
+}  // namespace
+
 std::string listed(std::string_view words) {
   std::string text;
   for (std::size_t at = 0; at < words.size();) {
@@ -18,12 +23,6 @@ std::string listed(std::string_view words) {
   }
   return text;
 }
-
-bool has_word(std::string_view words, std::string_view word) {
-  return fmt::format(" {} ", words).find(fmt::format(" {} ", word)) != std::string::npos;
-}
-
-}  // namespace
 
 std::optional<std::string> not_applicable(const Applicable& row, std::string_view what,
                                           std::string_view kind) {

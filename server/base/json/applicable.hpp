@@ -15,6 +15,9 @@ struct Applicable {
   std::string_view values{};  ///< which of its values it is asked for; empty: all
 };
 
+/// `a, b or c` of `a b c`.
+std::string listed(std::string_view words);
+
 /// Why a member is refused; none where the kind takes it.
 /// @param what names the kind: `kind`, `method`, `rule`
 std::optional<std::string> not_applicable(const Applicable& row, std::string_view what,

@@ -115,16 +115,23 @@ double FieldReader::number_or(std::string_view name, double fallback) {
   return fallback;
 }
 
-std::int64_t FieldReader::integer_or(std::string_view name, std::int64_t fallback,
-                                     std::int64_t least, std::int64_t most) {
-  const JsonValue* value = take(name, false, {Kind::Number}, "a whole number");
-  if (value == nullptr) return fallback;
+std::optional<std::int64_t> FieldReader::integer(std::string_view name, std::int64_t least,
+                                                 std::int64_t most) {
+  const JsonValue* value = take(name, true, {Kind::Number}, "a whole number");
+  if (value == nullptr) return std::nullopt;
   std::int64_t parsed = 0;
   const char* const end = value->text.data() + value->text.size();
   const auto [stop, failure] = std::from_chars(value->text.data(), end, parsed);
   if (failure == std::errc() && stop == end && parsed >= least && parsed <= most) return parsed;
   report(ErrorCode::FieldInvalid, name,
          fmt::format("{} takes a whole number from {} to {}", name, least, most));
+  return std::nullopt;
+}
+
+std::int64_t FieldReader::integer_or(std::string_view name, std::int64_t fallback,
+                                     std::int64_t least, std::int64_t most) {
+  if (has(name)) return integer(name, least, most).value_or(fallback);
+  known_.push_back(name);
   return fallback;
 }
 

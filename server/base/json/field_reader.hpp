@@ -51,6 +51,7 @@ class FieldReader {
   std::optional<Length> um(std::string_view name);
   std::optional<double> number(std::string_view name);
   std::optional<std::string> text(std::string_view name);
+  std::optional<std::int64_t> integer(std::string_view name, std::int64_t least, std::int64_t most);
   const JsonValue* array(std::string_view name);
   const JsonValue* object(std::string_view name);
 
@@ -70,6 +71,7 @@ class FieldReader {
   bool has(std::string_view name) const { return object_.find(name) != nullptr; }
   std::string at(std::string_view name) const { return pointer_to(pointer_, name); }
   void report(ErrorCode code, std::string_view name, std::string message);
+  FieldErrors& errors() { return errors_; }
 
  private:
   const JsonValue* take(std::string_view name, bool required);

@@ -9,6 +9,8 @@
 namespace fitgauge::api::schema {
 namespace {
 
+constexpr std::string_view kNumberOrNull = R"({"type":["number","null"]})";
+
 std::string list_of(const std::vector<std::string>& values) {
   return fmt::format("[{}]", fmt::join(values, ","));
 }
@@ -33,6 +35,10 @@ std::string number() { return R"({"type":"number"})"; }
 std::string number(double least, double most) {
   return fmt::format(R"({{"type":"number","minimum":{},"maximum":{}}})", least, most);
 }
+std::string number_between(double least, double most) {
+  return fmt::format(R"({{"type":"number","exclusiveMinimum":{},"exclusiveMaximum":{}}})", least,
+                     most);
+}
 std::string integer(std::int64_t least, std::int64_t most) {
   return fmt::format(R"({{"type":"integer","minimum":{},"maximum":{}}})", least, most);
 }
@@ -43,7 +49,7 @@ std::string text(std::size_t longest_bytes) {
 }
 std::string time() { return R"({"type":"string","format":"date-time"})"; }
 
-std::string words(std::initializer_list<std::string_view> words) {
+std::string words(const std::vector<std::string_view>& words) {
   std::vector<std::string> quoted_words;
   for (const std::string_view word : words) quoted_words.push_back(json_text(word));
   return fmt::format(R"({{"type":"string","enum":{}}})", list_of(quoted_words));
@@ -52,6 +58,7 @@ std::string words(std::initializer_list<std::string_view> words) {
 std::string exact() { return R"({"type":["number","string"],"pattern":"^-?[0-9]+([.][0-9]+)?$"})"; }
 
 std::string null_or(const std::string& json) {
+  if (json == kNumberOrNull) return json;
   constexpr std::string_view kType = R"({"type":")";
   const bool is_plain = json.starts_with(kType) && json.find(R"("enum":)") == std::string::npos;
   if (!is_plain) return any_of({json, R"({"type":"null"})"});
@@ -63,8 +70,9 @@ std::string null_or(const std::string& json) {
 std::string array(const std::string& item) {
   return fmt::format(R"({{"type":"array","items":{}}})", item);
 }
-std::string array(const std::string& item, std::size_t size) {
-  return with_members(array(item), fmt::format(R"("minItems":{0},"maxItems":{0})", size));
+std::string array(const std::string& item, std::size_t least, std::size_t most) {
+  const std::string end = most == kAnyNumber ? "" : fmt::format(R"(,"maxItems":{})", most);
+  return with_members(array(item), fmt::format(R"("minItems":{}{})", least, end));
 }
 
 std::string map(const std::string& value) {

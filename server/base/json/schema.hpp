@@ -30,17 +30,19 @@ enum class Others : std::uint8_t { Allowed, Refused };
 std::string boolean();
 std::string number();
 std::string number(double least, double most);
+std::string number_between(double least, double most);  ///< neither end belongs to it
 std::string integer(std::int64_t least, std::int64_t most);
 std::string count();  ///< a whole number from 0
 std::string text();
 std::string text(std::size_t longest_bytes);
 std::string time();  ///< RFC 3339
-std::string words(std::initializer_list<std::string_view> words);
+std::string words(const std::vector<std::string_view>& words);
 /// A number in a request, which may also come as a string, so that no double comes between.
 std::string exact();
+inline constexpr std::size_t kAnyNumber = 0;
 std::string null_or(const std::string& json);
 std::string array(const std::string& item);
-std::string array(const std::string& item, std::size_t size);
+std::string array(const std::string& item, std::size_t least, std::size_t most = kAnyNumber);
 /// Any names, values of one kind.
 std::string map(const std::string& value);
 std::string object(const Fields& fields, Others others = Others::Allowed,
