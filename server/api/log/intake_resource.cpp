@@ -12,7 +12,7 @@
 namespace fitgauge::api {
 namespace {
 
-constexpr std::size_t kBodyLimit = std::size_t{32} << 20;
+constexpr std::size_t kBatchLimit = std::size_t{32} << 20;
 
 void write_head(JsonWriter& json, const app::LogIntake::Head& head) {
   json.begin_object()
@@ -86,7 +86,7 @@ void add_intake_routes(std::vector<http::Route>& routes, const Services& service
                       .description = "The place of the first record in its log, from 1"}},
       .body = {.use = http::BodyUse::Required,
                .media_types = {"application/x-ndjson"},
-               .limit = kBodyLimit},
+               .limit = kBatchLimit},
       .access = "station",
       .operation = "putLogBatch",
       .tag = "log",
