@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <map>
 #include <string>
 #include <type_traits>
 
@@ -22,6 +23,10 @@ std::int64_t month_of(std::int64_t at_ns) {
 }
 
 constexpr const char* kRowType = "SELECT 'measurements'::regtype::oid::bigint";
+constexpr const char* kColumns =
+    "SELECT attname::text FROM pg_attribute WHERE attrelid = 'measurements'::regclass AND attnum > "
+    "0 "
+    "AND NOT attisdropped ORDER BY attnum";
 
 /// Rows come as one value: an array of rows of the table. Several statements on their way are
 /// carried out while the next rows are made, as with COPY, and one takes no more exchanges with the
@@ -64,31 +69,46 @@ void append_counted_value(std::string& bytes, const std::optional<Value>& value)
   append_number(bytes, std::int32_t{-1});
 }
 
-/// In the table the hash is the last column of the first migration; what others add stands behind
-/// it.
-constexpr std::string_view kBeforeHash = "calibration_due";
-
-/// The columns as they stand in the table.
-void append_row(std::string& bytes, const MeasurementRow& row) {
-  const std::string_view hash(reinterpret_cast<const char*>(row.hash.data()), row.hash.size());
-  std::int32_t fields = 2;
-  for_each_field(row, [&](const char*, const auto&) { ++fields; });
-  append_number(bytes, fields);
-  const auto append_field = [&](Oid type, const auto& value) {
-    append_number(bytes, type);
-    append_counted_value(bytes, value);
-  };
-  append_field(kInt8, row.id);
-  for_each_field(row, [&](std::string_view column, const auto& value) {
-    append_field(type_of(value), value);
-    if (column == kBeforeHash) append_field(kBytes, hash);
-  });
+/// Calls `add(column, type, value)` for all that a row has.
+template <class Add>
+void for_each_column(const MeasurementRow& row, const Add& add) {
+  add("id", kInt8, row.id);
+  for_each_field(
+      row, [&](std::string_view column, const auto& value) { add(column, type_of(value), value); });
+  add("hash", kBytes,
+      std::string_view(reinterpret_cast<const char*>(row.hash.data()), row.hash.size()));
 }
 
 }  // namespace
 
 MeasurementTable::MeasurementTable(Connection& connection)
     : connection_(connection), make_part_(connection, "SELECT make_measurement_part(?, ?)") {}
+
+/// Migrations add columns at the end, whatever the order of for_each_column.
+void MeasurementTable::read_type() {
+  row_type_ = static_cast<Oid>(sql::Statement(connection_, kRowType).returning<std::int64_t>());
+  std::map<std::string, std::size_t, std::less<>> indices;
+  for_each_column(MeasurementRow(), [&](std::string_view column, Oid /*type*/, const auto&) {
+    indices.emplace(column, indices.size());
+  });
+  sql::Statement columns(connection_, kColumns);
+  for (sql::Rows rows = columns.query(); rows.next();) {
+    order_.push_back(indices.at(rows.get<std::string>(0)));
+  }
+}
+
+/// The columns as the table has them.
+void MeasurementTable::append_row(std::string& bytes, const MeasurementRow& row) {
+  values_.clear();
+  ends_.assign(1, 0);
+  for_each_column(row, [&](std::string_view /*column*/, Oid type, const auto& value) {
+    append_number(values_, type);
+    append_counted_value(values_, value);
+    ends_.push_back(values_.size());
+  });
+  append_number(bytes, static_cast<std::int32_t>(order_.size()));
+  for (const std::size_t i : order_) bytes.append(values_, ends_[i], ends_[i + 1] - ends_[i]);
+}
 
 void MeasurementTable::make_parts(std::span<const MeasurementRow> rows) {
   if (std::exchange(connection_.parts_may_be_undone, false)) parts_.clear();
@@ -101,9 +121,7 @@ void MeasurementTable::make_parts(std::span<const MeasurementRow> rows) {
 
 /// An array of one dimension, whose first element is numbered 1.
 std::string MeasurementTable::begin_array(std::size_t rows) {
-  if (row_type_ == 0) {
-    row_type_ = static_cast<Oid>(sql::Statement(connection_, kRowType).returning<std::int64_t>());
-  }
+  if (row_type_ == 0) read_type();
   std::string bytes;
   append_number(bytes, std::int32_t{1});
   append_number(bytes, std::int32_t{0});  // no NULLs

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "db/postgres/connection.hpp"
 #include "db/sql/measurement_table.hpp"
@@ -26,10 +27,15 @@ class MeasurementTable final : public sql::MeasurementTable {
  private:
   void make_parts(std::span<const MeasurementRow> rows);
   std::string begin_array(std::size_t rows);
+  void read_type();
+  void append_row(std::string& bytes, const MeasurementRow& row);
 
   Connection& connection_;
   sql::Statement make_part_;
-  Oid row_type_ = 0;  ///< of the table; 0 until it was asked for
+  Oid row_type_ = 0;                ///< of the table; 0 until it was asked for
+  std::vector<std::size_t> order_;  ///< of the table's columns: their indices in a row
+  std::string values_;              ///< of one row, and where each of them ends
+  std::vector<std::size_t> ends_;
   std::set<std::pair<std::int64_t, std::int64_t>> parts_;  ///< origin and month that are there
 };
 

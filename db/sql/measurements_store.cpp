@@ -25,7 +25,7 @@ MeasurementRow read_row(const Rows& rows) {
   MeasurementRow row;
   int column = 0;
   row.id = rows.get<std::int64_t>(column);
-  for_each_field(row, [&](const char*, auto& value) {
+  for_each_field(row, [&](std::string_view /*column*/, auto& value) {
     value = rows.get<std::remove_reference_t<decltype(value)>>(++column);
   });
   row.hash = rows.get<Digest>(++column);

@@ -53,8 +53,9 @@ MeasurementTable::Fields MeasurementTable::fields_of(std::span<const Measurement
   Fields fields = 0;
   for (const MeasurementRow& row : rows) {
     unsigned bit = 0;
-    for_each_field(
-        row, [&](const char*, const auto& value) { fields |= Fields{is_given(value)} << bit++; });
+    for_each_field(row, [&](std::string_view /*column*/, const auto& value) {
+      fields |= Fields{is_given(value)} << bit++;
+    });
   }
   return fields;
 }
@@ -89,7 +90,7 @@ void MeasurementTable::insert(std::span<const MeasurementRow> rows) {
   int index = 0;
   for (const MeasurementRow& row : rows) {
     unsigned bit = 0;
-    for_each_field(row, [&](const char*, const auto& value) {
+    for_each_field(row, [&](std::string_view /*column*/, const auto& value) {
       if (contains(fields, bit++)) sql::bind_value(statement, ++index, value);
     });
     sql::bind_value(statement, ++index, row.hash);

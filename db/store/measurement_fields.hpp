@@ -1,11 +1,27 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
+
+namespace detail {
+
+template <std::size_t I, class Row, class Field>
+void plain_field(Row& row, Field& field) {
+  constexpr const app::MeasurementField& kPlain = app::kMeasurementFields[I];
+  if constexpr (kPlain.text != nullptr) {
+    field(kPlain.column, row.*kPlain.text);
+  } else {
+    field(kPlain.column, row.*kPlain.number);
+  }
+}
+
+}  // namespace detail
 
 /// Calls `field(column, value)` for what a measurement says, all but its id and hash. The one place
 /// where rows and columns meet.
@@ -28,43 +44,19 @@ void for_each_field(Row&& row, Field&& field) {
   field("rule", row.rule);
   field("uncertainty_nm", row.uncertainty_nm);
   field("coverage_factor", row.coverage_factor);
-  field("part_id", row.part_id);
-  field("characteristic", row.characteristic);
-  field("work_order", row.order);
-  field("operation", row.operation);
-  field("machine", row.machine);
-  field("operator", row.operator_id);
-  field("gauge", row.gauge);
-  field("temperature", row.temperature);
-  field("unit", row.unit);
-  field("comment", row.comment);
-  field("caller", row.caller);
   field("run_id", row.run_id);
-  field("cycle", row.cycle);
   field("correction_of", row.correction_of);
-  field("correction_reason", row.correction_reason);
-  field("subgroup", row.subgroup);
   field("probability", row.probability);
   field("conformance", row.conformance);
   field("guard_band", row.guard_band);
   field("corrected_nm", row.corrected_nm);
-  field("scale_temperature", row.scale_temperature);
-  field("part_expansion", row.part_expansion);
-  field("scale_expansion", row.scale_expansion);
-  field("part_material", row.part_material);
-  field("scale_material", row.scale_material);
   field("origin", row.origin);
   field("seq", row.seq);
   field("number", row.number);
   field("corrected_origin", row.corrected_origin);
   field("corrected_number", row.corrected_number);
-  field("uncertainty_budget", row.uncertainty_budget);
-  field("calibration_due", row.calibration_due);
-  field("temperature_uncertainty", row.temperature_uncertainty);
-  field("scale_temperature_uncertainty", row.scale_temperature_uncertainty);
-  field("part_expansion_uncertainty", row.part_expansion_uncertainty);
-  field("scale_expansion_uncertainty", row.scale_expansion_uncertainty);
-  field("added_uncertainty", row.added_uncertainty);
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (detail::plain_field<I>(row, field), ...); }
+  (std::make_index_sequence<std::size(app::kMeasurementFields)>());
 }
 
 /// `id, source, …, hash`

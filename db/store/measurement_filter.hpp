@@ -35,19 +35,16 @@ struct TextColumn {
 };
 
 /// By number.
-inline constexpr std::array<TextColumn, 11> kTextColumns = {{
-    {TextField::PartId, "part_id", &MeasurementRow::part_id},
-    {TextField::Order, "work_order", &MeasurementRow::order},
-    {TextField::Characteristic, "characteristic", &MeasurementRow::characteristic},
-    {TextField::Machine, "machine", &MeasurementRow::machine},
-    {TextField::Operation, "operation", &MeasurementRow::operation},
-    {TextField::Operator, "operator", &MeasurementRow::operator_id},
-    {TextField::Gauge, "gauge", &MeasurementRow::gauge},
-    {TextField::Unit, "unit", &MeasurementRow::unit},
-    {TextField::ToleranceClass, "tolerance_class", &MeasurementRow::tolerance_class},
-    {TextField::Caller, "caller", &MeasurementRow::caller},
-    {TextField::Subgroup, "subgroup", &MeasurementRow::subgroup},
-}};
+inline constexpr auto kTextColumns = [] {
+  std::array<TextColumn, app::kTextFilters.size()> columns{};
+  columns.fill({TextField::ToleranceClass, "tolerance_class", &MeasurementRow::tolerance_class});
+  for (const app::MeasurementField& field : app::kMeasurementFields) {
+    if (field.filter == 0) continue;
+    columns.at(static_cast<std::size_t>(field.filter) - 1) = {static_cast<TextField>(field.filter),
+                                                              field.column, field.text};
+  }
+  return columns;
+}();
 
 constexpr std::size_t index_of(TextField field) { return static_cast<std::size_t>(field) - 1; }
 constexpr std::string_view column_of(TextField field) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/digest.hpp"
+#include "record/fields.hpp"
 
 namespace fitgauge::store {
 
@@ -25,7 +26,7 @@ constexpr Rule last_of(Rule) { return Rule::Conformance; }
 /// One measurement as it is stored. Lengths in nm, times in ns since 1970 (UTC), scaled numbers in
 /// millionths. Texts are views: of the caller's memory until the job that appends them is done, or
 /// of the database's own while a visitor runs.
-struct MeasurementRow {
+struct MeasurementRow : app::MeasurementFields {
   std::int64_t id = 0;  ///< rising without gaps
   Source source = Source::Gauge;
   std::int64_t measured_at_ns = 0;
@@ -47,49 +48,13 @@ struct MeasurementRow {
   std::optional<std::int64_t> uncertainty_nm{};   ///< standard uncertainty u
   std::optional<std::int64_t> coverage_factor{};  ///< k in millionths: 2'000'000 is k = 2
 
-  std::optional<std::string_view> part_id{};
-  std::optional<std::string_view> characteristic{};
-  std::optional<std::string_view> order{};
-  std::optional<std::string_view> operation{};
-  std::optional<std::string_view> machine{};
-  std::optional<std::string_view> operator_id{};
-  std::optional<std::string_view> gauge{};
-  std::optional<std::int64_t> temperature{};  ///< in millionths of a degree Celsius
-  std::optional<std::string_view> unit{};
-  std::optional<std::string_view> comment{};
-
-  std::optional<std::string_view> caller{};  ///< name of the API key that wrote it
-  std::optional<std::int64_t> run_id{};      ///< the run of a simulated measurement
-  std::optional<std::int64_t> cycle{};       ///< number of its measuring cycle
-
   std::optional<std::int64_t> correction_of{};  ///< id of the row this one replaces
-  std::optional<std::string_view> correction_reason{};
-
-  std::optional<std::string_view> subgroup{};  ///< of a control chart
-
   // Of rule Conformance, and of no other:
   std::optional<std::int64_t> probability{};  ///< asked for, in millionths
   std::optional<std::int64_t> conformance{};  ///< found, in 1e-9
   std::optional<std::int64_t> guard_band{};   ///< in fm
 
   std::optional<std::int64_t> corrected_nm{};  ///< the size at 20 °C, where it decides
-  // In millionths of a degree Celsius, and of um/(m K):
-  std::optional<std::int64_t> scale_temperature{};
-  std::optional<std::int64_t> part_expansion{};
-  std::optional<std::int64_t> scale_expansion{};
-  std::optional<std::string_view> part_material{};
-  std::optional<std::string_view> scale_material{};
-  // Standard uncertainties of these, in the same units:
-  std::optional<std::int64_t> temperature_uncertainty{};
-  std::optional<std::int64_t> scale_temperature_uncertainty{};
-  std::optional<std::int64_t> part_expansion_uncertainty{};
-  std::optional<std::int64_t> scale_expansion_uncertainty{};
-  std::optional<std::int64_t> added_uncertainty{};  ///< what they add to uncertainty_nm, in pm
-
-  // Of its gauge, where they are in use:
-  std::optional<std::string_view> uncertainty_budget{};  ///< the name of what uncertainty_nm is of
-  std::optional<std::string_view> calibration_due{};     ///< as it was given, where it had passed
-
   // Of rows that another folder has forwarded, and of those stored beside them:
   std::optional<std::int64_t> origin{};  ///< OriginsStore::Origin::number; 0 is this folder
   std::optional<std::int64_t> seq{};     ///< in the log of its origin; none: it is the id

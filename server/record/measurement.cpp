@@ -72,14 +72,10 @@ KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(
   const auto keep = [this](std::optional<std::string_view>& text) {
     if (text) text = texts_.emplace_back(*text);
   };
-  for (const auto& [name, text] : kMeasurementTexts) keep(measurement_.texts.*text);
-  keep(measurement_.expansions.part_material);
-  keep(measurement_.expansions.scale_material);
-  keep(measurement_.uncertainty_budget);
-  keep(measurement_.calibration_due);
+  for (const MeasurementField& field : kMeasurementFields) {
+    if (field.text != nullptr) keep(measurement_.*field.text);
+  }
   keep(measurement_.class_name);
-  keep(measurement_.caller);
-  keep(measurement_.correction_reason);
 }
 
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
@@ -156,6 +152,12 @@ std::string run_id_text(std::int64_t id, std::string_view origin) {
 std::string corrected_id_text(const Measurement& m) {
   return measurement_id_text(*m.correction_of,
                              m.corrected_elsewhere ? m.corrected_elsewhere->digits : m.origin);
+}
+
+std::string corrector_id_text(const Measurement& m) {
+  if (!m.corrected_by) return {};
+  return measurement_id_text(*m.corrected_by,
+                             m.corrected_by_origin.empty() ? m.origin : m.corrected_by_origin);
 }
 
 Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins) {

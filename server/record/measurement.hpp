@@ -1,17 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "base/clock.hpp"
 #include "metrology/gauging/conformance.hpp"
 #include "metrology/gauging/gauge.hpp"
+#include "record/fields.hpp"
 #include "record/note.hpp"
 #include "tables/iso286/nominal_size.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
@@ -31,55 +30,11 @@ std::string_view word(Source source);
 std::string_view word(LimitsBasis basis);
 std::optional<Source> source_from_word(std::string_view text);
 
-/// What a caller may say about a measured value beside the value itself. Views; see Measurement.
-struct MeasurementTexts {
-  std::optional<std::string_view> part_id;
-  std::optional<std::string_view> characteristic;
-  std::optional<std::string_view> order;
-  std::optional<std::string_view> operation;
-  std::optional<std::string_view> machine;
-  std::optional<std::string_view> operator_id;
-  std::optional<std::string_view> gauge;
-  std::optional<std::string_view> unit;
-  std::optional<std::string_view> comment;
-  std::optional<std::string_view> subgroup;
-};
-
-/// Every text with its name.
-inline constexpr std::array<
-    std::pair<std::string_view, std::optional<std::string_view> MeasurementTexts::*>, 10>
-    kMeasurementTexts = {{
-        {"part_id", &MeasurementTexts::part_id},
-        {"characteristic", &MeasurementTexts::characteristic},
-        {"order", &MeasurementTexts::order},
-        {"operation", &MeasurementTexts::operation},
-        {"machine", &MeasurementTexts::machine},
-        {"operator", &MeasurementTexts::operator_id},
-        {"gauge", &MeasurementTexts::gauge},
-        {"unit", &MeasurementTexts::unit},
-        {"comment", &MeasurementTexts::comment},
-        {"subgroup", &MeasurementTexts::subgroup},
-    }};
-
 inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them
 inline constexpr int kPicometreDecimals = 6;    ///< of a micrometre
 
 /// The deviation of a limit that a drawing does not have: beyond every length.
 inline constexpr Length kNoLimit = Length::nanometres(2 * kLongest.count());
-
-/// What a reading is corrected to 20 °C with, beside the temperature of the part, as it was given.
-struct Expansions {
-  std::optional<std::int64_t> scale_temperature;  ///< in millionths of a degree Celsius
-  std::optional<std::int64_t> part;               ///< in millionths of µm/(m·K)
-  std::optional<std::int64_t> scale;
-  std::optional<std::string_view> part_material;  ///< instead of the number
-  std::optional<std::string_view> scale_material;
-  // Standard uncertainties, in the units of what they are of:
-  std::optional<std::int64_t> temperature_uncertainty{};
-  std::optional<std::int64_t> scale_temperature_uncertainty{};
-  std::optional<std::int64_t> part_uncertainty{};
-  std::optional<std::int64_t> scale_uncertainty{};
-};
 
 /// A record that another folder has stored, and where it stands in this one.
 struct Elsewhere {
@@ -90,7 +45,7 @@ struct Elsewhere {
 
 /// One judged measurement, before and after it is stored. Its texts are views of the memory it was
 /// read from: the request's body, or the database's own page while a visitor runs.
-struct Measurement {
+struct Measurement : MeasurementFields {
   std::int64_t id = 0;      ///< the number in its id; 0 before it is stored
   std::string_view origin;  ///< where it was stored: what its ids end with
   // Once it is read from the store:
@@ -114,26 +69,14 @@ struct Measurement {
   gauging::DecisionRule rule;
   std::optional<Length> standard_uncertainty;  ///< as given, also under the simple rule
   std::optional<gauging::CoverageFactor> coverage_factor;
-  std::optional<std::string_view> uncertainty_budget;  ///< of the gauge, where it gave the above
-  std::optional<std::string_view> calibration_due;     ///< of the gauge, as given, where overdue
 
   std::optional<gauging::ConformanceFigures> conformance;  ///< of that rule
 
-  MeasurementTexts texts;
-  std::optional<std::int64_t> temperature;  ///< in millionths of a degree Celsius
-  Expansions expansions;
-  std::optional<Length> corrected;  ///< the size at 20 °C, where it decides
-  /// The standard uncertainty that the correction adds, in pm; `rule` decides with both.
-  std::optional<std::int64_t> added_uncertainty;
-
-  std::optional<std::string_view> caller;
-  std::optional<std::int64_t> run_id;
-  std::optional<std::int64_t> cycle;
+  std::optional<Length> corrected;               ///< the size at 20 °C, where it decides
   std::optional<std::int64_t> correction_of;     ///< the number in the id of the one it replaces
   std::optional<Elsewhere> corrected_elsewhere;  ///< where that one is of another folder
-  std::optional<std::string_view> correction_reason;
-  std::optional<std::int64_t> corrected_by;  ///< known where one measurement was asked for
-  std::string_view corrected_by_origin{};    ///< empty: that of this one
+  std::optional<std::int64_t> corrected_by;      ///< known where one measurement was asked for
+  std::string_view corrected_by_origin{};        ///< empty: that of this one
   /// Another correction of the same record was made apart from this one. Known as corrected_by, and
   /// in lists.
   bool conflict = false;
@@ -201,6 +144,8 @@ std::string measurement_id_text(std::int64_t id, std::string_view origin);
 std::string run_id_text(std::int64_t id, std::string_view origin);
 /// The id of the record that this one replaces. @pre there is one.
 std::string corrected_id_text(const Measurement& measurement);
+/// The id of the record that replaces this one; empty if there is none.
+std::string corrector_id_text(const Measurement& measurement);
 /// @errors RunUnknown, also for the ids of another origin.
 Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin);
 

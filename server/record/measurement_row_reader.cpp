@@ -73,23 +73,13 @@ void MeasurementRowReader::report_row(ErrorCode code, std::string message) {
 bool MeasurementRowReader::field(std::string_view name, const RawValue& value) {
   const std::size_t field = find_field(name);
   if (field == RowField::Count || given(field)) return false;
-  draft_.given |= 1U << field;
+  draft_.given |= std::uint64_t{1} << field;
   assign(field, value);
   return true;
 }
 
 void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
   app::Measurement& m = draft_.measurement;
-  const auto temperature = [this](std::size_t of, const RawValue& given_value) {
-    return decimal_in(of, given_value, gauging::kColdest, gauging::kHottest,
-                      "lies from -273.15 to 10000");
-  };
-  const auto expansion = [this](std::size_t of, const RawValue& given_value) {
-    return decimal_in(of, given_value, 0, gauging::kLargestExpansion, "lies from 0 to 1000");
-  };
-  const auto uncertainty = [this](std::size_t of, const RawValue& given_value) {
-    return decimal_in(of, given_value, 0, gauging::kLargestUncertainty, "lies from 0 to 1000");
-  };
   switch (field) {
     case RowField::Measured:
       if (const auto measured = length(field, value, false, true)) {
@@ -147,27 +137,15 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
       draft_.rule.probability_millionths =
           decimal_in(field, value, kMillion / 2, kMillion - 1, "is at least 0.5 and below 1");
       break;
-    case RowField::Temperature: m.temperature = temperature(field, value); break;
-    case RowField::ScaleTemperature:
-      m.expansions.scale_temperature = temperature(field, value);
-      break;
-    case RowField::PartExpansion: m.expansions.part = expansion(field, value); break;
-    case RowField::ScaleExpansion: m.expansions.scale = expansion(field, value); break;
-    case RowField::PartMaterial: m.expansions.part_material = text(field, value); break;
-    case RowField::ScaleMaterial: m.expansions.scale_material = text(field, value); break;
-    case RowField::TemperatureUncertainty:
-      m.expansions.temperature_uncertainty = uncertainty(field, value);
-      break;
-    case RowField::ScaleTemperatureUncertainty:
-      m.expansions.scale_temperature_uncertainty = uncertainty(field, value);
-      break;
-    case RowField::PartUncertainty:
-      m.expansions.part_uncertainty = uncertainty(field, value);
-      break;
-    case RowField::ScaleUncertainty:
-      m.expansions.scale_uncertainty = uncertainty(field, value);
-      break;
-    default: m.texts.*kRowFields[field].text = text(field, value); break;
+    default: {
+      const app::MeasurementField& plain = *kRowFields[field].plain;
+      if (plain.text != nullptr) {
+        m.*plain.text = text(field, value);
+      } else {
+        m.*plain.number = decimal_in(field, value, plain.accepted.least, plain.accepted.most,
+                                     plain.accepted.range);
+      }
+    }
   }
 }
 
@@ -259,8 +237,8 @@ void MeasurementRowReader::apply_gauge() {
       m.uncertainty_budget = other->uncertainty_budget;
     }
   }
-  if (context_.gauges == nullptr || !m.texts.gauge) return;
-  const GaugeInUse* gauge = find_gauge(*m.texts.gauge);
+  if (context_.gauges == nullptr || !m.gauge) return;
+  const GaugeInUse* gauge = find_gauge(*m.gauge);
   if (gauge == nullptr) return;
   if (draft_.gauge_of == nullptr && gauge->is_overdue(m.measured_at)) {
     m.calibration_due = gauge->calibration_due;
@@ -303,18 +281,7 @@ void MeasurementRowReader::apply_rule() {
 /// @pre every field is valid by itself
 void MeasurementRowReader::apply_correction() {
   app::Measurement& m = draft_.measurement;
-  const app::Expansions& of = m.expansions;
-  const auto correction =
-      make_correction({.temperature = m.temperature,
-                       .scale_temperature = of.scale_temperature,
-                       .part_expansion = of.part,
-                       .scale_expansion = of.scale,
-                       .part_material = of.part_material,
-                       .scale_material = of.scale_material,
-                       .temperature_uncertainty = of.temperature_uncertainty,
-                       .scale_temperature_uncertainty = of.scale_temperature_uncertainty,
-                       .part_uncertainty = of.part_uncertainty,
-                       .scale_uncertainty = of.scale_uncertainty});
+  const auto correction = make_correction(m);
   if (!correction) {
     return report(correction.error().code, correction.error().where, correction.error().message);
   }

@@ -62,7 +62,7 @@ class MeasurementRowReader {
   /// What a row may say before it is known how its limits are given.
   struct Draft {
     app::Measurement measurement{};
-    std::uint32_t given = 0;  ///< a bit a field
+    std::uint64_t given = 0;  ///< a bit a field
     std::optional<Length> nominal{};
     std::optional<std::string_view> class_name{};
     std::optional<std::string_view> designation{};
@@ -85,7 +85,7 @@ class MeasurementRowReader {
                                          std::int64_t least, std::int64_t most,
                                          std::string_view range);
   std::optional<std::string_view> text(std::size_t field, const RawValue& value);
-  bool given(std::size_t field) const { return (draft_.given >> field & 1U) != 0; }
+  bool given(std::size_t field) const { return (draft_.given >> field & 1) != 0; }
 
   void apply_gauge();
   const GaugeInUse* find_gauge(std::string_view name);

@@ -8,8 +8,6 @@
 
 namespace fitgauge::app {
 
-class RecordText;
-
 /// Appends the record of a measurement: JSON in the form of RFC 8785 (members sorted, one spelling
 /// of each number and text), so that the record as it is answered is also what the log holds of it.
 /// Fields that were not given are left out. Numbers are exact decimals: the finest step, 0.001 µm,
@@ -26,28 +24,15 @@ class RecordWriter {
   void append(const Measurement& measurement);
 
  private:
-  /// What records of one request mostly share.
-  enum Part : std::size_t {
-    Designation,
-    LowerLimit,
-    MeasuredAt,
-    Nominal,
-    ReceivedAt,
-    SizeRange,
-    UpperLimit,
-    kParts
-  };
+  static constexpr std::size_t kMostMembers = 64;
   /// Where a part of the record before stands.
   struct Place {
     std::size_t at = 0;
     std::size_t size = 0;
   };
-  template <class Write>
-  void write_or_copy(RecordText& text, Part part, bool same, Write&& write);
-
   std::string& out_;
   const Measurement* before_ = nullptr;
-  std::array<Place, kParts> parts_;
+  std::array<Place, kMostMembers> parts_;  ///< of the members that records share
 };
 
 }  // namespace fitgauge::app

@@ -110,7 +110,6 @@ void read_ids(Record& record, Measurement& m) {
     m.correction_of = corrected->number;
     m.corrected_elsewhere = app::Elsewhere{.digits = corrected->digits};
   }
-  m.correction_reason = record.text("reason");
 }
 
 void read_limits(Record& record, const JsonValue& json, Measurement& m) {
@@ -142,8 +141,6 @@ void read_limits(Record& record, const JsonValue& json, Measurement& m) {
 
 void read_rule(Record& record, Measurement& m) {
   m.standard_uncertainty = record.um("uncertainty_um");
-  m.added_uncertainty = record.decimal("added_uncertainty_um", app::kPicometreDecimals);
-  m.uncertainty_budget = record.text("uncertainty");
   if (const auto k = record.decimal("coverage_factor", 6)) {
     m.coverage_factor =
         record.taken("coverage_factor", gauging::CoverageFactor::from_millionths(*k));
@@ -170,20 +167,14 @@ void read_rule(Record& record, Measurement& m) {
   }
 }
 
-void read_expansions(Record& record, Measurement& m) {
-  const auto millionths = [&record](std::string_view name) {
-    return record.decimal(name, app::kTemperatureDecimals);
-  };
-  m.temperature = millionths("temperature_c");
-  m.expansions = {.scale_temperature = millionths("scale_temperature_c"),
-                  .part = millionths("part_expansion_um_per_m_k"),
-                  .scale = millionths("scale_expansion_um_per_m_k"),
-                  .part_material = record.text("part_material"),
-                  .scale_material = record.text("scale_material"),
-                  .temperature_uncertainty = millionths("temperature_uncertainty_c"),
-                  .scale_temperature_uncertainty = millionths("scale_temperature_uncertainty_c"),
-                  .part_uncertainty = millionths("part_expansion_uncertainty_um_per_m_k"),
-                  .scale_uncertainty = millionths("scale_expansion_uncertainty_um_per_m_k")};
+void read_plain(Record& record, Measurement& m) {
+  for (const app::MeasurementField& field : app::kMeasurementFields) {
+    if (field.text != nullptr) {
+      m.*field.text = record.text(field.name);
+    } else {
+      m.*field.number = record.decimal(field.name, field.scale);
+    }
+  }
 }
 
 }  // namespace
@@ -191,6 +182,7 @@ void read_expansions(Record& record, Measurement& m) {
 Result<Measurement> read_record(const JsonValue& json, TextArena& texts) {
   Record record(json, texts);
   Measurement m;
+  read_plain(record, m);
   read_ids(record, m);
   const auto source = app::source_from_word(record.text("source").value_or(""));
   m.source = record.required("source", source);
@@ -200,11 +192,6 @@ Result<Measurement> read_record(const JsonValue& json, TextArena& texts) {
   m.measured = record.required("measured_mm", record.mm("measured_mm"));
   m.corrected = record.mm("corrected_mm");
   read_rule(record, m);
-  read_expansions(record, m);
-  for (const auto& [name, field] : app::kMeasurementTexts) m.texts.*field = record.text(name);
-  m.calibration_due = record.text("calibration_due");
-  m.caller = record.text("caller");
-  m.cycle = record.decimal("cycle", 0);
   const auto verdict = gauging::verdict_from_word(record.text("verdict").value_or(""));
   if (!verdict) record.wrong("verdict");
   if (record.error()) return *record.error();

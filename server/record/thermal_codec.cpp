@@ -58,31 +58,32 @@ Result<std::optional<gauging::ThermalBody>> read_body(const BodyWords& words) {
 
 }  // namespace
 
-Result<std::optional<ThermalCorrection>> make_correction(const ThermalWords& words) {
+Result<std::optional<ThermalCorrection>> make_correction(const app::MeasurementFields& fields) {
   auto part = read_body({.name = "part",
-                         .expansion = words.part_expansion,
-                         .material = words.part_material,
-                         .temperature_uncertainty = words.temperature_uncertainty,
-                         .expansion_uncertainty = words.part_uncertainty});
+                         .expansion = fields.part_expansion,
+                         .material = fields.part_material,
+                         .temperature_uncertainty = fields.temperature_uncertainty,
+                         .expansion_uncertainty = fields.part_expansion_uncertainty});
   if (!part) return part.error();
   auto scale = read_body({.name = "scale",
-                          .expansion = words.scale_expansion,
-                          .material = words.scale_material,
-                          .temperature_uncertainty = words.scale_temperature_uncertainty,
-                          .expansion_uncertainty = words.scale_uncertainty});
+                          .expansion = fields.scale_expansion,
+                          .material = fields.scale_material,
+                          .temperature_uncertainty = fields.scale_temperature_uncertainty,
+                          .expansion_uncertainty = fields.scale_expansion_uncertainty});
   if (!scale) return scale.error();
   if (!*part && !*scale) return std::optional<ThermalCorrection>();
-  if (*part && !words.temperature) {
+  if (*part && !fields.temperature) {
     return Error{ErrorCode::FieldMissing,
                  "temperature_c, of the part, is required beside its expansion", "temperature_c"};
   }
   ThermalCorrection correction;
   correction.part = part->value_or(gauging::ThermalBody());
-  correction.part.temperature = words.temperature.value_or(correction.part.temperature);
+  correction.part.temperature = fields.temperature.value_or(correction.part.temperature);
   correction.scale = scale->value_or(gauging::ThermalBody());
-  correction.scale.temperature = words.scale_temperature.value_or(correction.scale.temperature);
-  correction.has_uncertainties = words.temperature_uncertainty || words.part_uncertainty ||
-                                 words.scale_temperature_uncertainty || words.scale_uncertainty;
+  correction.scale.temperature = fields.scale_temperature.value_or(correction.scale.temperature);
+  correction.has_uncertainties =
+      fields.temperature_uncertainty || fields.part_expansion_uncertainty ||
+      fields.scale_temperature_uncertainty || fields.scale_expansion_uncertainty;
   return std::optional(correction);
 }
 

@@ -2,27 +2,12 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 
 #include "base/result.hpp"
 #include "metrology/gauging/reference_temperature.hpp"
+#include "record/fields.hpp"
 
 namespace fitgauge::api {
-
-/// Temperatures and expansions as they are written, in the query as in a body: in millionths.
-struct ThermalWords {
-  std::optional<std::int64_t> temperature{};
-  std::optional<std::int64_t> scale_temperature{};
-  std::optional<std::int64_t> part_expansion{};
-  std::optional<std::int64_t> scale_expansion{};
-  std::optional<std::string_view> part_material{};
-  std::optional<std::string_view> scale_material{};
-  // Standard uncertainties of these:
-  std::optional<std::int64_t> temperature_uncertainty{};
-  std::optional<std::int64_t> scale_temperature_uncertainty{};
-  std::optional<std::int64_t> part_uncertainty{};
-  std::optional<std::int64_t> scale_uncertainty{};
-};
 
 /// What a reading is corrected to 20 °C with.
 struct ThermalCorrection {
@@ -44,6 +29,6 @@ struct ThermalCorrection {
 /// @errors with the field in `where`: FieldConflict: material beside expansion; FieldInvalid: there
 ///   is no such material; FieldMissing: the part's expansion without temperature_c, or an
 ///   uncertainty of a body without its expansion.
-Result<std::optional<ThermalCorrection>> make_correction(const ThermalWords& words);
+Result<std::optional<ThermalCorrection>> make_correction(const app::MeasurementFields& fields);
 
 }  // namespace fitgauge::api

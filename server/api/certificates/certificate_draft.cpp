@@ -54,11 +54,10 @@ std::string body_text(const std::optional<std::int64_t>& temperature,
 /// The size at 20 °C with the reading and what it was corrected for.
 std::string measured_text(const app::Measurement& m) {
   if (!m.corrected) return mm_text(m.measured);
-  const app::Expansions& of = m.expansions;
   std::string text = fmt::format("{} (read {})", mm_text(*m.corrected), mm_text(m.measured));
-  text += body_text(m.temperature, of.part, of.part_material);
-  if (of.scale || of.scale_material) {
-    text += "; scale" + body_text(of.scale_temperature, of.scale, of.scale_material);
+  text += body_text(m.temperature, m.part_expansion, m.part_material);
+  if (m.scale_expansion || m.scale_material) {
+    text += "; scale" + body_text(m.scale_temperature, m.scale_expansion, m.scale_material);
   }
   if (m.added_uncertainty) {
     text += fmt::format(", adds u {} \u00b5m",
@@ -95,7 +94,7 @@ void CertificateDraft::add(const app::Measurement& m) {
   ++verdicts_.at(static_cast<std::size_t>(m.result.verdict));
   last_id_ = app::measurement_id_text(m.id, m.origin);
   if (first_id_.empty()) first_id_ = last_id_;
-  if (m.texts.gauge) gauges_[std::string(*m.texts.gauge)];
+  if (m.gauge) gauges_[std::string(*m.gauge)];
   if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
   std::string record;
   app::append_record(record, m);
@@ -105,15 +104,15 @@ void CertificateDraft::add(const app::Measurement& m) {
     records_ += record;
     return;
   }
-  lines_.push_back({.part = std::string(m.texts.part_id.value_or("")),
-                    .characteristic = std::string(m.texts.characteristic.value_or("")),
+  lines_.push_back({.part = std::string(m.part_id.value_or("")),
+                    .characteristic = std::string(m.characteristic.value_or("")),
                     .size = size_text(m),
                     .limits = limits_text(m),
                     .measured = measured_text(m),
                     .deviation = format_um(m.decisive() - m.nominal_size),
                     .verdict = std::string(word(m.result.verdict)),
                     .rule = rule_text(m),
-                    .gauge = std::string(m.texts.gauge.value_or("")),
+                    .gauge = std::string(m.gauge.value_or("")),
                     .measured_at = time_text(m.measured_at)});
   overdue_.emplace_back(m.calibration_due.value_or(""));
 }

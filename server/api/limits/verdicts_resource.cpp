@@ -15,17 +15,15 @@ namespace {
 
 /// @errors QueryInvalid
 Result<std::optional<ThermalCorrection>> correction_of(const http::Request& request) {
-  auto made = make_correction(
-      {.temperature = request.integer("temperature_c"),
-       .scale_temperature = request.integer("scale_temperature_c"),
-       .part_expansion = request.integer("part_expansion_um_per_m_k"),
-       .scale_expansion = request.integer("scale_expansion_um_per_m_k"),
-       .part_material = request.text("part_material"),
-       .scale_material = request.text("scale_material"),
-       .temperature_uncertainty = request.integer("temperature_uncertainty_c"),
-       .scale_temperature_uncertainty = request.integer("scale_temperature_uncertainty_c"),
-       .part_uncertainty = request.integer("part_expansion_uncertainty_um_per_m_k"),
-       .scale_uncertainty = request.integer("scale_expansion_uncertainty_um_per_m_k")});
+  app::MeasurementFields fields;
+  for (const app::MeasurementField& field : app::kThermalFields) {
+    if (field.text != nullptr) {
+      fields.*field.text = request.text(field.name);
+    } else {
+      fields.*field.number = request.integer(field.name);
+    }
+  }
+  auto made = make_correction(fields);
   if (!made) {
     return Error{ErrorCode::QueryInvalid, made.error().message, made.error().where};
   }
@@ -117,28 +115,19 @@ Result<http::Response> verdict(const http::Request& request,
   return response;
 }
 
-http::Parameter temperature(std::string name, std::string description) {
-  return {.name = std::move(name),
-          .type = http::Decimal{.min = gauging::kColdest, .max = gauging::kHottest},
-          .description = std::move(description)};
-}
-
-http::Parameter expansion(std::string name, std::string description) {
-  return {.name = std::move(name),
-          .type = http::Decimal{.min = 0, .max = gauging::kLargestExpansion},
-          .description = std::move(description)};
-}
-
-http::Parameter uncertainty(std::string name, std::string description) {
-  return {.name = std::move(name),
-          .type = http::Decimal{.min = 0, .max = gauging::kLargestUncertainty},
-          .description = std::move(description)};
-}
-
-http::Parameter material(std::string name, std::string description) {
+/// A field of a measurement as a parameter.
+http::Parameter parameter_of(const app::MeasurementField& field) {
+  http::Parameter parameter{.name = std::string(field.name),
+                            .description = std::string(field.meaning)};
+  if (field.number != nullptr) {
+    parameter.type = http::Decimal{
+        .scale = field.scale, .min = field.accepted.least, .max = field.accepted.most};
+    return parameter;
+  }
   http::Words words;
   for (const gauging::Material& known : gauging::materials()) words.words.emplace_back(known.name);
-  return {.name = std::move(name), .type = std::move(words), .description = std::move(description)};
+  parameter.type = std::move(words);
+  return parameter;
 }
 
 }  // namespace
@@ -178,28 +167,16 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                       .description = "k of guard_band; 2 when absent"},
                      {.name = "probability",
                       .type = http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
-                      .description = "Of conformance, at least 0.5; 0.95 when absent"},
-                     temperature("temperature_c", "Of the part; corrects with an expansion"),
-                     temperature("scale_temperature_c", "Of what it was read on; else 20"),
-                     expansion("part_expansion_um_per_m_k", "Of the part: 11.5 of steel"),
-                     expansion("scale_expansion_um_per_m_k", "Of the scale"),
-                     material("part_material", "Instead of part_expansion_um_per_m_k"),
-                     material("scale_material", "Instead of scale_expansion_um_per_m_k"),
-                     uncertainty("temperature_uncertainty_c",
-                                 "Standard uncertainty of temperature_c: its part is added to "
-                                 "uncertainty_um"),
-                     uncertainty("scale_temperature_uncertainty_c", "Of scale_temperature_c"),
-                     uncertainty("part_expansion_uncertainty_um_per_m_k",
-                                 "Of the part's expansion; that of its material's source when "
-                                 "absent"),
-                     uncertainty("scale_expansion_uncertainty_um_per_m_k",
-                                 "Of the scale's expansion")},
+                      .description = "Of conformance, at least 0.5; 0.95 when absent"}},
       .access = "open",
       .operation = "getVerdict",
       .tag = "limits",
       .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}},
       .refusals = {404, 422},
   });
+  for (const app::MeasurementField& field : app::kThermalFields) {
+    routes.back().parameters.push_back(parameter_of(field));
+  }
 }
 
 }  // namespace fitgauge::api

@@ -1,9 +1,9 @@
 #include "api/measurements/measurement_codec.hpp"
 
-#include "api/measurements/measurement_columns.hpp"
 #include "api/wire/formulas.hpp"
 #include "base/csv_cell.hpp"
 #include "base/decimal.hpp"
+#include "record/record_members.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -13,89 +13,42 @@ class CsvLine {
  public:
   explicit CsvLine(std::string& out) : out_(out) {}
 
-  void word(std::string_view text) { sheet::append_csv_cell(next(), text); }
-  void chosen(std::string_view text) { sheet::append_csv_text(next(), text); }
-  void time(Timestamp time) { next() += format_rfc3339(time); }
-  void mm(Length length) { append_mm(next(), length); }
-  void um(Length length) { append_um(next(), length); }
-  void decimal(std::int64_t value, int scale) { append_decimal(next(), value, scale); }
-  void none() { next(); }
-
- private:
-  std::string& next() {
-    if (!is_first_) out_ += ',';
-    is_first_ = false;
-    return out_;
+  void begin_cell() {
+    if (!std::exchange(is_first_, false)) out_ += ',';
   }
 
+  void word(std::string_view text) { sheet::append_csv_cell(out_, text); }
+  void name(std::string_view text) { sheet::append_csv_cell(out_, text); }
+  void text(std::string_view text) { sheet::append_csv_text(out_, text); }
+  void time(Timestamp time) { out_ += format_rfc3339(time); }
+  void mm(Length length) { append_mm(out_, length); }
+  void um(Length length) { append_um(out_, length); }
+  void decimal(std::int64_t value, int scale) { append_decimal(out_, value, scale); }
+  void billionths(std::int64_t value) { append_decimal(out_, value, 9); }
+  void truth() { out_ += "true"; }
+
+ private:
   std::string& out_;
   bool is_first_ = true;
 };
 
 }  // namespace
 
-std::vector<std::string> measurement_columns() {
-  std::vector<std::string> names = {"id",
-                                    "source",
-                                    "measured_at",
-                                    "received_at",
-                                    "nominal_mm",
-                                    "tolerance_class",
-                                    "feature",
-                                    "upper_deviation_um",
-                                    "lower_deviation_um",
-                                    "upper_limit_mm",
-                                    "lower_limit_mm",
-                                    "basis",
-                                    "table_revision",
-                                    "measured_mm",
-                                    "deviation_um",
-                                    "verdict",
-                                    "excess_um",
-                                    "rule",
-                                    "uncertainty_um",
-                                    "coverage_factor",
-                                    "temperature_c"};
-  for (const auto& [name, field] : app::kMeasurementTexts) names.emplace_back(name);
-  for (const std::string_view name : {"caller",
-                                      "run_id",
-                                      "cycle",
-                                      "correction_of",
-                                      "reason",
-                                      "probability",
-                                      "conformance_probability",
-                                      "guard_band_um",
-                                      "corrected_mm",
-                                      "scale_temperature_c",
-                                      "part_expansion_um_per_m_k",
-                                      "scale_expansion_um_per_m_k",
-                                      "part_material",
-                                      "scale_material",
-                                      "uncertainty",
-                                      "calibration_due",
-                                      "calibration_overdue",
-                                      "temperature_uncertainty_c",
-                                      "scale_temperature_uncertainty_c",
-                                      "part_expansion_uncertainty_um_per_m_k",
-                                      "scale_expansion_uncertainty_um_per_m_k",
-                                      "added_uncertainty_um"}) {
-    names.emplace_back(name);
-  }
-  return names;
-}
-
 std::string measurement_csv_header() {
   std::string out;
-  for (const std::string& name : measurement_columns()) {
+  app::for_each_column([&out](const auto& column, std::size_t /*index*/) {
     if (!out.empty()) out += ',';
-    out += name;
-  }
+    out += column.name;
+  });
   return out += "\r\n";
 }
 
 void append_measurement_csv(std::string& out, const app::Measurement& measurement) {
   CsvLine line(out);
-  write_columns(measurement, line);
+  app::for_each_column([&](const auto& column, std::size_t /*index*/) {
+    line.begin_cell();
+    column.write(measurement, app::MemberValue{line});
+  });
   out += "\r\n";
 }
 

@@ -22,10 +22,22 @@ constexpr std::array<std::string_view, 6> kLimitsFields = {
     "designation", "nominal_mm", "tolerance_class", "feature", "upper_um", "lower_um"};
 
 constexpr std::array<std::string_view, 2> kGaugeFields = {"gauge", "measured_at"};
-constexpr std::array<std::string_view, 2> kPartFields = {"part_material",
-                                                         "part_expansion_um_per_m_k"};
-constexpr std::array<std::string_view, 2> kScaleFields = {"scale_material",
-                                                          "scale_expansion_um_per_m_k"};
+/// A field of the original, and one that replaces it if the correction names it.
+struct Replaced {
+  std::string_view field;
+  std::string_view by;
+};
+constexpr std::array<Replaced, 8> kReplaced = {{
+    {"part_expansion_um_per_m_k", "part_material"},
+    {"part_material", "part_expansion_um_per_m_k"},
+    {"scale_expansion_um_per_m_k", "scale_material"},
+    {"scale_material", "scale_expansion_um_per_m_k"},
+    // Another coefficient has another uncertainty.
+    {"part_expansion_uncertainty_um_per_m_k", "part_material"},
+    {"part_expansion_uncertainty_um_per_m_k", "part_expansion_um_per_m_k"},
+    {"scale_expansion_uncertainty_um_per_m_k", "scale_material"},
+    {"scale_expansion_uncertainty_um_per_m_k", "scale_expansion_um_per_m_k"},
+}};
 
 /// What the texts of the correction are views of.
 struct Sources {
@@ -67,8 +79,16 @@ void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
 void take_over(MeasurementRowReader& reader, const JsonValue& body,
                const app::Measurement& original) {
   take_over_limits(reader, body, original);
-  for (const auto& [name, text] : app::kMeasurementTexts) {
-    offer(reader, name, original.texts.*text);
+  for (const app::MeasurementField& field : app::kGivenFields) {
+    const bool is_replaced = std::ranges::any_of(kReplaced, [&](const Replaced& pair) {
+      return pair.field == field.name && body.find(pair.by) != nullptr;
+    });
+    if (is_replaced) continue;
+    if (field.text != nullptr) {
+      offer(reader, field.name, original.*field.text);
+    } else if (const auto& number = original.*field.number) {
+      offer(reader, field.name, format_decimal(*number, field.scale));
+    }
   }
   offer(reader, "measured_at", format_rfc3339(original.measured_at));
   offer(reader, "rule", word(original.rule.kind()));
@@ -85,34 +105,6 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
   const bool conforms = decides == word(original.rule.kind());
   if (original.conformance && conforms) {
     offer(reader, "probability", format(original.rule.probability()));
-  }
-  const auto offer_millionths = [&](std::string_view name,
-                                    const std::optional<std::int64_t>& value) {
-    if (value) offer(reader, name, format_decimal(*value, app::kTemperatureDecimals));
-  };
-  const app::Expansions& expansions = original.expansions;
-  offer_millionths("temperature_c", original.temperature);
-  offer_millionths("scale_temperature_c", expansions.scale_temperature);
-  offer_millionths("temperature_uncertainty_c", expansions.temperature_uncertainty);
-  offer_millionths("scale_temperature_uncertainty_c", expansions.scale_temperature_uncertainty);
-  // Another coefficient has another uncertainty.
-  if (!names_any(body, kPartFields)) {
-    offer_millionths("part_expansion_uncertainty_um_per_m_k", expansions.part_uncertainty);
-  }
-  if (!names_any(body, kScaleFields)) {
-    offer_millionths("scale_expansion_uncertainty_um_per_m_k", expansions.scale_uncertainty);
-  }
-  if (body.find("part_material") == nullptr) {
-    offer_millionths("part_expansion_um_per_m_k", expansions.part);
-  }
-  if (body.find("scale_material") == nullptr) {
-    offer_millionths("scale_expansion_um_per_m_k", expansions.scale);
-  }
-  if (body.find("part_expansion_um_per_m_k") == nullptr) {
-    offer(reader, "part_material", expansions.part_material);
-  }
-  if (body.find("scale_expansion_um_per_m_k") == nullptr) {
-    offer(reader, "scale_material", expansions.scale_material);
   }
 }
 

@@ -40,16 +40,16 @@ Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
   value.class_name = m.class_name.value_or("");
   value.is_hole = m.feature == iso286::Feature::Hole;
   value.rule = rule;
-  value.part_id = m.texts.part_id.value_or("");
-  value.characteristic = m.texts.characteristic.value_or("");
-  value.order = m.texts.order.value_or("");
-  value.operation = m.texts.operation.value_or("");
-  value.machine = m.texts.machine.value_or("");
-  value.operator_name = m.texts.operator_id.value_or("");
-  value.gauge = m.texts.gauge.value_or("");
-  value.unit = m.texts.unit.value_or("");
-  value.comment = m.texts.comment.value_or("");
-  value.subgroup = m.texts.subgroup.value_or("");
+  value.part_id = m.part_id.value_or("");
+  value.characteristic = m.characteristic.value_or("");
+  value.order = m.order.value_or("");
+  value.operation = m.operation.value_or("");
+  value.machine = m.machine.value_or("");
+  value.operator_name = m.operator_id.value_or("");
+  value.gauge = m.gauge.value_or("");
+  value.unit = m.unit.value_or("");
+  value.comment = m.comment.value_or("");
+  value.subgroup = m.subgroup.value_or("");
   return writer.add(value);
 }
 

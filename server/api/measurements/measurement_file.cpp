@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "api/measurements/measurement_columns.hpp"
 #include "api/measurements/measurement_dfq.hpp"
 #include "api/measurements/measurement_qif.hpp"
 #include "formats/xlsx/workbook.hpp"
+#include "record/record_members.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -47,16 +47,29 @@ class SheetRow {
   SheetRow(workbook::Workbook& book, const std::optional<sheet::TimeZone>& zone)
       : book_(book), zone_(zone) {}
 
-  void word(std::string_view text) { book_.text(text); }
-  void chosen(std::string_view text) { book_.text(text); }
-  void time(Timestamp time) { book_.time(zone_ ? zone_->shown(time) : time); }
-  void mm(Length length) { book_.mm(length); }
-  void um(Length length) { book_.um(length); }
-  void decimal(std::int64_t value, int scale) { book_.decimal(value, scale); }
-  void none() { book_.blank(); }
+  void begin_cell() {
+    if (is_empty_) book_.blank();
+    is_empty_ = true;
+  }
+
+  void word(std::string_view text) { cell().text(text); }
+  void name(std::string_view text) { cell().text(text); }
+  void text(std::string_view text) { cell().text(text); }
+  void time(Timestamp time) { cell().time(zone_ ? zone_->shown(time) : time); }
+  void mm(Length length) { cell().mm(length); }
+  void um(Length length) { cell().um(length); }
+  void decimal(std::int64_t value, int scale) { cell().decimal(value, scale); }
+  void billionths(std::int64_t value) { cell().decimal(value, 9); }
+  void truth() { cell().text("true"); }
 
  private:
+  workbook::Workbook& cell() {
+    is_empty_ = false;
+    return book_;
+  }
+
   workbook::Workbook& book_;
+  bool is_empty_ = false;  ///< the cell that was begun
   const std::optional<sheet::TimeZone>& zone_;
 };
 
@@ -67,7 +80,10 @@ class XlsxFile final : public MeasurementFile {
 
   Result<void> add(const app::Measurement& measurement) override {
     SheetRow row(book_, zone_);
-    write_columns(measurement, row);
+    app::for_each_column([&](const auto& column, std::size_t /*index*/) {
+      row.begin_cell();
+      column.write(measurement, app::MemberValue{row});
+    });
     book_.end_row();
     return {};
   }
@@ -91,7 +107,9 @@ std::unique_ptr<MeasurementFile> make_qif_file() {
 }
 
 Result<std::unique_ptr<MeasurementFile>> make_xlsx_file(std::optional<sheet::TimeZone> zone) {
-  const std::vector<std::string> columns = measurement_columns();
+  std::vector<std::string> columns;
+  app::for_each_column(
+      [&](const auto& column, std::size_t /*index*/) { columns.emplace_back(column.name); });
   auto book = workbook::Workbook::make("measurements", columns);
   if (!book) return book.error();
   return std::unique_ptr<MeasurementFile>(

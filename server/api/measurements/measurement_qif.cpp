@@ -18,28 +18,26 @@ qif::Status status_of(gauging::Verdict verdict) {
 /// What QIF has no place for.
 std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Measurement& m) {
   std::vector<std::pair<std::string_view, std::string>> fields;
-  for (const auto& [name, text] : app::kMeasurementTexts) {
-    const bool has_place = name == "part_id" || name == "characteristic";
-    if (!has_place && m.texts.*text) fields.emplace_back(name, *(m.texts.*text));
+  const auto add = [&](const app::MeasurementField& field) {
+    if (field.text != nullptr) {
+      if (m.*field.text) fields.emplace_back(field.name, *(m.*field.text));
+    } else if (m.*field.number) {
+      fields.emplace_back(field.name, format_decimal(*(m.*field.number), field.scale));
+    }
+  };
+  for (const app::MeasurementField& field : app::kLabels) {
+    if (field.name != "part_id" && field.name != "characteristic") add(field);
   }
   if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) {
     fields.emplace_back("rule", word(m.rule.kind()));
   }
   if (m.coverage_factor) fields.emplace_back("coverage_factor", format(*m.coverage_factor));
   if (m.conformance) fields.emplace_back("probability", format(m.rule.probability()));
-  const auto decimal = [&](std::string_view name, const std::optional<std::int64_t>& value) {
-    if (value) fields.emplace_back(name, format_decimal(*value, app::kTemperatureDecimals));
-  };
-  decimal("temperature_c", m.temperature);
-  decimal("scale_temperature_c", m.expansions.scale_temperature);
-  decimal("part_expansion_um_per_m_k", m.expansions.part);
-  decimal("scale_expansion_um_per_m_k", m.expansions.scale);
-  decimal("temperature_uncertainty_c", m.expansions.temperature_uncertainty);
-  decimal("scale_temperature_uncertainty_c", m.expansions.scale_temperature_uncertainty);
-  decimal("part_expansion_uncertainty_um_per_m_k", m.expansions.part_uncertainty);
-  decimal("scale_expansion_uncertainty_um_per_m_k", m.expansions.scale_uncertainty);
-  if (const auto& text = m.expansions.part_material) fields.emplace_back("part_material", *text);
-  if (const auto& text = m.expansions.scale_material) fields.emplace_back("scale_material", *text);
+  for (const bool is_text : {false, true}) {
+    for (const app::MeasurementField& field : app::kThermalFields) {
+      if ((field.text != nullptr) == is_text) add(field);
+    }
+  }
   return fields;
 }
 
@@ -58,8 +56,8 @@ Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
   value.is_hole = m.feature == iso286::Feature::Hole;
   value.status = status_of(m.result.verdict);
   value.uncertainty = m.standard_uncertainty;
-  value.part_id = m.texts.part_id;
-  value.characteristic = m.texts.characteristic;
+  value.part_id = m.part_id;
+  value.characteristic = m.characteristic;
   value.fields = other_fields(m);
   return writer.add(value);
 }

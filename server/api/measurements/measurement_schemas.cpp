@@ -47,7 +47,7 @@ schema::Fields given_fields() {
 /// What a caller said beside the value and its limits comes back as it was stored.
 schema::Fields echoed_fields() {
   schema::Fields fields;
-  for (std::size_t i = RowField::PartId; i < RowField::Count; ++i) {
+  for (std::size_t i = RowField::Labels; i < RowField::Count; ++i) {
     const RowField& field = kRowFields.at(i);
     if (i == RowField::MeasuredAt) continue;
     fields.push_back({std::string(field.name), stored_json(field), std::string(field.meaning),
@@ -129,7 +129,8 @@ void add_request_schemas(Schemas& schemas) {
   schemas.push_back(
       {"NewMeasurements", schema::any_of({schema::ref("NewMeasurement"),
                                           schema::array(schema::ref("NewMeasurement"))})});
-  const schema::Fields reason = {{"reason", schema::text(kLongestComment), "Why it is corrected"}};
+  const schema::Fields reason = {
+      {"reason", schema::text(app::kLongestComment), "Why it is corrected"}};
   schemas.push_back({"Correction", schema::object(reason + given_fields(), Others::Refused,
                                                   R"({"measured_mm":25.012,"reason":"misread"})")});
 }

@@ -7,10 +7,8 @@
 #include <vector>
 
 #include "base/digest.hpp"
-#include "formats/sheet/measurement_fields.hpp"
 #include "plant/folder/file_rows.hpp"
 #include "record/measurement_batch.hpp"
-#include "record/measurement_row_fields.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -31,12 +29,6 @@ class CountedRows final : public app::Rendering {
  private:
   std::size_t count_ = 0;
 };
-
-static_assert(std::equal(sheet::kMeasurementFields.begin(), sheet::kMeasurementFields.end(),
-                         api::kRowFields.begin(), api::kRowFields.end(),
-                         [](std::string_view name, const api::RowField& field) {
-                           return name == field.name;
-                         }));
 
 }  // namespace
 

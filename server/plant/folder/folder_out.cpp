@@ -36,7 +36,7 @@ struct File {
 
 std::string_view key_of(const app::Measurement& measurement, Split split) {
   if (split == Split::None) return {};
-  const auto& text = split == Split::Part ? measurement.texts.part_id : measurement.texts.order;
+  const auto& text = split == Split::Part ? measurement.part_id : measurement.order;
   return text.value_or("");
 }
 

@@ -50,8 +50,8 @@ Measurement begun(CollectedLog& log, const Origin& origin) {
   Measurement measurement;
   measurement.received_at = origin.now;
   measurement.measured_at = origin.now;
-  measurement.texts.machine = kept(log, origin.machine.machine);
-  measurement.texts.comment = kept(log, origin.path, kLongestComment);
+  measurement.machine = kept(log, origin.machine.machine);
+  measurement.comment = kept(log, origin.path, kLongestComment);
   measurement.caller = kept(log, origin.machine.name);
   return measurement;
 }
@@ -64,8 +64,8 @@ Measurement measurement_of(CollectedLog& log, const MeasuringLog& read, const Lo
   Measurement measurement = begun(log, origin);
   if (read.time) measurement.measured_at = instant(*read.time);
   measurement.cycle = read.cycle;
-  measurement.texts.characteristic = kept(log, value.name);
-  if (!read.program.empty()) measurement.texts.operation = kept(log, read.program);
+  measurement.characteristic = kept(log, value.name);
+  if (!read.program.empty()) measurement.operation = kept(log, read.program);
   app::CycleSize size{
       .feature = value.role == Role::Shaft ? iso286::Feature::Shaft : iso286::Feature::Hole,
       .is_position = value.role == Role::Position,
@@ -201,10 +201,9 @@ Result<std::shared_ptr<CollectedLog>> collected(const PatternResult& result, con
   if (*measured <= Length()) return field_error("a measured size is above 0");
   measurement.measured = *measured;
   if (const auto taken = take_time(measurement, *log, fields); !taken) return taken.error();
-  for (const auto& [name, text] : app::kMeasurementTexts) {
-    if (!fields.has(name) || fields.text(name).empty()) continue;
-    measurement.texts.*text =
-        kept(*log, fields.text(name), name == "comment" ? kLongestComment : kLongestText);
+  for (const app::MeasurementField& field : app::kLabels) {
+    if (!fields.has(field.name) || fields.text(field.name).empty()) continue;
+    measurement.*field.text = kept(*log, fields.text(field.name), field.accepted.longest);
   }
   const auto judged = fields.has("tolerance_class")
                           ? judge_by_class(measurement, *log, fields, origin)

@@ -28,9 +28,9 @@ constexpr OtherName kOtherNames[] = {
 };
 
 std::optional<std::string> value_of(const Measurement& measurement, std::string_view name) {
-  for (const auto& [known, text] : app::kMeasurementTexts) {
-    if (known == name && name != "comment")
-      return std::string((measurement.texts.*text).value_or(""));
+  for (const app::MeasurementField& field : app::kLabels) {
+    if (field.name == name && name != "comment")
+      return std::string((measurement.*field.text).value_or(""));
   }
   for (const OtherName& other : kOtherNames) {
     if (other.name == name) return other.of(measurement);
@@ -40,8 +40,8 @@ std::optional<std::string> value_of(const Measurement& measurement, std::string_
 
 std::string names() {
   std::string all;
-  for (const auto& [name, text] : app::kMeasurementTexts) {
-    if (name != "comment") all += fmt::format("{{{}}}, ", name);
+  for (const app::MeasurementField& field : app::kLabels) {
+    if (field.name != "comment") all += fmt::format("{{{}}}, ", field.name);
   }
   for (const OtherName& other : kOtherNames) all += fmt::format("{{{}}}, ", other.name);
   all.resize(all.size() - 2);

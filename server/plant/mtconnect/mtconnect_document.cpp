@@ -83,7 +83,7 @@ std::array<std::pair<std::string_view, std::int64_t>, 5> counts_by_item(const Co
 }
 
 std::string entry_of(const app::Measurement& measurement) {
-  return key_of(measurement.texts.characteristic.value_or(""));
+  return key_of(measurement.characteristic.value_or(""));
 }
 
 std::vector<std::pair<std::string_view, std::string>> cells_of(
@@ -123,7 +123,7 @@ void Streams::add(const app::Measurement& measurement, std::uint64_t sequence) {
   const std::string at = format_rfc3339(measurement.received_at);
   if (sequence == part_sequence(measurement.row)) {
     if (!shows("part")) return;
-    const std::string part = xml_text(measurement.texts.part_id.value_or(""));
+    const std::string part = xml_text(measurement.part_id.value_or(""));
     return append(
         fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>)",
                     sequence, at, part.empty() ? kUnavailable : part));

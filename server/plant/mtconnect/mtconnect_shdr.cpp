@@ -34,8 +34,7 @@ std::string shdr_line(const app::Measurement& measurement) {
     cells += fmt::format("{}{}={}", cells.empty() ? "" : " ", key, text);
   }
   return fmt::format("{}|part|{}|feature|{}={{{}}}\n", format_rfc3339(measurement.received_at),
-                     shdr_text(measurement.texts.part_id.value_or("")), entry_of(measurement),
-                     cells);
+                     shdr_text(measurement.part_id.value_or("")), entry_of(measurement), cells);
 }
 
 std::string shdr_line(const Counts& counts, Timestamp at) {

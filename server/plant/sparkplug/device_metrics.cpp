@@ -6,7 +6,7 @@ namespace fitgauge::connections {
 namespace {
 
 using app::Measurement;
-using app::MeasurementTexts;
+using app::MeasurementFields;
 using Type = SparkplugType;
 using Value = SparkplugValue;
 
@@ -14,9 +14,9 @@ Value text_or_null(const std::optional<std::string_view>& text) {
   return text ? Value(std::string(*text)) : Value();
 }
 
-template <std::optional<std::string_view> MeasurementTexts::*kText>
+template <std::optional<std::string_view> MeasurementFields::*kText>
 Value text(const Measurement& measurement) {
-  return text_or_null(measurement.texts.*kText);
+  return text_or_null(measurement.*kText);
 }
 
 /// The nearest double: from nanometres, so that 13 µm are 13 and not 13.000000000000002.
@@ -47,13 +47,13 @@ const std::array<DeviceMetric, 17> kDeviceMetrics = {{
      [](const Measurement& m) { return text_or_null(m.class_name); }},
     {"measured_at", Type::DateTime,
      [](const Measurement& m) { return Value(milliseconds(m.measured_at)); }},
-    {"part_id", Type::String, text<&MeasurementTexts::part_id>},
-    {"characteristic", Type::String, text<&MeasurementTexts::characteristic>},
-    {"order", Type::String, text<&MeasurementTexts::order>},
-    {"operation", Type::String, text<&MeasurementTexts::operation>},
-    {"machine", Type::String, text<&MeasurementTexts::machine>},
-    {"operator", Type::String, text<&MeasurementTexts::operator_id>},
-    {"gauge", Type::String, text<&MeasurementTexts::gauge>},
+    {"part_id", Type::String, text<&MeasurementFields::part_id>},
+    {"characteristic", Type::String, text<&MeasurementFields::characteristic>},
+    {"order", Type::String, text<&MeasurementFields::order>},
+    {"operation", Type::String, text<&MeasurementFields::operation>},
+    {"machine", Type::String, text<&MeasurementFields::machine>},
+    {"operator", Type::String, text<&MeasurementFields::operator_id>},
+    {"gauge", Type::String, text<&MeasurementFields::gauge>},
 }};
 
 }  // namespace fitgauge::connections

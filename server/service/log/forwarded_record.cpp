@@ -10,10 +10,9 @@ namespace {
 /// What the store refuses in a row that no version of the service has written.
 std::string_view refusal_of(const Measurement& m) {
   const Length u = m.standard_uncertainty.value_or(Length());
-  const app::Expansions& of = m.expansions;
   for (const auto& uncertainty :
-       {of.temperature_uncertainty, of.scale_temperature_uncertainty, of.part_uncertainty,
-        of.scale_uncertainty, m.added_uncertainty, std::optional(u.count())}) {
+       {m.temperature_uncertainty, m.scale_temperature_uncertainty, m.part_expansion_uncertainty,
+        m.scale_expansion_uncertainty, m.added_uncertainty, std::optional(u.count())}) {
     if (uncertainty.value_or(0) < 0) return "has an uncertainty below 0";
   }
   if (m.added_uncertainty && !m.corrected) return "has an uncertainty of no correction";

@@ -1,6 +1,5 @@
 #include "service/measurements/mapping.hpp"
 
-#include <array>
 #include <map>
 #include <utility>
 
@@ -10,24 +9,6 @@
 
 namespace fitgauge::app {
 namespace {
-
-using Text = std::optional<std::string_view>;
-
-/// The texts of a measurement, in the service and in the store.
-constexpr std::array<std::pair<Text MeasurementTexts::*, Text store::MeasurementRow::*>,
-                     kMeasurementTexts.size()>
-    kTextColumns = {{
-        {&MeasurementTexts::part_id, &store::MeasurementRow::part_id},
-        {&MeasurementTexts::characteristic, &store::MeasurementRow::characteristic},
-        {&MeasurementTexts::order, &store::MeasurementRow::order},
-        {&MeasurementTexts::operation, &store::MeasurementRow::operation},
-        {&MeasurementTexts::machine, &store::MeasurementRow::machine},
-        {&MeasurementTexts::operator_id, &store::MeasurementRow::operator_id},
-        {&MeasurementTexts::gauge, &store::MeasurementRow::gauge},
-        {&MeasurementTexts::unit, &store::MeasurementRow::unit},
-        {&MeasurementTexts::comment, &store::MeasurementRow::comment},
-        {&MeasurementTexts::subgroup, &store::MeasurementRow::subgroup},
-    }};
 
 template <class T>
 std::optional<std::int64_t> count_of(const std::optional<T>& length) {
@@ -178,6 +159,7 @@ RowNames row_names(const TableCatalog& tables, const Origins& origins) {
 
 store::MeasurementRow to_store(const Measurement& m) {
   store::MeasurementRow row;
+  static_cast<MeasurementFields&>(row) = m;
   row.id = m.id;
   row.source = to_store(m.source);
   row.measured_at_ns = m.measured_at.nanoseconds;
@@ -203,41 +185,24 @@ store::MeasurementRow to_store(const Measurement& m) {
   row.rule = code_of(m.rule.kind());
   row.uncertainty_nm = count_of(m.standard_uncertainty);
   if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
-  row.uncertainty_budget = m.uncertainty_budget;
-  row.calibration_due = m.calibration_due;
-  for (const auto& [text, column] : kTextColumns) row.*column = m.texts.*text;
   if (m.conformance) {
     row.probability = m.rule.probability().millionths();
     row.conformance = m.conformance->probability;
     row.guard_band = m.conformance->guard_band;
   }
-  row.temperature = m.temperature;
   row.corrected_nm = count_of(m.corrected);
-  row.scale_temperature = m.expansions.scale_temperature;
-  row.part_expansion = m.expansions.part;
-  row.scale_expansion = m.expansions.scale;
-  row.part_material = m.expansions.part_material;
-  row.scale_material = m.expansions.scale_material;
-  row.temperature_uncertainty = m.expansions.temperature_uncertainty;
-  row.scale_temperature_uncertainty = m.expansions.scale_temperature_uncertainty;
-  row.part_expansion_uncertainty = m.expansions.part_uncertainty;
-  row.scale_expansion_uncertainty = m.expansions.scale_uncertainty;
-  row.added_uncertainty = m.added_uncertainty;
-  row.caller = m.caller;
-  row.run_id = m.run_id;
-  row.cycle = m.cycle;
   row.correction_of = m.correction_of;
   if (m.corrected_elsewhere) {
     row.correction_of = m.corrected_elsewhere->row;
     row.corrected_origin = m.corrected_elsewhere->origin;
     row.corrected_number = m.correction_of;
   }
-  row.correction_reason = m.correction_reason;
   return row;
 }
 
 Measurement from_store(const store::MeasurementRow& row, const RowNames& names) {
   Measurement m;
+  static_cast<MeasurementFields&>(m) = row;
   m.id = row.public_number();
   m.origin_number = row.origin.value_or(0);
   m.origin = names.origin(m.origin_number);
@@ -273,30 +238,12 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   if (row.conformance && row.guard_band) {
     m.conformance = {.probability = *row.conformance, .guard_band = *row.guard_band};
   }
-  m.uncertainty_budget = row.uncertainty_budget;
-  m.calibration_due = row.calibration_due;
-  for (const auto& [text, column] : kTextColumns) m.texts.*text = row.*column;
-  m.temperature = row.temperature;
-  m.expansions = {.scale_temperature = row.scale_temperature,
-                  .part = row.part_expansion,
-                  .scale = row.scale_expansion,
-                  .part_material = row.part_material,
-                  .scale_material = row.scale_material,
-                  .temperature_uncertainty = row.temperature_uncertainty,
-                  .scale_temperature_uncertainty = row.scale_temperature_uncertainty,
-                  .part_uncertainty = row.part_expansion_uncertainty,
-                  .scale_uncertainty = row.scale_expansion_uncertainty};
-  m.added_uncertainty = row.added_uncertainty;
-  m.caller = row.caller;
-  m.run_id = row.run_id;
-  m.cycle = row.cycle;
   m.correction_of = row.corrected_number ? row.corrected_number : row.correction_of;
   if (row.corrected_origin && row.correction_of) {
     m.corrected_elsewhere = {.row = *row.correction_of,
                              .origin = *row.corrected_origin,
                              .digits = names.origin(*row.corrected_origin)};
   }
-  m.correction_reason = row.correction_reason;
   return m;
 }
 

@@ -42,9 +42,6 @@ Error unknown_cursor() {
   return {ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
 }
 
-static_assert(kTextFilters.size() == store::kTextColumns.size(),
-              "the names stand in the order of store::TextField");
-
 MeasurementGroup measurement_group(store::SummaryGroup group) {
   return {.value = std::move(group.value),
           .count = group.count,

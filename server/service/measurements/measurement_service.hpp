@@ -44,11 +44,6 @@ struct IdempotencyScope {
   bool is_kept_for_ever = false;  ///< not only for the days of the service
 };
 
-/// The texts of a measurement that lists filter and summaries group by.
-inline constexpr std::array<std::string_view, 11> kTextFilters = {
-    "part_id", "order", "characteristic",  "machine", "operation", "operator",
-    "gauge",   "unit",  "tolerance_class", "caller",  "subgroup"};
-
 /// A nominal size and the class of one standard or another.
 struct DesignationQuery {
   Length nominal;

@@ -12,10 +12,10 @@ Measurement record_of(const RunReport& report, const interpreter::Measurement& m
   Measurement record;
   record.source = Source::Simulation;
   record.measured_at = record.received_at = report.finished_at;
-  record.texts.characteristic = size.characteristic;
+  record.characteristic = size.characteristic;
   const auto& [part_id, order] = report.subject;
-  if (!part_id.empty()) record.texts.part_id = part_id;
-  if (!order.empty()) record.texts.order = order;
+  if (!part_id.empty()) record.part_id = part_id;
+  if (!order.empty()) record.order = order;
   if (caller) record.caller = *caller;
   record.run_id = report.id;
   record.origin = report.origin;

@@ -100,8 +100,9 @@ json record(const json& row) {
       {"deviation_um", (m.measured - m.nominal_size).to_mm() * 1000},
       {"verdict", word(m.result.verdict)},
       {"excess_um", m.result.excess.to_mm() * 1000}};
-  for (const auto& [field, text] : app::kMeasurementTexts) {
-    if (const auto given = row.find(field); given != row.end()) out[std::string(field)] = *given;
+  for (const app::MeasurementField& field : app::kLabels) {
+    const auto given = row.find(field.name);
+    if (given != row.end()) out[std::string(field.name)] = *given;
   }
   return out;
 }

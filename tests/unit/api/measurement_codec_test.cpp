@@ -41,7 +41,7 @@ std::string record(const app::Measurement& m) {
 
 TEST_CASE("a record has what was given, in the order of RFC 8785") {
   app::Measurement m = hole_25_h7();
-  m.texts.part_id = "SN-1";
+  m.part_id = "SN-1";
   m.temperature = 20'400'000;
   CHECK(
       record(m) ==
@@ -59,11 +59,9 @@ TEST_CASE("a record says what decided beside the reading") {
   m.standard_uncertainty = Length::micrometres(2);
   m.rule = gauging::DecisionRule::conformance(*m.standard_uncertainty).value();
   m.temperature = 25'000'000;
-  m.expansions = {.scale_temperature = 21'500'000,
-                  .part = 11'500'000,
-                  .scale = std::nullopt,
-                  .part_material = std::nullopt,
-                  .scale_material = "steel"};
+  m.scale_temperature = 21'500'000;
+  m.part_expansion = 11'500'000;
+  m.scale_material = "steel";
   m.corrected = Length::millimetres(25) + Length::nanometres(3290);
   app::judge(m);
   // The probability to lie above 25 with 1.645 standard uncertainties: normal tables have 0.950015.
@@ -120,7 +118,7 @@ TEST_CASE("every character of a text is written as a JSON string has it") {
   for (int c = 1; c < 128; ++c) text += static_cast<char>(c);
   text += "Ø 25";
   app::Measurement m = hole_25_h7();
-  m.texts.comment = text;
+  m.comment = text;
   std::string quoted;
   append_json_string(quoted, text);
   CHECK(record(m).find("\"comment\":" + quoted + ",\"designation\"") != std::string::npos);
@@ -130,8 +128,14 @@ TEST_CASE("the longest numbers and texts of nothing but escapes have room") {
   const std::string text(2000, '\1');
   constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min() / 2 + 1;
   app::Measurement m = hole_25_h7();
-  for (const auto& [name, field] : app::kMeasurementTexts) m.texts.*field = text;
-  m.class_name = m.caller = m.correction_reason = text;
+  for (const app::MeasurementField& field : app::kMeasurementFields) {
+    if (field.text != nullptr) {
+      m.*field.text = text;
+    } else {
+      m.*field.number = kLowest;
+    }
+  }
+  m.class_name = text;
   m.table_revision = text;
   m.nominal_size = m.deviations.upper = m.deviations.lower = Length::nanometres(kLowest);
   m.size_range = {.over = Length::nanometres(kLowest), .up_to = Length::nanometres(kLowest)};
@@ -139,21 +143,10 @@ TEST_CASE("the longest numbers and texts of nothing but escapes have room") {
   m.measured = m.result.excess;
   m.standard_uncertainty = m.measured;
   m.coverage_factor = gauging::CoverageFactor();
-  m.temperature = m.id = kLowest;
-  m.expansions = {.scale_temperature = kLowest,
-                  .part = kLowest,
-                  .scale = kLowest,
-                  .part_material = text,
-                  .scale_material = text,
-                  .temperature_uncertainty = kLowest,
-                  .scale_temperature_uncertainty = kLowest,
-                  .part_uncertainty = kLowest,
-                  .scale_uncertainty = kLowest};
-  m.added_uncertainty = kLowest;
+  m.id = kLowest;
   m.corrected = m.measured;
   m.conformance = {.probability = kLowest, .guard_band = kLowest};
-  m.uncertainty_budget = m.calibration_due = text;
-  m.run_id = m.cycle = m.correction_of = m.corrected_by = kLowest;
+  m.run_id = m.correction_of = m.corrected_by = kLowest;
   m.measured_at = m.received_at = {1'795'000'000'123'456'789};
   CHECK(record(m).size() > text.size() * 14 * 6);
 }

@@ -66,7 +66,7 @@ TEST_CASE("an object is judged by its class") {
   CHECK(m.measured == Length::nanometres(25'021'500));
   CHECK(m.result.verdict == gauging::Verdict::Reject);
   CHECK(m.result.excess == Length::nanometres(500));
-  CHECK(m.texts.part_id == "SN-1");
+  CHECK(m.part_id == "SN-1");
   CHECK(m.measured_at.nanoseconds == 1'000'000'000);
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("unreadable JSON is no request with bad fields") {
 TEST_CASE("escaped texts and keys mean the same") {
   const auto m =
       one(R"({"designation":"25\u0020H7","measured_mm":25.013,"comment":"a\"b\\\u00b5"})");
-  CHECK(m.texts.comment == "a\"b\\\xC2\xB5");
+  CHECK(m.comment == "a\"b\\\xC2\xB5");
   CHECK(one(R"({"\u0064esignation":"25 H7","measured_mm":25.013})").measured ==
         Length::nanometres(25'013'000));
 }
@@ -163,7 +163,7 @@ TEST_CASE("what a spreadsheet would run as a formula is guarded in CSV, and read
   }
   const auto batch = decode("designation,measured_mm,comment\n25 H7,25.01,'=1\n", "text/csv");
   REQUIRE(batch.has_value());
-  CHECK(batch->rows.front().texts.comment == "=1");
+  CHECK(batch->rows.front().comment == "=1");
 }
 
 TEST_CASE("CSV of both dialects is read, empty cells are not given") {
@@ -173,8 +173,8 @@ TEST_CASE("CSV of both dialects is read, empty cells are not given") {
           "text/csv");
   CHECK(m.nominal_size == Length::nanometres(25'500'000));
   CHECK(m.measured == Length::nanometres(25'500'500));
-  CHECK(m.texts.part_id == "a;b");
-  CHECK_FALSE(m.texts.comment.has_value());
+  CHECK(m.part_id == "a;b");
+  CHECK_FALSE(m.comment.has_value());
   CHECK(one("nominal_mm,tolerance_class,measured_mm\n\"25,5\",H7,25.5\n", "text/csv").measured ==
         Length::nanometres(25'500'000));
   CHECK(complaints("designation,measured_mm,x\n25 H7,25,1\n25 H7,,2\n", "text/csv") ==
@@ -234,9 +234,9 @@ struct Pieces {
   std::vector<std::string> parts() const {
     std::vector<std::string> found;
     for (const auto& piece : taken) {
-      for (const auto& m : piece) found.emplace_back(m.texts.part_id.value());
+      for (const auto& m : piece) found.emplace_back(m.part_id.value());
     }
-    for (const auto& m : rest.rows) found.emplace_back(m.texts.part_id.value());
+    for (const auto& m : rest.rows) found.emplace_back(m.part_id.value());
     return found;
   }
 };

@@ -1,6 +1,7 @@
 #include "record/record_reader.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <string>
 #include <vector>
@@ -37,7 +38,7 @@ std::string text_of(const app::Measurement& m) {
 /// One record of each kind.
 std::vector<app::Measurement> samples() {
   std::vector<app::Measurement> rows(11, hole());
-  rows[1].texts.comment = "\"\\\b\f\n\r\t\x01\x7f \xC3\x98 25 \xF0\x9F\x98\x80";
+  rows[1].comment = "\"\\\b\f\n\r\t\x01\x7f \xC3\x98 25 \xF0\x9F\x98\x80";
   rows[1].caller = "press-3";
   rows[1].temperature = -1;
   rows[2].standard_uncertainty = Length::nanometres(800);
@@ -47,11 +48,9 @@ std::vector<app::Measurement> samples() {
   rows[3].standard_uncertainty = Length::micrometres(2);
   rows[3].rule = gauging::DecisionRule::conformance(*rows[3].standard_uncertainty).value();
   rows[3].corrected = Length::micrometres(25'003);
-  rows[3].expansions = {.scale_temperature = 21'500'000,
-                        .part = 11'500'000,
-                        .scale = std::nullopt,
-                        .part_material = std::nullopt,
-                        .scale_material = "steel"};
+  rows[3].scale_temperature = 21'500'000;
+  rows[3].part_expansion = 11'500'000;
+  rows[3].scale_material = "steel";
   rows[4].basis = app::LimitsBasis::Explicit;
   rows[4].class_name.reset();
   rows[4].table_revision = {};
@@ -74,14 +73,14 @@ std::vector<app::Measurement> samples() {
                      .value();
   rows[8].measured = Length::millimetres(27);
   rows[9] = rows[2];
-  rows[9].texts.gauge = "G-07";
+  rows[9].gauge = "G-07";
   rows[9].uncertainty_budget = "bore gauge";
   rows[9].calibration_due = "2026-03-31";
   rows[10] = rows[3];
-  rows[10].expansions.temperature_uncertainty = 100'000;
-  rows[10].expansions.scale_temperature_uncertainty = 1;
-  rows[10].expansions.part_uncertainty = 577'350;
-  rows[10].expansions.scale_uncertainty = 0;
+  rows[10].temperature_uncertainty = 100'000;
+  rows[10].scale_temperature_uncertainty = 1;
+  rows[10].part_expansion_uncertainty = 577'350;
+  rows[10].scale_expansion_uncertainty = 0;
   rows[10].added_uncertainty = 1'500'000;  // 1.5 µm, with 2 µm: 2.5 µm
   rows[10].rule = gauging::DecisionRule::conformance(Length::nanometres(2500)).value();
   for (app::Measurement& m : rows) app::judge(m);
@@ -123,4 +122,26 @@ TEST_CASE("a record that lacks a member or has one of nonsense is not read") {
   CHECK_FALSE(read(text, "\"rule\":\"simple\"", "\"rule\":\"conformance\"").has_value());
   CHECK_FALSE(read(text, "{\"over\":18,\"up_to\":30}", "[18,30]").has_value());
   CHECK_FALSE(read(text, "2025-", "25-").has_value());
+}
+
+TEST_CASE("every plain field is in the record under its name and is read from there") {
+  for (const app::MeasurementField& field : app::kMeasurementFields) {
+    CAPTURE(field.name);
+    app::Measurement m = hole();
+    if (field.text != nullptr) {
+      m.*field.text = "\"1";
+    } else {
+      m.*field.number = 42;
+    }
+    const std::string text = text_of(m);
+    CHECK(text.find(fmt::format("\"{}\":", field.name)) != std::string::npos);
+    TextArena texts;
+    const auto read = read_record(parse_json(text).value(), texts);
+    REQUIRE(read.has_value());
+    CHECK(text_of(*read) == text);
+    for (const app::MeasurementField& other : app::kMeasurementFields) {
+      if (other.text != nullptr) CHECK(*read.*other.text == m.*other.text);
+      if (other.number != nullptr) CHECK(*read.*other.number == m.*other.number);
+    }
+  }
 }

@@ -84,8 +84,8 @@ TEST_CASE("a measuring cycle leaves a record of the simulation") {
   CHECK(records[0].source == Source::Simulation);
   CHECK(records[0].cycle == 427);
   CHECK(records[0].run_id == report.id);
-  CHECK(records[0].texts.part_id == "SN-17");
-  CHECK(records[0].texts.order == "WO-9");
+  CHECK(records[0].part_id == "SN-17");
+  CHECK(records[0].order == "WO-9");
   CHECK(records[0].measured == Length::micrometres(50));
   CHECK(records[0].result.verdict == gauging::Verdict::Good);
 }
@@ -117,7 +117,7 @@ TEST_CASE("each judged value of a cycle leaves a record, and nothing unjudged is
   for (std::size_t k = 0; k < records.size(); ++k) {
     CAPTURE(k);
     CHECK(records[k].result.verdict == verdicts[k]);
-    CHECK(records[k].texts.characteristic == names[k]);
+    CHECK(records[k].characteristic == names[k]);
   }
 }
 

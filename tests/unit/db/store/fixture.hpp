@@ -80,7 +80,7 @@ struct IdRange {
 inline Digest hash_of(const MeasurementRow& row) {
   CanonicalDigest digest;
   digest.add(row.id);
-  for_each_field(row, [&](const char*, const auto& value) { digest.add(value); });
+  for_each_field(row, [&](std::string_view /*column*/, const auto& value) { digest.add(value); });
   return digest.finish();
 }
 

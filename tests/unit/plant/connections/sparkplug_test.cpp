@@ -79,7 +79,7 @@ TEST_CASE("the messages of a node stand in their order") {
   node.give_birth();
   for (const char* machine : {"a", "b", "a", "c"}) {
     app::Measurement measurement;
-    measurement.texts.machine = machine;
+    measurement.machine = machine;
     node.tell(measurement);
   }
   node.tell_position(4);

@@ -36,8 +36,8 @@ TEST_CASE("no two texts become one level") {
 
 TEST_CASE("a topic has the texts of the measurement") {
   app::Measurement measurement;
-  measurement.texts.machine = "M 3";
-  measurement.texts.characteristic = "bore/A";
+  measurement.machine = "M 3";
+  measurement.characteristic = "bore/A";
   measurement.class_name = "H7";
   const auto topic =
       TopicTemplate::parse("plant/{machine}/{characteristic}/x{tolerance_class}y/{order}");

@@ -1,0 +1,186 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "metrology/gauging/reference_temperature.hpp"
+
+namespace fitgauge::app {
+
+/// Texts and numbers of a measurement that are stored, logged and answered as they are. Texts are
+/// views of the memory that they were read from.
+struct MeasurementFields {
+  std::optional<std::string_view> part_id{};
+  std::optional<std::string_view> characteristic{};
+  std::optional<std::string_view> order{};
+  std::optional<std::string_view> operation{};
+  std::optional<std::string_view> machine{};
+  std::optional<std::string_view> operator_id{};
+  std::optional<std::string_view> gauge{};
+  std::optional<std::string_view> unit{};
+  std::optional<std::string_view> comment{};
+  std::optional<std::string_view> subgroup{};
+
+  // In millionths of a degree Celsius, and of µm/(m·K):
+  std::optional<std::int64_t> temperature{};
+  std::optional<std::int64_t> scale_temperature{};
+  std::optional<std::int64_t> part_expansion{};
+  std::optional<std::int64_t> scale_expansion{};
+  std::optional<std::string_view> part_material{};  ///< instead of the expansion
+  std::optional<std::string_view> scale_material{};
+  // Standard uncertainties of these, in the same units:
+  std::optional<std::int64_t> temperature_uncertainty{};
+  std::optional<std::int64_t> scale_temperature_uncertainty{};
+  std::optional<std::int64_t> part_expansion_uncertainty{};
+  std::optional<std::int64_t> scale_expansion_uncertainty{};
+
+  std::optional<std::string_view> caller{};              ///< name of the API key that stored it
+  std::optional<std::int64_t> run_id{};                  ///< the run of a simulated measurement
+  std::optional<std::int64_t> cycle{};                   ///< number of its measuring cycle
+  std::optional<std::string_view> correction_reason{};   ///< of a correction, and of no other
+  std::optional<std::string_view> uncertainty_budget{};  ///< of the gauge, if it gave u
+  std::optional<std::string_view> calibration_due{};     ///< of the gauge, as given, if overdue
+  std::optional<std::int64_t> added_uncertainty{};       ///< by the correction to 20 °C, in pm
+};
+
+/// Values that a request may give a field; none if the service fills it.
+struct Accepted {
+  std::size_t longest = 0;  ///< of a text, in bytes
+  // Of a number, in millionths, and both bounds in words:
+  std::int64_t least = 0;
+  std::int64_t most = 0;
+  std::string_view range{};
+
+  constexpr bool nothing() const { return longest == 0 && most == 0; }
+};
+
+inline constexpr std::size_t kLongestIdentifier = 200;
+inline constexpr std::size_t kLongestComment = 2000;
+inline constexpr Accepted kIdentifier{.longest = kLongestIdentifier};
+inline constexpr Accepted kRemark{.longest = kLongestComment};
+inline constexpr Accepted kMaterialName{.longest = 64};
+inline constexpr Accepted kCelsius{
+    .least = gauging::kColdest, .most = gauging::kHottest, .range = "lies from -273.15 to 10000"};
+inline constexpr Accepted kExpansion{.most = gauging::kLargestExpansion,
+                                     .range = "lies from 0 to 1000"};
+inline constexpr Accepted kThermalUncertainty{.most = gauging::kLargestUncertainty,
+                                              .range = "lies from 0 to 1000"};
+inline constexpr Accepted kNotGiven{};
+
+/// One of MeasurementFields, wherever it is read, written, stored and described.
+struct MeasurementField {
+  using Text = std::optional<std::string_view> MeasurementFields::*;
+  using Number = std::optional<std::int64_t> MeasurementFields::*;
+
+  constexpr MeasurementField(std::string_view name_, Text text_, std::string_view column_,
+                             int place_, Accepted accepted_, std::string_view meaning_ = {},
+                             int filter_ = 0)
+      : name(name_),
+        text(text_),
+        column(column_),
+        place(place_),
+        accepted(accepted_),
+        meaning(meaning_),
+        filter(filter_) {}
+  constexpr MeasurementField(std::string_view name_, Number number_, int scale_,
+                             std::string_view column_, int place_, Accepted accepted_,
+                             std::string_view meaning_ = {})
+      : name(name_),
+        number(number_),
+        scale(scale_),
+        column(column_),
+        place(place_),
+        accepted(accepted_),
+        meaning(meaning_) {}
+
+  std::string_view name;  ///< in requests, records and tables
+  Text text = nullptr;    ///< either the text
+  Number number = nullptr;
+  int scale = 0;            ///< of a number, which is in units of 10^-scale
+  std::string_view column;  ///< in the store
+  int place = 0;            ///< of the column in CSV and XLSX, from 1 on; never changed
+  Accepted accepted{};
+  std::string_view meaning{};  ///< of a field that a request may give
+  int filter = 0;              ///< number in the index of the store, never changed; 0: no filter
+};
+
+using Of = MeasurementFields;
+
+/// Every field once: first the labels, then the other fields of a request, then those that the
+/// service fills.
+inline constexpr MeasurementField kMeasurementFields[] = {
+    {"part_id", &Of::part_id, "part_id", 22, kIdentifier, "The part: a serial number", 1},
+    {"characteristic", &Of::characteristic, "characteristic", 23, kIdentifier,
+     "What was measured at the part", 3},
+    {"order", &Of::order, "work_order", 24, kIdentifier, "Work order", 2},
+    {"operation", &Of::operation, "operation", 25, kIdentifier, "Step of the routing", 5},
+    {"machine", &Of::machine, "machine", 26, kIdentifier, "Where it was made", 4},
+    {"operator", &Of::operator_id, "operator", 27, kIdentifier, "Who measured", 6},
+    {"gauge", &Of::gauge, "gauge", 28, kIdentifier, "What it was measured with", 7},
+    {"unit", &Of::unit, "unit", 29, kIdentifier, "Line, cell or plant", 8},
+    {"comment", &Of::comment, "comment", 30, kRemark, "Anything else"},
+    {"subgroup", &Of::subgroup, "subgroup", 31, kIdentifier, "Parts that were made together", 11},
+
+    {"temperature_c", &Of::temperature, 6, "temperature", 21, kCelsius,
+     "Of the part, -273.15 to 10000; corrects with an expansion"},
+    {"scale_temperature_c", &Of::scale_temperature, 6, "scale_temperature", 41, kCelsius,
+     "Of what it was read on; else 20"},
+    {"part_expansion_um_per_m_k", &Of::part_expansion, 6, "part_expansion", 42, kExpansion,
+     "Of the part, 0 to 1000"},
+    {"scale_expansion_um_per_m_k", &Of::scale_expansion, 6, "scale_expansion", 43, kExpansion,
+     "Of what it was read on"},
+    {"part_material", &Of::part_material, "part_material", 44, kMaterialName,
+     "Instead of part_expansion_um_per_m_k: steel"},
+    {"scale_material", &Of::scale_material, "scale_material", 45, kMaterialName,
+     "Instead of scale_expansion_um_per_m_k"},
+    {"temperature_uncertainty_c", &Of::temperature_uncertainty, 6, "temperature_uncertainty", 49,
+     kThermalUncertainty,
+     "Standard uncertainty of temperature_c, from 0: its part is added to uncertainty_um"},
+    {"scale_temperature_uncertainty_c", &Of::scale_temperature_uncertainty, 6,
+     "scale_temperature_uncertainty", 50, kThermalUncertainty, "Of scale_temperature_c"},
+    {"part_expansion_uncertainty_um_per_m_k", &Of::part_expansion_uncertainty, 6,
+     "part_expansion_uncertainty", 51, kThermalUncertainty,
+     "Of the part's expansion; that of its material's source when absent"},
+    {"scale_expansion_uncertainty_um_per_m_k", &Of::scale_expansion_uncertainty, 6,
+     "scale_expansion_uncertainty", 52, kThermalUncertainty, "Of the scale's expansion"},
+
+    {"caller", &Of::caller, "caller", 32, kNotGiven, {}, 10},
+    {"cycle", &Of::cycle, 0, "cycle", 34, kNotGiven},
+    {"reason", &Of::correction_reason, "correction_reason", 36, kNotGiven},
+    {"uncertainty", &Of::uncertainty_budget, "uncertainty_budget", 46, kNotGiven},
+    {"calibration_due", &Of::calibration_due, "calibration_due", 47, kNotGiven},
+    {"added_uncertainty_um", &Of::added_uncertainty, 6, "added_uncertainty", 53, kNotGiven},
+};
+
+/// Fields that a request may give.
+inline constexpr auto kGivenFields =
+    std::span(kMeasurementFields)
+        .first(static_cast<std::size_t>(std::ranges::count_if(
+            kMeasurementFields, [](const MeasurementField& f) { return !f.accepted.nothing(); })));
+/// Texts that say what was measured where, and that nothing follows from.
+inline constexpr auto kLabels = kGivenFields.first(static_cast<std::size_t>(
+    std::ranges::find_if(kGivenFields, [](const auto& f) { return f.number != nullptr; }) -
+    kGivenFields.begin()));
+
+/// Fields that correct a reading to 20 °C.
+inline constexpr auto kThermalFields = kGivenFields.subspan(kLabels.size());
+
+/// Names of the texts that lists filter and summaries group by, in the order of their numbers. The
+/// tolerance class is the one that a caller does not give as it is kept.
+inline constexpr auto kTextFilters = [] {
+  constexpr auto kCount =
+      1 + std::ranges::count_if(kMeasurementFields, [](const auto& f) { return f.filter != 0; });
+  std::array<std::string_view, static_cast<std::size_t>(kCount)> names{};
+  names.fill("tolerance_class");
+  for (const MeasurementField& field : kMeasurementFields) {
+    if (field.filter != 0) names.at(static_cast<std::size_t>(field.filter) - 1) = field.name;
+  }
+  return names;
+}();
+
+}  // namespace fitgauge::app
