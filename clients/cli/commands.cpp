@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/bash_completion.hpp"
 #include "cli/completion_scripts.hpp"
 #include "cli/limits_commands.hpp"
@@ -77,6 +79,14 @@ void add_about(CLI::App& app, Action& chosen) {
 }
 
 }  // namespace
+
+std::string option_name(std::string_view field) {
+  constexpr std::string_view kUnit = "_um_per_m_k";
+  if (field.ends_with(kUnit)) field.remove_suffix(kUnit.size());
+  std::string name = "--" + std::string(field);
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
 
 void add_commands(CLI::App& app, Action& chosen) {
   add_gauging(app, chosen);

@@ -16,6 +16,9 @@
 namespace fitgauge::cli {
 namespace {
 
+using api::kRowFields;
+using api::RowField;
+
 struct VerdictWord {
   std::string_view word;
   ExitCode exit_code;
@@ -61,58 +64,27 @@ std::string distance_text(const JsonValue& document, std::string_view unit) {
                      distance > Length() ? "above" : "below", limit);
 }
 
-/// What decides beside the value, by the names it is sent under.
-template <class Add>
-void for_each_decision(const GaugeOptions& options, Add add) {
-  add("rule", options.rule);
-  add("uncertainty_um", options.uncertainty_um);
-  add("coverage_factor", options.coverage_factor);
-  add("probability", options.probability);
-  add("temperature_c", options.temperature_c);
-  add("scale_temperature_c", options.scale_temperature_c);
-  add("part_expansion_um_per_m_k", options.part_expansion);
-  add("scale_expansion_um_per_m_k", options.scale_expansion);
-  add("part_material", options.part_material);
-  add("scale_material", options.scale_material);
-  add("temperature_uncertainty_c", options.temperature_uncertainty_c);
-  add("scale_temperature_uncertainty_c", options.scale_temperature_uncertainty_c);
-  add("part_expansion_uncertainty_um_per_m_k", options.part_uncertainty);
-  add("scale_expansion_uncertainty_um_per_m_k", options.scale_uncertainty);
-}
-
 std::string verdict_query(const GaugeOptions& options, const std::string& measured) {
   std::string query = "?measured_mm=" + percent_encoded(measured);
-  for_each_decision(options, [&query](std::string_view name, const std::string& value) {
-    if (!value.empty()) query.append("&").append(name).append("=").append(percent_encoded(value));
-  });
+  // Those before are of a record.
+  for (std::size_t i = RowField::Uncertainty; i < RowField::Count; ++i) {
+    const std::string& value = options.fields.at(i);
+    if (value.empty()) continue;
+    query.append("&").append(kRowFields.at(i).name).append("=").append(percent_encoded(value));
+  }
   return query;
 }
 
 std::string record_body(const GaugeOptions& options, const std::string& measured) {
+  const bool by_drawing = !options.fields[RowField::Feature].empty();
   JsonObject body;
-  if (options.feature.empty()) {
-    body.add("designation", options.designation);
-  } else {
-    body.add("nominal_mm", options.designation)
-        .add("feature", options.feature)
-        .add_given("upper_um", options.upper_um)
-        .add_given("lower_um", options.lower_um);
+  body.add(kRowFields[by_drawing ? RowField::Nominal : RowField::Designation].name,
+           options.designation);
+  body.add(kRowFields[RowField::Measured].name, measured);
+  for (std::size_t i = RowField::Feature; i < RowField::Count; ++i) {
+    body.add_given(kRowFields.at(i).name, options.fields.at(i));
   }
-  body.add("measured_mm", measured);
-  for_each_decision(options, [&body](std::string_view name, const std::string& value) {
-    body.add_given(name, value);
-  });
-  return body.add_given("part_id", options.part_id)
-      .add_given("characteristic", options.characteristic)
-      .add_given("order", options.order)
-      .add_given("operation", options.operation)
-      .add_given("machine", options.machine)
-      .add_given("operator", options.operator_name)
-      .add_given("gauge", options.gauge)
-      .add_given("unit", options.unit)
-      .add_given("measured_at", options.measured_at)
-      .add_given("comment", options.comment)
-      .text();
+  return body.text();
 }
 
 Outcome<Answer> record(const Context& context, const std::string& body) {
@@ -232,7 +204,7 @@ Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
                                line->whole ? "" : ": it is not whole"));
       continue;
     }
-    options.measured_at = format_rfc3339(SystemClock().now());
+    options.fields[RowField::MeasuredAt] = format_rfc3339(SystemClock().now());
     const auto judged = judge(context, options, *value);
     if (!judged) {
       return Failure{judged.error().exit_code,

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
+#include "record/measurement_row_fields.hpp"
 
 namespace fitgauge::cli {
 
@@ -15,37 +17,8 @@ struct GaugeOptions {
   std::string serial{};     ///< a port whose lines are values
   unsigned baud = 9600;
   std::string pattern{};  ///< of a line; its first group is the value
-  std::string rule{};
-  std::string uncertainty_um{};
-  std::string coverage_factor{};
-  std::string probability{};
-  // Corrects to 20 degrees.
-  std::string temperature_c{};
-  std::string scale_temperature_c{};
-  std::string part_expansion{};
-  std::string scale_expansion{};
-  std::string part_material{};
-  std::string scale_material{};
-  std::string temperature_uncertainty_c{};
-  std::string scale_temperature_uncertainty_c{};
-  std::string part_uncertainty{};
-  std::string scale_uncertainty{};
-  // Limits of a drawing: the feature, and one or both.
-  std::string feature{};
-  std::string upper_um{};
-  std::string lower_um{};
   bool record = false;
-  // Fields of a record.
-  std::string part_id{};
-  std::string characteristic{};
-  std::string order{};
-  std::string operation{};
-  std::string machine{};
-  std::string operator_name{};
-  std::string gauge{};
-  std::string unit{};
-  std::string measured_at{};
-  std::string comment{};
+  std::array<std::string, api::RowField::Count> fields{};  ///< by RowField::Index, from Feature on
 };
 
 /// `fitgauge gauge 25H7 25.013`: judges a value, and stores it with --record; the exit code is the

@@ -81,7 +81,7 @@ std::string record_target(std::string path, const RecordQuery& query,
     separator = '&';
   };
   for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
-    add(kRecordFilters.at(i).parameter, query.filters.at(i));
+    add(kRecordFilters.at(i).name, query.filters.at(i));
   }
   for (const auto& [name, value] : others) add(name, value);
   return path;

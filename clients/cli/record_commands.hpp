@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -9,30 +10,28 @@
 
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
+#include "record/fields.hpp"
 
 namespace fitgauge::cli {
 
-/// What records may be chosen by: an option and the query parameter of the service.
+/// A query parameter of the service that chooses records.
 struct RecordFilter {
-  std::string_view option;
-  std::string_view parameter;
-  std::string_view help;
+  std::string_view name;
+  std::string_view help{};  ///< none: exactly this text
 };
-inline constexpr std::array<RecordFilter, 13> kRecordFilters = {{
-    {"--part-id", "part_id", "Exactly this part"},
-    {"--characteristic", "characteristic", "Exactly this characteristic"},
-    {"--order", "order", "Exactly this work order"},
-    {"--operation", "operation", "Exactly this operation"},
-    {"--machine", "machine", "Exactly this machine"},
-    {"--gauge", "gauge", "Exactly this gauge"},
-    {"--designation", "designation", "Size and class, as in 25H7"},
-    {"--subgroup", "subgroup", "Exactly this subgroup"},
-    {"--verdict", "verdict", "good, rework, reject or indeterminate"},
-    {"--source", "source", "gauge, simulation or all; gauge when absent"},
-    {"--from", "from", "Measured from this RFC 3339 time on"},
-    {"--to", "to", "Measured before this time"},
-    {"--history", "history", "all shows corrected records too"},
-}};
+inline constexpr auto kRecordFilters = [] {
+  std::array<RecordFilter, app::kTextFilters.size() + 6> filters = {{
+      {"designation", "Size and class, as in 25H7"},
+      {"verdict", "good, rework, reject or indeterminate"},
+      {"source", "gauge, simulation or all; gauge when absent"},
+      {"from", "Measured from this RFC 3339 time on"},
+      {"to", "Measured before this time"},
+      {"history", "all shows corrected records too"},
+  }};
+  std::ranges::transform(app::kTextFilters, filters.begin() + 6,
+                         [](std::string_view name) { return RecordFilter{name}; });
+  return filters;
+}();
 
 /// The command lines of list, export and summary. A filter that was not given is empty.
 struct RecordQuery {

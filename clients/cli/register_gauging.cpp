@@ -9,6 +9,8 @@
 namespace fitgauge::cli {
 namespace {
 
+using api::RowField;
+
 void add_limits(CLI::App& app, Action& chosen) {
   const auto designation = std::make_shared<std::string>();
   add_command<std::string>(app, "limits", "Limits of size: fitgauge limits 25H7", chosen,
@@ -61,49 +63,19 @@ void add_gauge(CLI::App& app, Action& chosen) {
   gauge->add_option("--baud", options->baud, "Of the port, else 9600")->needs(serial);
   gauge->add_option("--pattern", options->pattern, "Regular expression of a whole line")
       ->needs(serial);
-  gauge->add_option("--rule", options->rule, "simple, guard_band or conformance");
-  gauge->add_option("--uncertainty-um", options->uncertainty_um, "Standard uncertainty in µm");
-  gauge->add_option("--coverage-factor", options->coverage_factor, "k of the guard band, else 2");
-  gauge->add_option("--probability", options->probability, "Of conformance, else 0.95");
-  gauge->add_option("--temperature-c", options->temperature_c, "Temperature of the part in °C");
-  gauge->add_option("--part-material", options->part_material, "steel: corrects to 20 °C");
-  gauge->add_option("--part-expansion", options->part_expansion, "The same in µm/(m·K)");
-  gauge->add_option("--scale-temperature-c", options->scale_temperature_c,
-                    "Temperature of what it was read on, else 20");
-  gauge->add_option("--scale-material", options->scale_material, "Of what it was read on");
-  gauge->add_option("--scale-expansion", options->scale_expansion, "The same in µm/(m·K)");
-  gauge->add_option("--temperature-uncertainty-c", options->temperature_uncertainty_c,
-                    "Standard uncertainty of the part's temperature: adds to --uncertainty-um");
-  gauge->add_option("--part-expansion-uncertainty", options->part_uncertainty,
-                    "Of the part's expansion, else that of its material's source");
-  gauge->add_option("--scale-temperature-uncertainty-c", options->scale_temperature_uncertainty_c,
-                    "Of the scale's temperature");
-  gauge->add_option("--scale-expansion-uncertainty", options->scale_uncertainty,
-                    "Of the scale's expansion");
   const auto record = gauge->add_flag("--record", options->record, "Store the measurement");
-  const auto field = [&](const std::string& name, std::string& value, const std::string& help) {
-    gauge->add_option(name, value, help)->needs(record);
-  };
-  const auto feature =
-      gauge->add_option("--feature", options->feature, "hole or shaft, with a drawing's own limits")
-          ->needs(record)
-          ->check(CLI::IsMember({"hole", "shaft"}));
-  const auto upper = gauge->add_option("--upper-um", options->upper_um, "Upper deviation in µm");
-  const auto lower = gauge->add_option("--lower-um", options->lower_um, "Lower deviation in µm");
-  upper->needs(feature);
-  lower->needs(feature);
-  field("--part-id", options->part_id, "Part, as its label says");
-  field("--characteristic", options->characteristic, "What was measured on it");
-  field("--order", options->order, "Work order");
-  field("--operation", options->operation, "Operation");
-  field("--machine", options->machine, "Machine");
-  field("--operator", options->operator_name, "Who measured");
-  field("--gauge", options->gauge, "Gauge");
-  field("--unit", options->unit, "Production unit");
-  gauge->add_option("--measured-at", options->measured_at, "RFC 3339 time, else now")
-      ->needs(record)
-      ->excludes(serial);
-  field("--comment", options->comment, "Remark");
+  for (std::size_t i = RowField::Feature; i < RowField::Count; ++i) {
+    const RowField& field = api::kRowFields.at(i);
+    const auto option = gauge->add_option(option_name(field.name), options->fields.at(i),
+                                          std::string(field.meaning));
+    if (i == RowField::Upper || i == RowField::Lower) {
+      option->needs(gauge->get_option("--feature"));
+    } else if (i < RowField::Uncertainty) {
+      option->needs(record);
+    }
+  }
+  gauge->get_option("--feature")->check(CLI::IsMember({"hole", "shaft"}));
+  gauge->get_option("--measured-at")->excludes(serial);
 }
 
 void add_measure(CLI::App& app, Action& chosen) {

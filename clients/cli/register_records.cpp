@@ -1,5 +1,7 @@
 #include "cli/registration.hpp"
 
+#include <fmt/format.h>
+
 #include "cli/figure_commands.hpp"
 #include "cli/record_commands.hpp"
 
@@ -8,8 +10,9 @@ namespace {
 
 void add_filters(CLI::App& command, const std::shared_ptr<RecordQuery>& query) {
   for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
-    const RecordFilter& filter = kRecordFilters.at(i);
-    command.add_option(std::string(filter.option), query->filters.at(i), std::string(filter.help));
+    const auto& [name, help] = kRecordFilters.at(i);
+    command.add_option(option_name(name), query->filters.at(i),
+                       help.empty() ? fmt::format("Exactly this {}", name) : std::string(help));
   }
 }
 

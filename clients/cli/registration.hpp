@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -27,6 +28,9 @@ CLI::App* add_command(CLI::App& parent, const std::string& name, const std::stri
   });
   return command;
 }
+
+/// The option of a field or query parameter: `--part-expansion` of part_expansion_um_per_m_k.
+std::string option_name(std::string_view field);
 
 using Words = std::vector<std::string>;
 

@@ -18,7 +18,7 @@ _fitgauge() {
     --part-expansion-uncertainty | --scale-temperature-uncertainty-c | --scale-expansion-uncertainty) return ;;
     --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --group-by) return ;;
     --min-um | --max-um | --size-mm | --lower | --upper | --reference | --tolerance) return ;;
-    --designation | --subgroup | --target-mm | --confidence | --rules) return ;;
+    --designation | --tolerance-class | --caller | --subgroup | --target-mm | --confidence | --rules) return ;;
     --kind) _fitgauge_words 'i_mr xbar_r xbar_s ewma cusum'; return ;;
     --subgroups) _fitgauge_words 'use ignore'; return ;;
     --map | --time-zone) return ;;
@@ -53,15 +53,15 @@ _fitgauge() {
   done
 
   local options=
-  local filters='--part-id --characteristic --order --operation --machine --gauge --designation --subgroup
-                 --verdict --source --from --to --history'
+  local filters='--part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup
+                 --tolerance-class --caller --designation --verdict --source --from --to --history'
   case ${words[0]-} in
     '') _fitgauge_words "$commands $common --version"; return ;;
     gauge)
       options='--rule --uncertainty-um --coverage-factor --probability --part-material --part-expansion
                --scale-temperature-c --scale-material --scale-expansion --temperature-uncertainty-c
                --part-expansion-uncertainty --scale-temperature-uncertainty-c --scale-expansion-uncertainty --record
-               --part-id --characteristic --order --operation --machine --operator --gauge --unit --measured-at --temperature-c --comment --feature --upper-um --lower-um
+               --part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup --measured-at --temperature-c --comment --feature --upper-um --lower-um
                --serial --baud --pattern' ;;
     measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;
