@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,7 +58,13 @@ class IdempotencyStore {
   struct Forwarded {
     IdempotentRequest request{};
     StoredAnswer answer{};
-    std::int64_t expires_at_ns = 0;
+    std::int64_t expires_at_ns = std::numeric_limits<std::int64_t>::max();
+
+    /// None if it is kept for ever.
+    std::optional<Timestamp> expires_at() const {
+      const bool for_ever = expires_at_ns == std::numeric_limits<std::int64_t>::max();
+      return for_ever ? std::nullopt : std::optional(Timestamp{expires_at_ns});
+    }
   };
   /// Visits the answers of measurements (a path from `/v1/measurements` on) kept while the newest
   /// one was one of these ids.

@@ -17,19 +17,19 @@ void write_heading(std::string& text, const app::LogOutbox::Batch& batch) {
   text += '\n';
 }
 
-void write_answer(std::string& text, const app::LogOutbox::KeptAnswer& answer) {
+void write_answer(std::string& text, const app::LogOutbox::KeptAnswer& kept) {
   api::JsonWriter json(text);
   json.begin_object().key("answer").begin_object();
-  json.member("caller", answer.caller)
-      .member("method", answer.method)
-      .member("path", answer.path)
-      .member("key", answer.key)
-      .member("request_sha256", to_hex(answer.request))
-      .member("status", answer.status)
-      .member("content_type", answer.content_type)
-      .member("location", answer.location)
-      .member("body", answer.body);
-  if (answer.expires_at) json.member("expires_at", format_rfc3339(*answer.expires_at));
+  json.member("caller", kept.request.caller)
+      .member("method", kept.request.method)
+      .member("path", kept.request.path)
+      .member("key", kept.request.key)
+      .member("request_sha256", to_hex(kept.request.body))
+      .member("status", kept.answer.status)
+      .member("content_type", kept.answer.content_type)
+      .member("location", kept.answer.location)
+      .member("body", kept.answer.body);
+  if (const auto at = kept.expires_at()) json.member("expires_at", format_rfc3339(*at));
   json.end_object().end_object();
   text += '\n';
 }
@@ -44,7 +44,7 @@ std::string batch_text(const app::LogOutbox::Batch& batch) {
     text += record;
     text += '\n';
   }
-  for (const auto& answer : batch.answers) write_answer(text, answer);
+  for (const auto& kept : batch.answers) write_answer(text, kept);
   return text;
 }
 

@@ -65,7 +65,7 @@ class EventReader {
  private:
   void read_measurements(std::optional<Source> source, const RowNames& names) {
     store::MeasurementFilter filter;
-    filter.source = source ? std::optional(to_store(*source)) : std::nullopt;
+    filter.source = source ? std::optional(code_of<store::Source>(*source)) : std::nullopt;
     filter.history = true;
     EventPosition& position = page_.position;
     const auto end = stores_.measurements.last_id();

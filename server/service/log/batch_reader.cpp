@@ -37,29 +37,29 @@ Result<void> read_heading(const JsonValue& json, app::ForwardedBatch& batch) {
 }
 
 /// An answer that the store keeps: what it refuses is refused here.
-Result<app::ForwardedBatch::Answer> read_answer(const JsonValue& json) {
-  app::ForwardedBatch::Answer answer{.caller = text_of(json, "caller"),
-                                     .method = text_of(json, "method"),
-                                     .path = text_of(json, "path"),
-                                     .key = text_of(json, "key"),
-                                     .content_type = text_of(json, "content_type"),
-                                     .location = text_of(json, "location"),
-                                     .answer = text_of(json, "body"),
-                                     .expires_at = {}};
+Result<store::IdempotencyStore::Forwarded> read_answer(const JsonValue& json) {
+  store::IdempotencyStore::Forwarded kept{.request = {.caller = text_of(json, "caller"),
+                                                      .method = text_of(json, "method"),
+                                                      .path = text_of(json, "path"),
+                                                      .key = text_of(json, "key")},
+                                          .answer = {.content_type = text_of(json, "content_type"),
+                                                     .location = text_of(json, "location"),
+                                                     .body = text_of(json, "body")}};
   const auto digest = digest_from_hex(text_of(json, "request_sha256"));
   const JsonValue* status = json.find("status");
-  if (digest) answer.body = *digest;
+  if (digest) kept.request.body = *digest;
   if (status != nullptr) {
     const char* const end = status->text.data() + status->text.size();
-    std::from_chars(status->text.data(), end, answer.status);
+    std::from_chars(status->text.data(), end, kept.answer.status);
   }
   const auto expires_at = parse_rfc3339(text_of(json, "expires_at"));
-  if (json.find("expires_at") != nullptr && expires_at) answer.expires_at = *expires_at;
-  const bool readable = digest && answer.method == "POST" && !answer.key.empty() &&
-                        answer.path.starts_with("/v1/measurements") && answer.status >= 200 &&
-                        answer.status <= 299 &&
-                        (json.find("expires_at") == nullptr || expires_at.has_value());
-  if (readable) return answer;
+  const bool expires = json.find("expires_at") != nullptr;
+  if (expires && expires_at) kept.expires_at_ns = expires_at->nanoseconds;
+  const bool readable = digest && kept.request.method == "POST" && !kept.request.key.empty() &&
+                        kept.request.path.starts_with("/v1/measurements") &&
+                        kept.answer.status >= 200 && kept.answer.status <= 299 &&
+                        (!expires || expires_at.has_value());
+  if (readable) return kept;
   return Error{ErrorCode::LogRecordInvalid, "an answer of the batch cannot be read"};
 }
 

@@ -47,20 +47,6 @@ std::optional<std::size_t> row_in(const ForwardedBatch& batch, std::int64_t numb
   return static_cast<std::size_t>(found - batch.rows.begin());
 }
 
-store::IdempotencyStore::Forwarded to_store(const ForwardedBatch::Answer& answer) {
-  return {.request = {.caller = answer.caller,
-                      .method = answer.method,
-                      .path = answer.path,
-                      .key = answer.key,
-                      .body = answer.body},
-          .answer = {.status = answer.status,
-                     .content_type = answer.content_type,
-                     .location = answer.location,
-                     .body = answer.answer},
-          .expires_at_ns = answer.expires_at ? answer.expires_at->nanoseconds
-                                             : std::numeric_limits<std::int64_t>::max()};
-}
-
 }  // namespace
 
 /// What stands here of a batch's log.
@@ -322,9 +308,7 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
       rows.clear();
     }
   }
-  for (const ForwardedBatch::Answer& answer : batch.answers) {
-    stores.idempotency.keep(to_store(answer));
-  }
+  for (const auto& answer : batch.answers) stores.idempotency.keep(answer);
   const std::int64_t now = clock_.now().nanoseconds;
   for (const tlog::VerifierKey& key : known.new_keys) {
     stores.origins.add_key(known.number, key.text(), now);

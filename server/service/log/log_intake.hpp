@@ -11,6 +11,7 @@
 #include "base/clock.hpp"
 #include "base/digest.hpp"
 #include "base/result.hpp"
+#include "db/store/idempotency_store.hpp"
 #include "proof/checkpoint.hpp"
 #include "proof/frontier.hpp"
 #include "record/measurement.hpp"
@@ -34,27 +35,14 @@ struct ForwardedBatch {
     Measurement measurement;
     std::string_view record;  ///< its text, which is the leaf
   };
-  /// An answer that was kept for an idempotency key when one of the rows was stored.
-  struct Answer {
-    std::string caller;
-    std::string method;
-    std::string path;
-    std::string key;
-    Digest body{};  ///< of the request
-    int status = 200;
-    std::string content_type;
-    std::string location;
-    std::string answer;
-    std::optional<Timestamp> expires_at;  ///< none: never
-  };
-
   std::string origin;     ///< 16 hexadecimal digits
   std::int64_t from = 1;  ///< the place of the first row in its log
   std::string key;        ///< the vkey of the station
   std::string checkpoint;
   std::vector<std::string> hand_overs;  ///< checkpoints that hand over from a key to the next
   std::vector<Row> rows;
-  std::vector<Answer> answers;
+  /// Kept for idempotency keys when the rows were stored.
+  std::vector<store::IdempotencyStore::Forwarded> answers;
 };
 
 /// Takes what stations forward: each batch that continues exactly where its log ends here, whole or

@@ -15,20 +15,6 @@ namespace {
 
 constexpr std::int64_t kRowsAPage = 500;
 
-LogOutbox::KeptAnswer kept_answer(const store::IdempotencyStore::Forwarded& kept) {
-  const bool for_ever = kept.expires_at_ns == std::numeric_limits<std::int64_t>::max();
-  return {.caller = kept.request.caller,
-          .method = kept.request.method,
-          .path = kept.request.path,
-          .key = kept.request.key,
-          .request = kept.request.body,
-          .status = kept.answer.status,
-          .content_type = kept.answer.content_type,
-          .location = kept.answer.location,
-          .body = kept.answer.body,
-          .expires_at = for_ever ? std::nullopt : std::optional(Timestamp{kept.expires_at_ns})};
-}
-
 }  // namespace
 
 Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most) const {
@@ -56,9 +42,8 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most) 
     batch.key = log_.verifier_keys();
     batch.key.resize(std::min(batch.key.find('\n'), batch.key.size()));
     batch.hand_overs = log_.hand_overs();
-    stores.idempotency.visit_forwarded(*first_row, last_row, [&](const auto& kept) {
-      batch.answers.push_back(kept_answer(kept));
-    });
+    stores.idempotency.visit_forwarded(*first_row, last_row,
+                                       [&](const auto& kept) { batch.answers.push_back(kept); });
     return batch;
   });
 }

@@ -9,6 +9,7 @@
 #include "base/clock.hpp"
 #include "base/digest.hpp"
 #include "base/result.hpp"
+#include "db/store/idempotency_store.hpp"
 #include "proof/tree_hash.hpp"
 
 namespace fitgauge::store {
@@ -30,18 +31,7 @@ class LogOutbox {
   LogOutbox(store::Database& database, const TableCatalog& tables, LogService& log)
       : database_(database), tables_(tables), log_(log) {}
 
-  struct KeptAnswer {
-    std::string caller;
-    std::string method;
-    std::string path;
-    std::string key;
-    Digest request{};  ///< SHA-256 of its body
-    int status = 200;
-    std::string content_type;
-    std::string location;
-    std::string body;
-    std::optional<Timestamp> expires_at;  ///< none: never
-  };
+  using KeptAnswer = store::IdempotencyStore::Forwarded;
   struct Batch {
     std::int64_t from = 1;  ///< the place of its first record
     std::string checkpoint{};

@@ -23,14 +23,13 @@ iso286::NominalSizeRange range_of(std::int64_t over_nm, std::int64_t up_to_nm) {
   return {.over = Length::nanometres(over_nm), .up_to = Length::nanometres(up_to_nm)};
 }
 
-store::Rule code_of(gauging::DecisionRule::Kind rule) {
-  switch (rule) {
-    case gauging::DecisionRule::Kind::Simple: return store::Rule::Simple;
-    case gauging::DecisionRule::Kind::GuardBand: return store::Rule::GuardBand;
-    case gauging::DecisionRule::Kind::Conformance: break;
-  }
-  return store::Rule::Conformance;
-}
+static_assert(code_of<store::Source>(Source::Simulation) == store::Source::Simulation);
+static_assert(code_of<store::Feature>(iso286::Feature::Shaft) == store::Feature::Shaft);
+static_assert(code_of<store::Basis>(LimitsBasis::Standard) == store::Basis::Standard);
+static_assert(code_of<store::Verdict>(gauging::Verdict::Indeterminate) ==
+              store::Verdict::Indeterminate);
+static_assert(code_of<store::Rule>(gauging::DecisionRule::Kind::Conformance) ==
+              store::Rule::Conformance);
 
 /// The rule of a row. @throws boost::system::system_error for numbers that no rule has.
 gauging::DecisionRule rule_of(const store::MeasurementRow& row) {
@@ -105,30 +104,6 @@ Result<iso286::TableData> from_store(const store::TableContent& content) {
   return data;
 }
 
-store::Verdict to_store(gauging::Verdict verdict) {
-  switch (verdict) {
-    case gauging::Verdict::Good: return store::Verdict::Good;
-    case gauging::Verdict::Rework: return store::Verdict::Rework;
-    case gauging::Verdict::Reject: return store::Verdict::Reject;
-    case gauging::Verdict::Indeterminate: break;
-  }
-  return store::Verdict::Indeterminate;
-}
-
-gauging::Verdict from_store(store::Verdict verdict) {
-  switch (verdict) {
-    case store::Verdict::Good: return gauging::Verdict::Good;
-    case store::Verdict::Rework: return gauging::Verdict::Rework;
-    case store::Verdict::Reject: return gauging::Verdict::Reject;
-    case store::Verdict::Indeterminate: break;
-  }
-  return gauging::Verdict::Indeterminate;
-}
-
-store::Source to_store(Source source) {
-  return source == Source::Gauge ? store::Source::Gauge : store::Source::Simulation;
-}
-
 store::IdempotentRequest to_store(const IdempotencyScope& scope) {
   return {.caller = scope.caller,
           .method = scope.method,
@@ -136,20 +111,6 @@ store::IdempotentRequest to_store(const IdempotencyScope& scope) {
           .key = scope.key,
           .body = sha256(scope.body),
           .is_kept_for_ever = scope.is_kept_for_ever};
-}
-
-Answer from_store(store::StoredAnswer stored) {
-  return {.status = stored.status,
-          .content_type = std::move(stored.content_type),
-          .location = std::move(stored.location),
-          .body = std::move(stored.body)};
-}
-
-store::StoredAnswer to_store(Answer answer) {
-  return {.status = answer.status,
-          .content_type = std::move(answer.content_type),
-          .location = std::move(answer.location),
-          .body = std::move(answer.body)};
 }
 
 RowNames row_names(const TableCatalog& tables, const Origins& origins) {
@@ -161,28 +122,23 @@ store::MeasurementRow to_store(const Measurement& m) {
   store::MeasurementRow row;
   static_cast<MeasurementFields&>(row) = m;
   row.id = m.id;
-  row.source = to_store(m.source);
+  row.source = code_of<store::Source>(m.source);
   row.measured_at_ns = m.measured_at.nanoseconds;
   row.received_at_ns = m.received_at.nanoseconds;
   row.nominal_nm = m.nominal_size.count();
   row.tolerance_class = m.class_name;
-  row.feature = m.feature == iso286::Feature::Hole ? store::Feature::Hole : store::Feature::Shaft;
+  row.feature = code_of<store::Feature>(m.feature);
   row.upper_deviation_nm = m.deviations.upper.count();
   row.lower_deviation_nm = m.deviations.lower.count();
   if (m.size_range) {
     row.size_over_nm = m.size_range->over.count();
     row.size_up_to_nm = m.size_range->up_to.count();
   }
-  switch (m.basis) {
-    case LimitsBasis::Iso286: row.basis = store::Basis::Iso286; break;
-    case LimitsBasis::Custom: row.basis = store::Basis::Custom; break;
-    case LimitsBasis::Explicit: row.basis = store::Basis::Explicit; break;
-    case LimitsBasis::Standard: row.basis = store::Basis::Standard; break;
-  }
+  row.basis = code_of<store::Basis>(m.basis);
   row.table_revision = m.revision_number;
   row.measured_nm = m.measured.count();
-  row.verdict = to_store(m.result.verdict);
-  row.rule = code_of(m.rule.kind());
+  row.verdict = code_of<store::Verdict>(m.result.verdict);
+  row.rule = code_of<store::Rule>(m.rule.kind());
   row.uncertainty_nm = count_of(m.standard_uncertainty);
   if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
   if (m.conformance) {
@@ -207,23 +163,18 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   m.origin_number = row.origin.value_or(0);
   m.origin = names.origin(m.origin_number);
   m.row = row.id;
-  m.source = row.source == store::Source::Gauge ? Source::Gauge : Source::Simulation;
+  m.source = value_of<Source>(row.source);
   m.measured_at = {row.measured_at_ns};
   m.received_at = {row.received_at_ns};
   m.nominal_size = Length::nanometres(row.nominal_nm);
   m.class_name = row.tolerance_class;
-  m.feature = row.feature == store::Feature::Hole ? iso286::Feature::Hole : iso286::Feature::Shaft;
+  m.feature = value_of<iso286::Feature>(row.feature);
   m.deviations = {.upper = Length::nanometres(row.upper_deviation_nm),
                   .lower = Length::nanometres(row.lower_deviation_nm)};
   if (row.size_over_nm && row.size_up_to_nm) {
     m.size_range = range_of(*row.size_over_nm, *row.size_up_to_nm);
   }
-  switch (row.basis) {
-    case store::Basis::Iso286: m.basis = LimitsBasis::Iso286; break;
-    case store::Basis::Custom: m.basis = LimitsBasis::Custom; break;
-    case store::Basis::Explicit: m.basis = LimitsBasis::Explicit; break;
-    case store::Basis::Standard: m.basis = LimitsBasis::Standard; break;
-  }
+  m.basis = value_of<LimitsBasis>(row.basis);
   m.revision_number = row.table_revision;
   if (row.table_revision) m.table_revision = names.revision_id(*row.table_revision);
   m.measured = Length::nanometres(row.measured_nm);
@@ -234,7 +185,7 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   m.rule = rule_of(row);
   m.corrected = length_of(row.corrected_nm);
   m.result = gauging::gauge(m.feature, m.upper_limit(), m.lower_limit(), m.decisive());
-  m.result.verdict = from_store(row.verdict);  // the excess is not stored
+  m.result.verdict = value_of<gauging::Verdict>(row.verdict);  // the excess is not stored
   if (row.conformance && row.guard_band) {
     m.conformance = {.probability = *row.conformance, .guard_band = *row.guard_band};
   }

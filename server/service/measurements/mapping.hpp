@@ -28,12 +28,16 @@ struct RowNames {
 RowNames row_names(const TableCatalog& tables, const Origins& origins);
 Measurement from_store(const store::MeasurementRow& row, const RowNames& names);
 
-store::Verdict to_store(gauging::Verdict verdict);
-gauging::Verdict from_store(store::Verdict verdict);
-store::Source to_store(Source source);
+/// Enumerations of the store count from 1, in the order of those of the service.
+template <class Code, class Value>
+constexpr Code code_of(Value value) {
+  return static_cast<Code>(static_cast<int>(value) + 1);
+}
+template <class Value, class Code>
+constexpr Value value_of(Code code) {
+  return static_cast<Value>(static_cast<int>(code) - 1);
+}
 
 store::IdempotentRequest to_store(const IdempotencyScope& scope);
-store::StoredAnswer to_store(Answer answer);
-Answer from_store(store::StoredAnswer stored);
 
 }  // namespace fitgauge::app

@@ -49,32 +49,17 @@ void MeasurementService::find_answer(const IdempotencyScope& scope,
                                      Done<std::optional<Answer>> done) {
   database_.readers().submit(
       // The digest of a long body is nothing for the thread that asks.
-      [scope](const store::Stores& stores) -> Result<std::optional<Answer>> {
-        auto found = stores.idempotency.find(to_store(scope));
-        if (!found) return found.error();
-        if (!*found) return std::optional<Answer>();
-        return std::optional(from_store(**std::move(found)));
-      },
+      [scope](const store::Stores& stores) { return stores.idempotency.find(to_store(scope)); },
       std::move(done));
 }
 
 template <class Work>
 void MeasurementService::submit(const std::optional<IdempotencyScope>& scope, Work work,
                                 Done<Answer> done) {
-  auto store = [work =
-                    std::move(work)](store::Stores& stores) mutable -> Result<store::StoredAnswer> {
-    Result<Answer> answer = work(stores);
-    if (!answer) return answer.error();
-    return to_store(*std::move(answer));
-  };
-  auto deliver = [done = std::move(done)](Result<store::StoredAnswer> answer) {
-    if (!answer) return done(answer.error());
-    done(from_store(*std::move(answer)));
-  };
   if (scope) {
-    database_.writer().submit_once(to_store(*scope), std::move(store), std::move(deliver));
+    database_.writer().submit_once(to_store(*scope), std::move(work), std::move(done));
   } else {
-    database_.writer().submit(std::move(store), std::move(deliver));
+    database_.writer().submit(std::move(work), std::move(done));
   }
 }
 

@@ -25,8 +25,9 @@ store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
     filter.run_id = query.run_id->number;
     filter.run_origin = query.run_id->origin;
   }
-  if (query.verdict) filter.verdict = to_store(*query.verdict);
-  filter.source = query.source ? std::optional(to_store(*query.source)) : std::nullopt;
+  if (query.verdict) filter.verdict = code_of<store::Verdict>(*query.verdict);
+  filter.source =
+      query.source ? std::optional(code_of<store::Source>(*query.source)) : std::nullopt;
   if (query.from) filter.from_ns = query.from->nanoseconds;
   if (query.to) filter.to_ns = query.to->nanoseconds;
   if (query.received_from) filter.received_from_ns = query.received_from->nanoseconds;

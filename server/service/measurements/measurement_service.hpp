@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "db/store/idempotency_store.hpp"
 #include "record/measurement.hpp"
 #include "service/measurements/corrected_places.hpp"
 
@@ -18,21 +19,14 @@ namespace fitgauge::store {
 class Database;
 }
 
-namespace fitgauge {}
-
 namespace fitgauge::app {
 
 class MeasurementQueue;
 class Origins;
 class TableCatalog;
 
-/// An answer that can be kept under an idempotency key and given again.
-struct Answer {
-  int status = 200;
-  std::string content_type;
-  std::string location;  ///< empty: none
-  std::string body;
-};
+/// A response that can be stored under an idempotency key and replayed.
+using Answer = store::StoredAnswer;
 
 /// What makes a request the same as an earlier one.
 struct IdempotencyScope {

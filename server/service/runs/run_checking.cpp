@@ -62,13 +62,9 @@ Result<void> RunService::load_meshes(machine::Setup& setup, std::string_view poi
 }
 
 Result<std::optional<Answer>> RunService::kept_answer(const IdempotencyScope& scope) {
-  return database_.readers().wait(
-      [request = to_store(scope)](const store::Stores& stores) -> Result<std::optional<Answer>> {
-        auto found = stores.idempotency.find(request);
-        if (!found) return found.error();
-        if (!*found) return std::optional<Answer>();
-        return std::optional(from_store(**std::move(found)));
-      });
+  return database_.readers().wait([request = to_store(scope)](const store::Stores& stores) {
+    return stores.idempotency.find(request);
+  });
 }
 
 }  // namespace fitgauge::app

@@ -78,10 +78,10 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
                        .created_at_ns = clock_.now().nanoseconds,
                        .caller = shared->caller};
   std::shared_ptr<ActiveRun> active;
-  const auto create = [&](store::Stores& stores) -> Result<store::StoredAnswer> {
+  const auto create = [&](store::Stores& stores) -> Result<Answer> {
     active = std::make_shared<ActiveRun>(stores.runs.create(row), origin_, shared,
                                          Timestamp{row.created_at_ns});
-    return to_store(accepted(*active));
+    return accepted(*active);
   };
   const auto created = scope ? database_.writer().wait_once(to_store(*scope), create)
                              : database_.writer().wait(create);
