@@ -66,8 +66,8 @@ std::string distance_text(const JsonValue& document, std::string_view unit) {
 
 std::string verdict_query(const GaugeOptions& options, const std::string& measured) {
   std::string query = "?measured_mm=" + percent_encoded(measured);
-  // Those before are of a record.
-  for (std::size_t i = RowField::Uncertainty; i < RowField::Count; ++i) {
+  // The others are of a record.
+  for (std::size_t i = RowField::Uncertainty; i < RowField::Kept; ++i) {
     const std::string& value = options.fields.at(i);
     if (value.empty()) continue;
     query.append("&").append(kRowFields.at(i).name).append("=").append(percent_encoded(value));

@@ -70,7 +70,7 @@ void add_gauge(CLI::App& app, Action& chosen) {
                                           std::string(field.meaning));
     if (i == RowField::Upper || i == RowField::Lower) {
       option->needs(gauge->get_option("--feature"));
-    } else if (i < RowField::Uncertainty) {
+    } else if (i < RowField::Uncertainty || i >= RowField::Kept) {
       option->needs(record);
     }
   }

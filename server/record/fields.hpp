@@ -51,10 +51,11 @@ struct MeasurementFields {
 /// Values that a request may give a field; none if the service fills it.
 struct Accepted {
   std::size_t longest = 0;  ///< of a text, in bytes
-  // Of a number, in millionths, and both bounds in words:
+  // Of a number, in units of 10^-scale, and both bounds in words:
   std::int64_t least = 0;
   std::int64_t most = 0;
   std::string_view range{};
+  bool is_thermal = false;  ///< the field corrects to 20 °C
 
   constexpr bool nothing() const { return longest == 0 && most == 0; }
 };
@@ -63,13 +64,15 @@ inline constexpr std::size_t kLongestIdentifier = 200;
 inline constexpr std::size_t kLongestComment = 2000;
 inline constexpr Accepted kIdentifier{.longest = kLongestIdentifier};
 inline constexpr Accepted kRemark{.longest = kLongestComment};
-inline constexpr Accepted kMaterialName{.longest = 64};
-inline constexpr Accepted kCelsius{
-    .least = gauging::kColdest, .most = gauging::kHottest, .range = "lies from -273.15 to 10000"};
-inline constexpr Accepted kExpansion{.most = gauging::kLargestExpansion,
-                                     .range = "lies from 0 to 1000"};
-inline constexpr Accepted kThermalUncertainty{.most = gauging::kLargestUncertainty,
-                                              .range = "lies from 0 to 1000"};
+inline constexpr Accepted kMaterialName{.longest = 64, .is_thermal = true};
+inline constexpr Accepted kCelsius{.least = gauging::kColdest,
+                                   .most = gauging::kHottest,
+                                   .range = "lies from -273.15 to 10000",
+                                   .is_thermal = true};
+inline constexpr Accepted kExpansion{
+    .most = gauging::kLargestExpansion, .range = "lies from 0 to 1000", .is_thermal = true};
+inline constexpr Accepted kThermalUncertainty{
+    .most = gauging::kLargestUncertainty, .range = "lies from 0 to 1000", .is_thermal = true};
 inline constexpr Accepted kNotGiven{};
 
 /// One of MeasurementFields, wherever it is read, written, stored and described.
@@ -111,8 +114,8 @@ struct MeasurementField {
 
 using Of = MeasurementFields;
 
-/// Every field once: first the labels, then the other fields of a request, then those that the
-/// service fills.
+/// Every field once: the labels, the fields that correct to 20 °C, the other fields of a request,
+/// then those that the service fills.
 inline constexpr MeasurementField kMeasurementFields[] = {
     {"part_id", &Of::part_id, "part_id", 22, kIdentifier, "The part: a serial number", 1},
     {"characteristic", &Of::characteristic, "characteristic", 23, kIdentifier,
@@ -168,7 +171,10 @@ inline constexpr auto kLabels = kGivenFields.first(static_cast<std::size_t>(
     kGivenFields.begin()));
 
 /// Fields that correct a reading to 20 °C.
-inline constexpr auto kThermalFields = kGivenFields.subspan(kLabels.size());
+inline constexpr auto kThermalFields = kGivenFields.subspan(
+    kLabels.size(),
+    static_cast<std::size_t>(std::ranges::count_if(
+        kGivenFields, [](const MeasurementField& f) { return f.accepted.is_thermal; })));
 
 /// Names of the texts that lists filter and summaries group by, in the order of their numbers. The
 /// tolerance class is the one that a caller does not give as it is kept.

@@ -25,8 +25,9 @@ struct RowField {
     Coverage,
     Rule,
     Probability,
-    Others,
-    Count = Others + app::kGivenFields.size() - app::kLabels.size(),
+    Thermal,
+    Kept = Thermal + app::kThermalFields.size(),  ///< decides nothing, as the labels
+    Count = Thermal + app::kGivenFields.size() - app::kLabels.size(),
   };
 
   enum class Kind : std::uint8_t { Length, Decimal, Text, Time, Feature, Rule };
@@ -63,7 +64,7 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
                                    "Of conformance, from 0.5 to below 1; 0.95 when absent"};
   std::size_t at = RowField::Labels;
   for (const app::MeasurementField& field : app::kGivenFields) {
-    if (at == RowField::MeasuredAt) at = RowField::Others;
+    if (at == RowField::MeasuredAt) at = RowField::Thermal;
     fields.at(at++) = {field.name,
                        field.text != nullptr ? RowField::Kind::Text : RowField::Kind::Decimal,
                        field.accepted.longest, field.meaning, &field};

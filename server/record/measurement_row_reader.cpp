@@ -173,7 +173,8 @@ std::optional<std::int64_t> MeasurementRowReader::decimal(std::size_t field,
            fmt::format("{} takes a number, not {}", kRowFields[field].name, name_of(value.kind)));
     return std::nullopt;
   }
-  const auto parsed = parse_decimal(value.text, {.scale = 6,
+  const app::MeasurementField* const plain = kRowFields[field].plain;
+  const auto parsed = parse_decimal(value.text, {.scale = plain == nullptr ? 6 : plain->scale,
                                                  .decimal_comma = value.decimal_comma,
                                                  .exponent = value.kind == RawValue::Kind::Number});
   if (parsed) return *parsed;

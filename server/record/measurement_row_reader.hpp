@@ -79,8 +79,9 @@ class MeasurementRowReader {
   void assign(std::size_t field, const RawValue& value);
   std::optional<Length> length(std::size_t field, const RawValue& value, bool micrometres,
                                bool round = false);
+  /// In millionths, or as the field has it.
   std::optional<std::int64_t> decimal(std::size_t field, const RawValue& value);
-  /// A decimal number between the two, in millionths; `range` says so.
+  /// A decimal number between the two, as decimal() returns it. @param range both bounds in words
   std::optional<std::int64_t> decimal_in(std::size_t field, const RawValue& value,
                                          std::int64_t least, std::int64_t most,
                                          std::string_view range);

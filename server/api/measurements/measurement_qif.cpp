@@ -34,7 +34,7 @@ std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Me
   if (m.coverage_factor) fields.emplace_back("coverage_factor", format(*m.coverage_factor));
   if (m.conformance) fields.emplace_back("probability", format(m.rule.probability()));
   for (const bool is_text : {false, true}) {
-    for (const app::MeasurementField& field : app::kThermalFields) {
+    for (const app::MeasurementField& field : app::kGivenFields.subspan(app::kLabels.size())) {
       if ((field.text != nullptr) == is_text) add(field);
     }
   }
