@@ -1,27 +1,11 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
-
-namespace detail {
-
-template <std::size_t I, class Row, class Field>
-void plain_field(Row& row, Field& field) {
-  constexpr const app::MeasurementField& kPlain = app::kMeasurementFields[I];
-  if constexpr (kPlain.text != nullptr) {
-    field(kPlain.column, row.*kPlain.text);
-  } else {
-    field(kPlain.column, row.*kPlain.number);
-  }
-}
-
-}  // namespace detail
 
 /// Calls `field(column, value)` for what a measurement says, all but its id and hash. The one place
 /// where rows and columns meet.
@@ -55,8 +39,8 @@ void for_each_field(Row&& row, Field&& field) {
   field("number", row.number);
   field("corrected_origin", row.corrected_origin);
   field("corrected_number", row.corrected_number);
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (detail::plain_field<I>(row, field), ...); }
-  (std::make_index_sequence<std::size(app::kMeasurementFields)>());
+  app::for_each_plain(
+      [&](const app::MeasurementField& plain, auto member) { field(plain.column, row.*member); });
 }
 
 /// `id, source, …, hash`

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "metrology/gauging/reference_temperature.hpp"
 
@@ -159,6 +160,23 @@ inline constexpr MeasurementField kMeasurementFields[] = {
     {"calibration_due", &Of::calibration_due, "calibration_due", 47, kNotGiven},
     {"added_uncertainty_um", &Of::added_uncertainty, 6, "added_uncertainty", 53, kNotGiven},
 };
+
+/// Calls `visit(field, member)` with each field and its pointer, as straight code.
+template <class Visit>
+constexpr void for_each_plain(Visit&& visit) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    const auto one = [&]<std::size_t K>() {
+      constexpr const MeasurementField& kField = kMeasurementFields[K];
+      if constexpr (kField.text != nullptr) {
+        visit(kField, kField.text);
+      } else {
+        visit(kField, kField.number);
+      }
+    };
+    (one.template operator()<I>(), ...);
+  }
+  (std::make_index_sequence<std::size(kMeasurementFields)>());
+}
 
 /// Fields that a request may give.
 inline constexpr auto kGivenFields =

@@ -18,9 +18,11 @@ constexpr std::size_t kFixedRoom = [] {
 
 std::size_t room_for(const Measurement& m) {
   std::size_t texts = m.table_revision.size() + 2 * m.class_name.value_or("").size();
-  for (const MeasurementField& field : kMeasurementFields) {
-    if (field.text != nullptr) texts += (m.*field.text).value_or("").size();
-  }
+  for_each_plain([&](const MeasurementField& /*field*/, auto member) {
+    if constexpr (std::is_same_v<decltype(member), MeasurementField::Text>) {
+      texts += (m.*member).value_or("").size();
+    }
+  });
   return kFixedRoom + RecordText::kEscaped * texts;
 }
 
@@ -74,7 +76,8 @@ class MemberText {
 
 }  // namespace
 
-void RecordWriter::append(const Measurement& m) {
+// Flattened: a call for each member costs a tenth.
+[[gnu::flatten]] void RecordWriter::append(const Measurement& m) {
   static_assert(members::kNames.size() <= kMostMembers);
   const bool times = before_ != nullptr && same_times(*before_, m);
   const bool limits = before_ != nullptr && same_limits(*before_, m);
