@@ -40,6 +40,8 @@ struct MeasurementFields {
   std::optional<std::int64_t> part_expansion_uncertainty{};
   std::optional<std::int64_t> scale_expansion_uncertainty{};
 
+  std::optional<std::int64_t> offset{};  ///< a correction made before this part, in nm
+
   std::optional<std::string_view> caller{};              ///< name of the API key that stored it
   std::optional<std::int64_t> run_id{};                  ///< the run of a simulated measurement
   std::optional<std::int64_t> cycle{};                   ///< number of its measuring cycle
@@ -74,6 +76,8 @@ inline constexpr Accepted kExpansion{
     .most = gauging::kLargestExpansion, .range = "lies from 0 to 1000", .is_thermal = true};
 inline constexpr Accepted kThermalUncertainty{
     .most = gauging::kLargestUncertainty, .range = "lies from 0 to 1000", .is_thermal = true};
+inline constexpr Accepted kOffset{
+    .least = -1'000'000'000, .most = 1'000'000'000, .range = "lies from -1000000 to 1000000"};
 inline constexpr Accepted kNotGiven{};
 
 /// One of MeasurementFields, wherever it is read, written, stored and described.
@@ -152,6 +156,9 @@ inline constexpr MeasurementField kMeasurementFields[] = {
      "Of the part's expansion; that of its material's source when absent"},
     {"scale_expansion_uncertainty_um_per_m_k", &Of::scale_expansion_uncertainty, 6,
      "scale_expansion_uncertainty", 52, kThermalUncertainty, "Of the scale's expansion"},
+
+    {"offset_um", &Of::offset, 3, "offset_nm", 54, kOffset,
+     "Correction of the machine that was made before this part, -1000000 to 1000000"},
 
     {"caller", &Of::caller, "caller", 32, kNotGiven, {}, 10},
     {"cycle", &Of::cycle, 0, "cycle", 34, kNotGiven},

@@ -16,7 +16,7 @@ _fitgauge() {
     --probability | --part-material | --part-expansion | --scale-temperature-c) return ;;
     --scale-material | --scale-expansion | --temperature-uncertainty-c) return ;;
     --part-expansion-uncertainty | --scale-temperature-uncertainty-c | --scale-expansion-uncertainty) return ;;
-    --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --group-by) return ;;
+    --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --offset-um | --group-by) return ;;
     --min-um | --max-um | --size-mm | --lower | --upper | --reference | --tolerance) return ;;
     --designation | --tolerance-class | --caller | --subgroup | --target-mm | --confidence | --rules) return ;;
     --kind) _fitgauge_words 'i_mr xbar_r xbar_s ewma cusum'; return ;;
@@ -61,7 +61,7 @@ _fitgauge() {
       options='--rule --uncertainty-um --coverage-factor --probability --part-material --part-expansion
                --scale-temperature-c --scale-material --scale-expansion --temperature-uncertainty-c
                --part-expansion-uncertainty --scale-temperature-uncertainty-c --scale-expansion-uncertainty --record
-               --part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup --measured-at --temperature-c --comment --feature --upper-um --lower-um
+               --part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup --offset-um --measured-at --temperature-c --comment --feature --upper-um --lower-um
                --serial --baud --pattern' ;;
     measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;

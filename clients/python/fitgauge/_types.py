@@ -67,6 +67,7 @@ class Correction(_Correction, total=False):
     scale_temperature_uncertainty_c: Size
     part_expansion_uncertainty_um_per_m_k: Size
     scale_expansion_uncertainty_um_per_m_k: Size
+    offset_um: Size
 
 
 class _FieldError(TypedDict):
@@ -247,6 +248,7 @@ class Measurement(_Measurement, total=False):
     scale_temperature_uncertainty_c: Decimal
     part_expansion_uncertainty_um_per_m_k: Decimal
     scale_expansion_uncertainty_um_per_m_k: Decimal
+    offset_um: Decimal
     corrected_mm: Decimal
     added_uncertainty_um: Decimal
     conformance_probability: Decimal
@@ -300,6 +302,7 @@ class NewMeasurement(_NewMeasurement, total=False):
     scale_temperature_uncertainty_c: Size
     part_expansion_uncertainty_um_per_m_k: Size
     scale_expansion_uncertainty_um_per_m_k: Size
+    offset_um: Size
 
 
 class RunFiles(TypedDict):

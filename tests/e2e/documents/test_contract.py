@@ -181,7 +181,8 @@ class Answers(ContractTest):
         decided |= {"temperature_uncertainty_c": 0.1, "scale_temperature_uncertainty_c": 0.1,
                     "part_expansion_uncertainty_um_per_m_k": 1, "scale_expansion_uncertainty_um_per_m_k": 1}
         self.expect("postMeasurements", 201, {**decided, "part_expansion_um_per_m_k": 11.5, "scale_material": "steel"})
-        self.expect("postMeasurements", 201, {**decided, "part_material": "steel", "scale_expansion_um_per_m_k": 8})
+        self.expect("postMeasurements", 201, {**decided, "part_material": "steel", "scale_expansion_um_per_m_k": 8,
+                                             "offset_um": -2})
         self.expect("postMeasurements", 201, {"nominal_mm": 8, "feature": "shaft", "upper_um": 0, "measured_mm": 8})
         self.expect("putUncertainty", 201, {"contributions": [{"name": "a", "standard_uncertainty": 1}]}, name="ring")
         self.expect("putGaugeInUse", 201, {"uncertainty": "ring", "calibration_due": "2020-03-31"}, name="late")

@@ -394,3 +394,12 @@ TEST_CASE("what a budget comes to is rounded up to the nanometre, without the no
   CHECK_FALSE(rounded_up(1e300).has_value());
   CHECK_FALSE(rounded_up(std::numeric_limits<double>::quiet_NaN()).has_value());
 }
+
+TEST_CASE("an offset is kept in nanometres, and is at most a metre either way") {
+  const auto m = one(R"({"designation":"25 H7","measured_mm":25.01,"offset_um":-2.125})");
+  CHECK(m.offset == -2'125);
+  CHECK(complaints(R"({"designation":"25 H7","measured_mm":25.01,"offset_um":1000000.001})") ==
+        Complaints{"/offset_um number.out_of_range"});
+  CHECK(complaints(R"({"designation":"25 H7","measured_mm":25.01,"offset_um":0.0001})") ==
+        Complaints{"/offset_um field.invalid"});
+}
