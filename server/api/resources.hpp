@@ -62,8 +62,6 @@ void add_setups_routes(std::vector<http::Route>& routes, const Services& service
 void add_runs_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/cycles: the cycles that programs may call.
 void add_cycles_routes(std::vector<http::Route>& routes);
-/// /v1/connections: what is connected to the world outside.
-void add_connections_routes(std::vector<http::Route>& routes, const Services& services);
 /// GET /v1/events: what happens, as Server-Sent Events.
 void add_events_routes(std::vector<http::Route>& routes, const Services& services);
 /// /livez, /readyz and /metrics.

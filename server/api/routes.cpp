@@ -9,7 +9,8 @@
 
 namespace fitgauge::api {
 
-http::RouteTable make_routes(const Services& services, std::vector<http::Route> of_plant) {
+http::RouteTable make_routes(const Services& services, std::vector<http::Route> of_plant,
+                             const Schemas& schemas) {
   std::vector<http::Route> routes;
   const auto cache = std::make_shared<ResponseCache>(services.tables);
   add_limits_routes(routes, cache);
@@ -34,12 +35,11 @@ http::RouteTable make_routes(const Services& services, std::vector<http::Route> 
   add_setups_routes(routes, services);
   add_runs_routes(routes, services);
   add_cycles_routes(routes);
-  add_connections_routes(routes, services);
   std::move(of_plant.begin(), of_plant.end(), std::back_inserter(routes));
   add_events_routes(routes, services);
   add_service_routes(routes, services);
   add_page_routes(routes);
-  add_openapi_route(routes);
+  add_openapi_route(routes, schemas);
   return http::RouteTable(std::move(routes));
 }
 

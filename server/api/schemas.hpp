@@ -16,10 +16,10 @@ void add_plan_schemas(Schemas& schemas);
 void add_file_schemas(Schemas& schemas);
 void add_run_schemas(Schemas& schemas);
 void add_cycle_schemas(Schemas& schemas);
-void add_connection_schemas(Schemas& schemas);
 void add_service_schemas(Schemas& schemas);
 
-Schemas make_schemas();
+/// @param of_plant those of the rooms above
+Schemas make_schemas(const Schemas& of_plant = {});
 
 // What several rooms say in the same words.
 

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "base/clock.hpp"
-#include "service/state/connection_state.hpp"
 #include "service/state/readiness.hpp"
 
 namespace fitgauge::app {
@@ -43,7 +42,6 @@ struct Services {
   std::shared_ptr<VerdictCounts> verdicts;
   const Clock& clock;
   std::function<app::Readiness()> readiness;
-  app::ConnectionCalls connections{};
 };
 
 }  // namespace fitgauge::api

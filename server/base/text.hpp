@@ -42,4 +42,7 @@ bool ascii_iequals(std::string_view a, std::string_view b);
 /// Without leading and trailing blanks and tabs.
 std::string_view trim(std::string_view text);
 
+/// Whether a name is of a pattern with `*` and `?`; letters count in either case.
+bool matches_glob(std::string_view pattern, std::string_view name);
+
 }  // namespace fitgauge

@@ -173,11 +173,17 @@ Result<std::unique_ptr<connections::Connections>> start_connections(
   if (!configured) return configured.error();
   return connections::Connections::start(
       *std::move(configured),
-      {.app = app,
-       .clock = clock,
+      {.measurements = app.measurements(),
+       .events = app.events(),
+       .documents = app.documents(),
+       .files = app.files(),
+       .tables = app.tables(),
        .gauges = gauges,
+       .clock = clock,
+       .origin = std::string(app.log().origin()),
        .folders = {config.connection_folders.begin(), config.connection_folders.end()},
        .may_reach_private = config.allow_private_addresses,
+       .is_shared = !config.database.empty(),
        .tell = [](std::string_view event, const std::string& detail) {
          event == "connection_recovered" ? log_info(event, detail) : log_warning(event, detail);
        }});

@@ -14,7 +14,7 @@ namespace fitgauge::daemon {
 /// to its folder. @errors ConfigInvalid with file, line and key.
 Result<std::vector<connections::Definition>> read_connections(const std::string& path);
 
-/// Starts the connections; goes before `app`. @errors as read_connections; those of the storage.
+/// Starts the connections; they go before `app`. @errors as read_connections; those of the storage.
 Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
                                                                     app::Application& app,
                                                                     const Clock& clock,

@@ -22,7 +22,7 @@ machine::Setup machine_of(const Config& config, const api::Services& services) {
 }  // namespace
 
 Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
-    const Config& config, app::Application& app, const api::Services& services) {
+    const Config& config, const api::Services& services) {
   using Control = std::unique_ptr<virtual_control::VirtualControl>;
   if (config.control_listen.empty()) return Control();
   const auto address = http::parse_listen_address(config.control_listen);
@@ -40,7 +40,8 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
   options.sent_away = [](std::string_view peer, std::string_view why) {
     log_warning("control_client_sent_away", fmt::format("{}: {}", peer, why));
   };
-  auto control = virtual_control::VirtualControl::start(std::move(options), app);
+  auto control =
+      virtual_control::VirtualControl::start(std::move(options), services.files, services.runs);
   if (!control) return control.error();
   log_info("control_listening",
            fmt::format("{} on port {}, {}", config.control_model, (*control)->port(),

@@ -5,13 +5,12 @@
 #include "api/services.hpp"
 #include "daemon/config.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
-#include "service/application.hpp"
 
 namespace fitgauge::daemon {
 
 /// Opens the LSV-2 port of the configuration; null where it names none. The control goes before
-/// `app` and `services`. @errors as VirtualControl::start.
+/// `services`. @errors as VirtualControl::start.
 Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
-    const Config& config, app::Application& app, const api::Services& services);
+    const Config& config, const api::Services& services);
 
 }  // namespace fitgauge::daemon

@@ -148,18 +148,6 @@ void log_health(std::string_view state, const std::string& reason) {
   well ? log_info("storage_health", detail) : log_error("storage_health", detail);
 }
 
-/// Daemons that share a database would each do what a connection does.
-app::ConnectionCalls connection_calls(const Config& config, connections::Connections& outside) {
-  app::ConnectionCalls calls = outside.calls();
-  if (config.database.empty()) return calls;
-  calls.put = [](const app::ConnectionCalls::Put&) -> Result<bool> {
-    return Error{ErrorCode::ConnectionReadOnly,
-                 "this daemon shares its database and keeps no connections: give them to a station "
-                 "with a data folder of its own, which forwards to here"};
-  };
-  return calls;
-}
-
 /// A commit has answers for many requests.
 void answer_together(const std::function<void()>& answer) {
   const http::AnswerBatch batch;
@@ -238,24 +226,26 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .metrics = metrics,
                                .verdicts = verdicts,
                                .clock = clock,
-                               .readiness = [&app] { return app.readiness(); },
-                               .connections = connection_calls(config, outside)};
+                               .readiness = [&app] { return app.readiness(); }};
   // Beyond these a client gets 503 rather than no answer.
   const std::int64_t most_clients = allow_connections(config.max_connections);
   std::vector<http::Route> of_plant;
+  connections::add_connections_routes(of_plant, outside);
   api::add_mtconnect_routes(of_plant, services);
+  api::Schemas schemas;
+  connections::add_connection_schemas(schemas);
   auto started = http::Server::start(
       server_options(config, *addresses, most_clients),
-      api::make_routes(services, std::move(of_plant)),
+      api::make_routes(services, std::move(of_plant), schemas),
       hooks(services,
             api::Guard(app.keys(), mode,
                        [](std::string_view what) { log_warning("proxy_suspected", what); }),
             metrics));
   if (!started) return started.error();
   http::Server& server = **started;
-  auto control = start_control(config, app, services);
+  auto control = start_control(config, services);
   if (!control) return control.error();
-  auto adapter = start_shdr(config, app, clock);
+  auto adapter = start_shdr(config, services);
   if (!adapter) return adapter.error();
   metrics.add([&server](api::Exposition& out) { write_server_metrics(server, out); });
   if (!config.tls_client_ca.empty()) {

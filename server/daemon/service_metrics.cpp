@@ -141,14 +141,14 @@ void write_storage_metrics(const app::Application& app, const fs::path& folder,
   out.sample(size_of(folder / "fitgauge.db-wal"), {{"file", "wal"}});
 }
 
-void write_connection_metrics(const std::vector<app::ConnectionState>& connections,
+void write_connection_metrics(const std::vector<connections::ConnectionState>& connections,
                               const Clock& clock, api::Exposition& out) {
   const auto each = [&](const auto& value_of) {
-    for (const app::ConnectionState& connection : connections) {
+    for (const connections::ConnectionState& connection : connections) {
       out.sample(value_of(connection), {{"connection", connection.name}});
     }
   };
-  const auto count = [&](std::uint64_t app::ConnectionState::*member) {
+  const auto count = [&](std::uint64_t connections::ConnectionState::*member) {
     each([member](const auto& connection) { return static_cast<double>(connection.*member); });
   };
   out.gauge("fitgauge_connection_up", "1 when its last attempt succeeded");
@@ -164,18 +164,18 @@ void write_connection_metrics(const std::vector<app::ConnectionState>& connectio
   out.gauge("fitgauge_connection_behind_measurements", "Outgoing: measurements not dealt with");
   each([](const auto& connection) { return static_cast<double>(connection.behind); });
   out.counter("fitgauge_connection_failures_total", "Attempts that failed");
-  count(&app::ConnectionState::failures);
+  count(&connections::ConnectionState::failures);
   out.counter("fitgauge_connection_files_total", "Files taken because they were new, or written");
-  count(&app::ConnectionState::files);
+  count(&connections::ConnectionState::files);
   out.counter("fitgauge_connection_bytes_total", "Bytes of these files");
-  count(&app::ConnectionState::bytes);
+  count(&connections::ConnectionState::bytes);
   out.counter("fitgauge_connection_measurements_total",
               "Measurements stored, or told to the other side");
-  count(&app::ConnectionState::measurements);
+  count(&connections::ConnectionState::measurements);
   out.counter("fitgauge_connection_unreadable_total", "Places in them that no reader understood");
-  count(&app::ConnectionState::unreadable);
+  count(&connections::ConnectionState::unreadable);
   out.counter("fitgauge_connection_refused_total", "Measurements that the other side refused");
-  count(&app::ConnectionState::refused);
+  count(&connections::ConnectionState::refused);
 }
 
 void write_process_metrics(api::Exposition& out) {

@@ -5,8 +5,8 @@
 #include "api/service/exposition.hpp"
 #include "base/clock.hpp"
 #include "http/server.hpp"
+#include "plant/connection_state.hpp"
 #include "service/application.hpp"
-#include "service/state/connection_state.hpp"
 
 namespace fitgauge::daemon {
 
@@ -23,7 +23,7 @@ void write_storage_metrics(const app::Application& app, const std::filesystem::p
 void write_process_metrics(api::Exposition& out);
 
 /// Of every connection, by its name.
-void write_connection_metrics(const std::vector<app::ConnectionState>& connections,
+void write_connection_metrics(const std::vector<connections::ConnectionState>& connections,
                               const Clock& clock, api::Exposition& out);
 
 }  // namespace fitgauge::daemon

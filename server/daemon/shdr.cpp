@@ -6,8 +6,8 @@
 
 namespace fitgauge::daemon {
 
-Result<std::unique_ptr<shdr::ShdrAdapter>> start_shdr(const Config& config, app::Application& app,
-                                                      const Clock& clock) {
+Result<std::unique_ptr<shdr::ShdrAdapter>> start_shdr(const Config& config,
+                                                      const api::Services& services) {
   using Adapter = std::unique_ptr<shdr::ShdrAdapter>;
   if (config.shdr_listen.empty()) return Adapter();
   const auto address = http::parse_listen_address(config.shdr_listen);
@@ -18,7 +18,7 @@ Result<std::unique_ptr<shdr::ShdrAdapter>> start_shdr(const Config& config, app:
                                                  log_warning("shdr_agent_sent_away",
                                                              fmt::format("{}: {}", peer, why));
                                                }},
-                                          app, clock);
+                                          services.measurements, services.events, services.clock);
   if (!adapter) return adapter.error();
   log_info("shdr_listening", fmt::format("port {}", (*adapter)->port()));
   return *std::move(adapter);

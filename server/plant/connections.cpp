@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "service/documents/document_service.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -23,26 +24,26 @@ Error read_only(std::string_view name) {
 
 }  // namespace
 
-Connections::Connections(Surroundings around)
-    : around_(std::move(around)), changes_("connections", 1, kMostWaiting) {}
+Connections::Connections(Plant plant)
+    : plant_(std::move(plant)), changes_("connections", 1, kMostWaiting) {}
 
 Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> configured,
-                                                        Surroundings around) {
-  std::unique_ptr<Connections> all(new Connections(std::move(around)));
-  const auto stored = all->around_.app.documents().wait_for_list(app::DocumentKind::Connection);
+                                                        Plant plant) {
+  std::unique_ptr<Connections> all(new Connections(std::move(plant)));
+  const auto stored = all->plant_.documents.wait_for_list(app::DocumentKind::Connection);
   if (!stored) return stored.error();
   for (Definition& definition : configured) all->begin(std::move(definition), true);
   for (const app::NamedDocument& document : *stored) {
     const auto not_started = [&](std::string_view why) {
-      all->around_.tell("connection_not_started", fmt::format("{}: {}", document.name, why));
+      all->plant_.tell("connection_not_started", fmt::format("{}: {}", document.name, why));
     };
     if (all->find(document.name)) {
       not_started("the configuration file has a connection of that name");
       continue;
     }
     const auto body = parse_stored_json(document.text, "a connection");
-    auto definition = body ? read_definition(document.name, *body, {.roots = all->around_.folders})
-                           : body.error();
+    auto definition =
+        body ? read_definition(document.name, *body, {.roots = all->plant_.folders}) : body.error();
     if (definition) {
       all->begin(*std::move(definition), false);
     } else {
@@ -61,7 +62,7 @@ Connections::~Connections() {
 
 void Connections::begin(Definition definition, bool is_read_only) {
   const std::string key = ascii_lower(definition.name);
-  auto worker = make_worker(definition, around_);
+  auto worker = make_worker(definition, plant_);
   const std::lock_guard lock(mutex_);
   entries_.insert_or_assign(
       key, Entry{.known = {std::move(definition), is_read_only}, .worker = std::move(worker)});
@@ -82,8 +83,8 @@ std::optional<Connections::Known> Connections::find(std::string_view name) const
   return found == entries_.end() ? std::nullopt : std::optional(found->second.known);
 }
 
-app::ConnectionState Connections::state_of(const Entry& entry) {
-  app::ConnectionState state = entry.worker->state();
+ConnectionState Connections::state_of(const Entry& entry) {
+  ConnectionState state = entry.worker->state();
   state.name = entry.known.definition.name;
   state.kind = entry.known.definition.kind;
   state.settings = entry.known.definition.settings;
@@ -91,64 +92,63 @@ app::ConnectionState Connections::state_of(const Entry& entry) {
   return state;
 }
 
-std::vector<app::ConnectionState> Connections::states() const {
-  std::vector<app::ConnectionState> states;
+std::vector<ConnectionState> Connections::states() const {
+  std::vector<ConnectionState> states;
   const std::lock_guard lock(mutex_);
   for (const auto& [key, entry] : entries_) states.push_back(state_of(entry));
   return states;
 }
 
-app::ConnectionCalls Connections::calls() {
-  return {.run =
-              [this](std::function<void()> work) {
-                return changes_.submit(std::move(work)).has_value();
-              },
-          .states = [this] { return states(); },
-          .state = [this](std::string_view name) -> std::optional<app::ConnectionState> {
-            const std::lock_guard lock(mutex_);
-            const auto found = entries_.find(ascii_lower(name));
-            if (found == entries_.end() || found->second.known.definition.name != name)
-              return std::nullopt;
-            return state_of(found->second);
-          },
-          .put = [this](const app::ConnectionCalls::Put& order) { return put(order); },
-          .remove = [this](const std::string& name) { return remove(name); },
-          .test = [this](const std::string& name) { return test(name); }};
+std::optional<ConnectionState> Connections::state(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(ascii_lower(name));
+  if (found == entries_.end() || found->second.known.definition.name != name) return std::nullopt;
+  return state_of(found->second);
 }
 
-Result<bool> Connections::put(const app::ConnectionCalls::Put& order) {
-  if (const auto checked = check_name(order.name); !checked) return checked.error();
-  const auto before = find(order.name);
+bool Connections::run(std::function<void()> work) {
+  return changes_.submit(std::move(work)).has_value();
+}
+
+Result<bool> Connections::put(const std::string& name, std::string_view body,
+                              const std::optional<std::string>& caller) {
+  if (plant_.is_shared) {
+    return Error{ErrorCode::ConnectionReadOnly,
+                 "this daemon shares its database and keeps no connections: give them to a station "
+                 "with a data folder of its own, which forwards to here"};
+  }
+  if (const auto checked = check_name(name); !checked) return checked.error();
+  const auto before = find(name);
   if (before && before->is_read_only) return read_only(before->definition.name);
-  if (before && before->definition.name != order.name) {
+  if (before && before->definition.name != name) {
     return Error{ErrorCode::PathMalformed,
                  fmt::format("'{}' and the connection '{}' differ in upper and lower case alone",
-                             order.name, before->definition.name)};
+                             name, before->definition.name)};
   }
   if (!before && states().size() >= kMostConnections) {
     return Error{
         ErrorCode::RequestInvalid,
         fmt::format("there are {} connections, and no more can be: delete one", kMostConnections)};
   }
-  auto body = parse_json(order.body);
-  if (!body) return body.error();
-  if (before) keep_secrets(*body, before->definition);
-  auto definition = read_definition(order.name, *body, {.roots = around_.folders});
+  auto json = parse_json(body);
+  if (!json) return json.error();
+  if (before) keep_secrets(*json, before->definition);
+  auto definition = read_definition(name, *json, {.roots = plant_.folders});
   if (!definition) return definition.error();
   if (const FollowerOptions* const follower = follower_options(*definition)) {
     // Where it begins is known before it is there: nothing that comes after the answer is missed.
     if (!before) {
-      const auto forgotten = forget_progress(around_.app.documents(), order.name);
+      const auto forgotten = forget_progress(plant_.documents, name);
       if (!forgotten) return forgotten.error();
     }
-    if (const auto begun = begin_progress(*follower, around_.app); !begun) return begun.error();
+    if (const auto begun = begin_progress(*follower, plant_); !begun) return begun.error();
   }
-  const auto is_new = around_.app.documents().write_and_wait({.kind = app::DocumentKind::Connection,
-                                                              .name = order.name,
-                                                              .text = definition->text,
-                                                              .caller = order.caller});
+  const auto is_new = plant_.documents.write_and_wait({.kind = app::DocumentKind::Connection,
+                                                       .name = name,
+                                                       .text = definition->text,
+                                                       .caller = caller});
   if (!is_new) return is_new.error();
-  end(ascii_lower(order.name));
+  end(ascii_lower(name));
   begin(*std::move(definition), false);
   return *is_new;
 }
@@ -157,16 +157,16 @@ Result<void> Connections::remove(const std::string& name) {
   const auto found = find(name);
   if (found && found->definition.name == name && found->is_read_only) return read_only(name);
   // Also one that was stored and not started.
-  const auto removed = around_.app.documents().remove_and_wait(app::DocumentKind::Connection, name);
+  const auto removed = plant_.documents.remove_and_wait(app::DocumentKind::Connection, name);
   if (!removed) return removed.error();
   if (found && found->definition.name == name) end(ascii_lower(name));
-  return forget_progress(around_.app.documents(), name);
+  return forget_progress(plant_.documents, name);
 }
 
-Result<app::ConnectionTest> Connections::test(const std::string& name) {
+Result<ConnectionTest> Connections::test(const std::string& name) {
   const auto found = find(name);
   if (!found || found->definition.name != name) return unknown(name);
-  return test_connection(found->definition, around_, stopping_.get_token());
+  return test_connection(found->definition, plant_, stopping_.get_token());
 }
 
 }  // namespace fitgauge::connections

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -10,7 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/json/schema.hpp"
 #include "base/worker_pool.hpp"
+#include "http/route.hpp"
 #include "plant/definition.hpp"
 #include "plant/workers.hpp"
 
@@ -27,15 +30,31 @@ class Connections {
   /// the name of one of the file, is told to the log and not started.
   /// @errors those of the storage.
   static Result<std::unique_ptr<Connections>> start(std::vector<Definition> configured,
-                                                    Surroundings around);
+                                                    Plant plant);
   /// Ends all connections and waits for them.
   ~Connections();
   Connections(const Connections&) = delete;
   Connections& operator=(const Connections&) = delete;
 
-  std::vector<app::ConnectionState> states() const;
-  /// For the resources; used no longer than this.
-  app::ConnectionCalls calls();
+  Timestamp now() const { return plant_.clock.now(); }
+  std::vector<ConnectionState> states() const;  ///< by name
+  std::optional<ConnectionState> state(std::string_view name) const;
+
+  /// Runs what it is given on the one thread that changes connections. Does not wait. @returns
+  /// whether it will: not when too many wait.
+  bool run(std::function<void()> work);
+
+  // These wait, `test` up to half a minute for the other side, and are called inside of `run`.
+
+  /// Stores a connection and starts it. @returns whether it is new. @errors RequestInvalid,
+  ///   PathMalformed, ConnectionReadOnly, those of JSON and storage.
+  Result<bool> put(const std::string& name, std::string_view body,
+                   const std::optional<std::string>& caller);
+  /// Ends a connection and forgets how far it came. @errors ConnectionUnknown,
+  ///   ConnectionReadOnly, those of storage.
+  Result<void> remove(const std::string& name);
+  /// @errors ConnectionUnknown.
+  Result<ConnectionTest> test(const std::string& name);
 
  private:
   struct Known {
@@ -47,24 +66,24 @@ class Connections {
     std::unique_ptr<Worker> worker;
   };
 
-  explicit Connections(Surroundings around);
+  explicit Connections(Plant plant);
 
   void begin(Definition definition, bool is_read_only);
   /// Takes a connection out and waits until it has ended.
   void end(const std::string& key);
   std::optional<Known> find(std::string_view name) const;
-  static app::ConnectionState state_of(const Entry& entry);
+  static ConnectionState state_of(const Entry& entry);
 
-  // On the thread.
-  Result<bool> put(const app::ConnectionCalls::Put& order);
-  Result<void> remove(const std::string& name);
-  Result<app::ConnectionTest> test(const std::string& name);
-
-  const Surroundings around_;
+  const Plant plant_;
   mutable std::mutex mutex_;
   std::map<std::string, Entry> entries_;  ///< by name in lower case
   std::stop_source stopping_;
   WorkerPool changes_;  // last: it uses all above
 };
+
+/// /v1/connections: what is connected to the world outside. @param all outlives the routes.
+void add_connections_routes(std::vector<http::Route>& routes, Connections& all);
+/// Their components of /openapi.json.
+void add_connection_schemas(api::Schemas& schemas);
 
 }  // namespace fitgauge::connections

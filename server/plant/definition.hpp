@@ -20,8 +20,8 @@ struct Definition {
   std::string kind{};
   std::string text{};      ///< JSON, as it is stored
   std::string settings{};  ///< the same without what only this service may know
-  std::variant<collector::MachineOptions, WebhookOptions, FolderInOptions, FolderOutOptions,
-               MqttOptions, SparkplugOptions>
+  std::variant<MachineOptions, WebhookOptions, FolderInOptions, FolderOutOptions, MqttOptions,
+               SparkplugOptions>
       options{};
 };
 

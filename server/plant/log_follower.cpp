@@ -101,8 +101,8 @@ void read_events(api::FieldReader& fields, FollowerOptions& options) {
   if (!has_measurements) options.filter.verdicts = {};
 }
 
-Result<Progress> begin_progress(const FollowerOptions& options, app::Application& app) {
-  auto loaded = load_progress(app.documents(), options.name);
+Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant) {
+  auto loaded = load_progress(plant.documents, options.name);
   if (!loaded) return loaded.error();
   const bool is_new = !*loaded;
   Progress progress = is_new ? Progress() : **std::move(loaded);
@@ -111,16 +111,16 @@ Result<Progress> begin_progress(const FollowerOptions& options, app::Application
   if (options.events.empty()) progress.event.reset();
   if (!is_new && !begins_events) return progress;
   if (is_new && !options.from_beginning) {
-    const auto end = end_of_log(app.measurements());
+    const auto end = end_of_log(plant.measurements);
     if (!end) return end.error();
     progress.position = *end;
   }
   if (begins_events) {
-    const auto events = read_event_page(app.events(), 0, 0);
+    const auto events = read_event_page(plant.events, 0, 0);
     if (!events) return events.error();
     progress.event = is_new && options.from_beginning ? 0 : events->newest;
   }
-  const auto saved = save_progress(app.documents(), options.name, progress);
+  const auto saved = save_progress(plant.documents, options.name, progress);
   if (!saved) return saved.error();
   return progress;
 }
@@ -147,30 +147,25 @@ class LogFollower::Bell final : public app::CommitListener {
 };
 
 LogFollower::LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet,
-                         const Surroundings& around)
-    : options_(std::move(options)),
+                         const Plant& plant)
+    : Worker(options.name, plant),
+      options_(std::move(options)),
       outlet_(std::move(outlet)),
-      around_(around),
       bell_(std::make_shared<Bell>()) {
-  state_.is_outgoing = true;
+  change([](ConnectionState& state) { state.is_outgoing = true; });
   outlet_->wake_by([bell = bell_] { bell->ring(); });
-  around_.app.events().add(bell_);
+  plant_.events.add(bell_);
   bool has_begun = begin();
   thread_ =
       Thread("connection", [this, has_begun](const auto& stop) mutable { run(has_begun, stop); });
 }
 
 LogFollower::~LogFollower() {
-  around_.app.events().remove(bell_);
+  plant_.events.remove(bell_);
   thread_.stop();
 }
 
 void LogFollower::request_stop() { thread_.request_stop(); }
-
-app::ConnectionState LogFollower::state() const {
-  const std::lock_guard lock(mutex_);
-  return state_;
-}
 
 void LogFollower::run(bool& has_begun, const std::stop_token& stop) {
   while (!has_begun && !stop.stop_requested()) {
@@ -206,7 +201,7 @@ void LogFollower::wait(const std::stop_token& stop, std::chrono::milliseconds mo
 }
 
 bool LogFollower::begin() {
-  auto begun = begin_progress(options_, around_.app);
+  auto begun = begin_progress(options_, plant_);
   if (!begun) {
     finish_attempt(begun.error().message);
     return false;
@@ -219,13 +214,13 @@ bool LogFollower::begin() {
 
 Result<void> LogFollower::read_events() {
   if (options_.events.empty() || !pending_events_.empty()) return {};
-  auto page = read_event_page(around_.app.events(), *progress_.event, kPage);
+  auto page = read_event_page(plant_.events, *progress_.event, kPage);
   if (!page) return page.error();
   if (page->gap) {
-    around_.tell("connection_events_lost",
-                 fmt::format("{}: event_retention keeps too few events for how long the other side "
-                             "was away",
-                             options_.name));
+    plant_.tell("connection_events_lost",
+                fmt::format("{}: event_retention keeps too few events for how long the other side "
+                            "was away",
+                            options_.name));
   }
   if (page->events.empty()) return {};
   const std::int64_t last = page->events.back().id;
@@ -242,7 +237,7 @@ Result<void> LogFollower::read_events() {
 }
 
 Result<void> LogFollower::read() {
-  app::MeasurementService& log = around_.app.measurements();
+  app::MeasurementService& log = plant_.measurements;
   if (pending_.size() >= kPage) {
     const auto end = end_of_log(log);
     if (!end) return end.error();
@@ -283,7 +278,7 @@ void LogFollower::deliver_events(const std::stop_token& stop) {
 std::size_t LogFollower::ripe() const {
   if (pending_.empty()) return 0;
   const std::int64_t age =
-      around_.clock.now().nanoseconds - (*pending_.front())->received_at.nanoseconds;
+      plant_.clock.now().nanoseconds - (*pending_.front())->received_at.nanoseconds;
   // After a kill what was decided before it goes out first, when all of it is read.
   if (progress_.planned > progress_.position) {
     const bool is_read = read_to_ >= progress_.planned || pending_.size() >= kPage;
@@ -330,12 +325,12 @@ void LogFollower::deliver(const std::stop_token& stop) {
 
 void LogFollower::take(const Delivery& delivery, std::size_t measurements) {
   is_dirty_ = is_dirty_ || delivery.dealt_with > 0;
-  for (const app::DeadLetter& letter : delivery.refused) {
+  for (const DeadLetter& letter : delivery.refused) {
     progress_.refuse(letter);
-    around_.tell("connection_refused",
-                 fmt::format("{}: {}: {}", options_.name, letter.measurement, letter.reason));
+    plant_.tell("connection_refused",
+                fmt::format("{}: {}: {}", options_.name, letter.measurement, letter.reason));
   }
-  change([&](app::ConnectionState& state) {
+  change([&](ConnectionState& state) {
     state.measurements += measurements;
     state.files += delivery.files;
     state.bytes += delivery.bytes;
@@ -352,26 +347,18 @@ void LogFollower::take(const Delivery& delivery, std::size_t measurements) {
   if (!delivery.refused.empty() || options_.plans) save(true);
 }
 
-void LogFollower::finish_attempt(const std::optional<std::string>& why) {
-  auto turn = app::AttemptTurn::None;
-  change([&](app::ConnectionState& state) {
-    turn = app::note_attempt(state, around_.clock.now(), why);
-  });
-  around_.tell_turn(turn, options_.name, why);
-}
-
 bool LogFollower::save(bool at_once) {
   const Time now = std::chrono::steady_clock::now();
   if (!is_dirty_) return true;
   if (!at_once && now < saved_at_ + kBetweenSaves) return false;
   saved_at_ = now;
   // One that fails is made up for by the next.
-  is_dirty_ = !save_progress(around_.app.documents(), options_.name, progress_).has_value();
+  is_dirty_ = !save_progress(plant_.documents, options_.name, progress_).has_value();
   return !is_dirty_;
 }
 
 void LogFollower::show() {
-  change([&](app::ConnectionState& state) {
+  change([&](ConnectionState& state) {
     state.position = progress_.position;
     state.behind = std::max<std::int64_t>(log_end_ - progress_.position, 0);
     state.waits_since =

@@ -14,8 +14,8 @@
 
 #include "base/thread.hpp"
 #include "plant/log_filter.hpp"
+#include "plant/plant.hpp"
 #include "plant/progress.hpp"
-#include "plant/worker.hpp"
 #include "record/measurement.hpp"
 #include "service/events/event_service.hpp"
 
@@ -32,8 +32,8 @@ std::string event_text(const OutgoingEvent& event, std::string_view origin);
 
 /// How far a delivery has come.
 struct Delivery {
-  std::size_t dealt_with = 0;              ///< of what was to go, from the first on
-  std::vector<app::DeadLetter> refused{};  ///< among these: for good
+  std::size_t dealt_with = 0;         ///< of what was to go, from the first on
+  std::vector<DeadLetter> refused{};  ///< among these: for good
   std::uint64_t files = 0;
   std::uint64_t bytes = 0;
   std::optional<std::string> failure{};        ///< why it went no further
@@ -86,19 +86,18 @@ void read_events(api::FieldReader& fields, FollowerOptions& options);
 
 /// Decides where a connection that has not begun begins, so that it misses nothing from now on.
 /// Waits. @errors those of storage.
-Result<Progress> begin_progress(const FollowerOptions& options, app::Application& app);
+Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant);
 
 /// Follows the log of measurements and gives what passes the filter to an outlet, in order and at
 /// least once. How far it came is in the database at most a second later. An attempt in vain is
 /// repeated after 1 s, 2 s, 4 s and so on. Never waited for by a writer.
 class LogFollower final : public Worker {
  public:
-  /// Waits for the storage, which says where it begins. @param around outlives it.
-  LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet, const Surroundings& around);
+  /// Waits for the storage, which says where it begins. @param plant outlives it.
+  LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet, const Plant& plant);
   ~LogFollower() override;
 
   void request_stop() override;
-  app::ConnectionState state() const override;
 
  private:
   using Time = std::chrono::steady_clock::time_point;
@@ -121,21 +120,13 @@ class LogFollower final : public Worker {
   std::size_t planned(std::size_t count);
   /// @param measurements of it that went out
   void take(const Delivery& delivery, std::size_t measurements);
-  void finish_attempt(const std::optional<std::string>& why);
   /// Unless it was saved less than a second ago. @returns whether nothing is left to save.
   bool save(bool at_once);
   void show();
   void wait(const std::stop_token& stop, std::chrono::milliseconds most);
 
-  template <class Change>
-  void change(const Change& what) {
-    const std::lock_guard lock(mutex_);
-    what(state_);
-  }
-
   const FollowerOptions options_;
   const std::unique_ptr<Outlet> outlet_;
-  const Surroundings& around_;
   const std::shared_ptr<Bell> bell_;
 
   // Of the thread.
@@ -150,8 +141,6 @@ class LogFollower final : public Worker {
   bool cannot_read_ = false;
   Time saved_at_{};
 
-  mutable std::mutex mutex_;
-  app::ConnectionState state_;
   Thread thread_;  // last: it uses all above
 };
 

@@ -24,7 +24,7 @@ std::string text_of(const JsonValue& object, std::string_view name) {
   return value == nullptr ? std::string() : value->text;
 }
 
-Progress read(const JsonValue& stored) {
+Progress progress_of(const JsonValue& stored) {
   Progress progress{.position = whole_number(stored, "position"),
                     .planned = whole_number(stored, "planned"),
                     .refused = static_cast<std::uint64_t>(whole_number(stored, "refused"))};
@@ -39,13 +39,13 @@ Progress read(const JsonValue& stored) {
   return progress;
 }
 
-std::string write(const Progress& progress) {
+std::string json_of(const Progress& progress) {
   std::string text;
   api::JsonWriter json(text);
   json.begin_object().member("position", progress.position).member("planned", progress.planned);
   if (progress.event) json.member("event", *progress.event);
   json.member("refused", progress.refused).key("dead_letters").begin_array();
-  for (const app::DeadLetter& letter : progress.dead_letters) {
+  for (const DeadLetter& letter : progress.dead_letters) {
     json.begin_object()
         .member("measurement", letter.measurement)
         .member("reason", letter.reason)
@@ -61,7 +61,7 @@ std::string session_name(const std::string& name) { return name + ".session"; }
 
 }  // namespace
 
-void Progress::refuse(app::DeadLetter letter) {
+void Progress::refuse(DeadLetter letter) {
   ++refused;
   dead_letters.insert(dead_letters.begin(), std::move(letter));
   if (dead_letters.size() > kMostLetters) dead_letters.pop_back();
@@ -76,13 +76,13 @@ Result<std::optional<Progress>> load_progress(app::DocumentService& documents,
   }
   const auto stored = parse_stored_json(document->text, "the progress of a connection");
   if (!stored) return stored.error();
-  return std::optional(read(*stored));
+  return std::optional(progress_of(*stored));
 }
 
 Result<void> save_progress(app::DocumentService& documents, const std::string& name,
                            const Progress& progress) {
   const auto written =
-      documents.write_and_wait({.kind = kKind, .name = name, .text = write(progress)});
+      documents.write_and_wait({.kind = kKind, .name = name, .text = json_of(progress)});
   if (!written) return written.error();
   return {};
 }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "plant/connection_state.hpp"
 #include "service/documents/document_service.hpp"
-#include "service/state/connection_state.hpp"
 
 namespace fitgauge::connections {
 
@@ -16,10 +16,10 @@ struct Progress {
   std::int64_t planned = 0;   ///< what goes out together next ends there; up to `position`: nothing
   std::optional<std::int64_t> event{};  ///< the last stored event that is dealt with
   std::uint64_t refused = 0;
-  std::vector<app::DeadLetter> dead_letters{};  ///< the newest first
+  std::vector<DeadLetter> dead_letters{};  ///< the newest first
 
   /// Keeps the newest of them.
-  void refuse(app::DeadLetter letter);
+  void refuse(DeadLetter letter);
 };
 
 /// None where the connection has not begun. Waits. @errors those of storage.

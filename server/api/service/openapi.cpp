@@ -222,16 +222,16 @@ void write_info(JsonWriter& json) {
   json.end_array();
 }
 
-void write_components(JsonWriter& json) {
+void write_components(JsonWriter& json, const Schemas& of_plant) {
   json.key("components").begin_object().key("securitySchemes").raw(kSecurity);
   json.key("responses").raw(kResponses).key("schemas").begin_object();
-  for (const NamedSchema& schema : make_schemas()) json.key(schema.name).raw(schema.json);
+  for (const NamedSchema& schema : make_schemas(of_plant)) json.key(schema.name).raw(schema.json);
   json.end_object().end_object();
 }
 
 }  // namespace
 
-Schemas make_schemas() {
+Schemas make_schemas(const Schemas& of_plant) {
   Schemas schemas;
   add_limits_schemas(schemas);
   add_statistics_schemas(schemas);
@@ -243,12 +243,12 @@ Schemas make_schemas() {
   add_setup_schemas(schemas);
   add_run_schemas(schemas);
   add_cycle_schemas(schemas);
-  add_connection_schemas(schemas);
+  schemas.insert(schemas.end(), of_plant.begin(), of_plant.end());
   add_service_schemas(schemas);
   return schemas;
 }
 
-std::string openapi_json(const std::vector<http::Route>& routes) {
+std::string openapi_json(const std::vector<http::Route>& routes, const Schemas& of_plant) {
   std::map<std::string, std::vector<const http::Route*>> paths;
   for (const http::Route& route : routes) paths[openapi_path(route.pattern)].push_back(&route);
   std::string out;
@@ -262,12 +262,12 @@ std::string openapi_json(const std::vector<http::Route>& routes) {
     json.end_object();
   }
   json.end_object();
-  write_components(json);
+  write_components(json, of_plant);
   json.end_object();
   return out;
 }
 
-void add_openapi_route(std::vector<http::Route>& routes) {
+void add_openapi_route(std::vector<http::Route>& routes, const Schemas& of_plant) {
   routes.push_back({.pattern = "/openapi.json",
                     .handler = http::SyncHandler{},
                     .summary = "This description",
@@ -275,7 +275,7 @@ void add_openapi_route(std::vector<http::Route>& routes) {
                     .operation = "getOpenapi",
                     .tag = "service",
                     .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
-  const auto document = http::prepare({200, "application/json", openapi_json(routes)});
+  const auto document = http::prepare({200, "application/json", openapi_json(routes, of_plant)});
   routes.back().handler = [document](const http::Request&) -> Result<http::Response> {
     return http::Response(document);
   };

@@ -9,6 +9,9 @@
 #include "base/digest.hpp"
 #include "plant/folder/file_rows.hpp"
 #include "record/measurement_batch.hpp"
+#include "service/measurements/gauges_in_use.hpp"
+#include "service/measurements/measurement_service.hpp"
+#include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -45,11 +48,10 @@ bool is_of_storage(const Error& error) {
   }
 }
 
-Result<std::optional<TakenFile>> take_file(const FolderInOptions& options,
-                                           const Surroundings& around, std::string_view file_name,
-                                           const RestingFile& file,
+Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const Plant& plant,
+                                           std::string_view file_name, const RestingFile& file,
                                            const RestingFile* description) {
-  const auto tables = around.app.tables().tables();
+  const auto tables = plant.tables.tables();
   if (!tables) return tables.error();
   Sha256 digest;
   for (const RestingFile* const part : {description, &file}) {
@@ -62,7 +64,7 @@ Result<std::optional<TakenFile>> take_file(const FolderInOptions& options,
       file.is_unchanged() && (description == nullptr || description->is_unchanged());
   if (!is_unchanged) return std::optional<TakenFile>();
   if (!rows) return rows.error();
-  const auto gauges = around.gauges.book();
+  const auto gauges = plant.gauges.book();
   const app::IdempotencyScope scope{.caller = options.name,
                                     .method = "FOLDER",
                                     .path = "folder_in",
@@ -71,7 +73,7 @@ Result<std::optional<TakenFile>> take_file(const FolderInOptions& options,
                                     .is_kept_for_ever = true};
   api::MeasurementBatch batch;
   api::BatchContext context{.tables = **tables,
-                            .received_at = around.clock.now(),
+                            .received_at = plant.clock.now(),
                             .caller = options.name,
                             .gauges = gauges.get()};
   // All are judged before the first is stored: a wrong file is none of the writer's business.
@@ -79,7 +81,7 @@ Result<std::optional<TakenFile>> take_file(const FolderInOptions& options,
   const auto judged = api::decode_measurements(rows->text, rows->media_type, context, batch);
   if (!judged) return at_lines_of(*rows, judged.error());
   CountedRows counted;
-  const auto stored = around.app.measurements().record_while_reading(
+  const auto stored = plant.measurements.record_while_reading(
       [&](const app::MeasurementService::Take& take) {
         batch = {};
         context.take = take;

@@ -21,9 +21,9 @@ struct TakenFile {
 /// @param description of a DFX: its DFD; else null.
 /// @returns nothing when the file has changed meanwhile.
 /// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
-Result<std::optional<TakenFile>> take_file(const FolderInOptions& options,
-                                           const Surroundings& around, std::string_view file_name,
-                                           const RestingFile& file, const RestingFile* description);
+Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const Plant& plant,
+                                           std::string_view file_name, const RestingFile& file,
+                                           const RestingFile* description);
 
 /// What is wrong with a file, for the one who wrote it: lines, and what to do.
 std::string told(std::string_view file_name, const Error& error);

@@ -24,7 +24,6 @@
 #include "plant/folder/file_taking.hpp"
 #include "plant/folder/resting_file.hpp"
 #include "plant/folder/whole_file.hpp"
-#include "plant/lsv2/collector_options.hpp"
 #include "plant/lsv2/link/descriptor.hpp"
 
 namespace fitgauge::connections {
@@ -58,16 +57,12 @@ std::optional<std::string> move_to(const fs::path& from, const fs::path& to) {
 
 class FolderIn final : public Worker {
  public:
-  FolderIn(FolderInOptions options, const Surroundings& around)
-      : options_(std::move(options)), around_(around) {
+  FolderIn(FolderInOptions options, const Plant& plant)
+      : Worker(options.name, plant), options_(std::move(options)) {
     thread_ = Thread("folder_in", [this](const std::stop_token& stop) { run(stop); });
   }
 
   void request_stop() override { thread_.request_stop(); }
-  app::ConnectionState state() const override {
-    const std::lock_guard lock(mutex_);
-    return state_;
-  }
 
  private:
   using Time = std::chrono::steady_clock::time_point;
@@ -91,16 +86,8 @@ class FolderIn final : public Worker {
   /// @param names of the file, and of its description where it has one
   std::optional<std::string> fail(const std::vector<std::string>& names, const Error& error);
   bool is_wanted(const std::string& name) const;
-  void finish_attempt(const std::optional<std::string>& why);
-
-  template <class Change>
-  void change(const Change& what) {
-    const std::lock_guard lock(mutex_);
-    what(state_);
-  }
 
   const FolderInOptions options_;
-  const Surroundings& around_;
 
   // Of the thread.
   Descriptor inotify_;
@@ -110,8 +97,6 @@ class FolderIn final : public Worker {
   std::set<std::string> moved_in_;  ///< whole from the first moment on
   bool is_restless_ = false;        ///< a file is not yet at rest
 
-  mutable std::mutex mutex_;
-  app::ConnectionState state_;
   Thread thread_;  // last: it uses all above
 };
 
@@ -158,9 +143,8 @@ void FolderIn::wait(const std::stop_token& stop, std::chrono::milliseconds most)
 
 bool FolderIn::is_wanted(const std::string& name) const {
   return !name.starts_with('.') &&
-         std::any_of(options_.names.begin(), options_.names.end(), [&](const std::string& glob) {
-           return collector::matches({.folder = {}, .name = glob}, name);
-         });
+         std::any_of(options_.names.begin(), options_.names.end(),
+                     [&](const std::string& glob) { return matches_glob(glob, name); });
 }
 
 std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
@@ -245,7 +229,7 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
     files.push_back(**std::move(file));
   }
   const auto taken =
-      take_file(options_, around_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
+      take_file(options_, plant_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
   if (!taken) {
     if (is_of_storage(taken.error())) return taken.error().message;
     return fail(names, taken.error());
@@ -255,16 +239,16 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
     for (const std::string& one : names) seen_[one].since = std::chrono::steady_clock::now();
     return std::nullopt;
   }
-  change([&](app::ConnectionState& state) {
+  change([&](ConnectionState& state) {
     state.measurements += (*taken)->measurements;
     if ((*taken)->was_taken_before) return;
     ++state.files;
     state.bytes += static_cast<std::uint64_t>(size);
   });
   if ((*taken)->was_taken_before) {
-    around_.tell("file_taken_before", fmt::format("{}: {}: the same bytes are stored; it is moved "
-                                                  "to done",
-                                                  options_.name, name));
+    plant_.tell("file_taken_before", fmt::format("{}: {}: the same bytes are stored; it is moved "
+                                                 "to done",
+                                                 options_.name, name));
   }
   seen.is_taken = true;
   return move_away(names);
@@ -291,10 +275,10 @@ std::optional<std::string> FolderIn::fail(const std::vector<std::string>& names,
   if (!write_whole_file(folder / (to + ".error.txt"), told(name, error))) {
     return fmt::format("{}: cannot write into {}: {}", name, folder.string(), because());
   }
-  change([](app::ConnectionState& state) { ++state.unreadable; });
-  around_.tell("file_refused",
-               fmt::format("{}: {}: {}", options_.name, name,
-                           error.details.empty() ? error.message : error.details.front().message));
+  change([](ConnectionState& state) { ++state.unreadable; });
+  plant_.tell("file_refused",
+              fmt::format("{}: {}: {}", options_.name, name,
+                          error.details.empty() ? error.message : error.details.front().message));
   if (auto why = move_to(options_.folder / name, folder / to)) return why;
   for (const std::string& beside : std::span(names).subspan(1)) {
     if (auto why = move_to(options_.folder / beside, folder / free_name(beside, folder)))
@@ -303,21 +287,13 @@ std::optional<std::string> FolderIn::fail(const std::vector<std::string>& names,
   return std::nullopt;
 }
 
-void FolderIn::finish_attempt(const std::optional<std::string>& why) {
-  auto turn = app::AttemptTurn::None;
-  change([&](app::ConnectionState& state) {
-    turn = app::note_attempt(state, around_.clock.now(), why);
-  });
-  around_.tell_turn(turn, options_.name, why);
-}
-
 }  // namespace
 
-std::unique_ptr<Worker> make_folder_in(const FolderInOptions& options, const Surroundings& around) {
-  return std::make_unique<FolderIn>(options, around);
+std::unique_ptr<Worker> make_folder_in(const FolderInOptions& options, const Plant& plant) {
+  return std::make_unique<FolderIn>(options, plant);
 }
 
-app::ConnectionTest test_folder_in(const FolderInOptions& options) {
+ConnectionTest test_folder_in(const FolderInOptions& options) {
   std::error_code failure;
   if (!fs::is_directory(options.folder, failure)) {
     return {.ok = false, .detail = options.folder.string() + " is no folder"};

@@ -12,7 +12,7 @@
 #include "formats/dfq/limits.hpp"
 #include "formats/sheet/shop_csv.hpp"
 #include "plant/folder/folder_path.hpp"
-#include "plant/worker.hpp"
+#include "plant/plant.hpp"
 
 namespace fitgauge::connections {
 
@@ -36,10 +36,10 @@ FolderInOptions read_folder_in(std::string_view name, const FolderPermissions& a
                                api::FieldReader& fields, api::FieldErrors& errors);
 
 /// Takes the files of a folder, each once, and moves them to its folder `done`, or with a text that
-/// names line and remedy to `failed`. @param around outlives it.
-std::unique_ptr<Worker> make_folder_in(const FolderInOptions& options, const Surroundings& around);
+/// names line and remedy to `failed`. @param plant outlives it.
+std::unique_ptr<Worker> make_folder_in(const FolderInOptions& options, const Plant& plant);
 
 /// Whether the folder can be read, and files moved in it.
-app::ConnectionTest test_folder_in(const FolderInOptions& options);
+ConnectionTest test_folder_in(const FolderInOptions& options);
 
 }  // namespace fitgauge::connections

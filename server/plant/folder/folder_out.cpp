@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using Format = FolderOutOptions::Format;
 using Split = FolderOutOptions::Split;
 
-constexpr std::size_t kLongestKey = 60;
+constexpr std::size_t kLongestKeyInName = 60;
 
 /// Measurements that stand in one file.
 struct File {
@@ -42,7 +42,7 @@ std::string_view key_of(const app::Measurement& measurement, Split split) {
 
 /// What a name of a file may have; the numbers before it keep two apart that become alike.
 std::string plain(std::string_view key) {
-  std::string name(key.substr(0, kLongestKey));
+  std::string name(key.substr(0, kLongestKeyInName));
   std::replace_if(
       name.begin(), name.end(),
       [](char c) { return !is_ascii_alphanumeric(c) && c != '-' && c != '_'; }, '_');
@@ -51,20 +51,20 @@ std::string plain(std::string_view key) {
 
 class FolderOut final : public Outlet {
  public:
-  FolderOut(FolderOutOptions options, const Surroundings& around)
-      : options_(std::move(options)), around_(around) {}
+  FolderOut(FolderOutOptions options, const Plant& plant)
+      : options_(std::move(options)), plant_(plant) {}
 
   Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
 
  private:
   std::vector<File> files_of(std::span<const Outgoing> measurements,
-                             std::vector<app::DeadLetter>& refused) const;
+                             std::vector<DeadLetter>& refused) const;
   /// @errors a DFQ or a QIF cannot hold it.
   Result<void> add(File& file, const app::Measurement& measurement) const;
   fs::path path_of(const File& file) const;
 
   const FolderOutOptions options_;
-  const Surroundings& around_;
+  const Plant& plant_;
 };
 
 Result<void> FolderOut::add(File& file, const app::Measurement& measurement) const {
@@ -88,7 +88,7 @@ Result<void> FolderOut::add(File& file, const app::Measurement& measurement) con
 }
 
 std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements,
-                                      std::vector<app::DeadLetter>& refused) const {
+                                      std::vector<DeadLetter>& refused) const {
   std::vector<File> files;
   for (const Outgoing& outgoing : measurements) {
     const app::Measurement& measurement = **outgoing;
@@ -104,7 +104,7 @@ std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements,
       refused.push_back(
           {.measurement = app::measurement_id_text(measurement.id, measurement.origin),
            .reason = added.error().message,
-           .at = around_.clock.now()});
+           .at = plant_.clock.now()});
     }
   }
   for (File& file : files) {
@@ -124,7 +124,7 @@ fs::path FolderOut::path_of(const File& file) const {
 
 Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::stop_token&) {
   Delivery delivery;
-  std::vector<app::DeadLetter> refused;
+  std::vector<DeadLetter> refused;
   for (const File& file : files_of(measurements, refused)) {
     if (file.text.empty()) continue;  // nothing of it can be written
     const fs::path path = path_of(file);
@@ -201,12 +201,11 @@ FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions&
   return options;
 }
 
-std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options,
-                                        const Surroundings& around) {
-  return std::make_unique<FolderOut>(options, around);
+std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options, const Plant& plant) {
+  return std::make_unique<FolderOut>(options, plant);
 }
 
-app::ConnectionTest test_folder_out(const FolderOutOptions& options) {
+ConnectionTest test_folder_out(const FolderOutOptions& options) {
   const fs::path path = options.folder / fmt::format(".{}.test", options.follower.name);
   if (!write_whole_file(path, "fitgauge\n")) {
     return {.ok = false,

@@ -27,11 +27,10 @@ FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions&
 
 /// Writes NAME-FIRST-LAST.csv, where the numbers are the positions of the measurements in the log;
 /// beside, and renamed when it is whole and on disk.
-/// What a DFQ cannot hold is a dead letter. @param around outlives it.
-std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options,
-                                        const Surroundings& around);
+/// What a DFQ cannot hold is a dead letter. @param plant outlives it.
+std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options, const Plant& plant);
 
 /// Whether a file can be written there.
-app::ConnectionTest test_folder_out(const FolderOutOptions& options);
+ConnectionTest test_folder_out(const FolderOutOptions& options);
 
 }  // namespace fitgauge::connections

@@ -13,7 +13,7 @@
 #include "formats/measuring_log/measuring_log.hpp"
 #include "tables/iso286/designation.hpp"
 
-namespace fitgauge::collector {
+namespace fitgauge::connections {
 namespace {
 
 using app::Measurement;
@@ -266,4 +266,4 @@ Collected collect(const Origin& origin, const std::string& bytes) {
   return found;
 }
 
-}  // namespace fitgauge::collector
+}  // namespace fitgauge::connections

@@ -10,7 +10,7 @@
 #include "record/measurement.hpp"
 #include "service/tables/table_catalog.hpp"
 
-namespace fitgauge::collector {
+namespace fitgauge::connections {
 
 /// One log, or one result of an FN 16 file, as it is to be stored. Owns what its measurements look
 /// at, so it stays where it is.
@@ -48,4 +48,4 @@ struct Origin {
 /// first length, indeterminate. Angles and figures of axes stay in the file.
 Collected collect(const Origin& origin, const std::string& bytes);
 
-}  // namespace fitgauge::collector
+}  // namespace fitgauge::connections

@@ -15,7 +15,7 @@
 #include "plant/lsv2/intake.hpp"
 #include "plant/lsv2/link/link_client.hpp"
 
-namespace fitgauge::collector {
+namespace fitgauge::connections {
 namespace {
 
 using control_link::DirectoryEntry;
@@ -52,22 +52,16 @@ std::vector<std::string> folders_of(const MachineOptions& machine) {
   return folders;
 }
 
-}  // namespace
-
-class Collector::Machine {
+/// Reads measuring logs from a control, with a thread and a connection of its own: one that is
+/// slow or away holds up no other.
+class Collector final : public Worker {
  public:
-  Machine(MachineOptions options, app::Application& app, const Clock& clock,
-          const CollectorHooks& hooks)
-      : options_(std::move(options)), intake_(app, clock), clock_(clock), hooks_(hooks) {
+  Collector(MachineOptions options, const Plant& plant)
+      : Worker(options.name, plant), options_(std::move(options)) {
     thread_ = Thread("a collector", [this](const std::stop_token& stop) { run(stop); });
   }
 
-  void stop() { thread_.request_stop(); }
-
-  app::ConnectionState state() const {
-    const std::lock_guard lock(mutex_);
-    return state_;
-  }
+  void request_stop() override { thread_.request_stop(); }
 
  private:
   /// As a file looked when it was last fetched.
@@ -88,35 +82,23 @@ class Collector::Machine {
                                    const DirectoryEntry& entry);
   /// After anything but a refusal the talk is over.
   std::string failed(const std::string& path, const LinkFailure& failure);
-  void finish_round(const std::optional<std::string>& why);
-
-  template <class Change>
-  void change(const Change& what) {
-    const std::lock_guard lock(mutex_);
-    what(state_);
-  }
 
   const MachineOptions options_;
-  Intake intake_;
-  const Clock& clock_;
-  const CollectorHooks hooks_;
   std::map<std::string, Seen> seen_;  ///< by path in lower case; of the thread alone
   std::size_t round_bytes_ = 0;
   bool is_away_ = false;  ///< the machine is not reached, or its connection broke
-  mutable std::mutex mutex_;
-  app::ConnectionState state_;
   std::condition_variable_any woken_;
   std::mutex waiting_;
   Thread thread_;  // last: it uses all above
 };
 
-void Collector::Machine::run(const std::stop_token& stop) {
+void Collector::run(const std::stop_token& stop) {
   std::chrono::seconds wait = options_.interval;
   while (!stop.stop_requested()) {
     std::optional<std::string> why = "a defect of fitgauge ended the attempt";
     guarded("collector", [&] { why = round(stop); });
     if (stop.stop_requested()) return;
-    finish_round(why);
+    finish_attempt(why);
     const auto most = std::max(options_.longest_wait, options_.interval);
     wait = is_away_ ? std::min(2 * wait, most) : options_.interval;
     std::unique_lock lock(waiting_);
@@ -124,14 +106,7 @@ void Collector::Machine::run(const std::stop_token& stop) {
   }
 }
 
-void Collector::Machine::finish_round(const std::optional<std::string>& why) {
-  auto turn = app::AttemptTurn::None;
-  change([&](app::ConnectionState& state) { turn = app::note_attempt(state, clock_.now(), why); });
-  if (turn == app::AttemptTurn::Failing && hooks_.failed) hooks_.failed(options_.name, *why);
-  if (turn == app::AttemptTurn::Recovered && hooks_.recovered) hooks_.recovered(options_.name);
-}
-
-std::optional<std::string> Collector::Machine::round(const std::stop_token& stop) {
+std::optional<std::string> Collector::round(const std::stop_token& stop) {
   is_away_ = true;
   auto control = connect(options_, stop);
   if (!control) return control.error().message;
@@ -147,8 +122,7 @@ std::optional<std::string> Collector::Machine::round(const std::stop_token& stop
 }
 
 /// A folder or a file that cannot be read holds up no other, as long as the connection stands.
-std::optional<std::string> Collector::Machine::read_folder(LinkClient& control,
-                                                           const std::string& folder) {
+std::optional<std::string> Collector::read_folder(LinkClient& control, const std::string& folder) {
   auto entries = control.list(folder, options_.most_entries);
   if (!entries) return failed(folder, entries.error());
   std::optional<std::string> first;
@@ -166,13 +140,13 @@ std::optional<std::string> Collector::Machine::read_folder(LinkClient& control,
   return first;
 }
 
-std::string Collector::Machine::failed(const std::string& path, const LinkFailure& failure) {
+std::string Collector::failed(const std::string& path, const LinkFailure& failure) {
   is_away_ = failure.kind != LinkFailure::Kind::Refused;
   return path + ": " + failure.message;
 }
 
-std::optional<std::string> Collector::Machine::fetch(LinkClient& control, const std::string& path,
-                                                     const DirectoryEntry& entry) {
+std::optional<std::string> Collector::fetch(LinkClient& control, const std::string& path,
+                                            const DirectoryEntry& entry) {
   const std::string key = ascii_lower(path);
   const auto known = seen_.find(key);
   const bool is_known = known != seen_.end() && known->second.bytes == entry.bytes &&
@@ -196,10 +170,10 @@ std::optional<std::string> Collector::Machine::fetch(LinkClient& control, const 
     known->second = {entry.bytes, entry.unix_time, digest, is_known};
     return std::nullopt;
   }
-  const auto taken = intake_.take(options_, path, *bytes);
+  const auto taken = take_logs(plant_, options_, path, *bytes);
   if (!taken) return path + ": " + taken.error().message;
   seen_[key] = {entry.bytes, entry.unix_time, digest, false};
-  change([&](app::ConnectionState& state) {
+  change([&](ConnectionState& state) {
     ++state.files;
     state.bytes += bytes->size();
     state.logs += taken->logs;
@@ -207,23 +181,20 @@ std::optional<std::string> Collector::Machine::fetch(LinkClient& control, const 
     state.values_kept += taken->values_kept;
     state.unreadable += taken->unread.size();
   });
-  if (!taken->unread.empty() && hooks_.unread) {
-    hooks_.unread(options_.name, path, taken->unread.front());
+  if (!taken->unread.empty()) {
+    plant_.tell("log_not_understood", fmt::format("{}: {}: {}; the file is kept whole",
+                                                  options_.name, path, taken->unread.front()));
   }
   return std::nullopt;
 }
 
-Collector::Collector(MachineOptions machine, app::Application& app, const Clock& clock,
-                     CollectorHooks hooks)
-    : machine_(std::make_unique<Machine>(std::move(machine), app, clock, hooks)) {}
+}  // namespace
 
-Collector::~Collector() = default;
+std::unique_ptr<Worker> make_collector(const MachineOptions& machine, const Plant& plant) {
+  return std::make_unique<Collector>(machine, plant);
+}
 
-void Collector::request_stop() { machine_->stop(); }
-
-app::ConnectionState Collector::state() const { return machine_->state(); }
-
-app::ConnectionTest test_machine(const MachineOptions& machine, const std::stop_token& stop) {
+ConnectionTest test_machine(const MachineOptions& machine, const std::stop_token& stop) {
   auto control = connect(machine, stop);
   if (!control) return {.ok = false, .detail = control.error().message};
   std::size_t files = 0;
@@ -241,4 +212,4 @@ app::ConnectionTest test_machine(const MachineOptions& machine, const std::stop_
   return {.ok = true, .detail = fmt::format("logged in; {} files are watched", files)};
 }
 
-}  // namespace fitgauge::collector
+}  // namespace fitgauge::connections

@@ -6,34 +6,7 @@
 
 #include "base/text.hpp"
 
-namespace fitgauge::collector {
-namespace {
-
-/// Glob without backtracking beyond the last star: linear in name times stars.
-bool glob(std::string_view pattern, std::string_view name) {
-  std::size_t p = 0;
-  std::size_t n = 0;
-  std::size_t star = std::string_view::npos;
-  std::size_t after = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      after = n;
-    } else if (p < pattern.size() &&
-               (pattern[p] == '?' || ascii_lower(pattern[p]) == ascii_lower(name[n]))) {
-      ++p;
-      ++n;
-    } else if (star != std::string_view::npos) {
-      p = star + 1;
-      n = ++after;
-    } else {
-      return false;
-    }
-  }
-  return pattern.find_first_not_of('*', p) == std::string_view::npos;
-}
-
-}  // namespace
+namespace fitgauge::connections {
 
 Result<WatchedPath> parse_watched_path(std::string_view text) {
   std::string path(text);
@@ -52,7 +25,7 @@ Result<WatchedPath> parse_watched_path(std::string_view text) {
 }
 
 bool matches(const WatchedPath& watched, std::string_view file_name) {
-  return glob(watched.name, file_name);
+  return matches_glob(watched.name, file_name);
 }
 
-}  // namespace fitgauge::collector
+}  // namespace fitgauge::connections

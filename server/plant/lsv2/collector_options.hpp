@@ -9,7 +9,7 @@
 #include "formats/measuring_log/pattern.hpp"
 #include "plant/lsv2/link/link_socket.hpp"
 
-namespace fitgauge::collector {
+namespace fitgauge::connections {
 
 /// Files that are watched: a folder of the control and a name that may have `*` and `?`.
 struct WatchedPath {
@@ -41,4 +41,4 @@ struct MachineOptions {
   std::size_t most_entries = 10'000;                     ///< of a folder
 };
 
-}  // namespace fitgauge::collector
+}  // namespace fitgauge::connections

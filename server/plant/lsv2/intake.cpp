@@ -8,8 +8,10 @@
 
 #include "nc/program/control_path.hpp"
 #include "plant/lsv2/collected_log.hpp"
+#include "service/files/file_service.hpp"
+#include "service/measurements/measurement_service.hpp"
 
-namespace fitgauge::collector {
+namespace fitgauge::connections {
 namespace {
 
 constexpr std::size_t kMostUnderWay = 16;
@@ -52,12 +54,34 @@ UnderWay store(app::MeasurementService& measurements, const MachineOptions& mach
   return {std::move(log), std::move(is_new), std::move(future)};
 }
 
+/// Keeps the file where it is not there as it is.
+Result<void> keep(app::FileService& files, const MachineOptions& machine, const std::string& path,
+                  const std::string& bytes) {
+  constexpr std::size_t kDrive = 5;  // TNC:\.
+  auto kept = interpreter::ControlPath::parse(
+      fmt::format("TNC:\\collected\\{}\\{}", machine.name, path.substr(kDrive)));
+  if (!kept) return kept.error();
+  std::promise<Result<app::DiskFile>> read;
+  auto found = read.get_future();
+  files.read(*kept, [&read](Result<app::DiskFile> file) { read.set_value(std::move(file)); });
+  const auto there = found.get();
+  if (there && there->bytes == bytes) return {};
+  if (!there && there.error().code != ErrorCode::FileUnknown) return there.error();
+  std::promise<Result<app::FileService::Written>> write;
+  auto written = write.get_future();
+  files.write(
+      *std::move(kept), bytes, machine.name, {},
+      [&write](Result<app::FileService::Written> done) { write.set_value(std::move(done)); });
+  if (const auto done = written.get(); !done) return done.error();
+  return {};
+}
+
 }  // namespace
 
-Result<Taken> Intake::take(const MachineOptions& machine, const std::string& path,
-                           const std::string& bytes) {
+Result<Taken> take_logs(const Plant& plant, const MachineOptions& machine, const std::string& path,
+                        const std::string& bytes) {
   const Collected found = collect(
-      {.machine = machine, .path = path, .tables = app_.tables(), .now = clock_.now()}, bytes);
+      {.machine = machine, .path = path, .tables = plant.tables, .now = plant.clock.now()}, bytes);
   Taken taken{.logs = found.logs.size(), .unread = found.unread};
   std::deque<UnderWay> under_way;
   std::optional<Error> failed;
@@ -76,34 +100,12 @@ Result<Taken> Intake::take(const MachineOptions& machine, const std::string& pat
     if (log->measurements.empty()) continue;
     if (under_way.size() == kMostUnderWay) finish_one();
     if (failed) break;
-    under_way.push_back(store(app_.measurements(), machine, log));
+    under_way.push_back(store(plant.measurements, machine, log));
   }
   while (!under_way.empty()) finish_one();
   if (failed) return *failed;
-  if (const auto done = keep(machine, path, bytes); !done) return done.error();
+  if (const auto done = keep(plant.files, machine, path, bytes); !done) return done.error();
   return taken;
 }
 
-Result<void> Intake::keep(const MachineOptions& machine, const std::string& path,
-                          const std::string& bytes) {
-  constexpr std::size_t kDrive = 5;  // TNC:\.
-  auto kept = interpreter::ControlPath::parse(
-      fmt::format("TNC:\\collected\\{}\\{}", machine.name, path.substr(kDrive)));
-  if (!kept) return kept.error();
-  std::promise<Result<app::DiskFile>> read;
-  auto found = read.get_future();
-  app_.files().read(*kept,
-                    [&read](Result<app::DiskFile> file) { read.set_value(std::move(file)); });
-  const auto there = found.get();
-  if (there && there->bytes == bytes) return {};
-  if (!there && there.error().code != ErrorCode::FileUnknown) return there.error();
-  std::promise<Result<app::FileService::Written>> write;
-  auto written = write.get_future();
-  app_.files().write(
-      *std::move(kept), bytes, machine.name, {},
-      [&write](Result<app::FileService::Written> done) { write.set_value(std::move(done)); });
-  if (const auto done = written.get(); !done) return done.error();
-  return {};
-}
-
-}  // namespace fitgauge::collector
+}  // namespace fitgauge::connections

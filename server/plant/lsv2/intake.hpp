@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "plant/lsv2/collector_options.hpp"
-#include "service/application.hpp"
+#include "plant/plant.hpp"
 
-namespace fitgauge::collector {
+namespace fitgauge::connections {
 
 /// What a file has given.
 struct Taken {
@@ -22,22 +21,9 @@ struct Taken {
 /// However often and however far it came before, each log is stored once: its key is kept for ever
 /// in the transaction that stores its measurements. Waits; at most sixteen jobs of it wait for the
 /// writer. Thread-safe.
-class Intake {
- public:
-  /// @param app, clock outlive it.
-  Intake(app::Application& app, const Clock& clock) : app_(app), clock_(clock) {}
+/// @errors FilePathInvalid: the path is too long to keep; StorageBusy, StorageUnavailable: try
+///   again, nothing is lost.
+Result<Taken> take_logs(const Plant& plant, const MachineOptions& machine, const std::string& path,
+                        const std::string& bytes);
 
-  /// @errors FilePathInvalid: the path is too long to keep; StorageBusy, StorageUnavailable: try
-  ///   again, nothing is lost.
-  Result<Taken> take(const MachineOptions& machine, const std::string& path,
-                     const std::string& bytes);
-
- private:
-  Result<void> keep(const MachineOptions& machine, const std::string& path,
-                    const std::string& bytes);
-
-  app::Application& app_;
-  const Clock& clock_;
-};
-
-}  // namespace fitgauge::collector
+}  // namespace fitgauge::connections

@@ -9,7 +9,6 @@ namespace {
 
 using api::FieldErrors;
 using api::FieldReader;
-using collector::MachineOptions;
 
 constexpr std::size_t kMostPaths = 100;
 constexpr std::size_t kMostPatterns = 20;
@@ -43,7 +42,7 @@ void read_paths(FieldReader& fields, FieldErrors& errors, MachineOptions& machin
       errors.add(ErrorCode::FieldType, pointer, "a path is a text");
       continue;
     }
-    if (auto watched = collector::parse_watched_path(item.text)) {
+    if (auto watched = parse_watched_path(item.text)) {
       machine.paths.push_back(*std::move(watched));
     } else {
       errors.add(ErrorCode::FieldInvalid, pointer, watched.error().message);

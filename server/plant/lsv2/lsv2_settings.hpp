@@ -8,7 +8,6 @@ namespace fitgauge::connections {
 /// Reads what the kind lsv2 takes: `address`, `paths`, `machine`, `interval_s`, and `patterns`,
 /// each
 /// `{"file","text"}`. What is wrong goes to `errors`.
-collector::MachineOptions read_lsv2(std::string_view name, api::FieldReader& fields,
-                                    api::FieldErrors& errors);
+MachineOptions read_lsv2(std::string_view name, api::FieldReader& fields, api::FieldErrors& errors);
 
 }  // namespace fitgauge::connections

@@ -29,8 +29,8 @@ bool is_of_the_message(int reason) {
 
 class Mqtt final : public Outlet {
  public:
-  Mqtt(const MqttOptions& options, const Surroundings& around)
-      : around_(around),
+  Mqtt(const MqttOptions& options, const Plant& plant)
+      : plant_(plant),
         options_(options),
         link_(options.broker,
               MqttMessage{.topic = options.status_topic, .payload = "offline", .retain = true}) {}
@@ -53,7 +53,7 @@ class Mqtt final : public Outlet {
   template <class Items, class Compose>
   Delivery publish(const Items& items, const std::stop_token& stop, const Compose& compose);
 
-  const Surroundings& around_;
+  const Plant& plant_;
   const MqttOptions options_;
   MqttLink link_;
 };
@@ -82,7 +82,7 @@ Delivery Mqtt::deliver(std::span<const Outgoing> measurements, const std::stop_t
 }
 
 Delivery Mqtt::deliver_events(std::span<const OutgoingEvent> events, const std::stop_token& stop) {
-  const std::string_view origin = around_.app.log().origin();
+  const std::string_view origin = plant_.origin;
   return publish(events, stop, [this, origin](const OutgoingEvent& event) {
     const std::string id = event_text(event, origin);
     return Published{.id = id,
@@ -124,7 +124,7 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
     if (*reason != 0) {
       delivery.refused.push_back({.measurement = ahead.front().id,
                                   .reason = mqtt_reason(*reason),
-                                  .at = around_.clock.now()});
+                                  .at = plant_.clock.now()});
     }
     ahead.pop_front();
     ++delivery.dealt_with;
@@ -182,18 +182,18 @@ MqttOptions read_mqtt(std::string_view name, const FolderPermissions& allowed,
   return options;
 }
 
-std::unique_ptr<Outlet> make_mqtt(const MqttOptions& options, const Surroundings& around) {
+std::unique_ptr<Outlet> make_mqtt(const MqttOptions& options, const Plant& plant) {
   MqttOptions all = options;
-  all.broker = named(all.broker, around.app.log().origin(), options.follower.name);
+  all.broker = named(all.broker, plant.origin, options.follower.name);
   const std::string own = topic_level(all.broker.client_id);
   if (all.status_topic.empty()) all.status_topic = own + "/status";
   if (all.events_topic.empty()) all.events_topic = own + "/events";
-  return std::make_unique<Mqtt>(all, around);
+  return std::make_unique<Mqtt>(all, plant);
 }
 
-app::ConnectionTest test_broker(const Broker& broker, std::string_view connection,
-                                const Surroundings& around, const std::stop_token& stop) {
-  Broker probe = named(broker, around.app.log().origin(), connection);
+ConnectionTest test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
+                           const std::stop_token& stop) {
+  Broker probe = named(broker, plant.origin, connection);
   probe.client_id += "-test";  // the broker would send the connection itself away
   MqttClient client(probe, {}, [] {});
   if (auto failure = client.wait_connected(stop)) return {.ok = false, .detail = *failure};

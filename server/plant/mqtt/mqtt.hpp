@@ -30,11 +30,11 @@ MqttOptions read_mqtt(std::string_view name, const FolderPermissions& allowed,
 /// Publishes each measurement's record with QoS 1, in order and at most 32 ahead of the broker's
 /// acknowledgements; a measurement is dealt with when its own has come, and those before it. What
 /// the broker says it will never take (MQTT 5) is a dead letter. Stays connected between.
-/// @param around outlives it.
-std::unique_ptr<Outlet> make_mqtt(const MqttOptions& options, const Surroundings& around);
+/// @param plant outlives it.
+std::unique_ptr<Outlet> make_mqtt(const MqttOptions& options, const Plant& plant);
 
 /// Connects under a client id of its own and says nothing.
-app::ConnectionTest test_broker(const Broker& broker, std::string_view connection,
-                                const Surroundings& around, const std::stop_token& stop);
+ConnectionTest test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
+                           const std::stop_token& stop);
 
 }  // namespace fitgauge::connections

@@ -12,6 +12,7 @@
 #include "base/guarded.hpp"
 #include "base/thread.hpp"
 #include "plant/mtconnect/mtconnect_shdr.hpp"
+#include "service/events/event_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::shdr {
@@ -39,8 +40,9 @@ Line shared(std::string line) { return std::make_shared<const std::string>(std::
 class ShdrAdapter::Loop final : public app::CommitListener,
                                 public std::enable_shared_from_this<Loop> {
  public:
-  Loop(AdapterOptions options, app::Application& app, const Clock& clock)
-      : options_(std::move(options)), app_(app), clock_(clock) {}
+  Loop(AdapterOptions options, app::MeasurementService& measurements, app::EventService& events,
+       const Clock& clock)
+      : options_(std::move(options)), measurements_(measurements), events_(events), clock_(clock) {}
 
   Result<void> open() {
     const auto failed = [&](const error_code& error) {
@@ -59,13 +61,13 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     if (!error) port_ = acceptor_.local_endpoint(error).port();
     if (error) return failed(error);
     accept();
-    app_.events().add(shared_from_this());
+    events_.add(shared_from_this());
     thread_ = Thread("the SHDR adapter", [this](const auto&) { io_.run(); });
     return {};
   }
 
   void stop() {
-    app_.events().remove(shared_from_this());
+    events_.remove(shared_from_this());
     io_.stop();
     thread_.stop();
     agents_.clear();
@@ -190,7 +192,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   void list(const app::MeasurementQuery& query, std::int64_t after, std::size_t limit, Take take) {
     is_reading_ = true;
     const auto lines = std::make_shared<std::vector<Line>>();
-    app_.measurements().list(
+    measurements_.list(
         query, after, limit,
         [lines](const app::Measurement& measurement) {
           lines->push_back(shared(mtconnect::shdr_line(measurement)));
@@ -221,7 +223,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
 
   void count() {
     counts_soon_ = false;
-    app_.measurements().summary(
+    measurements_.summary(
         {}, "tolerance_class",
         [self = shared_from_this(),
          at = clock_.now()](const Result<std::vector<app::MeasurementGroup>>& groups) {
@@ -232,7 +234,8 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   }
 
   const AdapterOptions options_;
-  app::Application& app_;
+  app::MeasurementService& measurements_;
+  app::EventService& events_;
   const Clock& clock_;
   std::uint16_t port_ = 0;
   std::atomic<bool> committed_ = false;  ///< is on its way to the thread
@@ -253,8 +256,10 @@ class ShdrAdapter::Loop final : public app::CommitListener,
 };
 
 Result<std::unique_ptr<ShdrAdapter>> ShdrAdapter::start(AdapterOptions options,
-                                                        app::Application& app, const Clock& clock) {
-  auto loop = std::make_shared<Loop>(std::move(options), app, clock);
+                                                        app::MeasurementService& measurements,
+                                                        app::EventService& events,
+                                                        const Clock& clock) {
+  auto loop = std::make_shared<Loop>(std::move(options), measurements, events, clock);
   if (const auto opened = loop->open(); !opened) return opened.error();
   return std::unique_ptr<ShdrAdapter>(new ShdrAdapter(std::move(loop)));
 }

@@ -9,7 +9,11 @@
 #include "base/clock.hpp"
 #include "http/server.hpp"
 #include "plant/mtconnect/agent_session.hpp"
-#include "service/application.hpp"
+
+namespace fitgauge::app {
+class EventService;
+class MeasurementService;
+}  // namespace fitgauge::app
 
 namespace fitgauge::shdr {
 
@@ -26,9 +30,10 @@ struct AdapterOptions {
 /// while an agent is there, on a thread of its own; no writer waits for it.
 class ShdrAdapter {
  public:
-  /// @param app and clock outlive it. @errors ListenFailed
-  static Result<std::unique_ptr<ShdrAdapter>> start(AdapterOptions options, app::Application& app,
-                                                    const Clock& clock);
+  /// @param measurements, events, clock outlive it. @errors ListenFailed
+  static Result<std::unique_ptr<ShdrAdapter>> start(AdapterOptions options,
+                                                    app::MeasurementService& measurements,
+                                                    app::EventService& events, const Clock& clock);
   /// Closes every connection.
   ~ShdrAdapter();
   ShdrAdapter(const ShdrAdapter&) = delete;

@@ -19,11 +19,11 @@ constexpr std::chrono::seconds kHostPause{1};
 
 class Sparkplug final : public Outlet {
  public:
-  Sparkplug(const SparkplugOptions& options, const Surroundings& around)
-      : around_(around),
+  Sparkplug(const SparkplugOptions& options, const Plant& plant)
+      : plant_(plant),
         options_(options),
         link_(options.broker),
-        node_(options_, around.clock,
+        node_(options_, plant.clock,
               [this](MqttMessage message) { link_.client().publish(std::move(message)); }) {}
   ~Sparkplug() override { leave(); }
 
@@ -42,7 +42,7 @@ class Sparkplug final : public Outlet {
   void leave();
   bool has_host() const { return options_.primary_host.empty() || host_.is_online(); }
 
-  const Surroundings& around_;
+  const Plant& plant_;
   const SparkplugOptions options_;
   MqttLink link_;
   EdgeNode node_;
@@ -63,7 +63,7 @@ std::optional<std::string> Sparkplug::connect(const std::stop_token& stop) {
   if (link_.is_up()) return std::nullopt;
   is_born_ = false;
   host_.forget();
-  const auto session = next_session(around_.app.documents(), options_.follower.name);
+  const auto session = next_session(plant_.documents, options_.follower.name);
   if (!session) return session.error().message;
   node_.begin_session(*session);
   link_.set_will(node_.death());
@@ -146,11 +146,10 @@ Delivery Sparkplug::deliver(std::span<const Outgoing> measurements, const std::s
 
 }  // namespace
 
-std::unique_ptr<Outlet> make_sparkplug(const SparkplugOptions& options,
-                                       const Surroundings& around) {
+std::unique_ptr<Outlet> make_sparkplug(const SparkplugOptions& options, const Plant& plant) {
   SparkplugOptions all = options;
-  all.broker = named(all.broker, around.app.log().origin(), options.follower.name);
-  return std::make_unique<Sparkplug>(all, around);
+  all.broker = named(all.broker, plant.origin, options.follower.name);
+  return std::make_unique<Sparkplug>(all, plant);
 }
 
 }  // namespace fitgauge::connections

@@ -31,7 +31,7 @@ SparkplugOptions read_sparkplug(std::string_view name, const FolderPermissions& 
 
 /// Each measurement is the data of a device. Data has QoS 0, as the specification wants it, so a
 /// measurement is dealt with when the broker has answered a question that came behind it: it takes
-/// the packets of a connection in their order. @param around outlives it.
-std::unique_ptr<Outlet> make_sparkplug(const SparkplugOptions& options, const Surroundings& around);
+/// the packets of a connection in their order. @param plant outlives it.
+std::unique_ptr<Outlet> make_sparkplug(const SparkplugOptions& options, const Plant& plant);
 
 }  // namespace fitgauge::connections

@@ -75,26 +75,26 @@ struct VirtualControl::Parts {
 };
 
 Result<std::unique_ptr<VirtualControl>> VirtualControl::start(VirtualControlOptions options,
-                                                              app::Application& app) {
+                                                              app::FileService& files,
+                                                              app::RunService& runs) {
   const ControlModel* const model = find_model(options.model);
   if (model == nullptr) {
     return Error{ErrorCode::ConfigInvalid, "there is no control model '" + options.model + "'"};
   }
-  if (const auto brought = bring_files(app.files(), *model, options.setup); !brought) {
+  if (const auto brought = bring_files(files, *model, options.setup); !brought) {
     return brought.error();
   }
-  app::FileService& files = app.files();
   auto start = [&files, begin = std::move(options.start)](const interpreter::ControlPath& path) {
     auto run = begin(path);
     if (run) keep_files(files, *run);
     return run;
   };
-  auto parts = std::unique_ptr<Parts>(new Parts{
-      .state = {.model = *model,
-                .is_writable = options.is_writable,
-                .disk = VirtualDisk(files, app.runs()),
-                .machine = MachineView(app.runs(), std::move(options.setup), std::move(start)),
-                .transfers = ByteBudget(kTransferBytes)}});
+  auto parts = std::unique_ptr<Parts>(
+      new Parts{.state = {.model = *model,
+                          .is_writable = options.is_writable,
+                          .disk = VirtualDisk(files, runs),
+                          .machine = MachineView(runs, std::move(options.setup), std::move(start)),
+                          .transfers = ByteBudget(kTransferBytes)}});
   parts->state.parameters.emplace(model->language_parameter(), model->language());
   auto server = control_link::LinkServer::start(
       std::move(options.link),

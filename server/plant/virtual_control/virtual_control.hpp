@@ -8,7 +8,10 @@
 
 #include "plant/lsv2/link/link_server.hpp"
 #include "plant/virtual_control/machine_view.hpp"
-#include "service/application.hpp"
+
+namespace fitgauge::app {
+class FileService;
+}
 
 namespace fitgauge::virtual_control {
 
@@ -25,10 +28,11 @@ struct VirtualControlOptions {
 /// program, a tool table and the example programs, each where none is stored.
 class VirtualControl {
  public:
-  /// @param app outlives it.
+  /// @param files, runs outlive it.
   /// @errors ListenFailed; ConfigInvalid: no such model; those of the storage.
   static Result<std::unique_ptr<VirtualControl>> start(VirtualControlOptions options,
-                                                       app::Application& app);
+                                                       app::FileService& files,
+                                                       app::RunService& runs);
   /// Closes every connection.
   ~VirtualControl();
 

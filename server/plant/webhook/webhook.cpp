@@ -79,10 +79,8 @@ std::string reason_of(const HttpAnswer& answer) {
 
 class Webhook final : public Outlet {
  public:
-  Webhook(const WebhookOptions& options, const Surroundings& around)
-      : around_(around),
-        options_(options),
-        client_({.may_reach_private = around.may_reach_private}) {}
+  Webhook(const WebhookOptions& options, const Plant& plant)
+      : plant_(plant), options_(options), client_({.may_reach_private = plant.may_reach_private}) {}
 
   Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
   Delivery deliver_events(std::span<const OutgoingEvent> events,
@@ -98,7 +96,7 @@ class Webhook final : public Outlet {
   template <class Items, class Compose>
   Delivery post(const Items& items, const std::stop_token& stop, const Compose& compose);
 
-  const Surroundings& around_;
+  const Plant& plant_;
   const WebhookOptions options_;
   http_client::HttpClient client_;
   int attempts_ = 0;  ///< of the first event that is not dealt with
@@ -106,7 +104,7 @@ class Webhook final : public Outlet {
 
 HttpAnswer Webhook::send(std::string_view id, std::string_view body, const std::stop_token& stop) {
   const std::string timestamp =
-      std::to_string(around_.clock.now().nanoseconds / kNanosecondsPerSecond);
+      std::to_string(plant_.clock.now().nanoseconds / kNanosecondsPerSecond);
   return client_.call(
       {.url = options_.url,
        .headers = {"Content-Type: application/json", fmt::format("webhook-id: {}", id),
@@ -135,7 +133,7 @@ Delivery Webhook::post(const Items& items, const std::stop_token& stop, const Co
         return delivery;
       }
       delivery.refused.push_back(
-          {.measurement = posted.id, .reason = reason_of(answer), .at = around_.clock.now()});
+          {.measurement = posted.id, .reason = reason_of(answer), .at = plant_.clock.now()});
     }
     attempts_ = 0;
     ++delivery.dealt_with;
@@ -158,7 +156,7 @@ Delivery Webhook::deliver(std::span<const Outgoing> measurements, const std::sto
 
 Delivery Webhook::deliver_events(std::span<const OutgoingEvent> events,
                                  const std::stop_token& stop) {
-  const std::string_view origin = around_.app.log().origin();
+  const std::string_view origin = plant_.origin;
   return post(events, stop, [origin](const OutgoingEvent& event) {
     return Posted{.id = event_text(event, origin),
                   .body = begun_event(event.type, event.at) + event.payload + '}'};
@@ -202,18 +200,18 @@ WebhookOptions read_webhook(std::string_view name, FieldReader& fields, FieldErr
   return options;
 }
 
-std::unique_ptr<Outlet> make_webhook(const WebhookOptions& options, const Surroundings& around) {
-  return std::make_unique<Webhook>(options, around);
+std::unique_ptr<Outlet> make_webhook(const WebhookOptions& options, const Plant& plant) {
+  return std::make_unique<Webhook>(options, plant);
 }
 
-app::ConnectionTest test_webhook(const WebhookOptions& options, const Surroundings& around,
-                                 const std::stop_token& stop) {
-  const Timestamp now = around.clock.now();
+ConnectionTest test_webhook(const WebhookOptions& options, const Plant& plant,
+                            const std::stop_token& stop) {
+  const Timestamp now = plant.clock.now();
   std::string body = begun_event("connection.test", now);
   api::JsonWriter(body).begin_object().member("connection", options.follower.name).end_object();
   body += '}';
   const HttpAnswer answer =
-      Webhook(options, around).send(fmt::format("test-{}", now.nanoseconds), body, stop);
+      Webhook(options, plant).send(fmt::format("test-{}", now.nanoseconds), body, stop);
   const bool ok = answer.status >= 200 && answer.status <= 299;
   return {.ok = ok, .detail = reason_of(answer)};
 }

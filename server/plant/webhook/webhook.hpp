@@ -36,11 +36,11 @@ WebhookOptions read_webhook(std::string_view name, api::FieldReader& fields,
 /// Posts each measurement as an event `measurement.recorded` whose webhook-id is the measurement's,
 /// and the other events that were asked for.
 /// 2xx is taken. 410 ends the connection. 400, 413, 415 and 422, five times, make a dead letter.
-/// Anything else is repeated for ever. @param around outlives it.
-std::unique_ptr<Outlet> make_webhook(const WebhookOptions& options, const Surroundings& around);
+/// Anything else is repeated for ever. @param plant outlives it.
+std::unique_ptr<Outlet> make_webhook(const WebhookOptions& options, const Plant& plant);
 
 /// Posts one event `connection.test`.
-app::ConnectionTest test_webhook(const WebhookOptions& options, const Surroundings& around,
-                                 const std::stop_token& stop);
+ConnectionTest test_webhook(const WebhookOptions& options, const Plant& plant,
+                            const std::stop_token& stop);
 
 }  // namespace fitgauge::connections

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/guarded.hpp"
+#include "service/application.hpp"
 
 #include <unistd.h>
 
@@ -43,7 +44,8 @@ TEST_CASE("what fails while an agent is taken in is not the last agent that is t
       if (++refusals == 1) throw std::logic_error("a bug of the hook");
       refused.set_value();
     };
-    const auto adapter = ShdrAdapter::start(options, *app, clock).value();
+    const auto adapter =
+        ShdrAdapter::start(options, app->measurements(), app->events(), clock).value();
     http::asio::io_context io;
     for (int i = 0; i < 2; ++i) {
       tcp::socket agent(io);

@@ -1,14 +1,15 @@
 #include "api/schemas.hpp"
+#include "plant/connection_state.hpp"
+#include "plant/connections.hpp"
 #include "service/measurements/measurement_service.hpp"
-#include "service/state/connection_state.hpp"
 
-namespace fitgauge::api {
+namespace fitgauge::connections {
 namespace {
 
-using schema::Fields;
+namespace schema = api::schema;
 using schema::Others;
 
-Fields lsv2_fields() {
+schema::Fields lsv2_fields() {
   return {
       {"address", schema::text(), "host or host:port of the control"},
       {"paths", schema::array(schema::text()), "What is watched: TNC:\\nc_prog\\TCHPR*.TXT"},
@@ -22,8 +23,8 @@ Fields lsv2_fields() {
   };
 }
 
-Fields folder_in_fields() {
-  return Fields{{"folder", schema::text(), "Of this machine, an absolute path"}} +
+schema::Fields folder_in_fields() {
+  return schema::Fields{{"folder", schema::text(), "Of this machine, an absolute path"}} +
          schema::optional(
              {{"names", schema::array(schema::text(100)), "Of files, with * and ?; *.csv and such"},
               {"map", schema::map(schema::text()),
@@ -39,23 +40,23 @@ Fields folder_in_fields() {
 }
 
 /// For lsv2, whose own fields have the interval already.
-Fields without_interval(Fields fields) {
+schema::Fields without_interval(schema::Fields fields) {
   std::erase_if(fields, [](const schema::Field& field) { return field.name == "interval_s"; });
   return fields;
 }
 
-Fields filter_fields() {
-  Fields fields;
+schema::Fields filter_fields() {
+  schema::Fields fields;
   for (const std::string_view name : app::kTextFilters) {
     fields.push_back({std::string(name), schema::text(), "The same text"});
   }
   return schema::optional(
-      fields +
-      Fields{{"verdict", schema::array(verdict_words()), "One of these"},
-             {"source", schema::words({"gauge", "simulation", "all"}), "gauge when absent"}});
+      fields + schema::Fields{
+                   {"verdict", schema::array(api::verdict_words()), "One of these"},
+                   {"source", schema::words({"gauge", "simulation", "all"}), "gauge when absent"}});
 }
 
-Fields follower_fields() {
+schema::Fields follower_fields() {
   return schema::optional(
       {{"filter", schema::object(filter_fields(), Others::Refused),
         "Which measurements go out; all that a gauge has measured when absent"},
@@ -64,20 +65,21 @@ Fields follower_fields() {
        {"longest_wait_s", schema::integer(1, 3600), "Between two attempts; 300 when absent"}});
 }
 
-Fields event_fields() {
+schema::Fields event_fields() {
   return {{"events",
            schema::array(schema::words(
                {"measurement.recorded", "run.finished", "table.changed", "note.added"})),
            "What goes out; measurement.recorded when absent", false}};
 }
 
-Fields webhook_fields() {
-  return Fields{{"url", schema::text(2000), "https://host/path"},
-                {"timeout_s", schema::integer(1, 30), "Of a request; 15 when absent", false}} +
+schema::Fields webhook_fields() {
+  return schema::Fields{
+             {"url", schema::text(2000), "https://host/path"},
+             {"timeout_s", schema::integer(1, 30), "Of a request; 15 when absent", false}} +
          event_fields() + follower_fields();
 }
 
-Fields folder_out_own_fields() {
+schema::Fields folder_out_own_fields() {
   return schema::optional(
       {{"format", schema::words({"csv", "ndjson", "dfq", "qif"}), "csv when absent"},
        {"part_number", schema::text(30), "K1001 of a DFQ; - when absent"},
@@ -87,20 +89,21 @@ Fields folder_out_own_fields() {
        {"every_s", schema::integer(1, 86'400), "What is younger waits for more; 60 when absent"}});
 }
 
-Fields folder_out_fields() {
-  return Fields{{"folder", schema::text(), "Of this machine, an absolute path"},
-                {"time_zone", schema::text(), "Of the times in a DFQ; UTC when absent", false}} +
+schema::Fields folder_out_fields() {
+  return schema::Fields{
+             {"folder", schema::text(), "Of this machine, an absolute path"},
+             {"time_zone", schema::text(), "Of the times in a DFQ; UTC when absent", false}} +
          folder_out_own_fields() + follower_fields();
 }
 
-Fields secret_fields() {
+schema::Fields secret_fields() {
   return {{"secrets", schema::array(schema::text()),
            "1 to 4, whsec_ and 24 to 64 bytes in base64; each signs. Those there are when absent",
            false}};
 }
 
-Fields broker_fields() {
-  return Fields{{"broker", schema::text(200), "mqtts://host or mqtt://host, with :port"}} +
+schema::Fields broker_fields() {
+  return schema::Fields{{"broker", schema::text(200), "mqtts://host or mqtt://host, with :port"}} +
          schema::optional({{"user", schema::text(200), "As the broker knows the service"},
                            {"ca_file", schema::text(),
                             "Of this machine, who vouches for the broker; the "
@@ -110,8 +113,8 @@ Fields broker_fields() {
                             "when absent"}});
 }
 
-Fields mqtt_own_fields() {
-  return Fields{{"topic", schema::text(500), "plant/{machine}/{characteristic}"}} +
+schema::Fields mqtt_own_fields() {
+  return schema::Fields{{"topic", schema::text(500), "plant/{machine}/{characteristic}"}} +
          schema::optional({{"version", schema::words({"3.1.1", "5"}), "Of MQTT; 3.1.1 when absent"},
                            {"status_topic", schema::text(500),
                             "Of online and offline; client_id/status when absent"},
@@ -121,31 +124,32 @@ Fields mqtt_own_fields() {
                             "The broker keeps the last of each topic; true when absent"}});
 }
 
-Fields sparkplug_own_fields() {
-  return Fields{{"group", schema::text(200), "Its id of a group"},
-                {"node", schema::text(200), "Its id of an edge node"}} +
+schema::Fields sparkplug_own_fields() {
+  return schema::Fields{{"group", schema::text(200), "Its id of a group"},
+                        {"node", schema::text(200), "Its id of an edge node"}} +
          schema::optional(
              {{"device", schema::text(500), "{machine}:{characteristic} when absent"},
               {"primary_host", schema::text(200), "Nothing goes out while it is offline"},
               {"most_devices", schema::integer(1, 1000), "Alive together; 1000 when absent"}});
 }
 
-Fields password_field() {
+schema::Fields password_field() {
   return {{"password", schema::text(200),
            "That there is when absent, for the same broker, user and ca_file", false}};
 }
 
-std::string order_of(std::string_view kind, const Fields& fields) {
-  return schema::object(Fields{{"kind", schema::words({kind}), ""}} + fields, Others::Refused);
+std::string order_of(std::string_view kind, const schema::Fields& fields) {
+  return schema::object(schema::Fields{{"kind", schema::words({kind}), ""}} + fields,
+                        Others::Refused);
 }
 
-Fields state_fields() {
+schema::Fields state_fields() {
   const std::string time_or_null = schema::null_or(schema::text());
   const std::string letter =
       schema::object({{"measurement", schema::text(), "Its id"},
                       {"at", schema::time(), "When it was given up"},
                       {"reason", schema::text(), "What the other side said"}});
-  Fields fields = {
+  schema::Fields fields = {
       {"state", schema::words({"waiting", "ok", "failing", "stopped"}),
        "Of its last attempt; stopped: the other side wants no more"},
       {"last_attempt_at", time_or_null, ""},
@@ -158,7 +162,7 @@ Fields state_fields() {
       {"dead_letters", schema::array(letter), "Outgoing: refused for good, the newest first",
        false},
   };
-  for (const app::ConnectionCounter& counter : app::kConnectionCounters) {
+  for (const ConnectionCounter& counter : kConnectionCounters) {
     fields.push_back({std::string(counter.name), schema::count(), std::string(counter.meaning)});
   }
   return fields;
@@ -166,7 +170,7 @@ Fields state_fields() {
 
 }  // namespace
 
-void add_connection_schemas(Schemas& schemas) {
+void add_connection_schemas(api::Schemas& schemas) {
   schemas.push_back(
       {"ConnectionOrder",
        schema::any_of({order_of("lsv2", lsv2_fields()),
@@ -180,7 +184,7 @@ void add_connection_schemas(Schemas& schemas) {
   schemas.push_back(
       {"Connection",
        schema::object(
-           Fields{
+           schema::Fields{
                {"name", schema::text(), ""},
                {"kind",
                 schema::words({"lsv2", "webhook", "folder_in", "folder_out", "mqtt", "sparkplug"}),
@@ -190,8 +194,8 @@ void add_connection_schemas(Schemas& schemas) {
            schema::optional(lsv2_fields() + webhook_fields() +
                             without_interval(folder_in_fields()) + folder_out_own_fields() +
                             broker_fields() + mqtt_own_fields() + sparkplug_own_fields()) +
-           Fields{{"secret_count", schema::count(), "How many secrets there are", false},
-                  {"password_set", schema::boolean(), "There is a password", false}} +
+           schema::Fields{{"secret_count", schema::count(), "How many secrets there are", false},
+                          {"password_set", schema::boolean(), "There is a password", false}} +
            state_fields())});
   schemas.push_back(
       {"Connections",
@@ -201,4 +205,4 @@ void add_connection_schemas(Schemas& schemas) {
                                          {"detail", schema::text(), "What was found"}})});
 }
 
-}  // namespace fitgauge::api
+}  // namespace fitgauge::connections

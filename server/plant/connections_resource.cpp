@@ -1,14 +1,12 @@
-#include "api/resources.hpp"
-
 #include "api/handlers.hpp"
-#include "api/service/caller.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_writer.hpp"
+#include "plant/connections.hpp"
 
-namespace fitgauge::api {
+namespace fitgauge::connections {
 namespace {
 
-using app::ConnectionState;
+using api::JsonWriter;
 
 std::string_view state_word(const ConnectionState& connection) {
   if (connection.is_stopped) return "stopped";
@@ -40,7 +38,7 @@ Result<void> write_settings(JsonWriter& json, const ConnectionState& connection)
 void write_progress(JsonWriter& json, const ConnectionState& connection) {
   json.member("position", connection.position.value_or(0)).member("behind", connection.behind);
   json.key("dead_letters").begin_array();
-  for (const app::DeadLetter& letter : connection.dead_letters) {
+  for (const DeadLetter& letter : connection.dead_letters) {
     json.begin_object()
         .member("measurement", letter.measurement)
         .member("at", format_rfc3339(letter.at))
@@ -73,7 +71,7 @@ Result<void> write_connection(JsonWriter& json, const ConnectionState& connectio
     json.value(connection.last_error);
   }
   if (connection.is_outgoing) write_progress(json, connection);
-  for (const app::ConnectionCounter& counter : app::kConnectionCounters) {
+  for (const ConnectionCounter& counter : kConnectionCounters) {
     json.member(counter.name, connection.*counter.value);
   }
   json.end_object();
@@ -85,15 +83,13 @@ http::Response answer_of(int status, std::string body) {
       .with("Cache-Control", "no-store");
 }
 
-Result<http::Response> list(const Services& services) {
+Result<http::Response> list(const Connections& all) {
   std::string body;
   JsonWriter json(body);
   json.begin_object().key("connections").begin_array();
-  if (services.connections.states) {
-    for (const ConnectionState& connection : services.connections.states()) {
-      const auto written = write_connection(json, connection, services.clock.now());
-      if (!written) return written.error();
-    }
+  for (const ConnectionState& connection : all.states()) {
+    const auto written = write_connection(json, connection, all.now());
+    if (!written) return written.error();
   }
   json.end_array().end_object();
   return answer_of(200, std::move(body));
@@ -105,76 +101,65 @@ Error unknown(const std::string& name) {
   return {ErrorCode::ConnectionUnknown, "there is no connection '" + name + "'"};
 }
 
-Result<http::Response> one(const Services& services, const std::string& name, int status) {
-  const auto state = services.connections.state ? services.connections.state(name) : std::nullopt;
+Result<http::Response> one(const Connections& all, const std::string& name, int status) {
+  const auto state = all.state(name);
   if (!state) return unknown(name);
   std::string body;
   JsonWriter json(body);
-  const auto written = write_connection(json, *state, services.clock.now());
+  const auto written = write_connection(json, *state, all.now());
   if (!written) return written.error();
   return answer_of(status, std::move(body));
 }
 
-void finish(const SharedResponder& shared, Result<http::Response> response) {
-  if (!response) return shared->fail(response.error());
-  shared->answer(*std::move(response));
-}
+using Change = Result<http::Response> (*)(Connections&, const http::Request&);
 
-/// Runs `work` where connections are changed, and answers what it gives.
-template <class Work>
-void change(const Services& services, http::Responder responder, Work work) {
-  const SharedResponder shared = share(std::move(responder));
-  const bool taken = services.connections.run &&
-                     services.connections.run([shared, work] { finish(shared, work()); });
-  if (!taken) {
+/// A handler that answers what `change` gives where connections are changed.
+http::AsyncHandler by(Connections& all, Change change) {
+  return [&all, change](const http::Request& request, http::Responder responder) {
+    const auto shared = api::share(std::move(responder));
+    const bool is_taken = all.run([&all, &request, change, answer = api::answer_by(shared)] {
+      answer(change(all, request));
+    });
+    if (is_taken) return;
     shared->fail({ErrorCode::StorageBusy, "too many changes of connections wait: try again soon"});
-  }
+  };
 }
 
-void put(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto caller = caller_name(request);
-  change(services, std::move(responder),
-         [&services, &request,
-          caller = caller ? std::optional<std::string>(*caller)
-                          : std::nullopt]() -> Result<http::Response> {
-           const auto is_new = services.connections.put(
-               {.name = name_of(request), .body = request.body(), .caller = caller});
-           if (!is_new) return is_new.error();
-           return one(services, name_of(request), *is_new ? 201 : 200);
-         });
+Result<http::Response> put(Connections& all, const http::Request& request) {
+  const auto caller = api::caller_name(request);
+  const auto is_new = all.put(name_of(request), request.body(),
+                              caller ? std::optional<std::string>(*caller) : std::nullopt);
+  if (!is_new) return is_new.error();
+  return one(all, name_of(request), *is_new ? 201 : 200);
 }
 
-void remove(const Services& services, const http::Request& request, http::Responder responder) {
-  change(services, std::move(responder), [&services, &request]() -> Result<http::Response> {
-    const auto removed = services.connections.remove(name_of(request));
-    if (!removed) return removed.error();
-    return http::Response(204);
-  });
+Result<http::Response> remove(Connections& all, const http::Request& request) {
+  const auto removed = all.remove(name_of(request));
+  if (!removed) return removed.error();
+  return http::Response(204);
 }
 
-void test(const Services& services, const http::Request& request, http::Responder responder) {
-  change(services, std::move(responder), [&services, &request]() -> Result<http::Response> {
-    const auto found = services.connections.test(name_of(request));
-    if (!found) return found.error();
-    std::string body;
-    JsonWriter(body)
-        .begin_object()
-        .member("ok", found->ok)
-        .member("detail", found->detail)
-        .end_object();
-    return answer_of(200, std::move(body));
-  });
+Result<http::Response> test(Connections& all, const http::Request& request) {
+  const auto found = all.test(name_of(request));
+  if (!found) return found.error();
+  std::string body;
+  JsonWriter(body)
+      .begin_object()
+      .member("ok", found->ok)
+      .member("detail", found->detail)
+      .end_object();
+  return answer_of(200, std::move(body));
 }
 
 }  // namespace
 
-void add_connections_routes(std::vector<http::Route>& routes, const Services& services) {
+void add_connections_routes(std::vector<http::Route>& routes, Connections& all) {
   const http::Parameter name{.name = "name",
                              .place = http::ParameterPlace::Path,
                              .description = "1 to 63 letters, digits, - and _"};
   routes.push_back({
       .pattern = "/v1/connections",
-      .handler = [&services](const http::Request&) { return list(services); },
+      .handler = [&all](const http::Request&) { return list(all); },
       .summary = "The connections to the world outside: state, lag, last error and what they did",
       .access = "viewer",
       .operation = "listConnections",
@@ -183,8 +168,7 @@ void add_connections_routes(std::vector<http::Route>& routes, const Services& se
   });
   routes.push_back({
       .pattern = "/v1/connections/{name}",
-      .handler = [&services](
-                     const http::Request& request) { return one(services, name_of(request), 200); },
+      .handler = [&all](const http::Request& request) { return one(all, name_of(request), 200); },
       .summary = "A connection: its settings without secrets, and its state",
       .parameters = {name},
       .access = "viewer",
@@ -196,7 +180,7 @@ void add_connections_routes(std::vector<http::Route>& routes, const Services& se
   routes.push_back({
       .method = http::Method::Put,
       .pattern = "/v1/connections/{name}",
-      .handler = with(services, put),
+      .handler = by(all, put),
       .summary = "Store a connection and start it",
       .description = "One of the configuration file is 409 `connection.read_only`.",
       .parameters = {name},
@@ -213,7 +197,7 @@ void add_connections_routes(std::vector<http::Route>& routes, const Services& se
   routes.push_back({
       .method = http::Method::Delete,
       .pattern = "/v1/connections/{name}",
-      .handler = with(services, remove),
+      .handler = by(all, remove),
       .summary = "End a connection and forget how far it came",
       .parameters = {name},
       .access = "admin",
@@ -225,7 +209,7 @@ void add_connections_routes(std::vector<http::Route>& routes, const Services& se
   routes.push_back({
       .method = http::Method::Post,
       .pattern = "/v1/connections/{name}/test",
-      .handler = with(services, test),
+      .handler = by(all, test),
       .summary = "Try the other side of a connection once",
       .description = "Answers 200 however the attempt ends, after at most half a minute.",
       .parameters = {name},
@@ -237,4 +221,4 @@ void add_connections_routes(std::vector<http::Route>& routes, const Services& se
   });
 }
 
-}  // namespace fitgauge::api
+}  // namespace fitgauge::connections

@@ -2,16 +2,14 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/clock.hpp"
-#include "base/result.hpp"
 
-namespace fitgauge::app {
+namespace fitgauge::connections {
 
 /// What the other side of a connection refused for good.
 struct DeadLetter {
@@ -51,13 +49,6 @@ struct ConnectionState {
   std::uint64_t refused = 0;       ///< dead letters, with those that are no more listed
 };
 
-/// What an attempt has changed: the first that fails, and the first that does not, are told.
-enum class AttemptTurn : std::uint8_t { None, Failing, Recovered };
-
-/// Notes an attempt that is over. @param why it failed; none: it did not.
-AttemptTurn note_attempt(ConnectionState& state, Timestamp now,
-                         const std::optional<std::string>& why);
-
 /// Since when nothing was dealt with, in nanoseconds; none before the first success.
 /// Of an outgoing connection the age of what is to go next, of another since its last success.
 std::optional<std::int64_t> lag(const ConnectionState& state, Timestamp now);
@@ -88,28 +79,4 @@ struct ConnectionTest {
   std::string detail{};
 };
 
-/// What may be done with connections; all empty where there can be none. `run`, `states` and
-/// `state` are thread-safe and do not wait; the others wait, `test` up to half a minute for the
-/// other side, and are called inside of `run`.
-struct ConnectionCalls {
-  struct Put {
-    std::string name{};
-    std::string_view body{};
-    std::optional<std::string> caller{};
-  };
-  /// Runs what it is given on the one thread that changes connections. @returns whether it will:
-  /// not when too many wait.
-  std::function<bool(std::function<void()>)> run{};
-  std::function<std::vector<ConnectionState>()> states{};  ///< by name
-  std::function<std::optional<ConnectionState>(std::string_view name)> state{};
-  /// Stores a connection and starts it. @returns whether it is new. @errors RequestInvalid,
-  ///   PathMalformed, ConnectionReadOnly, those of JSON and storage.
-  std::function<Result<bool>(const Put&)> put{};
-  /// Ends a connection and forgets how far it came. @errors ConnectionUnknown,
-  ///   ConnectionReadOnly, those of storage.
-  std::function<Result<void>(const std::string& name)> remove{};
-  /// @errors ConnectionUnknown.
-  std::function<Result<ConnectionTest>(const std::string& name)> test{};
-};
-
-}  // namespace fitgauge::app
+}  // namespace fitgauge::connections
