@@ -72,12 +72,6 @@ class BadInput(DaemonTest):
         self.refuse({"measured_mm": 25}, 422)
         self.refuse({"designation": "25 H7", "nominal_mm": 25, "measured_mm": 25}, 422,
                     "field.conflict")
-        self.refuse({"nominal_mm": 25, "tolerance_class": "H7", "feature": "hole", "upper_um": 1,
-                     "lower_um": 0, "measured_mm": 25}, 422, "field.conflict")
-        self.refuse({"nominal_mm": 25, "feature": "hole", "measured_mm": 25}, 422, "field.missing")
-        self.refuse({"nominal_mm": 25, "upper_um": 1, "measured_mm": 25}, 422, "field.missing")
-        self.refuse({"nominal_mm": 25, "feature": "hole", "upper_um": 0, "lower_um": 1,
-                     "measured_mm": 25}, 422, "limits.invalid")
 
     def test_json_that_cannot_be_read(self):
         for body in (b"", b"{", b"{}x", b'{"measured_mm":', b"\xff\xfe", b'{"part_id":"\xff"}',

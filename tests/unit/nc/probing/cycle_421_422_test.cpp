@@ -9,17 +9,7 @@ using machine::Block;
 using machine::Bore;
 using machine::Boss;
 
-/// The hole of the control's own example log: nominal 50, 65, diameter 12, off its centre.
-Bore example_hole() {
-  return {.centre = {50.0810, 64.9530}, .top = 0, .depth = 20, .diameter = 12.0259};
-}
 const Block kPlate{.min = {0, 0, -40}, .max = {200, 200, 0}};
-
-Values example_block() {
-  return {{273, 50.0}, {274, 65.0}, {262, 12.0}, {325, 0.0},    {247, 90.0}, {261, -5.0},
-          {320, 0.0},  {260, 20.0}, {301, 0.0},  {275, 12.045}, {276, 12.0}, {279, 0.1},
-          {280, 0.1},  {281, 1.0},  {309, 0.0},  {330, 0.0}};
-}
 
 /// A hole or stud of 25 in the middle of the plate, limits 25.021 and 25.
 Values hole_block() {
@@ -40,97 +30,6 @@ ProbingBench stud_of(double diameter) {
 }
 
 }  // namespace
-
-TEST_CASE("421: the example of the control's own log") {
-  ProbingBench bench({kPlate, example_hole()});
-  REQUIRE(bench.run(421, example_block()) == 0);
-  CHECK(same(bench.host.q[151], 50.081));
-  CHECK(same(bench.host.q[152], 64.953));
-  CHECK(same(bench.host.q[153], 12.0259));
-  CHECK(same(bench.host.q[161], 0.081));
-  CHECK(same(bench.host.q[162], -0.047));
-  CHECK(same(bench.host.q[163], 0.0259));
-  CHECK(bench.status() == 100);
-  const std::string& log = bench.host.files.at("TCHPR421.TXT");
-  CHECK(log ==
-        "****** Measuring log of touch-probe cycle 421 MEASURE HOLE ******\n"
-        "Date: 20-11-2026\n"
-        "Time: 6:05:04\n"
-        "Measuring program: TNC:\\nc_prog\\test\\part.h\n"
-        "Unit (0=MM / 1=INCH): 0\n"
-        "------------------------------------------------------------\n"
-        "Nominal values:\n"
-        "Centre, main axis:                                   50.0000\n"
-        "Centre, secondary axis:                              65.0000\n"
-        "Diameter:                                            12.0000\n"
-        "------------------------------------------------------------\n"
-        "Limits:\n"
-        "Centre, main axis, maximum:                          50.1000\n"
-        "Centre, main axis, minimum:                          49.9000\n"
-        "Centre, secondary axis, maximum:                     65.1000\n"
-        "Centre, secondary axis, minimum:                     64.9000\n"
-        "Diameter, maximum:                                   12.0450\n"
-        "Diameter, minimum:                                   12.0000\n"
-        "------------------------------------------------------------\n"
-        "Actual values:\n"
-        "Centre, main axis:                                   50.0810\n"
-        "Centre, secondary axis:                              64.9530\n"
-        "Diameter:                                            12.0259\n"
-        "------------------------------------------------------------\n"
-        "Deviations:\n"
-        "Centre, main axis:                                    0.0810\n"
-        "Centre, secondary axis:                              -0.0470\n"
-        "Diameter:                                             0.0259\n"
-        "------------------------------------------------------------\n"
-        "Further results:\n"
-        "Measuring height:                                    -5.0000\n"
-        "------------------------------------------------------------\n"
-        "****** End of measuring log ******\n\n");
-  REQUIRE(bench.host.records.size() == 1);
-  const MeasuringRecord& record = bench.host.records.front();
-  CHECK(record.cycle == 421);
-  CHECK(record.verdict == gauging::Verdict::Good);
-  CHECK(record.sizes.front().measured == Length::nanometres(12'025'900));
-  REQUIRE(record.form.has_value());
-  CHECK_FALSE(record.form->assessable);
-}
-
-TEST_CASE("421: good, rework and reject of a hole, limits inclusive") {
-  struct Case {
-    double diameter;
-    int status;
-    int error;
-  };
-  for (const Case& c : {Case{25.0105, 100, 0}, Case{25.021, 100, 0}, Case{25.0, 100, 0},
-                        Case{25.0211, 1, 1047}, Case{24.9999, 10, 1046}}) {
-    CAPTURE(c.diameter);
-    ProbingBench bench = hole_of(c.diameter);
-    CHECK(bench.run(421, hole_block()) == 0);
-    CHECK(bench.status() == c.status);
-    CHECK(bench.run(421, with(hole_block(), {{309, 1.0}})) == c.error);
-    CHECK(bench.fault.kind ==
-          (c.error == 0 ? CycleFaultKind::Error : CycleFaultKind::ToleranceStop));
-    CHECK(bench.host.records.size() == 2);
-    CHECK(same(bench.host.q[153], c.diameter));
-  }
-}
-
-TEST_CASE("422: good, rework and reject of a stud, limits inclusive") {
-  struct Case {
-    double diameter;
-    int status;
-    int error;
-  };
-  for (const Case& c : {Case{24.99, 100, 0}, Case{25.0, 100, 0}, Case{24.979, 100, 0},
-                        Case{25.0001, 10, 1049}, Case{24.9789, 1, 1048}}) {
-    CAPTURE(c.diameter);
-    ProbingBench bench = stud_of(c.diameter);
-    CHECK(bench.run(422, with(stud_block(), {{309, 1.0}})) == c.error);
-    CHECK(bench.status() == c.status);
-    CHECK(same(bench.host.q[153], c.diameter));
-    CHECK(same(bench.host.q[163], c.diameter - 25));
-  }
-}
 
 TEST_CASE("421 and 422 reach every path between the points") {
   for (const double via_clearance : {0.0, 1.0}) {
@@ -169,13 +68,6 @@ TEST_CASE("421: a centre out of tolerance is reject, 0 switches the check off") 
   CHECK(bench.status() == 1);
   CHECK(bench.run(421, with(block, {{279, 0.1}, {280, 0.0499}})) == 1045);
   CHECK(bench.run(421, with(block, {{279, 0.0}, {280, 0.0}})) == 0);
-}
-
-TEST_CASE("421 without limits is good, contradictory ones are an error") {
-  ProbingBench bench = hole_of(26);
-  CHECK(bench.run(421, with(hole_block(), {{275, 0.0}, {276, 0.0}, {309, 1.0}})) == 0);
-  CHECK(bench.status() == 100);
-  CHECK(bench.run(421, with(hole_block(), {{275, 25.0}, {276, 25.1}})) == 1016);
 }
 
 TEST_CASE("421 writes its log where Q281 says") {
@@ -241,25 +133,6 @@ TEST_CASE("421: errors of parameters, tools and motion") {
   modes.mode = machine::OperatingMode::Turn;
   REQUIRE(turning.machine.set_modes(modes).has_value());
   CHECK(turning.run(421, hole_block()) == 1097);
-}
-
-TEST_CASE("421: three lobes move the centre, four change the diameter") {
-  const auto lobed = [](int lobes) {
-    Bore bore{.centre = {100, 100}, .top = 0, .depth = 30, .diameter = 25.01};
-    bore.lobes = lobes;
-    bore.lobe_amplitude_um = 5;
-    return ProbingBench({kPlate, bore});
-  };
-  ProbingBench three = lobed(3);
-  CHECK(three.run(421, hole_block()) == 0);
-  CHECK(std::abs(three.host.q[153] - 25.01) < 1e-4);
-  CHECK(std::abs(three.host.q[161]) > 0.003);
-  ProbingBench four = lobed(4);
-  CHECK(four.run(421, hole_block()) == 0);
-  CHECK(std::abs(four.host.q[153] - 25.02) < 1e-4);
-  ProbingBench two = lobed(2);
-  CHECK(two.run(421, hole_block()) == 0);
-  CHECK(*two.host.records.front().form->residual_mm > 0.004);
 }
 
 TEST_CASE("a shifted, rotated or scaled frame gives the same results in its own coordinates") {
@@ -346,14 +219,6 @@ TEST_CASE("the log of an INCH program counts in inches") {
   CHECK(log.find("Unit (0=MM / 1=INCH): 1\n") != std::string::npos);
   CHECK(log.find("Diameter:                                           1.000000\n") !=
         std::string::npos);
-}
-
-TEST_CASE("Q115 to Q117 are the spindle position of the last touch") {
-  ProbingBench bench = hole_of(25);
-  CHECK(bench.run(421, hole_block()) == 0);
-  CHECK(same(bench.host.q[115], 100));
-  CHECK(same(bench.host.q[116], 100 - 12.5 + 2));
-  CHECK(same(bench.host.q[117], -5 - 2 + 120));
 }
 
 }  // namespace fitgauge::probing

@@ -46,11 +46,9 @@ struct Case {
 
 }  // namespace
 
-TEST_CASE("423: good, rework and reject of a pocket, limits inclusive") {
+TEST_CASE("423: both lengths on their limits, and one too short with the other too long") {
   for (const Case& c :
-       {Case{60, 40, 100, 0}, Case{60.02, 39.98, 100, 0}, Case{59.98, 40.02, 100, 0},
-        Case{60.0201, 40, 1, 1052}, Case{59.9799, 40, 10, 1050}, Case{60, 40.0201, 1, 1053},
-        Case{60, 39.9799, 10, 1051}, Case{59.9799, 40.0201, 1, 1053}}) {
+       {Case{60.02, 39.98, 100, 0}, Case{59.98, 40.02, 100, 0}, Case{59.9799, 40.0201, 1, 1053}}) {
     CAPTURE(c.length);
     CAPTURE(c.width);
     ProbingBench bench(pocket(c.length, c.width));
@@ -63,22 +61,6 @@ TEST_CASE("423: good, rework and reject of a pocket, limits inclusive") {
     CHECK(same(bench.host.q[164], c.length - 60));
     CHECK(same(bench.host.q[165], c.width - 40));
     CHECK(bench.host.records.front().sizes.size() == 4);
-  }
-}
-
-TEST_CASE("424: good, rework and reject of a stud, limits inclusive") {
-  for (const Case& c :
-       {Case{60, 40, 100, 0}, Case{60.02, 39.98, 100, 0}, Case{60.0201, 40, 10, 1056},
-        Case{59.9799, 40, 1, 1054}, Case{60, 40.0201, 10, 1057}, Case{60, 39.9799, 1, 1055}}) {
-    CAPTURE(c.length);
-    CAPTURE(c.width);
-    for (const double via_clearance : {0.0, 1.0}) {
-      ProbingBench bench(stud(c.length, c.width));
-      CHECK(bench.run(424, with(rectangle_block(), {{301, via_clearance}})) == c.error);
-      CHECK(bench.status() == c.status);
-      CHECK(same(bench.host.q[154], c.length));
-      CHECK(same(bench.host.q[155], c.width));
-    }
   }
 }
 

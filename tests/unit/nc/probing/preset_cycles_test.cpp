@@ -9,7 +9,6 @@ namespace {
 
 using machine::Block;
 using machine::Bore;
-using machine::Boss;
 using machine::Plane;
 using machine::Vec3;
 
@@ -59,42 +58,6 @@ TEST_CASE("408 and 409 set the datum in the middle of a slot and a ridge") {
   CHECK(same(ridge.host.q[157], 79.95));
   CHECK(same(ridge.host.q[166], 30.1));
   check_near(row9(ridge), {0, 78.95, -3});
-}
-
-TEST_CASE("410 and 411 set the datum in the middle of a rectangle") {
-  const Values block = with({{321, 100.0}, {322, 80.0}, {323, 60.0}, {324, 40.0}, {260, 40.0}},
-                            with(kDatum, kProbeAxis));
-  ProbingBench inside(pocket(70.2, 60, 130, 100.4));
-  CHECK(inside.run(410, with(block, {{261, -5.0}})) == 0);
-  CHECK(same(inside.host.q[151], 100.1));
-  CHECK(same(inside.host.q[152], 80.2));
-  CHECK(same(inside.host.q[154], 59.8));
-  CHECK(same(inside.host.q[155], 40.4));
-  check_near(row9(inside), {99.1, 78.2, -3});
-  ProbingBench outside(stud(70.2, 60, 130, 100.4));
-  CHECK(outside.run(411, with(block, {{261, 5.0}})) == 0);
-  CHECK(same(outside.host.q[151], 100.1));
-  check_near(row9(outside), {99.1, 78.2, -3});
-}
-
-TEST_CASE("412 and 413 set the datum in the centre of a circle and report its form") {
-  const Values block = with({{321, 100.0}, {322, 80.0}, {262, 25.0}, {247, 90.0}, {260, 40.0}},
-                            with(kDatum, kProbeAxis));
-  ProbingBench hole(
-      {kLargePlate, Bore{.centre = {100.3, 79.9}, .top = 0, .depth = 30, .diameter = 25.02}});
-  CHECK(hole.run(412, with(block, {{261, -5.0}})) == 0);
-  CHECK(same(hole.host.q[151], 100.3));
-  CHECK(same(hole.host.q[152], 79.9));
-  CHECK(same(hole.host.q[153], 25.02));
-  check_near(row9(hole), {99.3, 77.9, -3});
-  REQUIRE(hole.host.records.size() == 1);
-  CHECK_FALSE(hole.host.records.front().verdict.has_value());
-  CHECK(hole.host.records.front().form.has_value());
-  ProbingBench boss(
-      {kLargePlate, Boss{.centre = {100.3, 79.9}, .top = 10, .height = 10, .diameter = 24.9}});
-  CHECK(boss.run(413, with(block, {{261, 5.0}, {423, 3.0}, {247, 120.0}})) == 0);
-  CHECK(same(boss.host.q[153], 24.9));
-  check_near(row9(boss), {99.3, 77.9, -3});
 }
 
 TEST_CASE("414 and 415 find each corner of a part that stands turned in its preset") {
@@ -184,29 +147,6 @@ TEST_CASE("418 sets the datum where the lines between four holes meet") {
   const double t = (80 * 0.1 + 80 * 59.9) / (80.2 * 59.9 + 80 * 60);
   check_near(row9(bench), {60 + 80.2 * t - 1, 50 + 60 * t - 2, -3});
   CHECK(same(bench.host.q[151], std::round((60 + 80.2 * t) * 1e6) / 1e6));
-}
-
-TEST_CASE("416 sets the datum in the centre of a bolt circle") {
-  std::vector<machine::Feature> features{kLargePlate};
-  for (const double angle : {10.0, 130.0, 250.0}) {
-    const auto [sine, cosine] = machine::sine_cosine(angle);
-    features.push_back(Bore{
-        .centre = {100.2 + 30 * cosine, 79.9 + 30 * sine}, .top = 0, .depth = 20, .diameter = 10});
-  }
-  ProbingBench bench(features);
-  CHECK(bench.run(416, with({{273, 100.0},
-                             {274, 80.0},
-                             {262, 60.0},
-                             {291, 10.0},
-                             {292, 130.0},
-                             {293, 250.0},
-                             {261, -5.0},
-                             {260, 40.0}},
-                            with(kDatum, kProbeAxis))) == 0);
-  CHECK(same(bench.host.q[151], 100.2));
-  CHECK(same(bench.host.q[152], 79.9));
-  CHECK(same(bench.host.q[153], 60));
-  check_near(row9(bench), {99.2, 77.9, -3});
 }
 
 TEST_CASE("419 sets the datum in any one axis") {
