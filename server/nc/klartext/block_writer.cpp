@@ -29,11 +29,7 @@ bool may_be_bare(std::string_view path) {
 
 }  // namespace
 
-void BlockWriter::quoted(Text text) {
-  out_ += '"';
-  write(text);
-  out_ += '"';
-}
+void BlockWriter::quoted(Text text) { write("\"").write(text).write("\""); }
 
 void BlockWriter::number(double number) {
   // Room for a literal of the control: at most ten digits before the point; the shortest text that
@@ -44,30 +40,31 @@ void BlockWriter::number(double number) {
   out_.append(std::begin(digits), end);
 }
 
-void BlockWriter::parameter(QRef parameter) {
+BlockWriter& BlockWriter::parameter(QRef parameter) {
   constexpr std::string_view kNames[] = {"Q", "QL", "QR", "QS"};
-  out_ += kNames[static_cast<std::size_t>(parameter.space)];
-  out_ += std::to_string(parameter.number);
+  return write(kNames[static_cast<std::size_t>(parameter.space)])
+      .write(std::to_string(parameter.number));
 }
 
-void BlockWriter::signed_value(const Expr& expr) {
+BlockWriter& BlockWriter::signed_value(const Expr& expr) {
   const auto* number = std::get_if<double>(&expr);
   const auto* parameter = std::get_if<QRef>(&expr);
   const bool plus = (number != nullptr && !std::signbit(*number)) ||
                     (parameter != nullptr && !parameter->is_string());
   if (plus) out_ += '+';
-  value(expr);
+  return value(expr);
 }
 
-void BlockWriter::value(const Expr& expr) { expression(expr, Level::Signed); }
+BlockWriter& BlockWriter::value(const Expr& expr) {
+  expression(expr, Level::Signed);
+  return *this;
+}
 
 void BlockWriter::formula(const Expr& expr) { expression(expr, Level::Concat); }
 
 void BlockWriter::path_piece(const Expr& piece) {
   if (const auto* parameter_piece = std::get_if<QRef>(&piece)) {
-    out_ += ":'";
-    parameter(*parameter_piece);
-    out_ += '\'';
+    write(":'").parameter(*parameter_piece).write("'");
   } else if (const auto* text = std::get_if<Text>(&piece)) {
     write(*text);
   } else if (const auto* index = std::get_if<NodeIndex>(&piece)) {
@@ -97,8 +94,7 @@ void BlockWriter::label(const Label& label) {
 void BlockWriter::items(Slice<Expr> items) {
   std::string_view separator;
   for (const Expr& item : program_.view(items)) {
-    write(separator);
-    signed_value(item);
+    write(separator).signed_value(item);
     separator = "/";
   }
 }

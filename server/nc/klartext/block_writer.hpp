@@ -9,20 +9,20 @@
 namespace fitgauge::klartext {
 
 /// Writes the parts of statements as Klartext; the mirror of BlockReader. Appends to a text of its
-/// caller. Single-threaded.
+/// caller; calls that return the writer can be chained. Single-threaded.
 class BlockWriter {
  public:
   BlockWriter(const Program& program, std::string& out) : program_(program), out_(out) {}
 
-  void write(std::string_view text) { out_ += text; }
-  void write(Text text) { out_ += program_.text(text); }
+  BlockWriter& write(std::string_view text) { return out_ += text, *this; }
+  BlockWriter& write(Text text) { return write(program_.text(text)); }
   void quoted(Text text);
   void number(double number);
-  void parameter(QRef parameter);
+  BlockWriter& parameter(QRef parameter);
   /// With a sign before numbers: `+10`, `-Q5`; texts and QS parameters have none.
-  void signed_value(const Expr& expr);
+  BlockWriter& signed_value(const Expr& expr);
   /// As signed_value, without `+`.
-  void value(const Expr& expr);
+  BlockWriter& value(const Expr& expr);
   /// A formula with the parentheses it needs.
   void formula(const Expr& expr);
   /// A file: bare where that reads back as the same.

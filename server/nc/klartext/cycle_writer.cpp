@@ -4,9 +4,7 @@ namespace fitgauge::klartext {
 namespace {
 
 void write_head(BlockWriter& out, CycleFamily family, unsigned number) {
-  out.write(words_of(family));
-  out.write(" ");
-  out.write(std::to_string(number));
+  out.write(words_of(family)).write(" ").write(std::to_string(number));
 }
 
 void write_value(BlockWriter& out, const CycleParameter& parameter) {
@@ -26,8 +24,7 @@ void write_value(BlockWriter& out, const CycleParameter& parameter) {
 void write_cycle(BlockWriter& out, const Cycle& cycle, std::string_view first_comment) {
   write_head(out, cycle.family, cycle.number);
   if (!cycle.dialog.empty()) {
-    out.write(" ");
-    out.write(cycle.dialog);
+    out.write(" ").write(cycle.dialog);
   }
   const auto write_comment = [&](std::string_view comment) {
     if (comment.empty()) return;
@@ -36,9 +33,7 @@ void write_cycle(BlockWriter& out, const Cycle& cycle, std::string_view first_co
   };
   write_comment(first_comment);
   for (const CycleParameter& parameter : out.program().view(cycle.parameters)) {
-    out.write(" ~\n    ");
-    out.parameter(parameter.parameter);
-    out.write("=");
+    out.write(" ~\n    ").parameter(parameter.parameter).write("=");
     write_value(out, parameter);
     write_comment(out.program().text(parameter.comment));
   }
@@ -48,18 +43,14 @@ void write_block(BlockWriter& out, const Cycle& cycle) { write_cycle(out, cycle,
 
 void write_block(BlockWriter& out, const CyclePart& part) {
   write_head(out, part.family, part.number);
-  out.write(".");
-  out.write(std::to_string(part.part));
+  out.write(".").write(std::to_string(part.part));
   if (part.text.empty()) return;
-  out.write(" ");
-  out.write(part.text);
+  out.write(" ").write(part.text);
 }
 
 void write_block(BlockWriter& out, const CycleCall& call) {
   constexpr std::string_view kKinds[] = {"", " PAT", " POS"};
-  out.write("CYCL CALL");
-  out.write(kKinds[static_cast<std::size_t>(call.kind)]);
-  out.words(call.words);
+  out.write("CYCL CALL").write(kKinds[static_cast<std::size_t>(call.kind)]).words(call.words);
 }
 
 }  // namespace fitgauge::klartext

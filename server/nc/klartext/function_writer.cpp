@@ -20,34 +20,25 @@ void write_fn_value(BlockWriter& out, const Assignment& assignment) {
     out.signed_value(operand(out, assignment.value, 0));
     out.write(" ");
   }
-  out.write(function->sign);
-  out.write(" ");
-  out.signed_value(operand(out, assignment.value, unary ? 0 : 1));
+  out.write(function->sign).write(" ").signed_value(operand(out, assignment.value, unary ? 0 : 1));
 }
 
 }  // namespace
 
 void write_fn(BlockWriter& out, unsigned fn) {
-  out.write("FN ");
-  out.write(std::to_string(fn));
-  out.write(":");
+  out.write("FN ").write(std::to_string(fn)).write(":");
 }
 
 void write_address(BlockWriter& out, const Expr& address) {
-  out.write("ID");
-  out.value(operand(out, address, 0));
-  out.write(" NR");
-  out.value(operand(out, address, 1));
+  out.write("ID").value(operand(out, address, 0)).write(" NR").value(operand(out, address, 1));
   const Expr& index = operand(out, address, 2);
   if (is_absent(index)) return;
-  out.write(" IDX");
-  out.value(index);
+  out.write(" IDX").value(index);
 }
 
 void write_cell(BlockWriter& out, const Expr& cell) {
   out.value(operand(out, cell, 0));
-  out.write("/");
-  out.value(operand(out, cell, 1));
+  out.write("/").value(operand(out, cell, 1));
 }
 
 void write_block(BlockWriter& out, const Assignment& assignment) {
@@ -70,9 +61,7 @@ void write_block(BlockWriter& out, const Assignment& assignment) {
 }
 
 void write_block(BlockWriter& out, const SetUndefined& set) {
-  out.write("FN 0: ");
-  out.parameter(set.target);
-  out.write(" SET UNDEFINED");
+  out.write("FN 0: ").parameter(set.target).write(" SET UNDEFINED");
 }
 
 void write_block(BlockWriter& out, const ConditionalJump& jump) {
@@ -86,16 +75,11 @@ void write_block(BlockWriter& out, const ConditionalJump& jump) {
     name = row.name;
   }
   write_fn(out, fn);
-  out.write(" IF ");
-  out.signed_value(operand(out, jump.condition, 0));
-  out.write(" ");
-  out.write(name);
+  out.write(" IF ").signed_value(operand(out, jump.condition, 0)).write(" ").write(name);
   if (op != Operator::IsDefined && op != Operator::IsUndefined) {
-    out.write(" ");
-    out.signed_value(operand(out, jump.condition, 1));
+    out.write(" ").signed_value(operand(out, jump.condition, 1));
   }
-  out.write(" GOTO LBL ");
-  out.label(jump.target);
+  out.write(" GOTO LBL ").label(jump.target);
 }
 
 }  // namespace fitgauge::klartext

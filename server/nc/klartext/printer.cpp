@@ -27,8 +27,7 @@ void print_block(BlockWriter& out, const Program& program, const Block& block,
     separator = " ";
   }
   if (!block.comment_mark) return;
-  out.write(separator);
-  out.write(";");
+  out.write(separator).write(";");
   out.write(comment);
 }
 

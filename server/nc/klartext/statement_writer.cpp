@@ -35,30 +35,24 @@ void write_block(BlockWriter& out, const EndProgram& end) {
 }
 
 void write_block(BlockWriter& out, const Structure& structure) {
-  out.write("*");
-  out.write(std::string(1 + 2 * std::size_t{structure.level}, ' '));
-  out.write("- ");
+  out.write("*").write(std::string(1 + 2 * std::size_t{structure.level}, ' ')).write("- ");
   out.write(structure.text);
 }
 
 void write_block(BlockWriter& out, const ErrorBlock& error) {
-  out.write("ERROR = ");
-  out.write(error.text);
+  out.write("ERROR = ").write(error.text);
 }
 
 void write_block(BlockWriter& out, const Unsupported& unsupported) { out.write(unsupported.text); }
 
 void write_block(BlockWriter& out, const BlankForm& form) {
   constexpr std::string_view kNames[] = {"0.1", "0.2", "CYLINDER", "ROTATION", "FILE"};
-  out.write("BLK FORM ");
-  out.write(kNames[static_cast<std::size_t>(form.kind)]);
+  out.write("BLK FORM ").write(kNames[static_cast<std::size_t>(form.kind)]);
   if (form.tool_axis) {
-    out.write(" ");
-    out.write(name_of(*form.tool_axis));
+    out.write(" ").write(name_of(*form.tool_axis));
   }
   if (!is_absent(form.file)) {
-    out.write(" ");
-    out.value(form.file);
+    out.write(" ").value(form.file);
   }
   out.words(form.words);
 }
@@ -66,20 +60,16 @@ void write_block(BlockWriter& out, const BlankForm& form) {
 void write_block(BlockWriter& out, const ToolCall& call) {
   out.write("TOOL CALL");
   if (!is_absent(call.tool)) {
-    out.write(" ");
-    out.value(call.tool);
+    out.write(" ").value(call.tool);
   }
   if (call.axis) {
-    out.write(" ");
-    out.write(name_of(*call.axis));
+    out.write(" ").write(name_of(*call.axis));
   }
   out.words(call.words);
 }
 
 void write_block(BlockWriter& out, const ToolDefinition& definition) {
-  out.write("TOOL DEF ");
-  out.value(definition.tool);
-  out.words(definition.words);
+  out.write("TOOL DEF ").value(definition.tool).words(definition.words);
 }
 
 void write_block(BlockWriter& out, const Motion& motion) {
@@ -94,16 +84,14 @@ void write_block(BlockWriter& out, const Motion& motion) {
 void write_block(BlockWriter& out, const MFunctions& functions) {
   std::string_view separator;
   for (const Word& word : out.program().view(functions.words)) {
-    out.write(separator);
-    out.word(word);
+    out.write(separator).word(word);
     separator = " ";
   }
 }
 
 void write_block(BlockWriter& out, const Trans& trans) {
   constexpr std::string_view kNames[] = {"DATUM", "DATUM TABLE", "MIRROR", "ROTATION", "SCALE"};
-  out.write("TRANS ");
-  out.write(kNames[static_cast<std::size_t>(trans.kind)]);
+  out.write("TRANS ").write(kNames[static_cast<std::size_t>(trans.kind)]);
   const bool axes = trans.kind == Transformation::Datum || trans.kind == Transformation::Mirror;
   if (trans.reset) {
     out.write(" RESET");
@@ -111,8 +99,7 @@ void write_block(BlockWriter& out, const Trans& trans) {
     out.write(" AXIS");
   }
   if (!is_absent(trans.table)) {
-    out.write(" ");
-    out.value(trans.table);
+    out.write(" ").value(trans.table);
   }
   out.words(trans.words);
 }
@@ -121,8 +108,7 @@ void write_block(BlockWriter& out, const Plane& plane) {
   constexpr LetterSet kBehind =
       kFeedsAndM | LetterSet(Letter::Mb, Letter::MbMax, Letter::Dist, Letter::Seq, Letter::Sym,
                              Letter::TableRot, Letter::CoordRot);
-  out.write("PLANE ");
-  out.write(kPlaneKinds[static_cast<std::size_t>(plane.kind)]);
+  out.write("PLANE ").write(kPlaneKinds[static_cast<std::size_t>(plane.kind)]);
   std::string mark(kPlanePositionings[static_cast<std::size_t>(plane.positioning)]);
   if (!mark.empty()) mark.insert(0, " ");
   out.words(plane.words, mark, kBehind);
@@ -134,12 +120,10 @@ void write_block(BlockWriter& out, const PatternDefinition& pattern) {
   const auto words = out.program().view(pattern.words);
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i].letter != Letter::Element) {
-      out.write(" ");
-      out.word(words[i]);
+      out.write(" ").word(words[i]);
       continue;
     }
-    out.write(end);
-    out.write(" ~\n    ");
+    out.write(end).write(" ~\n    ");
     out.write(kPatternElements[static_cast<std::size_t>(std::get<double>(words[i].value))]);
     out.value(words[++i].value);  // its number
     out.write("(");
@@ -149,16 +133,13 @@ void write_block(BlockWriter& out, const PatternDefinition& pattern) {
 }
 
 void write_block(BlockWriter& out, const FunctionMode& mode) {
-  out.write("FUNCTION MODE ");
-  out.write(kOperatingModes[static_cast<std::size_t>(mode.mode)]);
+  out.write("FUNCTION MODE ").write(kOperatingModes[static_cast<std::size_t>(mode.mode)]);
   if (mode.kinematics.empty()) return;
-  out.write(" ");
-  out.quoted(mode.kinematics);
+  out.write(" ").quoted(mode.kinematics);
 }
 
 void write_block(BlockWriter& out, const FunctionTcpm& tcpm) {
-  out.write(tcpm.active ? "FUNCTION TCPM " : "FUNCTION RESET TCPM");
-  out.write(tcpm.options);
+  out.write(tcpm.active ? "FUNCTION TCPM " : "FUNCTION RESET TCPM").write(tcpm.options);
 }
 
 }  // namespace fitgauge::klartext
