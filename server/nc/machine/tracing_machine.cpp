@@ -81,9 +81,11 @@ TracingMachine::TracingMachine(Machine& inner, TraceOptions options)
     : inner_(inner), options_(std::move(options)) {}
 
 template <class T, class Text>
-void TracingMachine::write(const MachineResult<T>& result, const Text& text) {
-  if (!options_.lines || lines_.size() >= options_.longest) return;
-  lines_.push_back(result ? text() : fmt::format("{} ! {}", text(), result.error().text));
+MachineResult<T> TracingMachine::write(MachineResult<T> result, const Text& text) {
+  if (options_.lines && lines_.size() < options_.longest) {
+    lines_.push_back(result ? text() : fmt::format("{} ! {}", text(), result.error().text));
+  }
+  return result;
 }
 
 void TracingMachine::add(const TracedMove& move) {
@@ -129,10 +131,9 @@ MachineResult<void> TracingMachine::move(const LinearMove& move) {
   const Begun begun = begin();
   auto result = inner_.move(move);
   keep(move.feed.is_rapid ? MoveKind::Rapid : MoveKind::Feed, begun, move.feed);
-  write(result, [&] {
+  return write(result, [&] {
     return fmt::format("L {} {}", text_of(state().position(), state()), text_of(move.feed));
   });
-  return result;
 }
 
 MachineResult<void> TracingMachine::move_arc(const ArcMove& arc) {
@@ -140,22 +141,20 @@ MachineResult<void> TracingMachine::move_arc(const ArcMove& arc) {
   const TracedArc kept = traced(arc, begun);
   auto result = inner_.move_arc(arc);
   keep(MoveKind::Arc, begun, arc.feed, kept);
-  write(result, [&] {
+  return write(result, [&] {
     return fmt::format("ARC {} CC {} {:+.4f} {}", text_of(state().position(), state()),
                        text_of(arc.centre), arc.sweep_deg, text_of(arc.feed));
   });
-  return result;
 }
 
 MachineResult<ContactPoint> TracingMachine::probe(const ProbeMove& move) {
   const Begun begun = begin();
   auto result = inner_.probe(move);
   keep_probing(begun, move, result);
-  write(result, [&] {
+  return write(result, [&] {
     return fmt::format("PROBE {} F{:g}{}", text_of(move.direction), move.feed,
                        result ? " TOUCHED " + text_of(result->surface) : std::string());
   });
-  return result;
 }
 
 void TracingMachine::keep_probing(const Begun& begun, const ProbeMove& move,
@@ -186,59 +185,45 @@ void TracingMachine::keep_probing(const Begun& begun, const ProbeMove& move,
 }
 
 MachineResult<void> TracingMachine::call_tool(const ToolCall& call) {
-  auto result = inner_.call_tool(call);
-  write(result, [&] { return text_of(call); });
-  return result;
+  return write(inner_.call_tool(call), [&] { return text_of(call); });
 }
 
 MachineResult<void> TracingMachine::write_tool(const Tool& tool) {
-  auto result = inner_.write_tool(tool);
-  write(result, [&] {
+  return write(inner_.write_tool(tool), [&] {
     return fmt::format("TOOL {} L{:+.4f} R{:+.4f} DL{:+.4f} DR{:+.4f}{}", tool.number, tool.l,
                        tool.r, tool.dl, tool.dr, tool.locked ? " LOCKED" : "");
   });
-  return result;
 }
 
 MachineResult<void> TracingMachine::write_probe(const ProbeRow& row) {
-  auto result = inner_.write_probe(row);
-  write(result, [&] {
+  return write(inner_.write_probe(row), [&] {
     return fmt::format("PROBE DATA {} CAL_OF1{:+.4f} CAL_OF2{:+.4f}", row.number, row.cal_of1,
                        row.cal_of2);
   });
-  return result;
 }
 
 MachineResult<void> TracingMachine::write_preset(const Preset& preset) {
-  auto result = inner_.write_preset(preset);
-  write(result, [&] {
+  return write(inner_.write_preset(preset), [&] {
     return fmt::format("PRESET ROW {} {} {}", preset.number, text_of(preset.frame.origin),
                        angles("SP", preset.frame.basic_rotation_deg));
   });
-  return result;
 }
 
 MachineResult<void> TracingMachine::write_tool_touch_probe(const ToolTouchProbe& tt) {
-  auto result = inner_.write_tool_touch_probe(tt);
-  write(result, [&] { return fmt::format("TT {} R{:+.4f}", text_of(tt.centre), tt.radius); });
-  return result;
+  return write(inner_.write_tool_touch_probe(tt),
+               [&] { return fmt::format("TT {} R{:+.4f}", text_of(tt.centre), tt.radius); });
 }
 
 MachineResult<void> TracingMachine::activate_preset(int number) {
-  auto result = inner_.activate_preset(number);
-  write(result, [&] { return fmt::format("PRESET {}", number); });
-  return result;
+  return write(inner_.activate_preset(number), [&] { return fmt::format("PRESET {}", number); });
 }
 
 MachineResult<void> TracingMachine::set_frames(const Frames& frames) {
-  auto result = inner_.set_frames(frames);
-  write(result, [&] { return text_of(frames); });
-  return result;
+  return write(inner_.set_frames(frames), [&] { return text_of(frames); });
 }
 
 MachineResult<void> TracingMachine::set_modes(const Modes& modes) {
-  auto result = inner_.set_modes(modes);
-  write(result, [&] {
+  return write(inner_.set_modes(modes), [&] {
     std::string text = fmt::format("MODES SPINDLE {} S{:g} COOLANT {} F{:g} TCPM {} {}",
                                    static_cast<int>(modes.spindle), modes.spindle_rpm,
                                    modes.coolant ? 1 : 0, modes.feed_mm_min, modes.tcpm ? 1 : 0,
@@ -246,25 +231,20 @@ MachineResult<void> TracingMachine::set_modes(const Modes& modes) {
     if (modes.spindle_deg != 0) text += fmt::format(" ORIENTED {:g}", modes.spindle_deg);
     return text;
   });
-  return result;
 }
 
 MachineResult<void> TracingMachine::set_kinematics(const Kinematics& kinematics) {
-  auto result = inner_.set_kinematics(kinematics);
-  write(result, [&] {
+  return write(inner_.set_kinematics(kinematics), [&] {
     std::string text = "KINEMATICS";
     for (const RotaryAxis& axis : kinematics.axes()) {
       text += fmt::format(" {} {}", name(axis.axis), text_of(axis.centre));
     }
     return text;
   });
-  return result;
 }
 
 MachineResult<void> TracingMachine::dwell(double seconds) {
-  auto result = inner_.dwell(seconds);
-  write(result, [&] { return fmt::format("DWELL {:g}", seconds); });
-  return result;
+  return write(inner_.dwell(seconds), [&] { return fmt::format("DWELL {:g}", seconds); });
 }
 
 void TracingMachine::stop(std::string_view reason) {

@@ -100,9 +100,9 @@ class TracingMachine final : public Machine {
                     const MachineResult<ContactPoint>& result);
   void add(const TracedMove& move);
   bool is_full() const { return kept_ >= options_.longest; }
-  /// Writes the line that `text()` makes, with the fault when there is one.
+  /// Writes the line that `text()` makes, with the fault if there is one. @returns the result
   template <class T, class Text>
-  void write(const MachineResult<T>& result, const Text& text);
+  MachineResult<T> write(MachineResult<T> result, const Text& text);
 
   Machine& inner_;
   TraceOptions options_;
