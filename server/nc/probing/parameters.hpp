@@ -11,36 +11,29 @@ namespace fitgauge::probing::parameter {
 
 inline constexpr double kLongest = 99999.9999;
 
-constexpr CycleParameter coordinate(int number, std::string_view meaning) {
-  return {
-      .id = q(number), .meaning = meaning, .unit = Unit::Length, .range = {-kLongest, kLongest}};
+constexpr CycleParameter coordinate(int number, std::string_view meaning,
+                                    std::optional<double> by_default = {}) {
+  return {.id = q(number),
+          .meaning = meaning,
+          .unit = Unit::Length,
+          .range = {-kLongest, kLongest},
+          .default_value = by_default};
 }
 
-constexpr CycleParameter coordinate(int number, std::string_view meaning, double by_default) {
-  CycleParameter made = coordinate(number, meaning);
-  made.default_value = by_default;
+constexpr CycleParameter length(int number, std::string_view meaning,
+                                std::optional<double> by_default = {}) {
+  CycleParameter made = coordinate(number, meaning, by_default);
+  made.range.min = 0;
   return made;
 }
 
-constexpr CycleParameter length(int number, std::string_view meaning) {
-  return {.id = q(number), .meaning = meaning, .unit = Unit::Length, .range = {0, kLongest}};
-}
-
-constexpr CycleParameter length(int number, std::string_view meaning, double by_default) {
-  CycleParameter made = length(number, meaning);
-  made.default_value = by_default;
-  return made;
-}
-
-constexpr CycleParameter angle(int number, std::string_view meaning, double limit = 360) {
-  return {.id = q(number), .meaning = meaning, .unit = Unit::Angle, .range = {-limit, limit}};
-}
-
-constexpr CycleParameter angle(int number, std::string_view meaning, double limit,
-                               double by_default) {
-  CycleParameter made = angle(number, meaning, limit);
-  made.default_value = by_default;
-  return made;
+constexpr CycleParameter angle(int number, std::string_view meaning, double limit = 360,
+                               std::optional<double> by_default = {}) {
+  return {.id = q(number),
+          .meaning = meaning,
+          .unit = Unit::Angle,
+          .range = {-limit, limit},
+          .default_value = by_default};
 }
 
 /// A whole number of a few; without a default it must be given.

@@ -263,9 +263,8 @@ constexpr std::string_view kNoArcs =
     "contour. Contours that cross each other are each machined as a whole.";
 constexpr std::string_view kOldText = "As the cycle of today for it.";
 
-template <std::size_t N>
 constexpr MachiningCycle in_q(int number, std::string_view name, MachiningShape shape,
-                              const std::array<CycleParameter, N>& parameters,
+                              std::span<const CycleParameter> parameters,
                               std::string_view simulated, std::string_view not_simulated = {},
                               bool runs_when_defined = false) {
   return {{.family = CycleFamily::CyclDef,
@@ -281,15 +280,10 @@ constexpr MachiningCycle in_q(int number, std::string_view name, MachiningShape 
 
 constexpr MachiningCycle in_lines(int number, std::string_view name, MachiningShape shape,
                                   std::string_view simulated, std::string_view not_simulated = {}) {
-  return {{.family = CycleFamily::CyclDef,
-           .number = static_cast<std::uint16_t>(number),
-           .name = name,
-           .kind = CycleKind::Machining,
-           .dotted = true,
-           .simulated = simulated,
-           .not_simulated = not_simulated},
-          shape,
-          shape == MachiningShape::ContourLabels};
+  MachiningCycle cycle = in_q(number, name, shape, {}, simulated, not_simulated,
+                              shape == MachiningShape::ContourLabels);
+  cycle.descriptor.dotted = true;
+  return cycle;
 }
 
 using Shape = MachiningShape;
